@@ -173,11 +173,11 @@ FormSchema material() {
                      .purpose = "surface material code of the culture; 0 is land without culture, 6 is water"},
                     {.name = "name", .binding = TextSlot{YARS_FIELD(material.name)}, .purpose = "name, free text"},
                     number_slot("gamma", "dB", -60, 30, {YARS_FIELD(material.gamma_db)},
-                                "return of the material; left out: unchanged, or 0"),
+                                "return of the material; left out: keeps its value; 0 in a new material"),
                     number_slot("cardinal", "dB", 0, 30, {YARS_FIELD(material.cardinal_db)},
-                                "additional return of walls that face the radar; left out: unchanged, or 0"),
+                                "additional return of walls that face the radar; left out: keeps its value; 0 in a new material"),
                     number_slot("texture", "", 0, 100, {YARS_FIELD(material.texture)},
-                                "shape parameter of its texture; small = spiky, 0 = none; left out: unchanged, or 0")},
+                                "shape parameter of its texture; small = spiky, 0 = none; left out: keeps its value; 0 in a new material")},
           .part_of_value = true,
           .begin =
               [](ConfigurationBuilder& builder) {

@@ -175,7 +175,7 @@ void BridgeShell::step(const TickLoop::Due& due) {
 void BridgeShell::begin_epoch(const ClockState& clock) {
   // An epoch that was started because a source jumped needs no message. That source may be this bridge.
   if (std::isnan(clock.reposition_latitude_deg) || clock.followed != 0) return;
-  const std::string line = "repositioning: " + source_.name + " flies by itself; move it there";
+  const std::string line = "repositioning: " + source_.name + " controls the aircraft; reposition it there";
   session_->note(NoteKind::refusal, line);
   log::warning(line);
 }

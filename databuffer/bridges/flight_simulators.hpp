@@ -38,7 +38,7 @@ error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
 // Maximum length [characters] of a line. JSBSim's lines have some hundreds of characters.
 inline constexpr std::size_t kMaxJsbsimLine = 16'384;
 
-inline constexpr std::size_t kJsbsimValues = 10;  // values read from a line: the nine of Reading and the time
+inline constexpr std::size_t kJsbsimValues = 10;  // values read from a line: the required properties above
 struct JsbsimColumns {
   // Column index of each value. The values have the order of the required properties above.
   std::array<std::size_t, kJsbsimValues> of_value{};

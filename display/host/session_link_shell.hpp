@@ -27,8 +27,8 @@ class SessionFeed {
  public:
   using SweepSink = std::function<void(const databuffer::Sweep&)>;
   using MapSink = std::function<void(const databuffer::PatchMap&, std::span<const std::uint8_t>)>;
-  // Live, a program counts as alive if its heartbeat is less than 1 s old. In lockstep it counts as alive if it takes
-  // part in the run, because frames must be repeatable.
+  // In a live session a program counts as alive if its heartbeat is less than 1 s old. In a lockstep session it counts
+  // as alive if it takes part in the run, because frames must be repeatable.
   SessionFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps);
 
   // Copies all new records. `sim_time_ns`: the present simulation time, or the time of the tick in lockstep.

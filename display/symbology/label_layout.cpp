@@ -161,8 +161,8 @@ class Search {
 
   // True when the leader line crosses no text, no label, no cursor arm and no other leader line. It may cross scales
   // with gaps (BoxKind::scale). With `crosses_symbols` it may also cross points, solid scales and lines that are no
-  // leader lines. A point's symbol or a text that lies on the label's own symbol does not count. `margin` is wider for
-  // a kept position than for a new one (hysteresis).
+  // leader lines. A point's symbol or a text within `margin` of the gap between anchor and line does not count. `margin`
+  // is wider for a kept position than for a new one, so a kept position is lost later (hysteresis).
   bool line_is_clear(const Position& position, const Clearance& clearance) const {
     const Segment own = line(position);
     for (const OccupiedBox& box : list_.occupied()) {

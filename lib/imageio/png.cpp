@@ -61,8 +61,8 @@ bool write_indexed(png_structp png, png_infop info, std::FILE* file, const Index
   for (std::size_t index = 0; index < image.palette.size(); ++index)
     colours[index] = {image.palette[index][0], image.palette[index][1], image.palette[index][2]};
   png_set_PLTE(png, info, colours, static_cast<int>(image.palette.size()));
-  // PNG filters do not improve the compression of indices. A compression level above 4 does not make areas of one index
-  // smaller.
+  // PNG filters do not improve the compression of indices. A level above 4 does not compress areas of one
+  // index any further.
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
   png_set_compression_level(png, 4);
   png_write_info(png, info);

@@ -103,7 +103,8 @@ struct MapViewpoint {
 
 struct MapWindow {
   geo::Length size;    // zero: blank selection, window not determined yet
-  bool blank = false;  // true: `size` is from a blank selection, and limits of the blank selection also permit the map
+  // true: `size` is from a blank selection. Then the map is possible within the limits of `size` or of the blank selection.
+  bool blank = false;
 };
 
 // Limits of the position of a patch map. The table of windows must outlive this object.

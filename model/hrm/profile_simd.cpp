@@ -196,8 +196,8 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   // A wall accounts for its fraction of the climb. The rest of the piece returns like the ground before the wall.
   const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance_m, climb_m)), walls.fraction);
   const auto built = hn::Add(hn::Mul(face, walls.gamma), hn::Mul(hn::Max(hn::Sub(area_m2, face), zero), near.gamma));
-  // On ground without walls, each half of a fully visible piece has the gamma of its end. The visible part of another
-  // piece has far.gamma.
+  // On ground without walls, each half of a fully visible piece has the gamma of its end. Of a partly visible piece the
+  // visible part has far.gamma.
   const auto half_area_m2 = hn::Mul(half, area_m2);
   const auto open = hn::Mul(hn::IfThenElse(halves, half_area_m2, area_m2), far.gamma);
   // A wall stands within half a row of the farther point, so its foot appears one row behind the nearer point.

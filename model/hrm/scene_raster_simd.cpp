@@ -18,9 +18,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kWideColumns = 12.0F;  // [columns] wider triangles are drawn one by one; affects only speed
 
-// Draws one triangle, one column per lane. In each column the triangle is extended by `reach` rows at both ends, with
-// the height of the edge. With half a row (kSurfaceReach), the first and the last grid point of a column are on average
-// as far apart as the edges. `put(at, column, row, wanted)` draws a vector of grid points.
+// Draws one triangle, one column per lane. In each column the triangle is extended by `reach` rows at both ends. Grid
+// points in the extension get the height of the nearer edge. With a reach of half a row (kSurfaceReach), the grid points
+// drawn in a column span on average the distance between the edges. `put(at, column, row, wanted)` draws a vector of grid points.
 template <class Put>
 HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float reach, const Put& put) {
   const Tag d;

@@ -69,7 +69,8 @@ geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m)
 
 // Doppler velocity update (PVU, IPVU): a round of beams, and the velocity over ground from a complete round.
 // Each beam measures the speed along its line of sight with Gaussian noise. Least squares give the velocity.
-// The aircraft's sensors measure acceleration during a round. The model therefore takes all speeds at the round's end.
+// A real radar knows the acceleration during a round from the aircraft's sensors and refers all speeds to the round's
+// end. The model therefore computes all speeds from the velocity at that time.
 // PVU repeats rounds. IPVU interleaves one round per period with scans. A round outside the gimbal limits is cancelled.
 class DopplerVelocityUpdate {
  public:

@@ -79,8 +79,8 @@ class PolarPassage {
 
 // Methods for the positions of a sweep's samples, selected by the number of knots:
 // - kSeriesKnots or more: a Taylor series of the geodesic where its error is below 1 mm (GeodesicSeries), else
-//   interpolation. The error is below 1 mm for rays that are short compared with the distance to the pole.
-// - fewer, but not 0: interpolation in double between that many exact points, clamped to [kMinKnots, kMaxKnots].
+//   interpolation between at most kMaxKnots exact points. The error is below 1 mm for rays that are short compared with the distance to the pole.
+// - fewer, but not 0: interpolation in double between that many exact points, at least kMinKnots.
 //   Near a pole the unit vector is interpolated, elsewhere latitude and longitude.
 // - kExactPositions: the geodesic itself at every sample.
 // Accuracy with five knots or more: 0.5 m against the geodesic up to 160 NM, millimetres at middle latitudes.

@@ -26,7 +26,7 @@ struct BeamSlice {
   double left_rad = -std::numeric_limits<double>::infinity();
   double right_rad = std::numeric_limits<double>::infinity();
   double beam_rad = 0.0;   // azimuth of the beam's centre, relative to the ray
-  double factor = 1.0;     // factor on the pattern's gain: 1 / (weight of the ray among the sub-beams)
+  double factor = 1.0;     // factor on the gain: 1 / (weight of this ray in the sum of the rays across the beam)
   bool sharpened = false;  // [left, right) is one resolution cell of a synthetic aperture
 };
 

@@ -40,7 +40,7 @@ class Algorithm {
                           std::span<std::uint8_t> video) = 0;
 };
 
-// Configured number of samples per sweep, clamped to [1, kMaxSamples].
+// Number of samples per sweep, in [1, kMaxSamples].
 inline std::size_t sample_count(const physics::RadarParameters& parameters) {
   return parameters.samples;
 }

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<float, 3> kPostWeights{0.25F, 0.5F, 0.25F};
 constexpr float kNoHorizon = -1.0e30F;  // lower than the tangent of any terrain
 constexpr int kGainSteps = 4;
-constexpr double kReferenceFraction = 0.5;  // reference distance (full scale of level ground) / selected range
+constexpr double kReferenceFraction = 0.5;  // distance at which level ground gives full scale, as a fraction of the selected range
 // [m MSL] Lower limit of the altitude in reference_intensity(). A lower reference would make even dark slopes white.
 constexpr double kMinAltitude_m = 100.0;
 

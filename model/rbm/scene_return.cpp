@@ -99,7 +99,8 @@ void SceneReturn::apply(const physics::SweepGeometry& geometry, const physics::R
     if (in_range(*scene, geometry)) add_standing(sweep, *scene);
 }
 
-// Replaces the power of the samples that lie on covers of the scene.
+// Mixes the return of covers (flat faces on the ground, summed by square) into the power of the samples on them, by the
+// covered fraction of each square.
 void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scene) {
   const std::size_t number = scene.level_for(sweep.spacing_m);
   const scene::ScattererLevel& level = scene.levels[number];
@@ -221,7 +222,7 @@ double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& sca
   };
   const double lowest = tangent(scatterer.min_msl_m), highest = tangent(scatterer.max_msl_m);
   const std::size_t nearer = physics::samples_nearer(ground_.distance_m, distance_m);
-  // Ground up to the last nearer sample hides the scatterer. The path beyond that sample need not be tested.
+  // If ground up to the last nearer sample hides the scatterer, the path beyond that sample need not be tested.
   if (nearer > 0 && highest <= ground_.horizon[nearer - 1]) return 0.0;
   const double horizon = sweep.walk->horizon_before(ground_.distance_m, distance_m,
                                                     [&](std::size_t sample) { return ground_.horizon[sample]; });

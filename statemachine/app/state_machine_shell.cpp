@@ -84,7 +84,7 @@ void StateMachineShell::latch_recorder() {
   inputs_.recorder_failed = inputs_.recorder_present && recorder_.value().problem[0] != '\0';
 }
 
-// Evaluates the magnetic field once per second, because an evaluation takes longer than a step. Variation changes
+// Evaluates the magnetic field once per second, because an evaluation takes longer than all other work of step(). Variation changes
 // slowly.
 void StateMachineShell::latch_variation() {
   constexpr std::int64_t kTicksBetween = 200;  // 1 s
@@ -141,7 +141,7 @@ void StateMachineShell::take(const databuffer::InputEvent& event, std::size_t la
   applied.event = event;
   applied.lane = static_cast<std::uint32_t>(lane);
   session_->layout().applied_events.publish(applied);
-  log::debug(databuffer::text_of(event) + (applied.effective != databuffer::kEventDead ? "" : " (dead here)"));
+  log::debug(databuffer::text_of(event) + (applied.effective != databuffer::kEventDead ? "" : " (without effect)"));
 }
 
 // A change of the tick alone does not count as a change of the state.

@@ -131,7 +131,8 @@ bool BlockItems::decode(Column& column, std::size_t& remaining_bytes, std::span<
   const std::size_t bytes = column.count * kind.bytes;
   if (bytes > remaining_bytes) return false;
   remaining_bytes -= bytes;
-  // Upper bound of the coded size: the coding adds two bytes for each word, and it pads the last word of each record.
+  // Upper bound of the coded size. The coding adds two bytes for each column, which is one word of all records, and pads
+  // the last word of each record.
   constexpr std::size_t kWord_bytes = 8;
   const std::size_t max_bytes = (column.count + 2) * (kind.bytes + kWord_bytes);
   const auto coded = take_chunk({kind.number, ChunkPart::records}, max_bytes, body);

@@ -20,7 +20,7 @@ namespace yars::tools {
 struct RecordedExtras {
   bool sweeps = false;           // true: sweeps with video; false: only their hashes
   bool patches = false;          // true: patch maps with pixels; false: no patch maps
-  std::uint64_t keep_bytes = 0;  // [bytes] limit of this file and FILE.before together; 0: no limit
+  std::uint64_t keep_bytes = 0;  // [bytes] limit of the recording FILE and of its predecessor FILE.before together; 0: none
 };
 
 class Recorder {

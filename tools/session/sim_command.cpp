@@ -102,7 +102,7 @@ void step(const CommonOptions& common, std::int64_t ticks) {
     });
     if (session.clock().epoch != epoch)
       throw_failure(
-          {"step", "the epoch in which it began", "a reset or repositioning by another program", "step again", false});
+          {"step", "no new epoch while stepping", "a reset or repositioning by another program", "step again", false});
     ticks -= portion;
     pause_for_roles();
   }

@@ -12,8 +12,8 @@
 
 namespace yars::tools::trade {
 
-// A fidelity to compare: a preset, or a base preset with one knob changed. Names equal those of presets and of GUF
-// slots of `Fidelity`, so a configuration can use them.
+// A fidelity to compare: a preset, or a base preset with one knob changed. Presets and knobs have the names that a GUF
+// file uses for presets and for slots of `Fidelity`.
 struct Candidate {
   std::string name;    // "standard", "samples=240"
   std::string family;  // "preset" or the knob's name; a plot connects the points of one family

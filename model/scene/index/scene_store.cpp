@@ -142,7 +142,7 @@ bool SceneStore::load(std::size_t number) {
     problems_.push_back(scene.file.string() + ": expected a scene within " +
                         std::to_string(static_cast<long>(scene.reach_m)) + " m of its origin, found one that reaches " +
                         std::to_string(static_cast<long>(reach_m)) +
-                        " m; it is shown only where maps meet its nearer part");
+                        " m; a map that overlaps only its farther part does not show it");
   const terrain::TerrainViewPointer ground = ground_->prepare({scene.placement.position, reach_m + kTileSide_m, 0});
   // Scatterers beyond scene.reach_m + kTileSide_m are left out. A region that overlaps only that part of the scene does
   // not load the file. Without the limit, such a region would show these scatterers only after an earlier region had

@@ -59,8 +59,8 @@ struct SceneStoreOptions {
 // Indices of kinds and objects stay valid in later views.
 class SceneStore {
  public:
-  // Errors: a file named in the configuration is missing, is not OpenFlight, has no position, or lacks a part that is
-  // to be left out; a folder has no .flt file. An unusable file inside a folder is reported as a problem instead.
+  // Errors: a file named in the configuration is missing, is not OpenFlight, has no position, or has no part with a
+  // name that radar::Scene::without tells to leave out; a folder has no .flt file. An unusable file inside a folder is reported as a problem instead.
   static error::Expected<std::unique_ptr<SceneStore>> open(const std::vector<radar::Scene>& scenes,
                                                            std::unique_ptr<terrain::TerrainStore> ground,
                                                            SceneStoreOptions options = {});

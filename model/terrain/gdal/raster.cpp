@@ -240,7 +240,7 @@ error::Expected<RasterSummary> describe_raster(const std::filesystem::path& path
   if (!raster) return tl::unexpected(raster.error());
   RasterSummary summary{cells_of(*raster)};
   if (summary.cells.empty())
-    return error::fail(path.string(), "a raster of several pixels", "one that touches no cell of a degree");
+    return error::fail(path.string(), "a raster with at least one pixel in a one-degree cell", "one without");
   return summary;
 }
 

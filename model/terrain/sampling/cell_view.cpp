@@ -312,7 +312,8 @@ bool CellView::crests(const PositionRun& positions, const RaySight& sight, std::
     const std::size_t behind = first + run.count;
     if (run.table_entry >= kFirstCell && !run.beyond_pole) {
       const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
-      // The steps into and out of this cell lie in two cells. raise() examines the part in one cell.
+      // The step into this cell and the step out of it each lie partly in a neighbouring cell. raise() examines the part
+      // in this cell.
       crests::raise(crossed(cell, positions, first), ray, std::max<std::size_t>(first, 1), std::min(behind + 1, count),
                     tangent.data());
     }

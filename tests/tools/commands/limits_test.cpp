@@ -117,7 +117,7 @@ TEST(PatchLimits, AreThoseOfTheConfiguration) {
          ":least `( 5 5 ) :greatest `( 20 40 ) :blankWindows `( 2.5 ) :blankUpTo `( 30 ) :powerUp 2.5 ) )\n";
   const auto usual = patch(30.0, 20.0, {"--config", file});
   EXPECT_EQ(usual.code, 0) << usual.errors;
-  EXPECT_THAT(usual.output, HasSubstr("\"resolution_ft\":31.6"));  // 2.5 NM / 480 pixels
+  EXPECT_THAT(usual.output, HasSubstr("\"resolution_ft\":31.6"));  // 2.5 NM / 480 resolution cells, for any --size
   EXPECT_THAT(patch(30.0, 45.0, {"--config", file}).errors, HasSubstr("5 to 40 NM away, found 45.00 NM"));
   EXPECT_THAT(patch(30.0, 20.0, {"--config", file, "--window-nm", "4.7"}).errors, HasSubstr("1, 2.5 NM, found 4.7 NM"));
 }
