@@ -64,14 +64,14 @@ class SessionFeed {
 // Writer of pilot inputs: clicks on legends and typed keys become events in an input lane of the session.
 class PilotInput {
  public:
-  // `source`: name of the sender in `yars status`. Error: all input lanes are taken.
+  // `source`: name of the sender in `yars status`. Error: no input lane is free.
   static error::Expected<PilotInput> create(databuffer::Session& session, std::string_view source);
 
   void press(int button);  // 1..20
-  // Presses the button whose legend area contains `at`. Returns false if there is none.
+  // Presses the button whose click zone contains `at`. Returns false if `at` is in no click zone.
   bool click(Point at);
   void send(const gl::WindowInput& input);
-  void release_all();  // releases all held keys, when the window loses focus or closes
+  void release_all();  // releases all held keys; called when the window loses focus or closes
 
  private:
   PilotInput(databuffer::Session& session, databuffer::Claim claim) : session_(&session), claim_(std::move(claim)) {}

@@ -157,8 +157,9 @@ TEST(ScanLimits, AreTheGimbalOfTheConfigurationAndTheGround) {
   };
   const Row rows[] = {
       {{"--scan-width", "50", "--elevation", "-31"},
-       "--elevation: expected at most 30 deg by the configuration's gimbal, found -31 deg"},
-      {{"--scan-width", "100"}, "--scan-width: expected at most 80 deg by the configuration's gimbal, found 100 deg"},
+       "--elevation: expected at most 30 deg within the configured gimbal limits, found -31 deg"},
+      {{"--scan-width", "100"},
+       "--scan-width: expected at most 80 deg within the configured gimbal limits, found 100 deg"},
       {{"--scan-width", "50", "--alt-ft", "-2000"}, "--alt-ft: expected an aircraft above the ground, which is at "}};
   for (const Row& row : rows) {
     std::vector<std::string> command{"yars", "scan", "--config", file, "--samples", "60", "--range-nm", "10"};
