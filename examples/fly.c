@@ -1,6 +1,6 @@
 /* Example of a flight model in C. It attaches to a running set and publishes an aircraft until the set ends or
- * Ctrl-C. The aircraft flies circles about LAT LON [deg], by default off the Californian coast. Start the set with
- * scripts/start --no-flight. Its priority, 50, exceeds that of the set's own flight model, 10.
+ * Ctrl-C. The aircraft flies circles about LAT LON [deg], by default off the Californian coast. The set needs no flight
+ * model of its own (scripts/start --no-flight). If it has one, this program prevails: its priority is 50, the set's 10.
  *   cc -I. examples/fly.c -o fly -lm  &&  ./fly [SESSION [LAT LON]] */
 #include "databuffer/client/yars.h"
 /* The header defines feature macros and must come first. */

@@ -1,5 +1,5 @@
 /* Example of a reader of display frames in C. It attaches to a running set in which `radar-display --publish` runs. It
- * prints number, tick, sim time and size of each frame until Ctrl-C. With FILE.ppm it writes the newest frame and ends.
+ * prints number, tick, sim time and size of each frame until Ctrl-C. With FILE.ppm it writes one frame and ends.
  *   cc -I. examples/show_frame.c -o show_frame  &&  ./show_frame [SESSION [FILE.ppm]] */
 #include "databuffer/client/yars.h"
 /* The header defines feature macros and must come first. */

@@ -93,7 +93,7 @@ void DeviceDecoder::feed(const RawEvent& raw, std::int64_t now_ns) {
     if (raw.type == EV_SYN && raw.code == SYN_REPORT) loss_ = Loss::complete;
     return;
   }
-  // A value of 2 is a key repeat of the kernel.
+  // Ignored: the value 2, a key repeat of the kernel.
   if (raw.type == EV_KEY && (raw.value == 0 || raw.value == 1)) change_button(raw.code, raw.value == 1, now_ns);
   if (raw.type == EV_ABS) change_axis(raw.code, raw.value, now_ns, false);
 }
@@ -206,7 +206,7 @@ bool DeviceDecoder::may_press(std::int64_t now_ns) {
 }
 
 void DeviceDecoder::send(const InputEvent& event) {
-  // A pending deflection or elevation precedes the event, so that the cursor is where it was at the press.
+  // A pending deflection or elevation precedes the event, because the pilot set it earlier.
   send_values();
   events_.push_back(event);
 }

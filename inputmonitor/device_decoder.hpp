@@ -44,11 +44,11 @@ class RecordStream {
   std::size_t kept_ = 0;  // bytes of record_ received
 };
 
-// Minimum interval between events of TDC deflection or elevation: 10 ms, shorter than a display frame. The limit is
-// needed, because some devices report more often.
+// Minimum interval between events of TDC deflection or elevation: 10 ms, because some devices report more often. The
+// interval is shorter than a display frame.
 inline constexpr std::int64_t kValueInterval_ns = 10'000'000;
-// Rate limit of presses (token bucket): 60 at once, refilled at 100 per second, about ten times the rate of a hand.
-// Presses above the limit are dropped, because only a broken contact presses so often.
+// Rate limit of presses (token bucket): a bucket of 60 presses is refilled at 100 per second, about ten times the rate
+// of a hand. Presses above the limit come from a broken contact and are dropped.
 inline constexpr double kPressBurst = 60.0;
 inline constexpr double kPressesPerSecond = 100.0;
 // Thresholds of a hat or rocker (device_map.hpp), in fractions of full travel: pressed at 0.5 or more, released below
@@ -77,9 +77,9 @@ class DeviceDecoder {
   void feed(const RawEvent& raw, std::int64_t now_ns);
   // True after the kernel lost events (SYN_DROPPED). Then call resync().
   bool needs_resync() const { return loss_ == Loss::complete; }
-  // Ends the loss of events: sets all controls to `state`. Without a state, releases all held controls.
+  // Call after a loss of events. Sets all controls to `state`, or releases all held controls if `state` is nullopt.
   void resync(const std::optional<DeviceState>& state, std::int64_t now_ns);
-  void release_all();  // releases a TDC press and all deflections; a latching switch sends no event
+  void release_all();  // releases a TDC press and all deflections; other held switches send no release event
 
   // Returns the events since the last call, with pending values and repetitions that are due.
   Events take(std::int64_t now_ns);
@@ -93,14 +93,14 @@ class DeviceDecoder {
   struct Switch {
     SwitchAction action;
     bool held = false;
-    double deflection = 1.0;   // [0, 1] fraction of full travel; scales the repetition rate, down to 0.1
+    double deflection = 1.0;   // [0, 1] fraction of full travel; factor of the repetition rate, at least 0.1
     std::int64_t next_ns = 0;  // time of the next repetition
   };
   struct Axis {
     AxisAction action;
     double deflection = 0.0;       // TDC axis only: [-1, 1]
     std::optional<int> detent;     // lever only: index of the detent; nullopt: unknown
-    std::size_t first_switch = 0;  // hat or rocker only: index of the positive switch; the negative switch is next
+    std::size_t first_switch = 0;  // hat or rocker only: index in switches_ of the positive switch, then the negative
   };
 
   static Switch switch_of(const SwitchAction& action);

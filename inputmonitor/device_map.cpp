@@ -35,7 +35,7 @@ bool is_identity(std::string_view word, std::uint16_t wanted) {
 bool has_control(const DeviceInfo& info, std::string_view text) {
   if (const auto button = config::button_code(text); button && info.buttons.test(*button)) return true;
   const auto axis = config::axis_code(text);
-  // axis_code() also accepts a number. A number or name without "ABS_" means a button here.
+  // axis_code() also accepts numbers. In a condition a number means a button, so an axis needs its name, "ABS_...".
   return axis && text.starts_with("ABS_") && info.axes[*axis].has_value();
 }
 

@@ -1,7 +1,7 @@
 // Device map: the input events of each button and axis of a device, by evdev code, and the response curves of the axes.
 // Inputs: a map from GUF (radar::Device); name, ids and controls of the device (DeviceInfo).
 // Outputs: DeviceMap, with numeric codes, parsed events and axis ranges.
-// Errors: an unknown code, an invalid event, an axis without a known range.
+// Errors: an unknown code, an invalid event, an axis without a known range or with a centre outside its range.
 // A hat is a small four-way switch that reports two axes with values -1, 0 and 1. A rocker is a switch that rests in
 // the middle and is pressed at either end. A lever stays in any position; its travel is divided into steps (detents).
 #pragma once
@@ -94,8 +94,8 @@ const radar::Device* fitting_map(const DeviceInfo& info, std::span<const radar::
 // The last map with that name; nullptr if there is none.
 const radar::Device* named_map(std::string_view name, std::span<const radar::Device> maps);
 
-// Resolves a map for a device. Errors: an unknown code, an invalid event, an axis without a range in map or device.
-// The default range of a hat is -1 to 1. Axes that a known device does not have are omitted.
+// Resolves a map for a device. An axis range comes from the map, else from the device, else for a hat it is -1 to 1.
+// Axes that a known device does not have are omitted. Errors: as in the header of this file.
 error::Expected<DeviceMap> resolve_map(const radar::Device& device, const DeviceInfo& info);
 
 }  // namespace yars::inputmonitor

@@ -90,8 +90,8 @@ std::optional<DeviceState> DeviceReader::state() const {
 DeviceReader::Outcome DeviceReader::read(std::span<std::byte> bytes, std::size_t& count) {
   count = 0;
   pollfd wanted{descriptor_, POLLIN, 0};
-  // poll() is needed, because read() returns 0 also for a FIFO that has had no writer yet. Without POLLIN the event
-  // is POLLHUP or POLLERR: the writer has closed the FIFO, or the device is unplugged.
+  // poll() tells a FIFO that has had no writer yet from a closed FIFO; read() returns 0 for both. Without POLLIN the
+  // event is POLLHUP or POLLERR: the writer has closed the FIFO, or the device is unplugged.
   if (poll(&wanted, 1, 0) <= 0) return Outcome::nothing;
   if ((wanted.revents & POLLIN) == 0) return Outcome::gone;
   const ssize_t found = ::read(descriptor_, bytes.data(), bytes.size());
@@ -158,7 +158,7 @@ Expected<std::unique_ptr<DeviceSource>> DeviceSource::create(std::filesystem::pa
   std::error_code problem;
   if (!std::filesystem::exists(source->path_, problem) && !problem) {
     source->last_problem_ = "absent";
-    source->notices_.push_back({true, source->path_.string() + " is not there; waits for it"});
+    source->notices_.push_back({true, source->path_.string() + " is missing; input-monitor waits for it"});
     // A wrong map name is an error even while the device is absent.
     if (!source->map_name_.empty() && named_map(source->map_name_, *source->maps_) == nullptr)
       return tl::unexpected(map_for({}, source->path_.string(), source->map_name_, *source->maps_).error());
@@ -183,7 +183,7 @@ Expected<void> DeviceSource::connect() {
   stream_.restart();
   if (const auto state = reader_->state()) decoder_->begin(*state);
   notices_.push_back(
-      {false, path_.string() + (info.known ? " (" + info.name + ")" : "") + " plays the map " + (*map)->name});
+      {false, path_.string() + (info.known ? " (" + info.name + ")" : "") + " uses the map " + (*map)->name});
   last_problem_.clear();
   return {};
 }
@@ -246,17 +246,18 @@ void DeviceSource::read_some(std::int64_t now_ns) {
     ++losses_;
     const auto state = reader_->state();
     decoder_->resync(state, now_ns);
-    // The state just read includes the effect of the remaining events.
+    // `state` is newer than the remaining events of this read.
     if (state) break;
   }
-  if (outcome == DeviceReader::Outcome::gone) disconnect(reader_->plays_once() ? "has come to its end" : "has gone");
+  if (outcome == DeviceReader::Outcome::gone)
+    disconnect(reader_->plays_once() ? "was read to its end" : "is disconnected");
 }
 
 void DeviceSource::disconnect(const std::string& why) {
   report_dropped();
   releases_ = release();
   played_ = reader_->plays_once();
-  notices_.push_back({!played_, path_.string() + ' ' + why + (played_ ? "" : "; waits for it")});
+  notices_.push_back({!played_, path_.string() + ' ' + why + (played_ ? "" : "; input-monitor waits for it")});
   last_problem_ = "absent";
   reader_.reset();
   decoder_.reset();
@@ -267,12 +268,12 @@ void DeviceSource::report_dropped() {
   losses_ = 0;
   if (decoder_->dropped() == dropped_) return;
   notices_.push_back({true, path_.string() + ": " + std::to_string(decoder_->dropped() - dropped_) +
-                                " presses dropped, faster than a hand"});
+                                " presses dropped; the limit is 100 per second"});
   dropped_ = decoder_->dropped();
 }
 
 std::string DeviceSource::description() const {
-  return path_.string() + (map_name_.empty() ? "" : " by the map " + map_name_);
+  return path_.string() + (map_name_.empty() ? "" : " with the map " + map_name_);
 }
 
 }  // namespace yars::inputmonitor

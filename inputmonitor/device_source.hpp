@@ -64,8 +64,7 @@ std::vector<std::filesystem::path> device_paths(const std::filesystem::path& fol
 
 using DeviceMaps = std::shared_ptr<const std::vector<radar::Device>>;
 
-// Interval between checks of a device's path: 250 ms. With a longer interval a user would notice the delay after
-// plugging in.
+// Interval between checks of a device's path: 250 ms, so that a user hardly notices the delay after plugging in.
 inline constexpr std::int64_t kCheckInterval_ns = 250'000'000;
 
 // Event source of one device. When the device disconnects, held controls are released. The path is checked every
@@ -108,7 +107,7 @@ class DeviceSource final : public EventSource {
   RecordStream stream_;
   std::vector<databuffer::InputEvent> releases_;  // release events of a disconnected device
   std::vector<Notice> notices_;
-  std::string last_problem_;  // last problem in connecting; reported once, not at every check
+  std::string last_problem_;  // last reason why connect() failed; a notice reports it once, not at every check
   std::int64_t next_check_ns_ = 0;
   std::uint64_t dropped_ = 0;  // dropped presses that notices have counted
   std::uint64_t losses_ = 0;   // SYN_DROPPED events since the last notice

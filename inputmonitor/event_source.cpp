@@ -22,7 +22,7 @@ constexpr std::int64_t kNanosecondsPerMillisecond = 1'000'000;
 
 void EventSource::wait(const Moment& moment, int max_wait_ms) {
   if (const auto due_ns = deadline_ns()) {
-    // Rounded up, because waits of 0 ms would follow a wake-up shortly before the deadline.
+    // Rounded up. Rounded down, the wait would end up to 1 ms early, and waits of 0 ms would follow until the deadline.
     const std::int64_t left_ms =
         (*due_ns - moment.monotonic_ns + kNanosecondsPerMillisecond - 1) / kNanosecondsPerMillisecond;
     max_wait_ms = static_cast<int>(std::clamp<std::int64_t>(left_ms, 0, max_wait_ms));

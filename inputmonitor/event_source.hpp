@@ -37,7 +37,7 @@ class EventSource {
  public:
   virtual ~EventSource() = default;
 
-  // Waits for input or the deadline, at most `max_wait_ms`. May return early, also on a signal.
+  // Waits for input or the deadline, at most `max_wait_ms`. May return early, for example on a signal.
   virtual void wait(const Moment& moment, int max_wait_ms);
   // Appends the file descriptors that become readable with new input. Returns false if the source has input without a
   // descriptor, so that only its own wait() detects this input.
@@ -59,12 +59,12 @@ class EventSource {
   virtual std::string description() const = 0;
 };
 
-// Maximum time that a group waits in a source without a descriptor (a window): 5 ms, one tick. The other sources of the
-// group are delayed by this wait.
+// Maximum time that a group waits in a source without a descriptor (a window): 5 ms, one tick. Meanwhile the group does
+// not see input of its other sources.
 inline constexpr int kMaxOwnWait_ms = 5;
 
-// Several sources as one source. Input of any source ends the wait of the group. A source without a descriptor delays
-// the input of the other sources by at most kMaxOwnWait_ms. The group ends when any source ends.
+// Several sources as one source. If all sources have descriptors, input of any source ends the wait of the group. If
+// one source has none, the group waits in that source, at most kMaxOwnWait_ms. The group ends when any source ends.
 class SourceGroup final : public EventSource {
  public:
   explicit SourceGroup(std::vector<std::unique_ptr<EventSource>> sources) : sources_(std::move(sources)) {}
@@ -85,9 +85,10 @@ class SourceGroup final : public EventSource {
 
 // Script: one event per line, with its simulation time.
 //   TIME_S EVENT     simulation time [s], not before the time of the line above
-//   +DT_S EVENT      interval after the time of the line above [s]. If the first event has this form, all times of the
-//                    script count from its start.
-//   [TIME_S] end     the input monitor ends at this time, or at the time of the line above; must be the last line
+//   +DT_S EVENT      interval after the time of the line above [s]. If the first event has this form, all times count
+//                    from the moment when the script starts.
+//   [TIME_S] end     end of the script, by default at the time of the line above; must be the last line. The input
+//                    monitor then ends, too.
 // `#` begins a comment. EVENT has the syntax of databuffer/messages/input_event.hpp.
 struct ScriptedEvent {
   std::int64_t time_ns = 0;
@@ -96,7 +97,7 @@ struct ScriptedEvent {
 
 struct Script {
   std::vector<ScriptedEvent> events;   // sorted by time, ascending
-  std::optional<std::int64_t> end_ns;  // nullopt: the source does not end
+  std::optional<std::int64_t> end_ns;  // time of `end`; nullopt: the source does not end
   bool from_start = false;             // true: times count from the start of the script; false: simulation times
 };
 

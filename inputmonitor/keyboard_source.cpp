@@ -13,7 +13,7 @@ namespace yars::inputmonitor {
 
 namespace {
 
-constexpr int kWidth = 640;  // [pixels] wide enough for the title; the window has no content
+constexpr int kWidth = 640;  // [pixels] width of the window, which shows a title only
 constexpr int kHeight = 80;  // [pixels]
 
 Keyboard& keyboard_of(GLFWwindow* window) {

@@ -16,7 +16,7 @@
 
 namespace yars::inputmonitor {
 
-// Common part of keyboard sources: turns key edges into events, and ends at Escape.
+// Common part of keyboard sources: turns key edges into events, and ends when Escape is pressed.
 class Keyboard {
  public:
   void change(databuffer::Key key, bool pressed) {

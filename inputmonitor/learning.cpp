@@ -143,7 +143,7 @@ std::string Learning::take_axis(std::uint16_t code, std::int32_t value) {
   begin_prompt();
   if (const Result* first_half = opposite(); first_half != nullptr) {
     if (first_half->code != code)
-      return name + " is not the axis of the opposite direction; move that axis, or b to go back";
+      return name + " is not the axis of the opposite direction; move that axis, or type b to go back";
     if (first_half->direction == result.direction)
       return name + " is the direction of the previous prompt; move the axis in the opposite direction";
   }
@@ -156,7 +156,7 @@ std::string Learning::take_result(const Result& result, const std::string& name)
     const bool same_kind = (earlier.found == Found::button) == (result.found == Found::button);
     const bool same_direction = result.found == Found::button || earlier.direction == result.direction;
     if (earlier.found != Found::nothing && same_kind && earlier.code == result.code && same_direction)
-      return name + " is " + std::string(kPrompts[i].text) + " already; move another control, or b to go back";
+      return name + " is " + std::string(kPrompts[i].text) + " already; move another control, or type b to go back";
   }
   std::string answer = name + " is " + std::string(kPrompts[next_].text);
   results_[next_++] = result;
@@ -179,7 +179,8 @@ radar::Device Learning::device(const std::string& name) const {
   return device;
 }
 
-// Adds an axis from the results of its two prompts. If one direction is unknown, the other is mirrored about rest.
+// Adds an axis from the results of its two prompts. If only one direction is known, its end is mirrored about rest.
+// The centre is at least 10 % of the range away from each end.
 void Learning::add_axis(radar::Device& device, std::size_t first) const {
   if (kPrompts[first].is_second) return;
   const Result& positive = results_[first];
@@ -200,7 +201,7 @@ void Learning::add_axis(radar::Device& device, std::size_t first) const {
       std::clamp(known.rest, axis.low + (axis.high - axis.low) * 0.1, axis.high - (axis.high - axis.low) * 0.1);
   axis.inverted = (known.direction < 0) == (&known == &positive);
   const double half = (axis.high - axis.low) / 2.0;
-  // Dead zone: twice the larger return error, as a fraction of the half range, rounded to 0.01.
+  // Dead zone: twice the larger return error, as a fraction of half the range, rounded to 0.01.
   const double dead_zone = 2.0 * std::max(positive.return_error, negative.return_error) / half;
   axis.dead_zone = std::clamp(std::round(dead_zone * 100.0) / 100.0, kMinDeadZone, kMaxDeadZone);
   device.axes.push_back(axis);

@@ -1,9 +1,9 @@
 // Interactive learning of a device map. The program prompts for one control after the other; the user moves each.
 // Inputs: raw events; name, ids and axis ranges of the device; rest values of its axes.
 // Outputs: prompts and answers as text; the map as a radar::Device.
-// A button is identified when it is pressed. A hat or axis is identified when it has moved from rest by kMinTravel of
-// its range and has returned. The direction of the move gives the sign of the axis. The value farthest from rest gives
-// one end of the axis, and the rest value its centre.
+// A button is identified when it is pressed. A hat or axis is identified when it has moved from rest and has returned.
+// The minimum move is kMinTravel of the range; 1 for a hat. The direction of the move gives the sign of the axis. The
+// value farthest from rest gives one end of the axis, and the rest value its centre.
 // Threads: one thread per object. No system calls.
 // Source: docs/hardware.md, "Learning a map"
 #pragma once
@@ -22,8 +22,8 @@
 
 namespace yars::inputmonitor {
 
-inline constexpr double kMinTravel = 0.3;        // minimum move, in fractions of the full range; less is jitter
-inline constexpr double kMinTravelUnknown = 64;  // [raw units] minimum move if the range is unknown; 1 for a hat
+inline constexpr double kMinTravel = 0.3;        // minimum move, as a fraction of the full range; less is jitter
+inline constexpr double kMinTravelUnknown = 64;  // [raw units] minimum move of an axis with an unknown range
 inline constexpr double kReturned = 0.25;  // maximum distance from rest after the return, in fractions of the move
 
 class Learning {
@@ -44,17 +44,17 @@ class Learning {
   radar::Device device(const std::string& name) const;
 
  private:
-  // hat: one direction of an axis or hat that acts as a button. axis: one direction of an axis.
+  // hat: one direction of a hat or axis, in answer to a prompt for a switch. axis: the same for a prompt for an axis.
   enum class Found { nothing, button, hat, axis };
   struct Result {
     Found found = Found::nothing;
     std::uint16_t code = 0;
     int direction = 1;          // hat or axis: +1 moved to the high end, -1 to the low end
-    double extreme = 0.0;       // [raw units] axis: value farthest from rest
+    double extreme = 0.0;       // [raw units] hat or axis: value farthest from rest
     double rest = 0.0;          // [raw units]
-    double return_error = 0.0;  // [raw units] axis: distance from rest after the return
+    double return_error = 0.0;  // [raw units] hat or axis: distance from rest after the return
   };
-  // Minimum and maximum of an axis since the prompt, and its rest value [raw units].
+  // Rest value of an axis, and its minimum and maximum since the prompt or the last identified move [raw units].
   struct Watched {
     double rest = 0.0;
     double min = 0.0;

@@ -25,7 +25,7 @@ void append(std::vector<T>& to, std::vector<T> more) {
   to.insert(to.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
-// std::filesystem::equivalent fails for device nodes.
+// True if both paths name the same file. std::filesystem::equivalent cannot be used: it fails for device nodes.
 bool is_same_node(const std::filesystem::path& one, const std::filesystem::path& other) {
   struct stat first {};
   struct stat second {};
@@ -61,7 +61,7 @@ std::vector<InputEvent> FoundDevicesSource::take(const Moment& moment) {
   for (const auto& device : devices_) {
     append(events, device->take(moment));
     append(notices_, device->notices());
-    // Without this, a new device at the same path would not be tried.
+    // The next search tries this path again, even if its node has not changed.
     if (!device->is_open()) seen_.erase(device->path());
   }
   std::erase_if(devices_, [](const auto& device) { return !device->is_open(); });
@@ -102,7 +102,7 @@ void FoundDevicesSource::try_device(const std::filesystem::path& path) {
   if (access(path.c_str(), R_OK) != 0) {
     // Not a warning: unreadable nodes are usually keyboards and mice.
     if (!permission_reported_)
-      notices_.push_back({false, path.string() + " and perhaps others may not be read; if one is a panel of yours, " +
+      notices_.push_back({false, path.string() + " and perhaps others cannot be read; if one is a panel of yours, " +
                                      kDevicePermission});
     permission_reported_ = true;
     return;
@@ -120,7 +120,7 @@ using SourcePointer = std::unique_ptr<EventSource>;
 constexpr std::string_view kScript = "script:";
 constexpr std::string_view kDevice = "evdev:";
 
-// Source without events, for a system without display and terminal, such as a container.
+// Source without events, for a system without a display and a terminal, such as a container.
 class IdleSource final : public EventSource {
  public:
   std::vector<databuffer::InputEvent> take(const Moment&) override { return {}; }
@@ -128,7 +128,7 @@ class IdleSource final : public EventSource {
   bool ended() const override { return false; }
   bool follows_sim_time() const override { return false; }
   std::string description() const override {
-    return "no keyboard: there is neither a display nor a terminal (yars inject sends events)";
+    return "no keyboard: neither a window nor a terminal can be opened (yars inject sends events)";
   }
 };
 
@@ -148,10 +148,10 @@ Expected<SourcePointer> open_script(const std::string& file) {
   return std::make_unique<ScriptSource>(std::move(*script), file);
 }
 
-// A window if there is a display, else the terminal if there is one, else nullptr.
+// A window if one can be opened, else the terminal if there is one, else nullptr.
 SourcePointer open_keyboard(const std::string& session) {
   if (display_is_named()) {
-    // If the named display cannot be opened, the terminal is tried.
+    // If this fails, the terminal is tried.
     if (auto window = open_window_source(session)) return std::move(*window);
   }
   if (is_foreground_terminal(STDIN_FILENO))
@@ -159,7 +159,7 @@ SourcePointer open_keyboard(const std::string& session) {
   return nullptr;
 }
 
-// The source of `auto`: a keyboard, and all devices with a map.
+// The source of `auto`: a keyboard (window or terminal), and all devices with a map.
 SourcePointer open_automatic(const SourceContext& context, const std::vector<SourceChoice>& all) {
   std::vector<std::filesystem::path> excluded;
   for (const SourceChoice& choice : all)

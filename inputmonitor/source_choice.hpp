@@ -66,14 +66,14 @@ struct SourceChoice {
 // Parses window, terminal, script:FILE, evdev:PATH[,MAP] or auto. Error: any other text is a usage error.
 error::Expected<SourceChoice> parse_source(std::string_view text);
 
-// Parameters common to all sources.
+// Parameters common to all choices.
 struct SourceContext {
   std::string session;
   DeviceMaps maps = std::make_shared<const std::vector<radar::Device>>();
   std::filesystem::path device_folder = "/dev/input";
 };
 
-// Opens all choices as one source. `auto` opens a window if there is a display, else the terminal if there is one.
+// Opens all choices as one source. `auto` opens a window, else the terminal if there is one.
 // `auto` also opens all devices that have a map and read permission.
 error::Expected<std::unique_ptr<EventSource>> open_sources(const std::vector<SourceChoice>& choices,
                                                            const SourceContext& context);

@@ -26,7 +26,7 @@ Key find_key(const std::array<std::pair<Code, Key>, Size>& table, Code code) {
   return row == table.end() ? Key::none : row->second;
 }
 
-// By the last byte of ESC [ A or ESC O A.
+// Keys by the last byte of sequences such as ESC [ A and ESC O A.
 constexpr std::array<std::pair<char, Key>, 9> kFinals{{{'A', Key::up},
                                                        {'B', Key::down},
                                                        {'C', Key::right},
@@ -36,10 +36,10 @@ constexpr std::array<std::pair<char, Key>, 9> kFinals{{{'A', Key::up},
                                                        {'R', Key::f3},
                                                        {'S', Key::f4},
                                                        {'M', Key::enter}}};
-// By the number of ESC [ 5 ~.
+// Keys by the number in sequences such as ESC [ 5 ~.
 constexpr std::array<std::pair<std::string_view, Key>, 6> kNumbers{
     {{"5", Key::page_up}, {"6", Key::page_down}, {"11", Key::f1}, {"12", Key::f2}, {"13", Key::f3}, {"14", Key::f4}}};
-// By the last byte of ESC [ [ A (Linux console).
+// Keys by the last byte of sequences such as ESC [ [ A (Linux console).
 constexpr std::array<std::pair<char, Key>, 4> kLinuxFunctions{
     {{'A', Key::f1}, {'B', Key::f2}, {'C', Key::f3}, {'D', Key::f4}}};
 
@@ -70,7 +70,7 @@ Shape shape_of(std::string_view sequence) {
 
 Key key_of_sequence(std::string_view sequence) {
   if (sequence.starts_with("\x1b[[")) return find_key(kLinuxFunctions, sequence.back());
-  // After a semicolon follows the code of the modifier keys, which is ignored.
+  // Ignored: a semicolon and the code of the modifier keys behind it.
   std::string_view parameter = sequence.substr(2, sequence.size() - 3);
   parameter = parameter.substr(0, parameter.find(';'));
   if (sequence.back() == '~') return find_key(kNumbers, parameter);
@@ -180,7 +180,7 @@ void remove_handlers() {
 
 termios byte_by_byte(termios settings) {
   settings.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
-  settings.c_iflag &= ~static_cast<tcflag_t>(IXON);  // off: Ctrl-S would block the terminal
+  settings.c_iflag &= ~static_cast<tcflag_t>(IXON);  // off, so that Ctrl-S does not block output
   settings.c_cc[VSUSP] = _POSIX_VDISABLE;
   settings.c_cc[VMIN] = 1;
   settings.c_cc[VTIME] = 0;
@@ -210,7 +210,7 @@ error::Expected<std::unique_ptr<TerminalMode>> TerminalMode::enter(int descripto
 }
 
 TerminalMode::~TerminalMode() {
-  // SIGTTOU is blocked: otherwise tcsetattr would stop this process if it is in the background now.
+  // SIGTTOU is blocked, because tcsetattr sends it to a process in the background and would stop the process.
   sigset_t blocked;
   sigset_t before;
   sigemptyset(&blocked);

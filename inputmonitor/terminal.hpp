@@ -18,11 +18,10 @@
 
 namespace yars::inputmonitor {
 
-// An ESC byte is the Escape key if no byte follows within 50 ms. In a sequence the next byte follows 1 ms later even at
-// 9600 Bd.
+// An ESC byte is the Escape key if no byte follows within 50 ms. In a sequence the next byte follows about 1 ms later,
+// even at 9600 Bd.
 inline constexpr std::int64_t kEscapeTimeout_ns = 50'000'000;
-// An arrow key counts as held for 100 ms after each of its sequences. This is longer than the usual interval of key
-// repeats.
+// An arrow key counts as held for 100 ms after each of its sequences. The usual interval of key repeats is shorter.
 inline constexpr std::int64_t kArrowPulse_ns = 100'000'000;
 
 struct KeyChange {
@@ -32,7 +31,7 @@ struct KeyChange {
 
 // Decoder from terminal bytes to key edges. Pure: the time of each byte is an argument.
 // Sequences: xterm (ESC [ A, ESC O A, ESC [ 5 ~, ESC O P, ESC [ 1 1 ~, with modifiers) and Linux console (ESC [ [ A).
-// Terminals report no release. An arrow key therefore counts as held for kArrowPulse_ns after each sequence. Any
+// Terminals report no release. An arrow key therefore counts as held for kArrowPulse_ns after each sequence. Every
 // other key gives a press and a release at once. Unknown sequences, and sequences that are incomplete after
 // kEscapeTimeout_ns, are dropped.
 class TerminalDecoder {
@@ -65,7 +64,7 @@ class TerminalDecoder {
 
 // Scope guard: terminal without line buffering and echo. The destructor restores the settings. Fatal signals that
 // can be caught, such as SIGSEGV and SIGHUP, also restore the settings. Ctrl-C still ends the program. Ctrl-Z is
-// disabled, because a stopped program would leave the shell without echo. Only one instance at a time is allowed.
+// disabled, because a stopped program would leave the shell without echo. A process may have at most one instance.
 class TerminalMode {
  public:
   // Errors: the descriptor is not a terminal, or this process is not in its foreground.

@@ -3,7 +3,7 @@
 // Outputs: the records of each lane in FIFO order. Records of different lanes have no common order.
 // Errors: push() to a full lane drops the record and counts the drop.
 // Threads: one producer per lane, one consumer for all lanes. Zero-filled memory is the valid empty state.
-// Restart: both cursors lie in the segment, so a new consumer continues where its predecessor stopped.
+// Restart: the cursors `pushed` and `popped` lie in the segment. A new consumer continues where the old one stopped.
 // Crash: a producer killed at any point leaves only complete records. A later producer continues with the same cursors.
 #pragma once
 
@@ -15,7 +15,7 @@ namespace yars::shm {
 
 template <Record T, std::size_t Lanes, std::size_t Depth, class Access = PlainAccess>
 class InputLanes {
-  static_assert(Depth >= 2 && (Depth & (Depth - 1)) == 0, "a power of two: the slot is found by a mask");
+  static_assert(Depth >= 2 && (Depth & (Depth - 1)) == 0, "must be a power of two, so that the modulo is a bit mask");
 
  public:
   // Called by the lane's producer. False: the lane was full, and the drop was counted.

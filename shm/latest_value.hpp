@@ -4,7 +4,8 @@
 // Errors: read() gives up after 9 attempts during which the writer changed the slot. LatestReader then keeps its last
 // value.
 // Threads: one writer at a time, which a byte lock of the segment ensures. Readers and the writer never wait.
-// A writer killed after any store leaves the previous value whole. The next writer continues from the stored version.
+// A writer killed after any store leaves the previous or the new value whole. The next writer continues from the stored
+// version.
 #pragma once
 
 #include <array>

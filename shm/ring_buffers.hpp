@@ -16,13 +16,13 @@ struct RingRead {
   std::uint64_t lost;  // records that this call skipped because the producer overtook the reader
 };
 
-// History of one producer: N slots, of which the last N - 1 records are readable. Each reader keeps its own cursor. It
-// is the number of the record to read next, counted from 0 since the session began. The producer does not know its
-// readers. A producer killed after any store leaves all records readable, except possibly the oldest. A restarted
-// producer continues the numbers. If the record type has `used_bytes` (words.hpp), read() changes only those bytes.
+// History of one producer. Of its N slots, N - 1 hold the readable records, which are the last published. Each reader
+// keeps its own cursor: the number of the record to read next, counted from 0 since the session began. The producer
+// does not know its readers. A producer killed after any store leaves all N - 1 records readable. A restarted producer
+// continues the numbers. If the record type has `used_bytes` (words.hpp), read() changes only those bytes.
 template <Record T, std::size_t N, class Access = PlainAccess>
 class BroadcastRing {
-  static_assert(N >= 2 && (N & (N - 1)) == 0, "a power of two: the slot is found by a mask");
+  static_assert(N >= 2 && (N & (N - 1)) == 0, "must be a power of two, so that the modulo is a bit mask");
 
  public:
   // Appends a record and returns its number, counted from 0.
@@ -113,7 +113,7 @@ class NoteRing {
  public:
   // Appends a line and returns its number.
   std::uint64_t append(const T& line);
-  // Number of lines abandoned because a newer line took their slot.
+  // Number of lines abandoned, because a newer line took their slot or kAttempts attempts failed.
   std::uint64_t lost() const { return Access::load(lost_, std::memory_order_relaxed); }
   // Number of lines begun since the session began.
   std::uint64_t total() const { return Access::load(total_, std::memory_order_acquire); }

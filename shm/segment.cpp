@@ -158,7 +158,7 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
     step("leftover unlinked");
     return std::nullopt;
   }
-  // Another process participates, or has write-locked the same leftover. In the second case this lock fails.
+  // Another process participates, or has write-locked the same leftover. In the second case the read lock fails.
   if (!file->lock(kParticipation, LockKind::read) || !file->is_at(path_of(file_name))) {
     sleep_1ms();
     return std::nullopt;
@@ -193,8 +193,8 @@ Expected<void> build(SegmentFile& file, const std::string& file_name, const Layo
   return {};
 }
 
-// Builds a segment without a name and links it. nullopt: try again. Either another process linked its segment first, or
-// it took this file for a leftover before this process locked it. Or /dev/shm is full and `memory_may_free` is true.
+// Builds a segment without a name and links it. nullopt: try again. Causes: another process linked its segment first;
+// another process took this file for a leftover and locked it first; /dev/shm is full and `memory_may_free` is true.
 // `memory_may_free`: a full /dev/shm is not yet an error, because other creators may still free memory.
 Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segment::Initialize initialize,
                bool memory_may_free) {
@@ -276,7 +276,7 @@ Expected<Segment> Segment::open_read_only(const std::string& name, const LayoutI
   if (const auto owned = check_owner(*file, file_name); !owned) return tl::unexpected(owned.error());
   if (file->could_write_lock(kParticipation))
     return fail("session " + name, "a running session", "a leftover: all its programs have died",
-                "start it again; the leftover is then replaced");
+                "start the session again; the leftover is then replaced");
   if (!file->map()) return system_failure(file_name, "a segment that can be mapped", errno);
   if (const auto matches = check_layout(*file, file_name, layout); !matches) return tl::unexpected(matches.error());
   return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(*file), false, false}));

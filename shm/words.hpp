@@ -17,7 +17,7 @@
 
 namespace yars::shm {
 
-// Size [bytes] of one wide move between a record and shared memory. It replaces the moves of two atomic words.
+// Size [bytes] of one wide move between a record and shared memory. A wide move replaces the moves of two atomic words.
 // x86-64 keeps loads in order among themselves, and stores in order among themselves (Intel SDM vol. 3, 9.2.2).
 // A wide load is therefore ordered like two acquire loads, a wide store like two release stores. The asm clobber keeps
 // the compiler from reordering them. A reader detects a move torn between its two words by the slot's sequence

@@ -43,7 +43,7 @@ struct Plane {
   Bearing up;    // direction at the apex that is upward on the display
   Length unit;   // ground distance of 1 on the display: the selected range, or the window of the map
   Length ahead;  // distance of the origin from the apex, upward
-  // Limits of the display.
+  // Edges of the display, in multiples of `unit`.
   radar::ViewConfiguration view;
 
   DisplayPoint display_from_ground(GeoPoint position) const {
@@ -188,7 +188,7 @@ using databuffer::DrawnPoint;
 using radar::RoutePoint;
 using text::text_of;
 
-constexpr std::size_t kMaxDrawn = 5;  // docs/spec/pilots_interface.md#rule-11; the record has space for more
+constexpr std::size_t kMaxDrawn = 5;  // points; docs/spec/pilots_interface.md#rule-11. The record has space for more
 static_assert(kMaxDrawn <= radar::kMaxPointsDrawn);
 
 // Point of the route, or designated target, with this name; nullopt if there is none.

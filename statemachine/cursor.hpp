@@ -26,8 +26,9 @@ void jump_cursor(databuffer::RadarState& state, geo::GeoPoint known, const Input
 bool shows_cursor(const databuffer::RadarState& state);
 
 // One tick: updates the frame, slews the cursor by the TDC, and updates bearing and range. The frame follows the
-// aircraft, unless the picture is frozen or is a map. An invalid cursor starts at the selected point if the display
-// shows that point. Else it starts at half the range ahead, or in the centre of the map. Needs a valid ownship.
+// aircraft, unless the picture is frozen or is a map. A cursor without a position starts at the selected point if the
+// display shows that point. Else it starts at half the range ahead, or in the centre of the map. Requires a valid
+// ownship.
 void advance_cursor(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 // Sequence points. Source: docs/spec/pilots_interface.md#rule-11.
@@ -37,13 +38,13 @@ void next_sequence_point(Step& step);
 // Selects the point of the route, or the designated target, by the name in the event. An unknown name is refused.
 void select_sequence_point(Step& step);
 
-// Selects the first point of the route by number. Clears the selection when there is no route.
+// Selects the point of the route with the lowest number. Clears the selection when there is no route.
 void select_first_sequence_point(databuffer::RadarState& state, const Parameters& parameters);
 
 // The selected point of the route, or the designated target if that is selected; nullopt if neither is selected.
 std::optional<radar::RoutePoint> selected_point(const databuffer::RadarState& state, const Parameters& parameters);
 
-// Fills `points` with at most five points: the selected point, the designated target, and the nearest within the range.
+// Fills `points` with at most five points: the selected point, the designated target, and the nearest others in range.
 // Declutter keeps targets, target offsets and the selected point. Each call computes a geodesic for every point of the
 // route. Therefore draw_points is called on changes, and otherwise every 20 ticks.
 void draw_points(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);

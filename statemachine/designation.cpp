@@ -236,8 +236,8 @@ bool is_taken(PointName wanted, const Parameters& parameters) {
   });
 }
 
-// Name of a new target: the next free offset if a target of the route is selected, else the next free number. nullopt:
-// no free name.
+// Name of a new target: the lowest free offset if a target of the route is selected, else the lowest free number.
+// nullopt: no free name.
 std::optional<PointName> next_free(const RadarState& state, const Parameters& parameters) {
   const auto selected = radar::point_name(text_of(state.sequence_point));
   // A designated target that is not a point of the route gets no offsets, because the new target replaces it.

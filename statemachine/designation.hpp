@@ -27,8 +27,8 @@ void request_elevation(Step& step, std::uint32_t recipients);
 // Removes recipients from the open request, because their elevation is known from another source.
 void cancel_request(databuffer::RadarState& state, std::uint32_t recipients);
 
-// True if the event designates a point while the elevation of another point is awaited. The event must then wait for a
-// later tick. The wait ends 20 ticks after the request, because the model may have stopped.
+// True if the event designates a point while an elevation at another position is awaited. The event must then wait for
+// a later tick. The wait ends 20 ticks after the request, because the model may have stopped.
 bool waits_for_elevation(const databuffer::RadarState& state, const databuffer::InputEvent& event,
                          const Inputs& inputs);
 
@@ -58,7 +58,7 @@ void put_steering(databuffer::Outputs& outputs, const databuffer::RadarState& st
 // CUE, TGT and MARK at the cursor, in coordinates of the selected navigator.
 // Source: docs/spec/pilots_interface.md#rule-14.
 void cue_sensor(Step& step);
-void designate_target(Step& step);  // also cues; a point of the route within 1 m becomes the target
+void designate_target(Step& step);  // also cues; a route point within 1 m of the cursor becomes the target
 void store_mark(Step& step);        // keeps the last ten marks
 
 // The designated target as a sequence point; nullopt if there is no target.

@@ -14,7 +14,7 @@
 namespace yars::statemachine {
 
 // Outputs to sensors, weapons and the head-up display. Ranging (slant range, bearing, depression) and steering are NaN
-// without a designated target or a valid ownship. While the target's elevation is awaited, ranging is NaN too.
+// if no target is designated, or if ownship is not valid. While the target's elevation is awaited, ranging is NaN.
 databuffer::Outputs outputs_of(const databuffer::RadarState& state, const Inputs& inputs);
 
 // Initial state of a session: power off.

@@ -173,7 +173,7 @@ std::uint32_t next_request(const RadarState& state, const ModelStatus& model) {
 }
 
 void take_commanded(RadarState& state, std::uint64_t id) {
-  // While a map is stored, the stored map is OLD.
+  // If a map is stored, OLD is that map. Else OLD is the former newest map.
   state.map_old = state.map_stored != 0 ? state.map_stored : state.map_newest;
   state.map_newest = id;
   set_flag(state, databuffer::kMapping, false);
@@ -210,7 +210,8 @@ void cancel_map(RadarState& state, const Inputs& inputs) {
 
 bool take_map(RadarState& state, const Inputs& inputs) {
   const ModelStatus& model = inputs.model;
-  // Any other id counts as new. If only greater ids counted, one erroneous large id would hide all later maps.
+  // Any id that differs from the newest map's counts as new. If it had to be greater, one erroneous large id would hide
+  // all later maps.
   const bool is_new = model.map_newest != 0 && model.map_newest != state.map_newest;
   // The model answered without a map: the aircraft came too near, or was repositioned, after the command.
   if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request && !is_new) {
@@ -219,7 +220,7 @@ bool take_map(RadarState& state, const Inputs& inputs) {
     return false;
   }
   if (!is_new || model.map_done_request != state.map_request) return false;
-  // Without the record the position is unknown: the map cannot be shown, and the cursor has no frame.
+  // Without its record the map's position is unknown. The map cannot be shown, and the cursor would have no frame.
   if (map_of(inputs, model.map_newest) == nullptr) return false;
   if (has(state, databuffer::kMapping)) {
     take_commanded(state, model.map_newest);

@@ -1,6 +1,7 @@
 // Patch maps in the radar state: command, completion, cancellation, freeze, recall and storage.
 // Inputs: cursor, ownship, model status, records of maps.
-// Outputs: map command, ids of NEW, OLD and STORE, the id of the map shown, messages.
+// Outputs: map command; ids of NEW (newest map), OLD (the map before), STORE (stored by the pilot) and the map shown;
+//   messages.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace yars::statemachine {
 void toggle_freeze(Step& step);
 void flip_recall(Step& step);   // PB 10: toggles NEW and OLD, or with a stored map NEW and STORE
 void toggle_store(Step& step);  // PB 15: stores the map shown, in place of OLD; a second press releases it
-void toggle_set(Step& step);    // PB 18 on a frozen map
+void toggle_set(Step& step);    // PB 18: cursor functions apply to the frozen map, or no longer
 
 void freeze(databuffer::RadarState& state);
 void thaw(databuffer::RadarState& state);  // ends the freeze and recall, and clears the stored map

@@ -72,7 +72,7 @@ std::optional<Mode> mode_of(radar::Master master, const RadarState& state) {
   return std::nullopt;
 }
 
-// State after power off: power-up settings, but the fields of the session and the counters keep their values.
+// State after power off: power-up settings. Ticks, counters, cues, marks and navigator errors keep their values.
 RadarState state_after_power_off(const Step& step) {
   RadarState fresh = power_up_settings(step.parameters);
   fresh.tick = step.state.tick;

@@ -70,7 +70,7 @@ void advance_navigators(RadarState& state, std::int64_t tick, const Parameters& 
     constexpr double kSecondsPerHour = 3600.0;
     // Standard deviation of one step. The variances of 3600 independent steps add up to walk_mps^2.
     const double step_mps = parameters.navigation.walk_mps / std::sqrt(kSecondsPerHour);
-    // The velocity measurement of the radar model uses the same seed, with draw numbers below 100.
+    // Draw numbers below 100 belong to the velocity measurement of the radar model, which uses the same seed.
     constexpr std::uint64_t kFirstDraw = 100;
     const auto walk = [&](double NavigatorError::*component, std::uint64_t draw) {
       const double by_mps =

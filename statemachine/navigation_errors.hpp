@@ -25,11 +25,11 @@ void put_variation(databuffer::RadarState& state, const Inputs& inputs, const Pa
 // Error of the selected navigator.
 databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
 
-// UPDT: corrects the selected navigator by a sequence point that the pilot marks on the video.
+// UPDT: corrects the selected navigator. The pilot first places the cursor on the sequence point's echo in the video.
 // Source: docs/spec/pilots_interface.md#rule-13.
 
-// TDC release: corrects the position so that the selected point is displayed at the cursor. Has no effect while no
-// update offset is shown, or while INV (cursor position too old) is shown.
+// TDC release: corrects the position so that the selected point is displayed at the cursor. Takes
+// effect only while an update offset is shown. INV (cursor position too old) replaces this offset.
 void accept_update(Step& step);
 
 // One tick: offset from the displayed selected point to the cursor [m], and the seconds left for an INS update.

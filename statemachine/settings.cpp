@@ -200,7 +200,7 @@ void advance_recorder(databuffer::RadarState& state, const Inputs& inputs) {
 
 void toggle_sniff(Step& step) {
   toggle(step, databuffer::kSniff);
-  // With SNIFF on, HRM stops the transmitter at once. A map in progress needs the transmitter.
+  // With SNIFF on, HRM stops the transmitter at once. A map in progress needs the transmitter and is cancelled.
   if (has(step.state, databuffer::kSniff)) cancel_map(step.state, step.inputs);
   freeze_silent_hrm(step.state);
 }

@@ -138,7 +138,7 @@ constexpr std::array kButtons{
 
 // Source: docs/spec/pilots_interface.md#controls. The action of a TDC release depends on the cursor function.
 // In A/A and ranging the display may still show a map. A TDC release acts on that map only while SET is on.
-// TDC deflection is stored in every mode, so that its return to 0 is never lost.
+// TDC deflection is stored in every mode with power on, so that its return to 0 is not lost.
 constexpr std::array kControls{
     ControlRow{EventKind::tdc, kRadar, kAlways, deflect},
     ControlRow{EventKind::tdc_release, kRbm | kBothHrm | kPvu, kMapCommandConditions, command_map},
@@ -237,7 +237,8 @@ Conditions present_conditions(const databuffer::RadarState& state) {
   return present;
 }
 
-// Reason given for an event that is dead because `condition` is not true. The first row that applies gives the reason.
+// Reason given for an event that is dead because `condition` is not true. Of several missing conditions, the first in
+// kMissing gives the reason.
 struct MissingCondition {
   Conditions condition;
   const char* words;

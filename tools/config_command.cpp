@@ -80,14 +80,14 @@ void add_config_command(databuffer::Command app, const CommonOptions& common) {
   const auto installed = [](const std::string& name) { return databuffer::installed_file(name); };
 
   databuffer::Command check_command =
-      command.subcommand("check", "check whether a file is valid, and name its unused parts");
-  check_command.option("file", options->file, "GUF file; else that of --config").transform(installed);
+      command.subcommand("check", "check whether a file is valid, and print its warnings");
+  check_command.option("file", options->file, "GUF file; else the file of --config").transform(installed);
   check_command.callback([options, &common] { check(*options, common); });
 
   databuffer::Command print_command =
       command.subcommand("print", "print the configuration that results from a file, as GUF");
   databuffer::Option file =
-      print_command.option("file", options->file, "GUF file; else that of --config, else the defaults");
+      print_command.option("file", options->file, "GUF file; else the file of --config, else the defaults");
   file.transform(installed);
   databuffer::Option defaults =
       print_command.flag("--defaults", options->defaults, "explain every slot: position, kind, range, default");
@@ -97,8 +97,8 @@ void add_config_command(databuffer::Command app, const CommonOptions& common) {
   print_command.callback([options, &common] { print(*options, common); });
 
   databuffer::Command convert_command =
-      command.subcommand("convert", "convert a file of 1996 (messages, old spellings) to present GUF");
-  convert_command.option("file", options->file, "file of 1996; else that of --config").transform(installed);
+      command.subcommand("convert", "convert a file of 1996 (message syntax, old spellings) to present GUF");
+  convert_command.option("file", options->file, "file of 1996; else the file of --config").transform(installed);
   convert_command.option("--out", options->out, "GUF file to write; else standard output");
   convert_command.callback([options, &common] { convert(*options, common); });
 }

@@ -3,7 +3,7 @@
 // Inputs: a text, and a name for it in errors.
 // Outputs: the tree. `keyword: value` becomes a slot named `keyword`. A value in braces becomes a form named kBraces.
 // `name :=` becomes a slot named kInstance, before the slot of its message. N37@30.5 (37 deg 30.5 min north) becomes a
-// form lat-long. #include "f" becomes a form include.
+// form named lat-long. #include "f" becomes a form named include.
 // Errors: as in parser.hpp, with the same limits.
 // Use: message_translation.hpp converts this tree to a tree of GUF.
 #pragma once
@@ -20,8 +20,8 @@ inline constexpr const char* kInstance = ":=";
 
 error::Expected<ParsedText> parse_messages(std::string_view text, const std::string& name);
 
-// True if the text is in the message syntax. After its comments, such a text begins with #, or with a name before : or
-// :=. A GUF text begins with the parenthesis of a form.
+// True if the text is in the message syntax. Only its beginning, after white space and comments, is examined. A text in
+// the message syntax begins with #, or with a name before : or :=. A GUF text begins with the parenthesis of a form.
 bool is_in_messages(std::string_view text);
 
 // The form ( lat-long N 37 30.5 ) for the text "N37@30.5". Its slots, or an error, have the location `state.token`.

@@ -45,7 +45,7 @@ error::Expected<ParsedText> parse_text(std::string_view text, const std::string&
 
 namespace {
 
-// UTF-8: every byte of a character after its first one is 10xxxxxx.
+// UTF-8: the first byte of a character is not of the form 10xxxxxx; all other bytes are.
 bool begins_character(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
 }
@@ -152,7 +152,7 @@ std::string string_of(std::string_view text, const ScanState& state) {
 }
 
 std::string printable(std::string_view text) {
-  constexpr std::size_t kMaxShown = 40;  // [characters] enough to recognize a token, short enough for one line
+  constexpr std::size_t kMaxShown = 40;  // [bytes] enough to recognize a token, short enough for one line
   static constexpr char kHex[] = "0123456789ABCDEF";
   std::string shown;
   for (const char letter : text.substr(0, kMaxShown)) {

@@ -56,7 +56,7 @@ std::string quoted_text(const std::string& text) {
 
 namespace {
 
-constexpr std::size_t kLineLength = 100;  // [characters] a longer slot is split at its brackets
+constexpr std::size_t kLineLength = 100;  // [bytes] a longer slot is split at its brackets
 
 std::string atom_text(const Value& value) {
   if (const auto* number = std::get_if<double>(&value.data)) return number_text(*number);

@@ -21,7 +21,7 @@ struct Location {
   int column = 1;
 };
 
-// "FILE:LINE:COLUMN", with which every error and warning begins.
+// "FILE:LINE:COLUMN". Errors and warnings about a token begin with this text.
 std::string text_of(const Location& where);
 
 struct Identifier {
@@ -57,7 +57,7 @@ struct Slot {
 // Description of a value for errors: "the number 12", "the form Window", "a list of 3".
 std::string description(const Value& value);
 
-// The shortest decimal text that reads back as the same double.
+// Decimal text that reads back as the same double, without superfluous digits. No exponent in [1e-4, 1e16).
 std::string number_text(double value);
 
 // The text as a GUF string, with quotes and escapes.
@@ -74,8 +74,8 @@ struct ParseError {
   throw ParseError{error::fail(text_of(where), std::move(expected), std::move(found), std::move(action)).value()};
 }
 
-// The tree as GUF text in the modern spelling. It parses to an equal tree. A slot of at most 100 characters, without
-// indentation, is on one line. A longer form or list takes several lines, indented by two spaces per open bracket.
+// The tree as GUF text in the modern spelling. It parses to an equal tree. A slot takes one line if it has at most 100
+// bytes, indentation not counted. A longer form or list takes several lines, indented by two spaces per open bracket.
 std::string tree_text(const std::vector<Slot>& arguments);
 
 }  // namespace yars::config

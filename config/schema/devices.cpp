@@ -183,40 +183,41 @@ std::vector<SlotSchema> axis_slots() {
   const auto raw = [](std::string_view name, double& (*of)(ConfigurationBuilder&), std::string_view purpose) {
     return number_slot(name, "", -kMaxRaw, kMaxRaw, {of}, purpose);
   };
-  return {text_slot("code", YARS_FIELD(device_axis.code), "ABS_X, ABS_HAT0Y ... or a number"),
-          {.name = "drives",
-           .binding = ChoiceSlot{
-               kUses, [](const ConfigurationBuilder& builder) { return static_cast<int>(builder.device_axis.use); },
-               [](ConfigurationBuilder& builder, int index) {
-                 builder.device_axis.use = static_cast<radar::AxisUse>(index);
-               }},
-           .purpose = "tdcX, tdcY: TDC right, up; elevation: absolute antenna elevation; directions: two buttons; "
-                      "lever: steps; left out: tdcX"},
-          raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: as the device reports"),
-          raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: as the device reports"),
-          raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: midway between low and high"),
-          number_slot("deadZone", "", 0, 0.9, {YARS_FIELD(device_axis.dead_zone)},
-                      "fraction of the travel around the centre without effect; left out: 0.05"),
-          number_slot("curve", "", 0, 1, {YARS_FIELD(device_axis.curve)},
-                      "0 = linear, 1 = cubic: finer near the centre; left out: 0"),
-          {.name = "inverted",
-           .binding = BooleanSlot{YARS_FIELD(device_axis.inverted)},
-           .purpose = "the low end is up or right; left out: false"},
-          text_slot("positive", YARS_FIELD(device_axis.positive),
-                    "for directions and lever: event of a move to the high end"),
-          text_slot("negative", YARS_FIELD(device_axis.negative), "like positive, for a move to the low end"),
-          number_slot(
-              "repeat", "s", 0, 10, {YARS_FIELD(device_axis.repeat_s)},
-              "for directions: interval of repetitions at full deflection, longer at a smaller one; left out: none"),
-          number_slot("lowest", "deg", -60, 60, {YARS_FIELD(device_axis.lowest_deg)},
-                      "for elevation: angle at the low end; left out: -60"),
-          number_slot("highest", "deg", -60, 60, {YARS_FIELD(device_axis.highest_deg)},
-                      "for elevation: angle at the high end; left out: 60"),
-          {.name = "steps",
-           .lowest = 2,
-           .highest = 256,
-           .binding = IntegerSlot{YARS_FIELD(device_axis.steps)},
-           .purpose = "for a lever: positions over its travel; left out: 16"}};
+  return {
+      text_slot("code", YARS_FIELD(device_axis.code), "ABS_X, ABS_HAT0Y ... or a number"),
+      {.name = "drives",
+       .binding = ChoiceSlot{
+           kUses, [](const ConfigurationBuilder& builder) { return static_cast<int>(builder.device_axis.use); },
+           [](ConfigurationBuilder& builder, int index) {
+             builder.device_axis.use = static_cast<radar::AxisUse>(index);
+           }},
+       .purpose = "tdcX, tdcY: TDC, right and up positive; elevation: absolute antenna elevation; directions: each "
+                  "end acts as a button; lever: each step is an event; left out: tdcX"},
+      raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: as the device reports"),
+      raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: as the device reports"),
+      raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: midway between low and high"),
+      number_slot("deadZone", "", 0, 0.9, {YARS_FIELD(device_axis.dead_zone)},
+                  "fraction of the travel from the centre to an end that has no effect; left out: 0.05"),
+      number_slot("curve", "", 0, 1, {YARS_FIELD(device_axis.curve)},
+                  "0 = linear, 1 = cubic: finer near the centre; left out: 0"),
+      {.name = "inverted",
+       .binding = BooleanSlot{YARS_FIELD(device_axis.inverted)},
+       .purpose = "true: exchanges the low and the high end; left out: false"},
+      text_slot("positive", YARS_FIELD(device_axis.positive),
+                "for directions and lever: event of a move to the high end"),
+      text_slot("negative", YARS_FIELD(device_axis.negative), "like positive, for a move to the low end"),
+      number_slot(
+          "repeat", "s", 0, 10, {YARS_FIELD(device_axis.repeat_s)},
+          "for directions: interval of repetitions at full deflection, longer at smaller deflections; left out: none"),
+      number_slot("lowest", "deg", -60, 60, {YARS_FIELD(device_axis.lowest_deg)},
+                  "for elevation: angle at the low end; left out: -60"),
+      number_slot("highest", "deg", -60, 60, {YARS_FIELD(device_axis.highest_deg)},
+                  "for elevation: angle at the high end; left out: 60"),
+      {.name = "steps",
+       .lowest = 2,
+       .highest = 256,
+       .binding = IntegerSlot{YARS_FIELD(device_axis.steps)},
+       .purpose = "for a lever: positions over its travel; left out: 16"}};
 }
 
 FormSchema axis() {
@@ -255,26 +256,26 @@ std::optional<ConstraintViolation> check_device(const ConfigurationBuilder& buil
 }
 
 FormSchema device() {
-  return {
-      .name = "Device",
-      .purpose =
-          "functions of a device's controls; a map without the slots vendor, pattern and has is selected by name only",
-      .slots = {text_slot("name", YARS_FIELD(device.name), "name of this map, as in `--source evdev:PATH,NAME`"),
-                text_slot("vendor", YARS_FIELD(device.vendor), "required vendor id, such as 044f; lsusb shows it"),
-                text_slot("products", YARS_FIELD(device.products), "accepted product ids, such as b351 b352"),
-                text_slot("pattern", YARS_FIELD(device.pattern), "pattern of the device's own name, with * and ?"),
-                text_slot("has", YARS_FIELD(device.has), "control that the device must have, such as BTN_SOUTH"),
-                {.name = "buttons",
-                 .binding = FormSlot{{"Button"}, {"Button"}, true},
-                 .purpose = "at most 256 buttons"},
-                {.name = "axes", .binding = FormSlot{{"Axis"}, {"Axis"}, true}, .purpose = "at most 256 axes"}},
-      .part_of_value = true,
-      .begin = [](ConfigurationBuilder& builder) { builder.device = {}; },
-      .check = check_device,
-      .end = [](ConfigurationBuilder& builder) { builder.radar.devices.push_back(builder.device); },
-      .count = [](const ConfigurationBuilder& builder) { return builder.radar.devices.size(); },
-      .select = [](ConfigurationBuilder& builder,
-                   std::size_t index) { builder.device = builder.radar.devices[index]; }};
+  return {.name = "Device",
+          .purpose =
+              "device map: events of a device's controls; without the slots vendor, pattern and has, it is selected by "
+              "name only",
+          .slots = {text_slot("name", YARS_FIELD(device.name), "name of this map, as in `--source evdev:PATH,NAME`"),
+                    text_slot("vendor", YARS_FIELD(device.vendor), "required vendor id, such as 044f; lsusb shows it"),
+                    text_slot("products", YARS_FIELD(device.products), "accepted product ids, such as b351 b352"),
+                    text_slot("pattern", YARS_FIELD(device.pattern), "pattern of the device's own name, with * and ?"),
+                    text_slot("has", YARS_FIELD(device.has), "control that the device must have, such as BTN_SOUTH"),
+                    {.name = "buttons",
+                     .binding = FormSlot{{"Button"}, {"Button"}, true},
+                     .purpose = "at most 256 buttons"},
+                    {.name = "axes", .binding = FormSlot{{"Axis"}, {"Axis"}, true}, .purpose = "at most 256 axes"}},
+          .part_of_value = true,
+          .begin = [](ConfigurationBuilder& builder) { builder.device = {}; },
+          .check = check_device,
+          .end = [](ConfigurationBuilder& builder) { builder.radar.devices.push_back(builder.device); },
+          .count = [](const ConfigurationBuilder& builder) { return builder.radar.devices.size(); },
+          .select = [](ConfigurationBuilder& builder,
+                       std::size_t index) { builder.device = builder.radar.devices[index]; }};
 }
 
 }  // namespace

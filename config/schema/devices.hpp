@@ -1,4 +1,5 @@
-// Conversion between the codes of buttons and axes of Linux input devices and their text; the built-in device maps.
+// Conversion between the codes of buttons and axes of Linux input devices and their text. Also the built-in device
+// maps, which assign radar events to the controls of cockpit hardware.
 // Inputs: a text, or a code.
 // Outputs: the code of the text, or the most readable text for the code.
 // Errors: std::nullopt for a text that names no code.
@@ -24,7 +25,7 @@ std::optional<std::uint16_t> axis_code(std::string_view text);    // [0, 0x3f]
 std::string button_name(std::uint16_t code);
 std::string axis_name(std::uint16_t code);
 
-// Text of config/devices.guf at build time: the built-in maps of cockpit hardware.
+// Text of config/devices.guf at build time: the built-in device maps.
 std::string_view shipped_devices_text();
 
 }  // namespace yars::config

@@ -105,7 +105,7 @@ void FormReader::read_top_level(const Form& form, const Location& where) {
   }
   if (known.schema->part_of_value) {
     reject(where, "a form that configures something, as ( Apg70 ... )", "( " + form.name + " ... ) alone",
-           "it belongs into a slot");
+           "put it into a slot");
   }
   read_form(form, where, known);
 }
@@ -183,8 +183,8 @@ void FormReader::warn_unread(const Slot& slot, const Form& form, const KnownForm
     return;
   }
   const std::string_view nearest = nearest_slot(*known.schema, slot.name);
-  warn(slot.where, "the form " + form.name + " has no slot :" + slot.name + "; it is ignored" +
-                       (nearest.empty() ? "" : "; :" + std::string(nearest) + " is near"));
+  warn(slot.where, "the form " + form.name + " has no slot :" + slot.name + "; the slot is ignored" +
+                       (nearest.empty() ? "" : "; nearest name: :" + std::string(nearest)));
 }
 
 void FormReader::read_slot(const SlotSchema& schema, const Value& value, const std::string& form) {

@@ -16,7 +16,7 @@ namespace yars::config {
 
 // Meaning of the name of a form.
 struct KnownForm {
-  const FormSchema* schema = nullptr;    // null: unknown, or defined in the text without a known base
+  const FormSchema* schema = nullptr;    // null: unknown, or defined in the text without a built-in base
   std::vector<std::string> added_slots;  // slots that a def-form adds after those of the schema; without effect
   Spelling spelling = Spelling::exact;
   bool defined_in_text = false;
@@ -25,7 +25,8 @@ struct KnownForm {
 // Forms that a text can use: the forms of the schema, and the forms that the text defines with def-form.
 class FormDefinitions {
  public:
-  // Adds the form that ( def-form name is= base 'slot ... ) defines, unless it is built in. Throws ParseError.
+  // Adds the form that ( def-form name is= base 'slot ... ) defines. A built-in form of this name prevails. Throws
+  // ParseError.
   void define(const Form& form, const Location& where);
   // Meaning of a name. An unknown form has no schema and is not defined in the text.
   KnownForm find(const std::string& name) const;
@@ -72,7 +73,7 @@ class FormReader {
   std::vector<std::string>& warnings_;
   FormDefinitions forms_;
   std::vector<DeferredCheck> deferred_checks_;
-  bool unused_ = false;  // true inside an unused slot: slots of the forms in it cause no further warnings
+  bool unused_ = false;  // true inside an unused slot: unused slots of the forms in it cause no further warnings
 };
 
 }  // namespace yars::config

@@ -26,8 +26,8 @@ std::vector<SlotSchema> red_green_blue() {
 
 // RGB of a hue [deg] in [0, 360] (red 0, green 120, blue 240), and saturation and value in [0, 1].
 radar::Rgb rgb_from_hsv(double hue_deg, double saturation, double value) {
-  // A channel equals `value` within 60 degrees of its hue. Between 60 and 120 degrees the channel falls linearly to
-  // value * (1 - saturation), and is constant beyond.
+  // A channel equals `value` within 60 degrees of channel_hue_deg. Between 60 and 120 degrees the channel falls
+  // linearly to value * (1 - saturation), and is constant beyond.
   const auto channel = [&](double channel_hue_deg) {
     const double sixths = std::abs(std::remainder(hue_deg - channel_hue_deg, 360.0)) / 60.0;
     return value * (1.0 - saturation * std::clamp(sixths - 1.0, 0.0, 1.0));
@@ -162,13 +162,13 @@ std::vector<SlotSchema> view_slots() {
            .lowest = -4,
            .highest = 4,
            .binding = SpanSlot{YARS_FIELD(radar.view.width_min), YARS_FIELD(radar.view.width_max), true},
-           .purpose = "left and right edge of the display, with the aircraft at 0"},
+           .purpose = "left and right edge of the display, relative to the aircraft; 1 = the selected range"},
           {.name = "height",
            .unit = "ranges",
            .lowest = -4,
            .highest = 4,
            .binding = SpanSlot{YARS_FIELD(radar.view.height_min), YARS_FIELD(radar.view.height_max), false},
-           .purpose = "bottom and top edge of the display, with the aircraft at 0"}};
+           .purpose = "bottom and top edge of the display, relative to the aircraft; 1 = the selected range"}};
 }
 
 std::vector<SlotSchema> unused_view_slots() {

@@ -155,7 +155,7 @@ constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellips
 constexpr std::array<std::string_view, 3> kInterpolations{"nearest", "bilinear", "cubic"};
 constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosecant-squared"};
 
-// The presets of radar::fidelity_names(). With `auto`, radar-model selects among the presets by its load.
+// The presets of radar::fidelity_names(), and `auto`, with which radar-model selects among the presets by its load.
 constexpr std::array<std::string_view, 6> kPresets{"1996", "draft", "standard", "fine", "reference", "auto"};
 
 int preset_of(const ConfigurationBuilder& builder) {
@@ -183,7 +183,7 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
   return {
       {.name = "preset",
        .binding = ChoiceSlot{kPresets, preset_of, set_preset},
-       .purpose = "sets all other slots, which can then be set one by one; auto: standard with automatic",
+       .purpose = "sets all other slots, which can then be set one by one; auto: preset standard with automatic true",
        .before_others = true},
       {.name = "algorithm",
        .binding = ChoiceSlot{kAlgorithms,
@@ -231,13 +231,15 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .highest = radar::kMaxSubBeams,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.sub_beams)},
        .purpose = "rays across the beam in azimuth; 1 = only the centre"},
-      flag("automatic", YARS_FIELD(radar.fidelity.automatic), "live: the finest preset with a load within coreShare"),
+      flag("automatic", YARS_FIELD(radar.fidelity.automatic),
+           "true: a radar-model in a session uses the finest preset with a load within coreShare"),
       {.name = "coreShare",
        .lowest = 0.001,
        .highest = 1,
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.core_share)},
        .purpose = "maximum load as a fraction of a CPU core, for automatic"},
-      flag("slantRange", YARS_FIELD(radar.fidelity.slant_range), "samples are equidistant in slant range"),
+      flag("slantRange", YARS_FIELD(radar.fidelity.slant_range),
+           "true: samples are equidistant in slant range; false: in ground range"),
       flag("crossTrackSlope", YARS_FIELD(radar.fidelity.cross_track_slope),
            "incidence angle includes the slope across the sweep"),
       flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise, speckle and texture"),
@@ -247,7 +249,7 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .binding = ChoiceSlot{
            kBeams, [](const ConfigurationBuilder& builder) { return int(builder.radar.fidelity.beam); },
            [](ConfigurationBuilder& builder, int index) { builder.radar.fidelity.beam = radar::BeamPattern(index); }},
-       .purpose = "beam in elevation"}};
+       .purpose = "beam pattern in elevation"}};
 }
 
 // Slots of patch maps.
@@ -262,8 +264,9 @@ std::vector<SlotSchema> map_fidelity_slots() {
        .lowest = 1,
        .highest = 4,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_oversampling)},
-       .purpose = "terrain profiles, and heights along each, per pixel of a patch map"},
-      flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover), "slant geometry; false: orthographic"),
+       .purpose = "cells of the polar grid per pixel of a patch map, in range and in azimuth"},
+      flag("mapLayover", YARS_FIELD(radar.fidelity.map_layover),
+           "true: slant range geometry with layover; false: orthographic"),
       flag("mapResponse", YARS_FIELD(radar.fidelity.map_response), "impulse response with its sidelobes"),
       flag("mapDetail", YARS_FIELD(radar.fidelity.map_detail), "synthetic texture finer than the posts"),
       flag("mapDoubleBounce", YARS_FIELD(radar.fidelity.map_double_bounce), "double bounce between walls and ground"),
@@ -271,7 +274,7 @@ std::vector<SlotSchema> map_fidelity_slots() {
        .lowest = 0,
        .highest = 1,
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.map_noise)},
-       .purpose = "random part of the brightness of a patch map of the preset 1996"},
+       .purpose = "random fraction of the brightness of patch maps of algorithm report-1996"},
       flag("mapSmoothGround", YARS_FIELD(radar.fidelity.map_smooth_ground),
            "true: ground of patch maps is smooth between posts more than three pixels apart; false: facets")};
 }
@@ -279,13 +282,13 @@ std::vector<SlotSchema> map_fidelity_slots() {
 std::vector<SlotSchema> receiver_slots() {
   return {number_slot("frequency", "GHz", 1, 40, {YARS_FIELD(radar.receiver.frequency_ghz)}, "carrier frequency"),
           number_slot("stcExponent", "", 0, 6, {YARS_FIELD(radar.receiver.stc_exponent)},
-                      "sensitivity time control: exponent of range over its reference"),
+                      "sensitivity time control: exponent n of (slant range / selected range)^n"),
           number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.receiver.dynamic_range_db)},
                       "range of the power from black to white"),
           number_slot("gainStep", "dB", 0, 40, {YARS_FIELD(radar.receiver.gain_step_db)},
                       "loss per step of GAIN, from 3 down to 0"),
           number_slot("landGamma", "dB", -60, 20, {YARS_FIELD(radar.receiver.land_gamma_db)},
-                      "return of land at vertical incidence")};
+                      "gamma of land without culture: sigma0 = gamma sin(grazing angle)")};
 }
 
 std::vector<SlotSchema> high_resolution_slots() {
@@ -311,7 +314,7 @@ std::vector<SlotSchema> high_resolution_slots() {
           number_slot("dynamicRange", "dB", 10, 120, {YARS_FIELD(radar.high_resolution.dynamic_range_db)},
                       "range of the power from black to white"),
           number_slot("brightestGamma", "dB", -40, 60, {YARS_FIELD(radar.high_resolution.brightest_gamma_db)},
-                      "gamma of level ground that is white"),
+                      "gamma of level ground that is drawn white"),
           number_slot("noiseGamma", "dB", -120, 20, {YARS_FIELD(radar.high_resolution.noise_gamma_db)},
                       "gamma of level ground with a return equal to thermal noise at 20 NM, window 0.67 NM"),
           number_slot("doubleBounce", "dB", -60, 40, {YARS_FIELD(radar.high_resolution.double_bounce_db)},
@@ -320,9 +323,9 @@ std::vector<SlotSchema> high_resolution_slots() {
            .lowest = 0,
            .highest = radar::kMaterials - 1,
            .binding = IntegerSlot{YARS_FIELD(radar.high_resolution.default_material)},
-           .purpose = "surface material code for faces of a scene without one"},
+           .purpose = "surface material code for faces of a scene that have none"},
           number_slot("detailContrast", "", 0, 2, {YARS_FIELD(radar.high_resolution.detail_contrast)},
-                      "standard deviation of the synthetic detail finer than the posts, relative to its mean")};
+                      "standard deviation of the natural logarithm of the synthetic detail finer than the posts")};
 }
 
 std::vector<SlotSchema> noise_slots() {
@@ -332,7 +335,7 @@ std::vector<SlotSchema> noise_slots() {
            .lowest = 1,
            .highest = 64,
            .binding = IntegerSlot{YARS_FIELD(radar.receiver.looks)},
-           .purpose = "independent looks that speckle is averaged over"},
+           .purpose = "independent looks averaged in each sample; more looks give less speckle"},
           {.name = "seed",
            .lowest = 0,
            .highest = 9'007'199'254'740'992.0,  // 2^53: every integer up to it is exact as a double

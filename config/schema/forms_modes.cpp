@@ -113,7 +113,7 @@ FormSchema sar_mode() {
                                .lowest = 0.1,
                                .highest = 500,
                                .binding = ListSlot{YARS_FIELD(radar.windows_nm), 1, 16, Order::ascending},
-                               .purpose = "selectable display windows; WindowLimits must have each of them"}}),
+                               .purpose = "selectable display windows; WindowLimits must list each of them"}}),
           .begin = begin_sar_mode,
           .check = check_sar_mode,
           .end = end_sar_mode,
@@ -144,7 +144,7 @@ std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& buil
   for (const auto& [slot, limits] :
        {std::pair{"least", &table.min_range_nm}, std::pair{"greatest", &table.max_range_nm}}) {
     if (limits->size() != windows)
-      return ConstraintViolation{slot, count_text(windows, "numbers, one a window of :windows"),
+      return ConstraintViolation{slot, count_text(windows, "numbers, one for each of :windows,"),
                                  std::to_string(limits->size())};
   }
   for (std::size_t i = 0; i < windows; ++i) {
@@ -156,12 +156,12 @@ std::optional<ConstraintViolation> check_limits(const ConfigurationBuilder& buil
   }
   const std::size_t blank = table.blank_windows_nm.size();
   if (table.blank_max_range_nm.size() != blank) {
-    return ConstraintViolation{"blankUpTo", count_text(blank, "numbers, one a window of :blankWindows"),
+    return ConstraintViolation{"blankUpTo", count_text(blank, "numbers, one for each of :blankWindows,"),
                                std::to_string(table.blank_max_range_nm.size())};
   }
   for (const double window_nm : table.blank_windows_nm) {
     if (radar::cursor_limits(geo::Length::nautical_miles(window_nm), table)) continue;
-    return ConstraintViolation{"blankWindows", "windows of :windows", number_text(window_nm)};
+    return ConstraintViolation{"blankWindows", "windows that :windows lists", number_text(window_nm)};
   }
   return std::nullopt;
 }
@@ -196,7 +196,7 @@ FormSchema window_limits() {
                 miles("blankUpTo", 0.1, {YARS_FIELD(radar.window_limits.blank_max_range_nm), 1, 16, Order::ascending},
                       "maximum cursor range for each of blankWindows; beyond the last, a map is rejected"),
                 number_slot("powerUp", "NM", 0.1, 1000, {YARS_FIELD(radar.window_limits.power_up_nm)},
-                            "window selected at power-up, or the largest window below it")},
+                            "window at power-up; if not selectable or longer than the range, the next smaller one")},
       .check = check_limits,
       .check_at_end = check_windows_have_limits};
 }
@@ -244,8 +244,8 @@ std::optional<ConstraintViolation> check_start_position(const ConfigurationBuild
   }
   return ConstraintViolation{
       "position",
-      "a position within the gimbal, " + number_text(azimuth_deg) + " and " + number_text(antenna.elevation_limit_deg) +
-          " deg either way",
+      "a position within the gimbal limits, +-" + number_text(azimuth_deg) + " and +-" +
+          number_text(antenna.elevation_limit_deg) + " deg,",
       number_text(antenna.start_azimuth_deg) + " and " + number_text(antenna.start_elevation_deg)};
 }
 
@@ -259,13 +259,13 @@ std::vector<FormSchema> antenna_forms() {
                               .lowest = 1,
                               .highest = 180,
                               .binding = SymmetricSlot{YARS_FIELD(radar.antenna.azimuth_limit_deg)},
-                              .purpose = "gimbal, left and right of the nose"},
+                              .purpose = "gimbal limits, left and right of the nose"},
                              {.name = "elevationLimits",
                               .unit = "deg",
                               .lowest = 1,
                               .highest = 90,
                               .binding = SymmetricSlot{YARS_FIELD(radar.antenna.elevation_limit_deg)},
-                              .purpose = "gimbal, down and up"},
+                              .purpose = "gimbal limits, down and up"},
                              {.name = "maxRates",
                               .unit = "deg/s",
                               .lowest = 1,
@@ -292,7 +292,7 @@ std::vector<FormSchema> antenna_forms() {
                               .lowest = 0.001,
                               .highest = 5,
                               .binding = NumberSlot{YARS_FIELD(radar.antenna.tolerance_deg)},
-                              .purpose = "error at which a commanded position counts as reached"},
+                              .purpose = "maximum error at which a commanded position counts as reached"},
                              {.name = "driftLimit",
                               .unit = "deg",
                               .lowest = 0,

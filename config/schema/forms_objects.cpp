@@ -75,7 +75,7 @@ std::optional<ConstraintViolation> check_mover(const ConfigurationBuilder& build
 FormSchema mover() {
   constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
   return {.name = "Mover",
-          .purpose = "a ship or a vehicle: a point on its great circle",
+          .purpose = "a ship or a vehicle: a point that moves along a great circle",
           .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "name, free text"},
                     latitude_slot(YARS_FIELD(mover.position.latitude_deg)),
                     longitude_slot(YARS_FIELD(mover.position.longitude_deg)),

@@ -26,23 +26,24 @@ bool is_point(const radar::PointName& name) {  // false: an offset
   return name.offset == 0;
 }
 
-// Rules of a point: its name is valid and occurs once in the route, and its coordinates are given. No other steer
-// point, initial point or target has the same number. If the file gives the kind, the name fits that kind: a name such
-// as "2" fits a steer point or an initial point, and a name with a dot fits one kind only.
+// Rules of a point: its name is valid and occurs once in the route, and its coordinates are given. Each number belongs
+// to one steer point, initial point or target; offsets share it. If the file gives the kind, the name fits that kind: a
+// name such as "2" fits a steer point or an initial point, and a name with a dot fits one kind only.
 std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
   const auto name = radar::point_name(builder.point.name);
   if (!name) {
-    return ConstraintViolation{"name", "a name of a sequence point: \"2\", \"2.\", \"2.1\" or \"2.01\", 1 to 100",
+    return ConstraintViolation{"name",
+                               "a name of a sequence point: \"2\", \"2.\", \"2.1\" or \"2.01\", number 1 to 100",
                                quoted_text(builder.point.name)};
   }
   if (auto wrong = check_coordinates(builder.point.position)) return wrong;
   for (const auto& other : builder.radar.route) {
     if (other.name == builder.point.name)
-      return ConstraintViolation{"name", "a name once in a route", quoted_text(other.name)};
-    // Each number occurs once, except in offsets. Numbers are 1 to 100, so a route has at most 100 points plus offsets.
+      return ConstraintViolation{"name", "a name that is not yet in the route", quoted_text(other.name)};
+    // Numbers are 1 to 100, so a route has at most 100 points plus offsets.
     const auto other_name = radar::point_name(other.name);
     if (is_point(*name) && other_name && is_point(*other_name) && other_name->number == name->number) {
-      return ConstraintViolation{"name", "a number once in a route: steer point or target",
+      return ConstraintViolation{"name", "a number that no other steer point or target has",
                                  quoted_text(builder.point.name) + " beside " + quoted_text(other.name)};
     }
   }
@@ -155,7 +156,7 @@ std::optional<ConstraintViolation> check_beams(const ConfigurationBuilder& build
     return ConstraintViolation{"beamDepressions", "as many as beamAzimuths, " + std::to_string(azimuths),
                                std::to_string(depressions)};
   if (radar::horizontal_dilution(navigation.beam_azimuths_deg, navigation.beam_depressions_deg)) return std::nullopt;
-  return ConstraintViolation{"beamAzimuths", "beams that do not all lie in one plane", "a plane of beams"};
+  return ConstraintViolation{"beamAzimuths", "beams that do not all lie in one plane", "all in one plane"};
 }
 
 }  // namespace
@@ -169,20 +170,22 @@ std::vector<FormSchema> navigation_forms() {
        .purpose = "errors of the navigators, and their correction by the radar",
        .slots = {number_slot("errorNorth", "ft", -kMaxError_ft, kMaxError_ft,
                              feet(YARS_FIELD(radar.navigation.error_north_m)),
-                             "error of both navigators' position at the start of the session"),
+                             "northward error of both navigators' position at the start of the session"),
                  number_slot("errorEast", "ft", -kMaxError_ft, kMaxError_ft,
-                             feet(YARS_FIELD(radar.navigation.error_east_m)), "like errorNorth, to the east"),
+                             feet(YARS_FIELD(radar.navigation.error_east_m)), "like errorNorth, eastward"),
                  number_slot("driftNorth", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
                              feet(YARS_FIELD(radar.navigation.drift_north_mps)),
-                             "error of both navigators' velocity at the start; their position drifts with it"),
+                             "northward error of both navigators' velocity at the start of the session; their position "
+                             "drifts at this speed"),
                  number_slot("driftEast", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
-                             feet(YARS_FIELD(radar.navigation.drift_east_mps)), "like driftNorth, to the east"),
+                             feet(YARS_FIELD(radar.navigation.drift_east_mps)), "like driftNorth, eastward"),
                  number_slot("driftDown", "ft/s", -kMaxDrift_fps, kMaxDrift_fps,
-                             feet(YARS_FIELD(radar.navigation.drift_down_mps)), "like driftNorth, downward"),
+                             feet(YARS_FIELD(radar.navigation.drift_down_mps)),
+                             "downward error of both navigators' velocity at the start of the session"),
                  number_slot("velocityWalk", "ft/s", 0, kMaxDrift_fps, feet(YARS_FIELD(radar.navigation.walk_mps)),
                              "random walk of the velocity's error: standard deviation after an hour"),
                  number_slot("updateValidity", "s", 1, 3600, {YARS_FIELD(radar.navigation.update_validity_s)},
-                             "time for which a placed cursor is valid for an INS update"),
+                             "time after a cursor move for which the cursor is valid for an INS update"),
                  number_slot("velocityPeriod", "s", 5, 3600, {YARS_FIELD(radar.navigation.velocity_period_s)},
                              "interval of the velocity updates of IPVU and PVU"),
                  number_slot("velocityNoise", "ft/s", 0, 100, feet(YARS_FIELD(radar.navigation.velocity_noise_mps)),

@@ -13,7 +13,7 @@ namespace yars::config {
 
 namespace {
 
-// Slots of Database and of the forms that extend it. Only MgDbase uses the position: elevation files contain one.
+// Slots of Database and of the forms that extend it. Only MgDbase uses the position; elevation files contain their own.
 std::vector<SlotSchema> database_slots(AngleSlot latitude = {nullptr, true}, AngleSlot longitude = {nullptr, false}) {
   return {{.name = "latitude",
            .unit = "deg",
@@ -32,7 +32,7 @@ std::vector<SlotSchema> database_slots(AngleSlot latitude = {nullptr, true}, Ang
            .lowest = -1500,
            .highest = 30'000,
            .binding = NumberSlot{},
-           .purpose = "centre of the database"},
+           .purpose = "elevation of the centre of the database"},
           {.name = "samples",
            .lowest = 1,
            .highest = 65'536,
@@ -127,13 +127,13 @@ constexpr std::array<std::string_view, 2> kPolarizations{"horizontal", "vertical
 FormSchema land() {
   return {
       .name = "Land",
-      .purpose = "radar return of land: sigma0 = gamma sin(grazing)",
+      .purpose = "radar return of land: sigma0 = gamma sin(grazing angle)",
       .slots = {number_slot("frequencySlope", "dB", -20, 20, {YARS_FIELD(radar.world.land.frequency_slope_db)},
-                            "added to each gamma per decade of frequency"),
+                            "increase of every gamma for a tenfold frequency"),
                 number_slot("referenceFrequency", "GHz", 1, 40, {YARS_FIELD(radar.world.land.reference_frequency_ghz)},
                             "frequency for which the gammas are given"),
                 number_slot("streetWidth", "deg", 0.1, 45, {YARS_FIELD(radar.world.land.cardinal_width_deg)},
-                            "cardinal effect: half-power width of the return of walls over their azimuth"),
+                            "cardinal effect (stronger return of walls that face the radar): full width at half power"),
                 number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.land.texture)},
                             "shape parameter of the texture of land without material; small = spiky, 0 = none")}};
 }
@@ -141,10 +141,11 @@ FormSchema land() {
 std::optional<ConstraintViolation> check_material(const ConfigurationBuilder& builder) {
   if (builder.material.code == 0) return ConstraintViolation{"code", "a code of 1 to 31", "none"};
   if (builder.material.code != radar::kWaterMaterial) return std::nullopt;
-  return ConstraintViolation{"code", "any code but water's (Sea says what water returns)", "6"};
+  return ConstraintViolation{"code", "a code other than 6 (water; the form Sea sets its return)", "6"};
 }
 
-// Adds a material, or changes the one with the same code. Omitted slots keep their value; in a new material they are 0.
+// Adds a material, or changes the one with the same code. Omitted slots keep their value; in a new material they are 0
+// or empty.
 void end_material(ConfigurationBuilder& builder) {
   auto& materials = builder.radar.world.land.materials;
   const radar::Material& given = builder.material;
@@ -164,31 +165,34 @@ void end_material(ConfigurationBuilder& builder) {
 }
 
 FormSchema material() {
-  return {.name = "Material",
-          .purpose = "radar return of a surface material",
-          .slots = {{.name = "code",
-                     .lowest = 1,
-                     .highest = radar::kMaterials - 1,
-                     .binding = IntegerSlot{YARS_FIELD(material.code)},
-                     .purpose = "surface material code of the culture; 0 is land without culture, 6 is water"},
-                    {.name = "name", .binding = TextSlot{YARS_FIELD(material.name)}, .purpose = "name, free text"},
-                    number_slot("gamma", "dB", -60, 30, {YARS_FIELD(material.gamma_db)},
-                                "return of the material; left out: unchanged, or 0"),
-                    number_slot("cardinal", "dB", 0, 30, {YARS_FIELD(material.cardinal_db)},
-                                "additional return of walls that face the radar; left out: unchanged, or 0"),
-                    number_slot("texture", "", 0, 100, {YARS_FIELD(material.texture)},
-                                "shape parameter of its texture; small = spiky, 0 = none; left out: unchanged, or 0")},
-          .part_of_value = true,
-          .begin =
-              [](ConfigurationBuilder& builder) {
-                builder.material = {
-                    .code = 0, .name = {}, .gamma_db = kNotGiven, .cardinal_db = kNotGiven, .texture = kNotGiven};
-              },
-          .check = check_material,
-          .end = end_material,
-          .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.land.materials.size(); },
-          .select = [](ConfigurationBuilder& builder,
-                       std::size_t index) { builder.material = builder.radar.world.land.materials[index]; }};
+  return {
+      .name = "Material",
+      .purpose = "radar return of a surface material",
+      .slots = {{.name = "code",
+                 .lowest = 1,
+                 .highest = radar::kMaterials - 1,
+                 .binding = IntegerSlot{YARS_FIELD(material.code)},
+                 .purpose = "surface material code of the culture; 0 is land without culture, 6 is water"},
+                {.name = "name", .binding = TextSlot{YARS_FIELD(material.name)}, .purpose = "name, free text"},
+                number_slot("gamma", "dB", -60, 30, {YARS_FIELD(material.gamma_db)},
+                            "gamma: sigma0 = gamma sin(grazing angle); left out: 0 in a new material, else unchanged"),
+                number_slot("cardinal", "dB", 0, 30, {YARS_FIELD(material.cardinal_db)},
+                            "additional return of walls that face the radar; left out: 0 in a new material, else "
+                            "unchanged"),
+                number_slot("texture", "", 0, 100, {YARS_FIELD(material.texture)},
+                            "shape parameter of its texture; small = spiky, 0 = none; left out: 0 in a new "
+                            "material, else unchanged")},
+      .part_of_value = true,
+      .begin =
+          [](ConfigurationBuilder& builder) {
+            builder.material = {
+                .code = 0, .name = {}, .gamma_db = kNotGiven, .cardinal_db = kNotGiven, .texture = kNotGiven};
+          },
+      .check = check_material,
+      .end = end_material,
+      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.land.materials.size(); },
+      .select = [](ConfigurationBuilder& builder,
+                   std::size_t index) { builder.material = builder.radar.world.land.materials[index]; }};
 }
 
 SlotSchema sea_coefficients(std::string_view name, std::vector<double>& (*of)(ConfigurationBuilder&)) {
@@ -200,30 +204,30 @@ SlotSchema sea_coefficients(std::string_view name, std::vector<double>& (*of)(Co
 }
 
 FormSchema sea() {
-  return {
-      .name = "Sea",
-      .purpose = "radar return of the sea: the NRL model, with the wind direction factor of the GIT model",
-      .slots = {number_slot("state", "", 0, 6, {YARS_FIELD(radar.world.sea.state)},
-                            "state of the sea, WMO code 3700; left out: from the Beaufort force of the wind"),
-                number_slot("windSpeed", "kt", 0, 120,
-                            {YARS_FIELD(radar.world.sea.wind_speed_mps), geo::kMetresPerNauticalMile / 3600.0},
-                            "wind over the sea; used if state is left out"),
-                number_slot("windFrom", "deg", 0, 360, {YARS_FIELD(radar.world.sea.wind_from_deg)},
-                            "true direction from which the wind blows; the sea is brightest in this direction"),
-                {.name = "polarization",
-                 .binding = ChoiceSlot{
-                     kPolarizations,
-                     [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.polarization); },
-                     [](ConfigurationBuilder& builder, int index) {
-                       builder.radar.world.sea.polarization = radar::Polarization(index);
-                     }},
-                 .purpose = "polarization of the radar"},
-                sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
-                sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
-                number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
-                            "0.2: 3 dB more upwind and 3 dB less downwind at X band; 0: the same in all directions"),
-                number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
-                            "shape parameter of the sea's texture; small = spiky, 0 = none")}};
+  return {.name = "Sea",
+          .purpose = "radar return of the sea: the NRL model, with the wind direction factor of the GIT model",
+          .slots = {number_slot("state", "", 0, 6, {YARS_FIELD(radar.world.sea.state)},
+                                "state of the sea, WMO code 3700; left out: from the Beaufort force of the wind"),
+                    number_slot("windSpeed", "kt", 0, 120,
+                                {YARS_FIELD(radar.world.sea.wind_speed_mps), geo::kMetresPerNauticalMile / 3600.0},
+                                "wind over the sea; used if state is left out"),
+                    number_slot("windFrom", "deg", 0, 360, {YARS_FIELD(radar.world.sea.wind_from_deg)},
+                                "true direction from which the wind blows; the sea is brightest in this direction"),
+                    {.name = "polarization",
+                     .binding = ChoiceSlot{
+                         kPolarizations,
+                         [](const ConfigurationBuilder& builder) { return int(builder.radar.world.sea.polarization); },
+                         [](ConfigurationBuilder& builder, int index) {
+                           builder.radar.world.sea.polarization = radar::Polarization(index);
+                         }},
+                     .purpose = "polarization of the radar"},
+                    sea_coefficients("horizontal", YARS_FIELD(radar.world.sea.horizontal)),
+                    sea_coefficients("vertical", YARS_FIELD(radar.world.sea.vertical)),
+                    number_slot("windFactor", "", 0, 2, {YARS_FIELD(radar.world.sea.wind_factor)},
+                                "wind direction factor; 0.2: at small grazing angles 3 dB more upwind and 3 dB less "
+                                "downwind at X band; 0: no effect"),
+                    number_slot("texture", "", 0, 100, {YARS_FIELD(radar.world.sea.texture)},
+                                "shape parameter of the sea's texture; small = spiky, 0 = none")}};
 }
 
 std::optional<ConstraintViolation> check_rain_cell(const ConfigurationBuilder& builder) {
@@ -262,7 +266,7 @@ FormSchema rain() {
                      .binding = FormSlot{{"RainCell"}, {"RainCell"}, true},
                      .purpose = "at most 64 showers"},
                     number_slot("reflectivityFactor", "", 0, 2000, {YARS_FIELD(radar.world.rain.reflectivity_factor)},
-                                "a of Z = a r^b, mm^6/m^3 by mm/h (Marshall and Palmer)"),
+                                "a of Z = a r^b, Z in mm^6/m^3, rain rate r in mm/h (Marshall and Palmer)"),
                     number_slot("reflectivityExponent", "", 0.5, 3,
                                 {YARS_FIELD(radar.world.rain.reflectivity_exponent)}, "b of Z = a r^b"),
                     number_slot("dielectricFactor", "", 0, 1, {YARS_FIELD(radar.world.rain.dielectric_factor)},

@@ -96,7 +96,7 @@ class TreeReader {
       reject(value.where, "an include inside " + root_.string(), path.string(), "copy the file there");
     }
     if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end()) {
-      reject(value.where, "an include that does not come back to its own file", path.string());
+      reject(value.where, "an include that does not lead back to its own file", path.string());
     }
     if (open_files_.size() >= static_cast<std::size_t>(kMaxIncludeDepth)) {
       reject(value.where, "at most " + std::to_string(kMaxIncludeDepth) + " files deep", path.string());

@@ -43,7 +43,8 @@ struct ConvertedConfiguration {
 error::Expected<ConvertedConfiguration> convert_configuration(const std::filesystem::path& path,
                                                               const std::filesystem::path& folder);
 
-// Like convert_configuration(), but from a text in memory. Errors and warnings name the text `name`.
+// Like convert_configuration(), but from a text in memory, whose paths do not change. Errors and warnings name the text
+// `name`.
 error::Expected<ConvertedConfiguration> convert_configuration_text(std::string_view text, const std::string& name);
 
 }  // namespace yars::config

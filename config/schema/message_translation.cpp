@@ -26,7 +26,7 @@ struct Row {
 };
 
 constexpr std::array kForms{Row{"Radar", kAnyOwner, "System"},
-                            Row{"MgDmaDatabase", kAnyOwner, "DedDbase"},  // MultiGen's files of DMA elevations
+                            Row{"MgDmaDatabase", kAnyOwner, "DedDbase"},  // elevations of the Defense Mapping Agency
                             Row{"Display", kOutermost, "Window"},
                             Row{"Display", "System", "Window"},
                             Row{"Display", "Apg70", "Window"},
@@ -100,14 +100,15 @@ void reject_mixture(const Slots& arguments) {
   reject(value->where, "messages alone or values alone in these braces", described(*value), "give it a keyword");
 }
 
-// Throws for `Display { ... }` without a colon, as in the text of the 1996 report. The parser makes two values of it.
+// Throws for `Display { ... }` without a colon, as in the text of the 1996 report. The parser reads an identifier and
+// braces, which are two values.
 void reject_missing_colon(const Slots& arguments) {
   for (std::size_t i = 0; i + 1 < arguments.size(); ++i) {
     const auto* word = std::get_if<Identifier>(&arguments[i].value.data);
     const auto* next = std::get_if<Form>(&arguments[i + 1].value.data);
     if (word == nullptr || !is_value_alone(arguments[i]) || !is_value_alone(arguments[i + 1])) continue;
     if (next != nullptr && next->name == kBraces) {
-      reject(arguments[i].where, word->name + ": { ... }", word->name + " { ... }", "put a colon behind the keyword");
+      reject(arguments[i].where, word->name + ": { ... }", word->name + " { ... }", "put a colon after the keyword");
     }
   }
 }
@@ -117,7 +118,8 @@ void reject_missing_colon(const Slots& arguments) {
 void reject_word_of_guf(const Slot& message) {
   constexpr std::array<std::string_view, 7> kWords{"include", "guf", "def-form", "true", "false", "TRUE", "FALSE"};
   if (std::find(kWords.begin(), kWords.end(), message.name) == kWords.end()) return;
-  reject(message.where, "a keyword of the radar", message.name + ":", "it is a word of GUF; name it otherwise");
+  reject(message.where, "a keyword of the radar", message.name + ":",
+         "this is a reserved word of GUF; choose another keyword");
 }
 
 // The slot of `owner` that accepts the form; null: none.
@@ -204,7 +206,7 @@ class Translator {
   void add_form(Slots& slots, SlotIndices& form_slots, const FormSchema& owner, Slot& message) {
     const SlotSchema* slot = slot_for_form(owner, form_of_keyword(message.name, owner.name));
     if (slot == nullptr) {
-      reject(message.where, "a message that belongs into " + std::string(owner.name), message.name + ":");
+      reject(message.where, "a message that is allowed in " + std::string(owner.name), message.name + ":");
     }
     const bool many = std::get<FormSlot>(slot->binding).many;
     Value form = form_of(message, owner.name);
@@ -296,7 +298,8 @@ class Translator {
   // Includes in files are replaced before translation. A remaining include is in a text in memory, which has no folder.
   static void reject_include(const Value& value) {
     const auto* form = std::get_if<Form>(&value.data);
-    if (form != nullptr && form->name == "include") reject(value.where, "#include in a file alone", "it in a text");
+    if (form != nullptr && form->name == "include")
+      reject(value.where, "#include in files only", "it in a text without a file");
   }
 
   struct Instance {

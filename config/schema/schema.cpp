@@ -146,7 +146,7 @@ struct KindText {
   std::string operator()(const CounterSlot&) const { return "a whole number" + range_text(slot); }
   std::string operator()(const BooleanSlot&) const { return "true or false"; }
   std::string operator()(const TextSlot&) const { return "a string"; }
-  std::string operator()(const PathSlot&) const { return "a string, a path relative to its file"; }
+  std::string operator()(const PathSlot&) const { return "a string, a path relative to the file that contains it"; }
   std::string operator()(const AngleSlot&) const { return "a number or a lat-long" + range_text(slot); }
   std::string operator()(const ChoiceSlot& choice) const { return "one of " + joined(choice.words); }
   std::string operator()(const ListSlot& list) const {
@@ -198,7 +198,7 @@ Found<SlotSchema> find_slot(const FormSchema& form, std::string_view name) {
 }
 
 std::string_view nearest_slot(const FormSchema& form, std::string_view name) {
-  constexpr std::size_t kMaxDistance = 2;     // changed letters; more give unrelated names
+  constexpr std::size_t kMaxDistance = 2;     // [letters] inserted, deleted or replaced; more give unrelated names
   constexpr std::size_t kMaxNameLength = 40;  // bounds the time for a hostile text
   std::string_view nearest;
   std::size_t smallest = kMaxDistance + 1;

@@ -3,7 +3,7 @@
 // Inputs: rows from forms_*.cpp and devices.cpp. A row has name, unit, range, purpose and the field that it writes.
 // Outputs: search by name; the kind of value as text; ConfigurationBuilder, which the slots write into.
 // Units: a slot has the unit of its row. The field has the unit that the field's name states (NumberSlot converts).
-// Errors: a rule between slots returns a ConstraintViolation.
+// Errors: a violated rule between slots returns a ConstraintViolation.
 // Source: names and positions are from tables 4 to 26 of the 1996 report. Slots added later have later positions.
 #pragma once
 
@@ -62,7 +62,7 @@ struct HueSaturationValue {
   double value = 0.0;
 };
 
-inline constexpr int kKindByName = -1;  // the name of a point determines its kind
+inline constexpr int kKindByName = -1;  // ConfigurationBuilder::point_kind if the point's name determines its kind
 
 // Configuration under construction: `whole`, and references to its sections in `radar`. A form that can occur several
 // times, such as Point, is read into a field here, then copied to its list. new_builder() makes the storage.
@@ -105,7 +105,7 @@ struct ConfigurationBuilder {
   int point_kind = kKindByName;                 // a radar::PointKind if the file gives the kind
   std::set<std::string> points_without_kind{};  // names of the route points whose kind the file omits
   SexagesimalAngle angle{};
-  radar::Rgb& color;  // the colour read last; FormSlot::store copies it to the field of its slot
+  radar::Rgb& color;  // the colour read last; FormSlot::store copies it to the field of the slot that contains it
   HueSaturationValue hue{};
   radar::Material& material;
   radar::RainCell& rain_cell;
@@ -126,7 +126,8 @@ BuilderPointer new_builder();
 // Builder with a finished configuration, for printing.
 BuilderPointer builder_of(const radar::RadarConfiguration& configuration);
 
-// Kinds of slots. The function `of` returns the field that a slot writes. If `of` is null, the value is only validated.
+// Kinds of slots. The functions `of`, `first`, `second`, `low` and `high` return a field that the slot writes. If they
+// or `set` are null, the value is only validated.
 struct NumberSlot {
   double& (*of)(ConfigurationBuilder&) = nullptr;
   double si_per_unit = 1.0;  // field = value * si_per_unit
@@ -172,7 +173,7 @@ struct PairSlot {  // a list of two numbers
 struct SpanSlot {  // two numbers, low < high; or one number n, the width of the interval
   double& (*low)(ConfigurationBuilder&) = nullptr;
   double& (*high)(ConfigurationBuilder&) = nullptr;
-  bool centred = true;  // the width n means -n/2 to n/2; false: 0 to n
+  bool centred = true;  // true: the width n means -n/2 to n/2; false: 0 to n
 };
 struct SymmetricSlot {  // two numbers, -limit and limit
   double& (*of)(ConfigurationBuilder&) = nullptr;
@@ -181,8 +182,8 @@ struct FormSlot {
   std::vector<std::string_view> accepted;
   std::vector<std::string_view> printed;           // accepted forms that are printed, in this order
   bool many = false;                               // true: one form or a list of forms; false: one form
-  void (*store)(ConfigurationBuilder&) = nullptr;  // after each form is read: copies its result to its field
-  void (*load)(ConfigurationBuilder&) = nullptr;   // before the forms are printed: the inverse of store
+  void (*store)(ConfigurationBuilder&) = nullptr;  // called after each form: copies its value to the slot's field
+  void (*load)(ConfigurationBuilder&) = nullptr;   // called before the forms are printed: the inverse of store
 };
 
 using Binding = std::variant<NumberSlot, IntegerSlot, CounterSlot, BooleanSlot, TextSlot, PathSlot, AngleSlot,
@@ -271,7 +272,7 @@ std::vector<FormSchema> limit_forms();       // WindowLimits, HeightRanges
 std::vector<FormSchema> beacon_forms();      // Beacons, Beacon
 std::vector<FormSchema> device_forms();      // Devices, Device, Button, Axis
 
-// Rule: WindowLimits has a row for every window of SarMode.
+// Rule: WindowLimits lists every window of SarMode, with a minimum and a maximum cursor range.
 std::optional<ConstraintViolation> check_windows_have_limits(const ConfigurationBuilder& builder);
 
 // Rule: latitude and longitude are given.

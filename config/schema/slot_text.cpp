@@ -17,7 +17,7 @@ namespace {
 
 constexpr const char* kManual = "`yars config print --defaults` explains every slot";
 
-// Validates one value and writes it into the field of its slot, for each kind of slot.
+// Validates one value and writes it into the field of its slot. One operator() for each kind of slot.
 class Reader {
  public:
   Reader(ConfigurationBuilder& builder, const SlotSchema& slot, const Value& value)
@@ -188,8 +188,8 @@ void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, con
 
 namespace {
 
-// The value in the unit of a slot whose product with si_per_unit is exactly `si`. Rounding can make the quotient the
-// neighbouring double of that value. If no such value exists, the quotient is returned.
+// Converts `si` to the unit of a slot: the number whose product with si_per_unit is exactly `si`. Rounding can make
+// si / si_per_unit one double less or greater than that number. If no candidate fits, the quotient is returned.
 double in_units(double si, double si_per_unit) {
   const double quotient = si / si_per_unit;
   for (const double candidate : {quotient, std::nextafter(quotient, -1e308), std::nextafter(quotient, 1e308)}) {
@@ -204,7 +204,7 @@ std::string list_text(const std::vector<double>& numbers) {
   return text + ")";
 }
 
-// The value of a slot as GUF text, for each kind of slot.
+// The value of a slot as GUF text. One operator() for each kind of slot.
 struct Writer {
   ConfigurationBuilder& builder;
 
@@ -250,13 +250,13 @@ std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot) {
 
 namespace {
 
-// Remark for the manual: the slot is not used, or has the same effect as another slot. Empty: neither applies.
+// Remark for the manual: the slot has the same effect as another slot, or is not used. Empty: no remark applies.
 std::string use_of(const FormSchema& form, const SlotSchema& slot) {
   if (!slot.same_as.empty()) return "; the same as " + std::string(slot.same_as);
   return is_used(slot) || form.part_of_value ? "" : "; read, not used";
 }
 
-// Default of a slot as text. Empty: the slot contains forms, is unused, or belongs to a form that occurs only in slots.
+// Default of a slot as text. Empty: the slot contains forms, is unused, or its form is part_of_value (schema.hpp).
 std::string default_text(const FormSchema& form, const SlotSchema& slot) {
   return form.part_of_value ? std::string() : slot_text(*new_builder(), slot);
 }

@@ -1,7 +1,7 @@
-// Slots as values and as text: reads one value into its field; prints fields, configurations and the manual.
+// Reads one value of a configuration file into the field of its slot. Prints slots, configurations and the manual.
 // Inputs: a row of schema.hpp, and a value of the syntax tree or a configuration.
 // Outputs: the field of the slot; GUF text that reads back as an equal configuration; Markdown.
-// Units: the value has the unit of the row. The field has the unit in its name; NumberSlot converts.
+// Units: the value has the unit that its row states. The field has the unit in its name; NumberSlot converts.
 // Errors: ParseError with location, kind and range of the slot, and the value found.
 #pragma once
 
@@ -24,8 +24,8 @@ void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, con
 // The value of a slot as GUF text. Empty: the slot is unused, contains forms, or its value is unknown (NaN).
 std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot);
 
-// A configuration as GUF text, which reads back as an equal configuration. Left out are unused slots, values without a
-// text such as NaN, and slots that have the same effect as another one (SlotSchema::same_as).
+// A configuration as GUF text, which reads back as an equal configuration. The text omits unused slots, slots whose
+// slot_text() is empty, and slots with the same effect as another slot (SlotSchema::same_as).
 std::string print_configuration(const radar::RadarConfiguration& configuration);
 
 // Like print_configuration(), with a comment before each slot: position, kind, range, default, purpose. Forms that were

@@ -9,7 +9,8 @@ namespace {
 
 using namespace yars;
 
-// Priority of the ownship lane of a flight model. Other programs may choose a higher or lower priority.
+// Priority of a flight model's ownship lane. The radar uses the lane of the highest priority that delivers records.
+// Other programs may choose a higher or lower priority.
 constexpr std::uint32_t kPriority = 10;
 // Priority of the ownship lane of a bridge: a source that receives the UDP packets of another program. While packets
 // arrive, the radar follows the bridge; otherwise it follows a flight model in the same session.
@@ -26,7 +27,7 @@ error::Expected<void> fly(databuffer::Session& session, databuffer::TickLoop& lo
   return loop.outcome();
 }
 
-// Adds the folder of installed routes to the name of a route that is not in the current folder.
+// Replaces the name of an installed route by its path, unless the current folder has a file of that name.
 std::string with_installed_route(const std::string& source_text) {
   const std::string prefix = "route:";
   return source_text.starts_with(prefix) ? prefix + databuffer::installed_file(source_text.substr(prefix.size()))

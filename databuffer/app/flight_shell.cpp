@@ -16,10 +16,10 @@ namespace yars::databuffer {
 namespace {
 
 // [ns] Maximum gap of sim time across which a restarted program resumes the flight. After a longer gap, the flight
-// begins again at its start.
+// begins again at its start, or at the session's last repositioning.
 constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
-// [ticks] Interval of ownship records, 20 ms. A longer interval moves the apex of the sweeps in visible steps. A
-// shorter interval changes no sweep.
+// [ticks] Interval of ownship records, 20 ms. A longer interval would move the apex of the sweeps in visible steps. A
+// shorter interval would change no sweep.
 constexpr std::int64_t kTicksBetweenRecords = 4;
 
 }  // namespace
@@ -42,8 +42,8 @@ void FlightShell::step(const TickLoop::Due& due) {
   last_published_tick_ = due.tick;
 }
 
-// Time step since the last tick; 0 at the start of an epoch, because times of different epochs are not comparable.
-// Skipped ticks become one long step.
+// Sim time since the last tick; skipped ticks become one long step. 0 for the first tick of the program. 0 also for the
+// first tick of an epoch, because times of different epochs are not comparable.
 geo::Duration FlightShell::time_since_last(const TickLoop::Due& due) const {
   if (!started_ || due.new_epoch || due.tick <= last_tick_) return {};
   return geo::Duration::seconds(static_cast<double>(due.tick - last_tick_) * radar::kTickSeconds);
@@ -64,7 +64,7 @@ void FlightShell::begin_epoch(const ClockState& clock) {
                                     geo::AltitudeMsl::metres(clock.reposition_altitude_m),
                                     geo::Bearing::degrees(clock.reposition_heading_deg)};
   const bool placed = source_.model->reposition(placement);
-  // `followed`: this epoch was started because another source jumped. No user requested the repositioning, so a refusal
+  // `followed`: a jump of the aircraft's source began this epoch. No user requested the repositioning, so a refusal
   // needs no warning.
   if (clock.followed != 0) {
     if (placed && !started_) log::info("begins at the session's last repositioning, not at the start of its flight");
@@ -96,7 +96,7 @@ void FlightShell::stand_by(const TickLoop::Due& due) {
                              geo::Bearing::degrees(followed.heading_deg)});
 }
 
-// True if the model continues the flight of a predecessor in this epoch.
+// True if the model continues the flight of an earlier process in this epoch. Never true in lockstep.
 bool FlightShell::resume(const TickLoop::Due& due) {
   if (every_tick_) return false;
   const auto model = read_valid(session_->layout().model_status);
@@ -124,13 +124,13 @@ geo::Duration duration_of(std::int64_t nanoseconds) {
   return geo::Duration::seconds(1e-9 * static_cast<double>(nanoseconds));
 }
 
-// CLOCK_MONOTONIC time [ns] at which a tick was due, at most 0.1 s ago. While the clock is frozen, the result is the
-// present time.
+// CLOCK_MONOTONIC time [ns] at which a tick was due, limited to the last 0.1 s. While the clock is frozen, the result
+// is the present time.
 std::int64_t moment_of(const TickLoop::Due& due) {
   const std::int64_t now_ns = monotonic_ns();
   if (due.clock.running == 0 || !(due.clock.rate > 0.0)) return now_ns;
   const double since_base_ns = static_cast<double>(due.sim_time_ns - due.clock.base_sim_ns) / due.clock.rate;
-  constexpr double kMaxLateness_ns = 1e8;  // 0.1 s: kMaxTicksBehind at rate 1
+  constexpr double kMaxLateness_ns = 1e8;  // 0.1 s: kMaxTicksBehind ticks at rate 1
   const double late_ns = static_cast<double>(now_ns - due.clock.base_monotonic_ns) - since_base_ns;
   return now_ns - static_cast<std::int64_t>(std::clamp(late_ns, 0.0, kMaxLateness_ns));
 }
@@ -173,9 +173,9 @@ void BridgeShell::step(const TickLoop::Due& due) {
 }
 
 void BridgeShell::begin_epoch(const ClockState& clock) {
-  // An epoch that was started because a source jumped needs no message. That source may be this bridge.
+  // A reset needs no message. Nor does an epoch that began because a source jumped; that source may be this bridge.
   if (std::isnan(clock.reposition_latitude_deg) || clock.followed != 0) return;
-  const std::string line = "repositioning: " + source_.name + " flies by itself; move it there";
+  const std::string line = "repositioning: " + source_.name + " controls the aircraft; reposition it there";
   session_->note(NoteKind::refusal, line);
   log::warning(line);
 }
@@ -201,11 +201,11 @@ void BridgeShell::take(memory::Bytes datagram, const bridges::Sender& from, std:
   if (const auto news = source_.bridge->take_log_message()) log::info(*news);
   if (!sample) return refuse(sample.error().message(), now);
   if (!*sample) return;
-  if (gate_.taken(from, now) && one_sender) log::info("hears " + source_.name + " from " + text_of(from));
+  if (gate_.taken(from, now) && one_sender) log::info("receives " + source_.name + " from " + text_of(from));
   if (source_.requests_data) lock_to_responder(from);
   flight_.receive(**sample, now);
   if (flight_.jumps() == std::exchange(reported_jumps_, flight_.jumps())) return;
-  log::info(source_.name + " put the aircraft elsewhere");
+  log::info(source_.name + " has moved the aircraft to another position");
 }
 
 void BridgeShell::lock_to_responder(const bridges::Sender& from) {
@@ -242,7 +242,7 @@ void BridgeShell::report_drops() {
 void BridgeShell::report_presence(bool receiving) {
   if (receiving == std::exchange(receiving_, receiving)) return;
   if (receiving) return log::info("the aircraft is flown by " + source_.name);
-  const std::string line = source_.name + " is silent; the aircraft is left to other sources";
+  const std::string line = source_.name + " is silent; other sources may fly the aircraft";
   session_->note(NoteKind::loss, line);
   log::warning(line);
 }

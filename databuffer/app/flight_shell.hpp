@@ -1,6 +1,6 @@
-// Shells of flight-model: publish ownship and nav of a flight model or of a bridge (bridge.hpp) in an ownship lane.
+// Shells of flight-model. They publish ownship and nav of a flight model, or of a bridge (bridge.hpp), in one lane.
 // Inputs: ticks of a TickLoop; for a bridge also UDP datagrams.
-// Outputs: Ownship and Nav at 50 Hz live, at each tick in lockstep; Traffic at 1 Hz from a bridge that reports it.
+// Outputs: Ownship and Nav at 50 Hz, in lockstep at each tick; Traffic at 1 Hz from a bridge that reports it.
 // Units: sim time [ns] of the session clock; a bridge extrapolates by CLOCK_MONOTONIC [ns].
 // Errors: refused records and repositionings are written to the log and the flight recorder.
 // Threads: one; a step never waits.
@@ -43,7 +43,8 @@ class FlightShell {
  private:
   geo::Duration time_since_last(const TickLoop::Due& due) const;
   void begin_epoch(const ClockState& clock);
-  // Moves this model to the ownship that the radar uses, unless it is stale or this lane has the higher priority.
+  // While the radar uses another lane, moves this model to the ownship of that lane. Exceptions: that ownship is stale,
+  // or this lane has the higher priority.
   void stand_by(const TickLoop::Due& due);
   // Continues the flight of an earlier process from the last ownship in ModelStatus. Condition: that ownship is from a
   // source of the same name, in this epoch, and at most 10 s of sim time old. False: not continued.
@@ -59,17 +60,18 @@ class FlightShell {
 };
 
 // Maximum number of datagrams processed per tick. Further datagrams stay in the kernel's queue, which drops datagrams
-// when it is full. With a larger maximum a flood of packets can delay a tick.
+// when it is full. With a larger maximum a flood of packets could delay a tick.
 inline constexpr std::size_t kMaxDatagramsPerTick = 256;
 
 // Opens the UDP socket of the source.
 error::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);
 
 // Publishes the aircraft that an external program flies, and the surface traffic that it reports.
-// The external program keeps its own clock: it continues while the session is frozen, and a clock rate other than 1
-// does not affect it. A position that changed during a freeze counts as a jump, which needs a new epoch. The bridge
-// refuses a repositioning, which only the external program can do. Publishing stops when no packet arrives for the
-// extrapolation limit of the bridge. The lane then becomes stale, and another lane is used until packets arrive again.
+// The external program has its own clock. The program continues while the session is frozen, and a clock rate other
+// than 1 does not affect it. A position that changed during a freeze counts as a jump, which needs a new epoch. The
+// bridge refuses a repositioning, which only the external program can do. Publishing stops when no packet arrives for
+// the extrapolation limit of the bridge. The lane is then stale, and the radar uses another lane until packets arrive
+// again.
 // Traffic is published unless another program has the traffic role when the bridge starts.
 class BridgeShell {
  public:
@@ -103,7 +105,7 @@ class BridgeShell {
   bridges::SenderGate gate_;
   bridges::RefusalNotes refusals_;
   std::uint64_t reported_drops_ = 0;
-  std::int64_t latest_ns_ = 0;  // CLOCK_MONOTONIC of the newest packet; never decreases
+  std::int64_t latest_ns_ = 0;  // arrival time of the newest packet (CLOCK_MONOTONIC); never decreases
   // The responder is the address that answers the requests. True: the socket receives only from it.
   bool locked_to_responder_ = false;
   std::int64_t last_reply_ns_ = 0;  // CLOCK_MONOTONIC of the responder's newest packet

@@ -89,7 +89,8 @@ struct UdpSocket::State {
     descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (descriptor < 0) return error::fail("UDP", "a socket", std::strerror(errno));
     const int yes = 1;
-    // Errors are ignored. Without these options the arrival time is the time of the read, and drops are not counted.
+    // Errors are ignored. Without SO_TIMESTAMPNS the arrival time is the time of the read; without SO_RXQ_OVFL drops
+    // are not counted.
     setsockopt(descriptor, SOL_SOCKET, SO_TIMESTAMPNS, &yes, sizeof yes);
     setsockopt(descriptor, SOL_SOCKET, SO_RXQ_OVFL, &yes, sizeof yes);
     setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &kQueue_bytes, sizeof kQueue_bytes);
@@ -113,7 +114,8 @@ struct UdpSocket::State {
     return recvmmsg(descriptor, headers.data(), static_cast<unsigned>(count), MSG_DONTWAIT, nullptr);
   }
 
-  // Returns the age of the datagram [ns] by the kernel's time stamp. Adds the kernel's new drops to `dropped`.
+  // Returns the age of the datagram [ns] by the kernel's time stamp; 0 without a valid stamp. Adds the kernel's new
+  // drops to `dropped`.
   std::int64_t read_control(msghdr& header, std::int64_t now_ns) {
     std::int64_t age_ns = 0;
     for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr; part = CMSG_NXTHDR(&header, part)) {
@@ -146,7 +148,7 @@ error::Expected<UdpSocket> UdpSocket::listen(const std::string& host, std::uint1
     const std::string subject = "UDP " + text_of(sender_of(*address));
     if (errno == EADDRINUSE)
       return error::fail(subject, "a free port", "a port on which another program listens",
-                         "end that program (ss -ulpn names it), or take another port on both sides");
+                         "end that program (ss -ulpn names it), or choose another port in both programs");
     return error::fail(subject, "an address of this machine", std::strerror(errno));
   }
   sockaddr_in bound{};
@@ -170,7 +172,8 @@ error::Expected<UdpSocket> UdpSocket::open_to_peer(const std::string& host, std:
 void UdpSocket::receive(std::size_t max_count, const DatagramHandler& take) {
   while (max_count > 0) {
     const int count = state_->read_batch(max_count);
-    // No datagram, or the kernel reports an error of an earlier send: no listener at the peer. The next call reads on.
+    // Either no datagram is left, or the kernel reports that no program listens at the peer of an earlier send. The
+    // next call can read again.
     if (count <= 0) return;
     const std::int64_t wall_ns = realtime_ns();
     const std::int64_t now_ns = monotonic_ns();

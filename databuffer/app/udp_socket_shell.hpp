@@ -16,8 +16,8 @@
 
 namespace yars::databuffer {
 
-// Buffer [bytes] of one datagram: one byte more than the longest packet of any bridge. A longer datagram is truncated
-// to this length, which no decoder accepts.
+// Buffer [bytes] of one datagram: one byte more than the longest packet of any bridge (kMaxJsbsimLine). A longer
+// datagram is truncated to this length, which no decoder accepts.
 inline constexpr std::size_t kMaxDatagram_bytes = 16'385;
 
 std::string text_of(const bridges::Sender& sender);  // "127.0.0.1:5500"
@@ -31,8 +31,8 @@ class UdpSocket {
   UdpSocket(UdpSocket&&) noexcept;
   ~UdpSocket();
 
-  // Makes the kernel discard datagrams of all other senders, until receive_from_all(). The destination of send() does
-  // not change, because X-Plane answers from a port other than the one that it listens on.
+  // Makes the kernel discard datagrams of all other senders, until receive_from_all(). send() continues to use the
+  // address of open_to_peer(), because X-Plane answers from another port than the port on which it listens.
   void receive_only_from(const bridges::Sender& sender);
   void receive_from_all();
 

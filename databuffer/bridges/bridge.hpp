@@ -1,8 +1,9 @@
-// Bridge: the interface of a protocol by which an external program flies the aircraft. Choice among several senders.
+// Bridge: decoder and encoder of the protocol by which an external program flies the aircraft. SenderGate: choice
+// of one sender among several.
 // Inputs: datagrams with sender and arrival time.
 // Outputs: validated samples of the aircraft, tracked entities, datagrams to send.
 // Errors: a refused datagram returns an Error with the reason.
-// Threads: pure; a Bridge opens no socket and reads no clock.
+// Threads: one thread per object. A Bridge opens no socket and reads no clock.
 #pragma once
 
 #include <cstddef>
@@ -49,7 +50,7 @@ class SenderGate {
 
 using Datagram = std::vector<std::byte>;
 
-// Decoder and encoder of one protocol. `now` is the time of any clock that does not go back.
+// Interface of one protocol. `now` is the time of any clock that does not go back.
 class Bridge {
  public:
   virtual ~Bridge() = default;
@@ -61,7 +62,7 @@ class Bridge {
   // Sets the sender of the datagram that the next receive() gets.
   virtual void set_sender(const Sender&) {}
 
-  // Datagrams to send to the program now. Call at least once a second.
+  // Datagrams to send to the external program now. Call at least once a second.
   virtual std::vector<Datagram> requests(geo::Duration) { return {}; }
   // Datagrams to send when the bridge ends.
   virtual std::vector<Datagram> closing_datagrams() const { return {}; }

@@ -34,7 +34,7 @@ error::Expected<std::optional<ExternalSample>> DisBridge::receive(memory::Bytes 
                    text_of(state->id) + ", the first air platform received";
   }
   if (state->id != aircraft_) {
-    if (const auto reason = traffic_.update(*state, now)) return error::fail("dis", "newer traffic", *reason);
+    if (const auto reason = traffic_.update(*state, now)) return error::fail("dis", "traffic without fault", *reason);
     return std::nullopt;
   }
   if (const auto reason = order_.order_fault(state->stamp)) return error::fail("dis", "a newer report", *reason);

@@ -43,7 +43,7 @@ class DisBridge final : public Bridge {
   bool has_traffic() const override { return true; }
   std::vector<TrackedEntity> traffic(geo::Duration now) const override { return traffic_.at(now); }
   std::optional<std::string> take_log_message() override;
-  // A DIS sender reports when receivers can no longer extrapolate its motion, and otherwise only once per heartbeat.
+  // A DIS sender reports an entity when its motion departs from the dead reckoning, else once per heartbeat (5 s).
   geo::Duration extrapolation_limit() const override { return kEntityTimeout; }
   bool allows_many_senders() const override { return true; }
 
@@ -51,7 +51,7 @@ class DisBridge final : public Bridge {
   void release_aircraft(std::string_view why);
 
   std::optional<EntityId> aircraft_;
-  bool configured_;            // configured by the user, so no other entity replaces it
+  bool configured_;            // true: the user configured aircraft_, so no other entity becomes the aircraft
   geo::Duration last_report_;  // last report of the aircraft
   StampOrder order_{kDisStampPeriod};
   EntityTable traffic_;

@@ -30,8 +30,8 @@ constexpr std::uint32_t kFrozenBit = 1U << 21U, kDeactivatedBit = 1U << 23U;
 // [s] Unit of a time stamp: 2^31 units are one hour. Bit 0, which marks an absolute clock, is not part of the number.
 constexpr double kStampUnit_s = 3600.0 / 2147483648.0;
 
-// [m] Bounds of the distance from the Earth's centre. No aircraft flies outside. Near the centre the conversion to
-// latitude is ill-conditioned.
+// [m] Bounds of an entity's distance from the Earth's centre. No aircraft flies outside these bounds. Near the centre
+// the conversion to latitude is ill-conditioned.
 constexpr double kMinRadius_m = 6'000'000.0, kMaxRadius_m = 7'000'000.0;
 
 struct Algorithm {
@@ -243,7 +243,7 @@ std::vector<TrackedEntity> EntityTable::at(geo::Duration now) const {
 
 namespace {
 
-// Combines the three numbers of a DIS id into the 32-bit id of the record. Different DIS ids can give the same id.
+// Combines the three numbers of a DIS id into the 32-bit id of the record. Different DIS ids can give one 32-bit id.
 std::uint32_t number_of(EntityId id) {
   const std::uint32_t sender = (static_cast<std::uint32_t>(id.site) << 8U) ^ id.application;
   return sender << 16U | id.entity;

@@ -1,6 +1,7 @@
 // Entity State PDUs (protocol data units) of a DIS exercise (Distributed Interactive Simulation): decoder, table of
 // entities, and surface traffic.
-// Inputs: datagrams of IEEE 1278.1 (1995, 1998, 2012), big-endian, 144 + 16 n bytes, of any exercise.
+// Inputs: datagrams of IEEE 1278.1 (1995, 1998, 2012) of any exercise, big-endian; 144 bytes, and 16 bytes for each
+// articulation parameter.
 // Outputs: position, attitude and velocity by entity, dead reckoned (extrapolated); a Traffic record.
 // Frame: location is ECEF [m]. Orientation is three turns from the ECEF to the body axes: psi about z, theta about y,
 // phi about x [rad]. Velocity [m/s] is in ECEF axes, or in body axes for dead reckoning algorithms 6 to 9.
@@ -34,7 +35,7 @@ struct EntityId {
 };
 std::string text_of(EntityId id);  // "SITE,APP,ENTITY"
 
-enum class EntityKind : std::uint8_t { other = 0, platform = 1 };  // values of the PDU; others are stored, too
+enum class EntityKind : std::uint8_t { other = 0, platform = 1 };  // as in the PDU; other values are stored unchanged
 enum class EntityDomain : std::uint8_t { other = 0, land = 1, air = 2, surface = 3, subsurface = 4, space = 5 };
 
 // Time stamps of DIS wrap each hour.
@@ -72,7 +73,7 @@ struct TrackedEntity {
 
 // Last report of each entity of a DIS exercise, by id. A report is dead reckoned until kEntityTimeout after its
 // arrival. `now` is the time of any clock that does not go back. A new entity is refused when the table holds
-// kMaxEntities. A report older than the last report of its entity is refused.
+// kMaxEntities. A report that is not newer than the last report of its entity is refused (StampOrder).
 class EntityTable {
  public:
   // Stores the report. Returns the reason if the report is refused, else nullopt.

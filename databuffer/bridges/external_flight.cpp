@@ -125,7 +125,7 @@ namespace {
 
 struct Displacement {
   geo::GeoPoint point;
-  geo::Angle meridian_turn;  // convergence of meridians: azimuth of the geodesic at its end minus that at its start
+  geo::Angle meridian_turn;  // convergence of meridians: azimuth of the geodesic at its end minus azimuth at its start
 };
 
 Displacement displacement_over_ground(const Ownship& from, double north_m, double east_m) {
@@ -144,19 +144,19 @@ struct Flown {
   geo::Vector3 displacement, velocity;
 };
 
-// Motion in t [s] with the velocity v and the acceleration a, which turn about w [rad/s].
+// Motion in t [s] with the initial velocity v and acceleration a, which both turn about the vector w [rad/s].
 // Source: IEEE 1278.1-1995 annex B and 1278.1-2012 annex E, matrices R1 and R2 of algorithms 7 and 8.
-// In a slow turn, rounding spoils the differences in R1 and R2. So the matrices are built from the quotients s1 to c4.
+// In a slow turn, rounding spoils the differences in R1 and R2. So both are built from the quotients s1, c2, s3 and c4.
 Flown flown(const geo::Vector3& v, const geo::Vector3& a, const geo::Vector3& w, double t) {
   const double x = glm::length(w) * t;
   if (x == 0.0) return {v * t + 0.5 * t * t * a, v + t * a};
   const double half = std::sin(0.5 * x) / x;
   const double s1 = std::sin(x) / x;
   const double c2 = 2.0 * half * half;   // (1 - cos x) / x^2
-  const bool slow = std::abs(x) < 0.02;  // the omitted terms of the series are below 2e-10 of the first
+  const bool slow = std::abs(x) < 0.02;  // series below: omitted terms are under 2e-10 of the first
   const double s3 = slow ? 1.0 / 6.0 - x * x / 120.0 : (1.0 - s1) / (x * x);   // (x - sin x) / x^3
   const double c4 = slow ? 1.0 / 24.0 - x * x / 720.0 : (0.5 - c2) / (x * x);  // (x^2 / 2 - 1 + cos x) / x^4
-  // The sum of a component of u along w, a multiple of u, and a component across w and u.
+  // The sum of a vector along w, a multiple of u, and a vector perpendicular to w and u.
   const auto turned = [&](const geo::Vector3& u, double along, double multiple, double across) {
     return along * t * t * glm::dot(w, u) * w + multiple * u + across * t * glm::cross(w, u);
   };
@@ -198,12 +198,13 @@ namespace {
 constexpr geo::Duration kMinRateInterval = geo::Duration::seconds(0.08);
 // Maximum interval for measuring rates; older reports do not describe the present motion.
 constexpr geo::Duration kMaxRateInterval = geo::Duration::seconds(1.0);
-// [m] If the reported velocity covers more than this distance while the position is unchanged, the aircraft stands
-// still. The distance exceeds two position steps of the coarsest source (JSBSim with seven digits: 11 m).
+// [m] The aircraft counts as stationary if its reported speed, times the time for which its position is unchanged,
+// exceeds this distance. The distance exceeds two position steps of the coarsest source (JSBSim, seven digits: 11 m).
 constexpr double kStationaryProof_m = 25.0;
 // [deg] Maximum difference of an angle that is blended. Blending a larger difference would visibly roll the picture.
 constexpr double kMaxBlendedAngle_deg = 30.0;
-// Maximum time by which a requested time may precede the last report. Example: a late tick is stepped after a report.
+// Maximum time by which a requested time may precede the last report. A tick that is processed late can request a time
+// before a report that has already arrived.
 constexpr geo::Duration kMaxBackward = geo::Duration::seconds(0.2);
 
 bool same_position(const Ownship& a, const Ownship& b) {

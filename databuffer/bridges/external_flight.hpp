@@ -4,8 +4,8 @@
 // Outputs: position, attitude and velocity at any requested time.
 // Units: degrees, metres, seconds, as in Ownship.
 // Frame: WGS84; velocities and accelerations north, east, down.
-// Errors: a report with a value out of range is refused and names the field.
-// Threads: pure; reads no clock.
+// Errors: a report with a value out of range is refused; the error names the field.
+// Threads: one thread per object. No function reads a clock.
 #pragma once
 
 #include <optional>
@@ -33,7 +33,7 @@ class StampOrder {
   // `period`: stamps wrap to zero at this value; without it they do not wrap.
   explicit StampOrder(std::optional<geo::Duration> period = std::nullopt) : period_(period) {}
 
-  // Returns nullopt if the packet is newer, else the reason. `stamp` is finite.
+  // Returns nullopt if the packet is accepted, else the reason for the refusal. `stamp` is finite.
   std::optional<std::string> order_fault(geo::Duration stamp);
 
  private:
@@ -85,13 +85,15 @@ error::Expected<ExternalSample> checked_sample(std::string_view source, const Re
 std::optional<AttitudeRates> rates_from_body(double roll_rate_dps, double pitch_rate_dps, double yaw_rate_dps,
                                              double pitch_deg, double roll_deg);
 
-// Ownship at the time `after` the sample; `after` may be slightly negative. The position moves along a geodesic with
-// constant acceleration. Velocity and acceleration turn by turn_radps. Attitude follows its rates, and is constant
-// without them. Heading and velocity are corrected for the convergence of meridians, so that the result is valid near
-// the poles. Angles are wrapped, and pitch is clamped to +-90 deg. The altitude may leave the range of the record.
+// Ownship at the time `after` the sample; `after` may be slightly negative. The acceleration has constant magnitude.
+// Velocity and acceleration turn at the rate turn_radps. The displacement is laid off along a geodesic. Attitude
+// follows its rates, and is constant without them. Heading and velocity are corrected for the convergence of meridians,
+// so that the result is valid near the poles. Angles are wrapped, and pitch is clamped to +-90 deg. The altitude may
+// leave the range of the record.
 Ownship dead_reckoned(const ExternalSample& sample, geo::Duration after);
 
-// Time constant [s] of blending to a new report. A shorter time shows jitter; a longer time lags in manoeuvres.
+// Time constant [s] of blending to a new report. With a shorter time the output would jitter. With a longer
+// time the output would lag in manoeuvres.
 inline constexpr geo::Duration kBlendTime = geo::Duration::seconds(0.25);
 // Position difference [m] that counts as a jump. The error of dead reckoning stays far below it.
 inline constexpr geo::Length kJumpDistance = geo::Length::metres(300.0);
@@ -100,7 +102,7 @@ inline constexpr geo::Length kJumpDistance = geo::Length::metres(300.0);
 // Each report is dead reckoned with its own rates and acceleration. A report without them uses values measured between
 // reports at least 80 ms apart. The difference between a new report and the current output decays with kBlendTime, so
 // that the output has no steps. A difference above kJumpDistance is a jump and applies at once. If the position stays
-// constant in spite of a velocity, the program is paused, and the aircraft stands still.
+// constant in spite of a velocity, the external program counts as paused, and the aircraft stands still.
 //
 // Accuracy: reports arrive 5 to 400 times a second, up to J [s] late, with gaps T [s]. In a turn with velocity v,
 // acceleration a and turn rate w, the output is within B = |v| J + a w T^3 / 6 + 1 m of the true position. The distance

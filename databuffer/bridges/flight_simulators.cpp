@@ -143,7 +143,7 @@ error::Expected<JsbsimColumns> parse_jsbsim_labels(std::string_view line) {
 error::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std::string_view line) {
   const std::vector<std::string_view> fields = text::fields_of(line, ',');
   if (fields.size() != columns.count)
-    return error::fail("jsbsim", std::to_string(columns.count) + " columns, as the labels name",
+    return error::fail("jsbsim", std::to_string(columns.count) + " columns, one for each label",
                        std::to_string(fields.size()));
   std::array<double, kJsbsimValues> values{};
   for (std::size_t value = 0; value < kJsbsimValues; ++value) {
@@ -168,7 +168,7 @@ error::Expected<JsbsimState> parse_jsbsim_line(const JsbsimColumns& columns, std
 
 void JsbsimBridge::keep(const JsbsimColumns& columns) {
   std::erase_if(labels_, [this](const Labels& labels) { return labels.sender == sender_; });
-  // The labels of the sender that flies the aircraft are never dropped.
+  // At the limit the oldest labels are dropped, but never those of the sender that flies the aircraft.
   const auto flies = [this](const Labels& labels) { return labels.sender == flying_sender_; };
   if (labels_.size() >= kMaxSenders) labels_.erase(std::ranges::find_if_not(labels_, flies));
   labels_.push_back({sender_, columns});

@@ -1,7 +1,7 @@
 // Decoders of flight simulator packets: FlightGear, JSBSim and X-Plane.
 // Inputs: one UDP datagram at a time.
 // Outputs: a checked ExternalSample, or nullopt while a state is incomplete; for X-Plane also requests.
-// Frame: geodetic latitude, altitude above mean sea level, true angles, velocity north, east, down.
+// Frame: geodetic latitude, altitude above mean sea level, true heading, velocity north, east, down.
 // Errors: a datagram with another format, or with values out of range, is refused with a reason.
 // Source: docs/spec/formats.md#flightgear, #jsbsim and #xplane.
 #pragma once
@@ -38,7 +38,7 @@ error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
 // Maximum length [characters] of a line. JSBSim's lines have some hundreds of characters.
 inline constexpr std::size_t kMaxJsbsimLine = 16'384;
 
-inline constexpr std::size_t kJsbsimValues = 10;  // values read from a line: the nine of Reading and the time
+inline constexpr std::size_t kJsbsimValues = 10;  // values read from a line: the required properties above
 struct JsbsimColumns {
   // Column index of each value. The values have the order of the required properties above.
   std::array<std::size_t, kJsbsimValues> of_value{};
@@ -66,7 +66,7 @@ class JsbsimBridge final : public Bridge {
     Sender sender;
     JsbsimColumns columns;
   };
-  static constexpr std::size_t kMaxSenders = 8;  // senders with stored labels; the oldest labels are dropped first
+  static constexpr std::size_t kMaxSenders = 8;  // number of senders with stored labels; keep() drops the oldest
 
   void keep(const JsbsimColumns& columns);
   const JsbsimColumns* columns() const;  // columns of the current sender; nullptr: unknown
@@ -81,14 +81,14 @@ class JsbsimBridge final : public Bridge {
 // X-Plane's datarefs (named values) by UDP, little-endian. A request has 413 bytes: "RREF", a zero, i32 rate [Hz], i32
 // number, 400 characters of name. A reply has "RREF", one byte, then pairs of i32 number and f32 value. A state is
 // complete when each dataref has arrived since the last complete state. Numbers that were not requested are ignored.
-// Accuracy: positions are f32, so longitude and latitude have steps of up to 0.85 m.
+// Accuracy: positions are f32, so the rounding error of longitude and of latitude is up to 0.85 m.
 // Frame: velocity is in X-Plane's local axes, level at a reference point, and is rotated to the aircraft's position.
 // Source: "Exchanging Data with X-Plane.rtfd" in every installation of X-Plane; names from its DataRefs.txt.
 inline constexpr std::size_t kXplaneDatarefs = 14;
 // Names, indexed by their numbers in requests and replies.
 extern const std::array<std::string_view, kXplaneDatarefs> kXplaneNames;
 
-inline constexpr int kXplaneRate_hz = 30;  // [Hz] most installations of X-Plane draw no faster
+inline constexpr int kXplaneRate_hz = 30;  // [Hz] requested rate; most installations of X-Plane draw no faster
 
 // Encodes a request; `times_a_second` 0 ends the subscription.
 Datagram xplane_request(std::size_t number, int times_a_second);

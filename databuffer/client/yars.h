@@ -2,8 +2,8 @@
  * Inputs: ownship, nav, surface traffic, input events. Outputs: radar state, model status, outputs, sweeps, frames.
  * Use: include this header before any system header, because it defines _GNU_SOURCE. yars_segment.h and yars_records.h
  * (the records) lie beside it. docs/attach.md shows its use. docs/shared_memory.md describes the segment.
- * Errors: a function that attaches, claims, publishes or pushes returns -1 and fills yars_session.error. Its success
- * means that the record was sent; `yars status` shows whether the record was accepted.
+ * Errors: a function that attaches, claims, publishes or pushes returns -1 and fills yars_session.error. Success means
+ * that the record was sent; `yars status` shows whether the record was accepted.
  * Threads: one at a time for each session. No function waits.
  *
  *   yars_session s;
@@ -19,7 +19,7 @@
 /* Position of a reader in the ring of sweeps. {0} begins with the oldest sweep in the segment. */
 typedef struct {
   uint64_t next; /* number of the next sweep to read */
-  uint64_t lost; /* number of sweeps that were overwritten before this reader read them */
+  uint64_t lost; /* number of sweeps that were damaged, or overwritten before this reader read them */
   int begun;     /* 0: not begun; the first read sets `next` */
 } yars_sweep_cursor;
 
@@ -69,7 +69,7 @@ static inline int64_t yars_monotonic_ns(void) {
   return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
-/* Writes the time at which this program is alive, for `yars status`. Call it about once a second. */
+/* Writes the present time as this program's heartbeat, for `yars status`. Call it about once a second. */
 static inline void yars_heartbeat(const yars_session* s) {
   if (s->process >= 0)
     yars_store(yars_word(s, YARS_AT_PROCESSES + 40 * (size_t)s->process), (uint64_t)yars_monotonic_ns());
@@ -149,8 +149,8 @@ static inline void yars_detach(yars_session* s) {
   yars_leave(s);
 }
 
-/* 1 while radar-model or state-machine takes part, even if it is stopped or does not respond; else 0. A program that
- * was killed takes part again when scripts/start has restarted it. At 0, detach and attach again: this attachment keeps
+/* 1 while radar-model or state-machine takes part, even if stopped or not responding; else 0. A program that was killed
+ * takes part again when scripts/start has restarted it. At 0, detach and attach again: this attachment keeps
  * the old segment in existence, and a new set may create another segment. Cost: two system calls. */
 static inline int yars_set_runs(const yars_session* s) {
   return s->memory != NULL && (yars_is_held(s, YARS_RADAR_MODEL_BYTE) || yars_is_held(s, YARS_STATE_MACHINE_BYTE));
@@ -161,7 +161,7 @@ static inline int yars_set_runs(const yars_session* s) {
 static inline int64_t yars_sim_time_ns(const yars_session* s) {
   yars_clock clock;
   if (yars_read(s, YARS_AT_CLOCK, &clock, sizeof clock) == 0) return 0;
-  /* A damaged clock stands still: other programs can write here, and a rate out of range would overflow the time. */
+  /* A damaged clock stands still, because a rate out of range would overflow the time. Any program can damage it. */
   if (clock.running == 0 || !(clock.rate >= 0.0 && clock.rate <= 10.0)) return clock.base_sim_ns;
   if (clock.base_sim_ns < 0 || clock.base_sim_ns > YARS_LATEST_CLOCK_BASE_NS || clock.base_monotonic_ns < 0 ||
       clock.base_monotonic_ns > YARS_LATEST_CLOCK_BASE_NS)
@@ -201,8 +201,8 @@ static inline int yars_publish_nav(yars_session* s, const yars_nav* nav) {
   return 0;
 }
 
-/* Claims the traffic role: one program sends all ships and vehicles, in each yars_publish_traffic(). Between two calls
- * the radar extrapolates each of them by its velocity, for at most 12 s. */
+/* Claims the traffic role, which one program has. Each yars_publish_traffic() sends all ships and vehicles. Between two
+ * calls the radar extrapolates each of them by its velocity, for at most 12 s. */
 static inline int yars_claim_traffic(yars_session* s) {
   if (yars_claim(s, YARS_TRAFFIC_BYTE, 1) < 0)
     return yars_fail(s, "traffic", "another program sends it; `yars status` names the holder");
@@ -270,7 +270,7 @@ static inline int yars_push_event(yars_session* s, const yars_input_event* event
   return 0;
 }
 
-/* ---- Reading. Returns 1 if there is a value, 0 if there is none yet. ---- */
+/* ---- Reading. Each function returns 1 if there is a value, 0 if there is none. ---- */
 static inline int yars_read_radar_state(const yars_session* s, yars_radar_state* state) {
   return yars_read(s, YARS_AT_RADAR_STATE, state, sizeof *state);
 }
@@ -307,7 +307,7 @@ static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_gl
 }
 
 /* Reads the next sweep and advances the cursor. Returns 0 if there is no new sweep; `sweep` is then unspecified. The
- * ring has the last 1023 sweeps, some seconds. cursor->lost counts older sweeps that were not read. */
+ * ring has the last 1023 sweeps, some seconds. cursor->lost counts the missed sweeps: overwritten or damaged. */
 static inline int yars_read_sweep(const yars_session* s, yars_sweep_cursor* cursor, yars_sweep* sweep) {
   for (int attempt = 0; attempt < 9; ++attempt) {
     const uint64_t end = yars_load(yars_word(s, YARS_AT_SWEEPS));

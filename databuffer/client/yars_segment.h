@@ -77,7 +77,7 @@ static inline void yars_load_words(const uint64_t* words, void* record, size_t b
   }
 }
 
-/* ---- LatestValue: a state word in its own cache line, then four slots of sequence, version, words.
+/* ---- LatestValue: a state word in its own cache line, then four slots. A slot has sequence, version, record words.
  * Protocol: docs/shared_memory.md. `value_at`: offset of the container [bytes]. `bytes`: size of the record. ---- */
 #define YARS_LINE ((size_t)64)
 #define YARS_SLOTS 4
@@ -123,7 +123,7 @@ static inline int yars_read(const yars_session* s, size_t value_at, void* record
 }
 
 /* ---- Locks on bytes of the segment's file ---- */
-/* `kind`: F_RDLCK, F_WRLCK or F_UNLCK. Returns 0, or -1 if another program has the lock. */
+/* `kind`: F_RDLCK, F_WRLCK or F_UNLCK. Returns 0, or -1 if another open file description has the lock. */
 static inline int yars_lock(const yars_session* s, int byte, short kind) {
   struct flock lock;
   memset(&lock, 0, sizeof lock);

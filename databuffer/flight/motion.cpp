@@ -34,8 +34,8 @@ Leg::Leg(geo::GeoPoint from, const geo::GeodesicInverse& inverse)
 Leg::Fix Leg::fix(geo::GeoPoint position, geo::Length near) const {
   Fix fix{near, {}, {}};
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
-    // At the foot the line to the aircraft is perpendicular to the leg. Otherwise its component along the leg is the
-    // next correction.
+    // At the foot, the line to the aircraft is perpendicular to the leg. From any other point, the component of this
+    // line along the leg is the next correction.
     const auto foot = ray_.position_and_azimuth(fix.along);
     const auto to_aircraft = geo::geodesic_inverse(foot.point, position);
     const geo::Angle angle = to_aircraft.azimuth_at_start - foot.azimuth;

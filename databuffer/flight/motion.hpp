@@ -60,8 +60,8 @@ class Leg {
     geo::Bearing course;  // direction parallel to the leg, at the position of the aircraft
   };
   // Position relative to the leg, to 1 mm. `near`: distance along the leg at which the iteration starts, such as the
-  // previous result. The iteration ends after 8 steps. These do not give 1 mm at a quarter of the Earth's circumference
-  // from the leg.
+  // previous result. The iteration ends after at most 8 steps. At a quarter of the Earth's circumference from the leg,
+  // 8 steps do not reach 1 mm.
   Fix fix(geo::GeoPoint position, geo::Length near) const;
 
   geo::GeoPoint point(geo::Length along) const { return ray_.position(along); }

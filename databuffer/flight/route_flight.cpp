@@ -29,7 +29,7 @@ bool too_close(const Waypoint& from, const Waypoint& to) {
   return geo::geodesic_inverse(from.point, to.point).distance.metres() < kMinLeg_m;
 }
 
-// Marks the route as a loop. The closing leg must not be too short.
+// Marks the route as a loop. Error: the leg from the last to the first waypoint is shorter than kMinLeg_m.
 Expected<void> close_loop(Route& route, const std::string& line_name) {
   route.loop = true;
   if (route.waypoints.size() < 2 || !too_close(route.waypoints.back(), route.waypoints.front())) return {};
@@ -75,8 +75,8 @@ constexpr double kClimbGain_per_s = 0.1;
 constexpr double kMaxLeadTurn_deg = 120.0;  // [deg] maximum turn in lead(); the tangent length diverges at 180 deg
 // Bank for planning turns. The margin to kBankLimit allows corrections for roll-in and for changes of speed.
 constexpr geo::Angle kPlannedBank = geo::Angle::degrees(27.0);
-constexpr double kCaptureTime_s = 8.0;      // [s] time constant of the distance from the leg, near the leg
-constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; its inverse exceeds a roll-in of 2 s
+constexpr double kCaptureTime_s = 8.0;      // [s] time constant with which the distance decays near the leg
+constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; its inverse exceeds the 2 s of a roll-in
 constexpr double kMaxIntercept_deg = 90.0;  // [deg] maximum of intercept()
 // [deg] Track error beyond which a turn in progress keeps its direction, even if the other direction is shorter.
 constexpr double kAmbiguousTurn_deg = 150.0;
@@ -180,13 +180,13 @@ geo::Length RouteFlight::lead() const {
   const double roll_in_s = std::min(turn_deg, kPlannedBank.degrees()) / kRollRate_dps;
   const double tangent_m = turn_radius_m(speed_mps) * std::tan(half_turn_rad);
   const auto wanted = geo::Length::metres(tangent_m + speed_mps * roll_in_s / 2.0);
-  // At most half the length of each leg; otherwise short legs would be skipped.
+  // At most half the length of the shorter leg. With a longer lead, short legs would be skipped.
   return std::min({wanted, 0.5 * leg_.length(), 0.5 * next_->length()});
 }
 
-// Commanded angle from the leg to the track, right positive, at most kMaxIntercept_deg. Closer to the leg than twice
-// beside_m, the angle is proportional to the distance from the leg. Farther away the path is a circular arc. The arc
-// would become parallel to the leg at the distance beside_m. At twice beside_m the two laws give nearly the same angle.
+// Commanded angle from the leg to the track, right positive, at most kMaxIntercept_deg. Far from the leg the path is a
+// circular arc, which would become parallel to the leg at the distance beside_m. Closer than twice beside_m, the angle
+// is proportional to the distance from the leg. At twice beside_m both laws give nearly the same angle.
 geo::Angle RouteFlight::intercept() const {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const double radius_m = turn_radius_m(speed_mps);
@@ -222,7 +222,8 @@ void RouteFlight::change_speeds(double dt_s) {
 void RouteFlight::move(double dt_s) {
   const double speed_mps = motion_.ground_speed.metres_per_second();
   const auto turn = geo::Angle::radians(kGravity_mps2 * std::tan(roll_.radians()) / speed_mps * dt_s);
-  // The chord of an arc is turned by half of the arc's turn. So half is applied before the step, and half after it.
+  // The chord of an arc deviates from the initial track by half the turn. So half the turn is applied before the step,
+  // and half after it.
   const geo::Length flown = geo::Length::metres(speed_mps * dt_s);
   const geo::GeodesicRay chord(motion_.point, motion_.track + 0.5 * turn);
   const auto end = chord.position_and_azimuth(surface_distance(motion_, flown));

@@ -59,7 +59,7 @@ class RouteFlight final : public FlightModel {
   bool reposition(const Placement& placement) override;
 
  private:
-  void fly_to(std::size_t waypoint, geo::GeoPoint from);  // sets leg_, next_ and target_
+  void fly_to(std::size_t waypoint, geo::GeoPoint from);  // sets leg_, next_, target_, fix_
   std::size_t nearest_leg_end(geo::GeoPoint position) const;
   void advance(double dt_s);
   void change_leg_in_time();

@@ -1,8 +1,8 @@
 // Flight along a recorded track, and the parser of the track file.
 // Inputs: track text; steps of sim time.
 // Outputs: Ownship and Nav.
-// Errors: a missing column, times that do not ascend, a value out of range, or text after `loop`; the error names the
-// line. Fewer than two rows.
+// Errors: fewer than two rows; a missing column, times that do not ascend, a value out of range, or text after `loop`
+// (the error then names the line).
 // Source: docs/spec/formats.md#csv.
 #pragma once
 
@@ -64,7 +64,7 @@ class TrackFlight final : public FlightModel {
   FlightSample sample_at_end() const;
 
   Track track_;
-  geo::Duration elapsed_;  // sim time since the first row; with `loop`, since its last repetition
+  geo::Duration elapsed_;  // sim time since the first row; with `loop`, since the last return to it
   std::size_t row_ = 0;    // index of the row at which segment_ begins
   Segment segment_;
 };

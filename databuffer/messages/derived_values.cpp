@@ -9,7 +9,7 @@ namespace yars::radar {
 geo::Bearing ground_track(geo::Speed north, geo::Speed east, geo::Bearing heading) {
   const double north_mps = north.metres_per_second();
   const double east_mps = east.metres_per_second();
-  // Below this speed the aircraft is parked or towed, and noise dominates the direction of its velocity.
+  // [m/s] Below this speed the aircraft is parked or towed, and noise dominates the direction of its velocity.
   constexpr double kMinMoving_mps = 1.0;
   if (std::hypot(north_mps, east_mps) < kMinMoving_mps) return heading;
   return geo::Bearing::radians(std::atan2(east_mps, north_mps));

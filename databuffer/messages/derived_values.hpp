@@ -26,7 +26,7 @@ namespace yars::databuffer {
 // ground_track() of an ownship record.
 geo::Bearing ground_track_of(const Ownship& ownship);
 
-// The aircraft's true position (`truth`), and the position that a navigator estimates (`estimated`). The model forms
+// The aircraft's true position (`truth`), and the position that a navigator estimates (`estimated`). radar-model forms
 // video as seen from `truth`. Sequence points and all positions reported to other systems are in the navigator's
 // coordinates. `estimated` is the navigator's position in Nav plus the navigator's error in the radar state.
 struct NavigatorPosition {
@@ -53,9 +53,9 @@ NavigatorPosition selected_navigator_position(const Ownship& ownship, const Nav&
 RadarCommand command_from_state(const RadarState& state);
 
 // Map timer [s] as displayed (docs/spec/pilots_interface.md#rule-6). While a map forms, it is the remaining time.
-// While no map forms, it is the formation time of a map at the cursor. It is then displayed only if the mode is RBM,
+// While no map forms, it is the formation time of a map at the cursor. It is then displayed only if resume_mode is RBM,
 // HRM PPI or patch, the cursor function is MAP, a window is selected, and a map can be commanded at the cursor.
-// nullopt: the display has no timer.
+// nullopt: the display shows no timer.
 std::optional<double> map_timer_s(const RadarState& state, const ModelStatus& model);
 
 }  // namespace yars::databuffer

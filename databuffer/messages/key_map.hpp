@@ -4,7 +4,7 @@
 // Threads: one per KeyboardState.
 // Source: docs/spec/pilots_interface.md#buttons, #controls.
 // Keys and their events, in the text form of input_event.hpp:
-//   2..9 a..k: pb 2..20 | arrows: tdc while held | Enter: tdc press, release | Tab: coolie up |
+//   2..9 a..k: pb 2..20 | arrows: tdc (full deflection while held) | Enter: tdc press, release | Tab: coolie up |
 //   Page Up, Page Down: acq fwd, aft | Space: freeze | [ ]: elevation down, up | F1 F2 F3: mode ag, aa, agr |
 //   F4: nav toggle | Escape: no event, but input-monitor ends.
 // pb: push button; tdc: throttle designator control, which moves the cursor; coolie: castle switch; acq: acquisition
@@ -47,7 +47,7 @@ Key key_of_glfw(int code);
 // Converts presses and releases of keys to events. Stores the set of held keys.
 class KeyboardState {
  public:
-  // Events of one press or release. Empty for a key without function, and for a repeated press (auto-repeat).
+  // Events of one press or release. Empty if the press or release has no event, and for auto-repeat.
   std::vector<InputEvent> change(Key key, bool pressed);
 
   // Events that release all held keys, for loss of focus or the end of the program.

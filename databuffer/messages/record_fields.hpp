@@ -1,4 +1,5 @@
-// Table of the fields of all records in the segment, by name. layout_json() writes it for programs in other languages.
+// Table of the fields of all records in the segment, by name. layout_json() writes this table for programs in other
+// languages.
 #pragma once
 
 #include <cstddef>

@@ -104,7 +104,8 @@ Option Command::find(const std::string& name) const {
 }
 
 namespace {
-// Makes all floating-point options, also those of subcommands, refuse NaN and infinity. A range check accepts NaN.
+// Makes all floating-point options, also those of subcommands, refuse NaN and infinity. CLI11's range check accepts
+// NaN.
 void require_finite_numbers(CLI::App& app) {
   const CLI::Validator finite(
       [](std::string& text) {

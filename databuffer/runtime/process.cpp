@@ -29,7 +29,7 @@ namespace {
 // Output stream of sanitize_terminal_output().
 struct PrintableOutput {
   int descriptor;
-  std::string unfinished;  // first bytes of a UTF-8 character; the next write has the others
+  std::string unfinished;  // first bytes of a UTF-8 character; the next write has its other bytes
 };
 
 bool write_all(int descriptor, std::string_view text) {
@@ -137,7 +137,7 @@ std::string bytes_or_unlimited(rlim_t limit) {
 void drop_to_normal_priority(int) {
   const sched_param normal{};
   sched_setscheduler(getpid(), SCHED_OTHER, &normal);
-  constexpr char kText[] = "a step took 0.5 s of CPU without a wait: normal priority from here on\n";
+  constexpr char kText[] = "the tick loop used 0.5 s of CPU without a wait: normal priority from now on\n";
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText, sizeof kText - 1);
 }
 
@@ -198,7 +198,7 @@ std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus) {
       absent.append(absent.empty() ? "" : ",").append(std::to_string(cpu));
   }
   if (!absent.empty())
-    return "--cpus: CPU " + absent + " is not available to this program (taskset -p $$ shows which are); all are used";
+    return "--cpus: CPU " + absent + " is not available to this program (see taskset -p $$); all allowed CPUs are used";
   if (sched_setaffinity(0, sizeof wanted, &wanted) == 0) return std::nullopt;
   return std::string("--cpus: refused: ") + std::strerror(errno) + "; all CPUs are used";
 }

@@ -22,7 +22,7 @@ void sanitize_terminal_output();
 // recordings.
 void set_private_umask();
 
-// From this call on SIGINT and SIGTERM set the flag of stop_requested().
+// After this call, SIGINT and SIGTERM set the flag of stop_requested().
 void install_signal_handlers();
 // Restores the default action of SIGINT and SIGTERM, for a command that never reads stop_requested().
 void restore_default_signal_actions();
@@ -32,8 +32,8 @@ bool stop_requested();
 void request_stop();
 
 // Real-time services. The system may refuse each; the program then names the limit to raise and continues.
-// If the first thread computes for kMaxBurst_ms without a wait, it returns to normal priority. Otherwise it could block
-// a CPU.
+// If the first thread computes for kMaxBurst_ms without a wait, it returns to normal priority. A real-time thread
+// without waits could block a CPU.
 
 // SCHED_FIFO priority, 1..99: above other programs, below Linux interrupt threads (50). A higher priority than 50 would
 // delay interrupts.

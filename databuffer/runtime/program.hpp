@@ -27,7 +27,7 @@ struct ProgramOptions {
   std::string session = "default";  // --session, else YARS_SESSION, else "default"
   std::string config;               // --config; empty: built-in defaults
   std::string log_level = "info";
-  std::string lockstep;   // --lockstep ROLE,ROLE,...[@END_TICK]; empty: live
+  std::string lockstep;   // --lockstep ROLE,ROLE,...[@END_TICK]; empty: no lockstep
   std::string log_dir;    // --log-dir DIR: also logs to DIR/PROGRAM.log; empty: no file
   bool realtime = false;  // --realtime: locked memory and SCHED_FIFO
   std::string cpus;       // --cpus 2,3: CPU affinity; empty: all

@@ -21,7 +21,7 @@ bool is_fresh(const Memory& memory, std::int64_t now_ns) {
 }
 
 // True if the lane is fresh and has delivered without a gap for kTakeoverAfter_ns. The time is measured from the first
-// arrival to the newest one, so that a single old record does not count.
+// arrival after the last gap to the newest arrival, so that a single old record does not count.
 bool is_established(const Memory& memory, std::int64_t now_ns) {
   return is_fresh(memory, now_ns) && *memory.received_ns - memory.delivering_since_ns >= kTakeoverAfter_ns;
 }

@@ -2,7 +2,7 @@
 // Inputs: ownship lanes, nav lanes and traffic of the segment; sim time and epoch of the tick.
 // Outputs: the selected ownship and nav; the latched traffic.
 // Errors: records that fail validate() are refused and counted; the last good value stays in use.
-// Units: times [ns]. The age of a record is measured in sim time, live and in lockstep.
+// Units: times [ns]. The age of a record is measured in sim time, with and without lockstep.
 // Threads: one per receiver. select_ownship is pure. JumpGuard has a state, but reads no clock.
 #pragma once
 
@@ -21,9 +21,9 @@
 namespace yars::databuffer {
 
 // [ns] Age above which an ownship lane is stale: 25 records of a 50 Hz source. With a shorter time a loaded machine
-// loses its source. With a longer one a dead source stays in use.
+// would lose its source. With a longer time a dead source would stay in use.
 inline constexpr std::int64_t kStaleAfter_ns = 500'000'000;
-// [ns] Time for which a lane must deliver without a gap before it replaces a fresh lane. A gap is longer than
+// [ns] Time for which a lane must deliver without a gap before it replaces a fresh lane. A gap is a pause longer than
 // kStaleAfter_ns.
 inline constexpr std::int64_t kTakeoverAfter_ns = 250'000'000;
 

@@ -173,8 +173,8 @@ bool TickLoop::wait_for(std::size_t role, std::int64_t tick) {
   return false;
 }
 
-// Waits until all roles have done the last tick. Otherwise a role that ends first would clear records that others
-// still read.
+// Waits until all roles have done the last tick. Without this wait, a role that ends first would clear records that
+// other roles still read.
 void TickLoop::wait_for_all(std::int64_t tick) {
   const std::uint32_t roles = session_->layout().lockstep.roles.load(std::memory_order_relaxed);
   for (std::size_t role = 0; role < kLockstepRoles; ++role)

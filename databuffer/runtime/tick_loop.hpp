@@ -4,7 +4,8 @@
 // Lockstep: wait() returns when the preceding role has finished the tick. Order of the roles: flight-model,
 // input-monitor, state-machine, radar-model, radar-display, recorder; then the next tick begins.
 // Inputs: the session clock; the option --lockstep.
-// Errors: --lockstep differs from the plan of the session; another role does not finish its tick in 60 s (outcome()).
+// Errors: --lockstep differs from the plan of the session, or is missing in a lockstep session; another role does not
+// finish its tick in 60 s (outcome()).
 // Threads: one thread per object.
 #pragma once
 
@@ -25,8 +26,8 @@ enum class LockstepRole : std::uint8_t {
   recorder = 5
 };
 
-// [ticks] Maximum number of late ticks that are caught up, 0.1 s. With a larger value a stall ends in a burst of late
-// ticks. With a smaller value short stalls skip ticks.
+// [ticks] Maximum number of late ticks that are caught up, 0.1 s. With a larger value a stall would end in a longer
+// burst of late ticks. With a smaller value short stalls would skip ticks.
 inline constexpr std::int64_t kMaxTicksBehind = 20;
 
 class TickLoop {
@@ -42,8 +43,8 @@ class TickLoop {
     bool new_epoch = false;     // the epoch has changed since the previous call
   };
   // Waits for the next tick. nullopt: a stop was requested, the last tick of a lockstep run is done, or another role
-  // of a lockstep run has not finished its tick in 60 s (see outcome()). Live, while the clock is frozen, a tick is due
-  // only at the start, in a new epoch or after `yars sim step`.
+  // of a lockstep run has not finished its tick in 60 s (see outcome()). While the clock of a live session is frozen, a
+  // tick is due only at the start, in a new epoch or after `yars sim step`.
   std::optional<Due> wait();
   // Must be called after each wait() that returned a tick, when all outputs of the tick are published.
   void done(const Due& due);
@@ -68,7 +69,7 @@ class TickLoop {
   bool failed_ = false;  // another role did not finish its tick in 60 s
   bool started_ = false;
   std::size_t predecessor_ = 0;  // the role awaited in each tick
-  bool first_in_chain_ = false;  // the predecessor is the last role of the previous tick
+  bool first_in_chain_ = false;  // true: this role begins each tick, after its predecessor ended the previous tick
   std::size_t awaited_role_ = 0;
   std::int64_t awaited_tick_ = 0;
   std::int64_t next_tick_ = 0;

@@ -3,7 +3,7 @@
 // Outputs: a whole picture by id, or the newest frame.
 // Errors: false if no slot has the id, or if the writer replaced the picture during the copy. Records are not validated
 //   here.
-// Threads: one writer and any readers; none waits. A writer killed after any store leaves no partial picture.
+// Threads: one writer and any number of readers; none waits. If the writer is killed, readers find no partial picture.
 // Source: docs/shared_memory.md.
 #pragma once
 
@@ -44,8 +44,8 @@ auto slot_of(Slots& slots, std::uint64_t id) -> decltype(&slots[0]) {
   return id == 0 || slot == slots.end() ? nullptr : &*slot;
 }
 
-// True if the slot still has the id. The words copied before belong to this picture. Words are loaded with acquire: a
-// reader that has loaded a new word also sees the cleared id.
+// True if the slot still has the id; all words copied before this call then belong to the picture. Words are loaded
+// with acquire: a reader that has loaded a word of a newer picture also sees that the id was cleared.
 template <class Access, class Slot>
 bool still_holds(const Slot& slot, std::uint64_t id) {
   return Access::load(slot.id, std::memory_order_relaxed) == id;
@@ -97,7 +97,7 @@ inline std::size_t patch_pixels(const PatchMap& map) {
 }
 
 // Writes a map with its id and patch_pixels(map) bytes over the oldest map that is not in `keep`. `keep` holds the ids
-// that the radar state names or may be about to name, and the writer's last map. False: all slots are kept.
+// that the radar state names or may name next, and the id of the writer's last map. False: `keep` has all slots' ids.
 template <class Access = shm::PlainAccess>
 bool publish_patch(SessionLayout& layout, const PatchMap& map, std::span<const std::uint8_t> pixels,
                    std::span<const std::uint64_t> keep) {
@@ -113,7 +113,8 @@ bool publish_patch(SessionLayout& layout, const PatchMap& map, std::span<const s
   return true;
 }
 
-// Reads the record of the map with this id. False: no slot has it; `map` is then unspecified.
+// Reads the record of the map with this id. False: no slot has the id, or the writer replaced the map during the copy.
+// `map` is then unspecified.
 template <class Access = shm::PlainAccess>
 bool read_patch(const SessionLayout& layout, std::uint64_t id, PatchMap& map) {
   const PatchSlot* slot = slot_of<Access>(layout.patches, id);
@@ -122,7 +123,7 @@ bool read_patch(const SessionLayout& layout, std::uint64_t id, PatchMap& map) {
   return still_holds<Access>(*slot, id) && map.id == id;
 }
 
-// Reads record and picture: rows without padding, patch_pixels(map) bytes.
+// As above, and reads the picture: rows without padding, patch_pixels(map) bytes.
 template <class Access = shm::PlainAccess>
 bool read_patch(const SessionLayout& layout, std::uint64_t id, PatchMap& map, std::vector<std::uint8_t>& pixels) {
   const PatchSlot* slot = slot_of<Access>(layout.patches, id);

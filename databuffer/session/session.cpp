@@ -97,7 +97,7 @@ Expected<Claim> Session::claim(Role role) {
   if (!claim)
     return fail("role " + std::string(name_of(role)), "one process of this role in a session",
                 "held by " + state_->describe_holder(byte), "end that process, or choose another --session");
-  // A holder that releases its claim resets the pid. A pid that is still there means that the previous holder died.
+  // A holder that releases its claim resets the pid to 0. Another pid means that the previous holder died.
   if (previous != 0)
     note(NoteKind::restart, std::string(name_of(role)) + " pid " + std::to_string(previous) + " died; taken over");
   return std::move(*claim);
@@ -157,7 +157,7 @@ std::vector<ProcessInfo> Session::processes() const {
   for (std::size_t i = 0; i < kProcesses; ++i) {
     const ProcessEntry& entry = layout().processes[i];
     if (entry.pid == 0 || !state_->segment->is_locked(kFirstProcessByte + i)) continue;
-    // A damaged heartbeat in the future would make a hung process look alive. It is shown as now.
+    // A damaged heartbeat in the future is shown as now, so that its age is not negative.
     const std::int64_t beat_ns = std::clamp<std::int64_t>(entry.heartbeat_ns, 0, monotonic_ns());
     alive.push_back({entry.pid, shm::load_text(entry.name.data(), entry.name.size()), beat_ns, entry.progress});
   }

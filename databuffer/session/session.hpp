@@ -59,8 +59,8 @@ class Session {
   // Publishes a progress number. Its meaning depends on the role (see ProcessEntry).
   void publish_progress(std::uint32_t progress);
   // Updates the heartbeat shown by `yars status`. Call it each tick or about once a second. Most calls are one store.
-  // Twice a second a call also rewrites this process's table entry and checks that the segment's file still has its
-  // name. A lost name is reported once, in log and flight recorder.
+  // Twice a second a call also rewrites this process's table entry, and checks that the segment's file still has its
+  // name. The loss of the name is reported once, in the log and the flight recorder.
   void heartbeat();
 
   // Clock of the session, and sim time [ns] now. A clock out of range is refused and noted, and the last valid one

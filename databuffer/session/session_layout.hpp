@@ -23,7 +23,7 @@
 
 namespace yars::databuffer {
 
-// Sizes of the layout. Changing one, or the order of SessionLayout, requires a higher kLayoutVersion.
+// Sizes of the layout. A change of a size, or of the order of SessionLayout, requires a higher kLayoutVersion.
 inline constexpr std::uint32_t kLayoutVersion = 3;
 inline constexpr std::size_t kOwnshipLanes = 4;
 inline constexpr std::size_t kInputLanes = 16;
@@ -65,7 +65,7 @@ struct Counters {
   std::atomic<std::uint64_t> frames_failing;  // 1: radar-display could not write its last frame to a file
 };
 
-// Entry of the process table, for display only. Locks decide which process is present.
+// Entry of the process table, which only informs the user. Locks decide which process is present.
 struct ProcessEntry {
   std::atomic<std::int64_t> heartbeat_ns;          // CLOCK_MONOTONIC
   std::atomic<std::int32_t> pid;                   // 0: free
@@ -86,7 +86,7 @@ struct Lockstep {
 };
 
 // Slot of a patch map. The writer clears the id, writes, and stores the new id last. A reader copies between two loads
-// of the same id. progress_permille is 1000.
+// of the same id. progress_permille is always 1000.
 struct PatchSlot {
   std::atomic<std::uint64_t> id;  // 0: empty, or being written
   std::atomic<std::uint32_t> epoch;
@@ -158,7 +158,7 @@ inline constexpr std::array kRecordIdentities = {
 inline constexpr shm::LayoutIdentity kLayoutIdentity{kLayoutVersion, sizeof(SessionLayout),
                                                      shm::layout_hash(kRecordIdentities)};
 
-// [bytes] Maximum size of a segment, for which a default /dev/shm has room.
+// [bytes] Maximum size of a segment. A /dev/shm of the default size has room for it.
 inline constexpr std::size_t kMaxSegment_bytes = std::size_t{64} << 20;
 static_assert(sizeof(SessionLayout) <= kMaxSegment_bytes && std::is_standard_layout_v<SessionLayout>);
 

@@ -60,7 +60,7 @@ std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns) {
   if (clock.running == 0) return clock.base_sim_ns;
   // A time before the base counts as the base.
   const std::int64_t elapsed = std::max<std::int64_t>(monotonic_ns - clock.base_monotonic_ns, 0);
-  // Rate 1 needs no double. The nanoseconds of a session longer than 104 days exceed the 53 bits of a double.
+  // Rate 1 needs no double. After 104 days, the nanoseconds exceed the 53 significant bits of a double.
   if (clock.rate == 1.0) return clock.base_sim_ns + elapsed;
   return clock.base_sim_ns + static_cast<std::int64_t>(std::llround(clock.rate * static_cast<double>(elapsed)));
 }
@@ -105,7 +105,7 @@ std::optional<std::string> SessionState::clock_problem() const {
   return validate(present);
 }
 
-// Locks a free entry of the process table and fills it in. A full table is no error: the table is for display only.
+// Locks a free entry of the process table and fills it in. A full table is no error: the table only informs the user.
 void SessionState::enter_table() {
   for (std::size_t i = 0; i < kProcesses; ++i) {
     if (!segment->try_lock(kFirstProcessByte + i)) continue;

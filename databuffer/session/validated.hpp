@@ -74,14 +74,14 @@ std::optional<T> read_to_resume(const shm::LatestValue<T>& slot, Session& sessio
   if (record.refresh(slot)) return record.value();
   if (!record.refusal()) return std::nullopt;
   session.note(NoteKind::refusal, name + " of the earlier process: " + *record.refusal());
-  log::warning(name + " of the earlier process is refused, the program starts anew: " + *record.refusal());
+  log::warning(name + " of the earlier process is refused, the program starts without it: " + *record.refusal());
   return std::nullopt;
 }
 
 // Reader of the patch maps that one program needs. The caller stores the records. Each map is read once.
 class WantedMaps {
  public:
-  // `name`: first words of the note about an invalid map.
+  // `name`: beginning of the flight recorder's line about an invalid map.
   WantedMaps(Session& session, std::string name) : session_(&session), name_(std::move(name)) {}
 
   // Clears the records in `maps` with ids that are not in `wanted`, and reads the missing maps. Id 0 in `wanted` is

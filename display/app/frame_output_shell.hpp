@@ -1,5 +1,5 @@
 // Output of display pictures: PNG files in a folder, frames in the segment.
-// Inputs: pictures of the display; simulation time.
+// Inputs: pictures of the display; sim time.
 // Outputs: files frame_NNNNNN.png; frames in the session's pool (databuffer/session/picture_pool.hpp).
 // Errors: an unusable folder; a picture too large for the pool; another process that publishes frames of the session.
 #pragma once
@@ -21,13 +21,13 @@
 
 namespace yars::display {
 
-// Schedule of frames: one frame for each step of `every_s` seconds of simulation time. The number of a step is its
-// simulation time divided by `every_s`, so that a restarted display continues the numbers.
+// Schedule of frames: one frame for each step of `every_s` seconds of sim time. The number of a step is its sim time
+// divided by `every_s`, so that a restarted display continues the numbers.
 class FrameSteps {
  public:
   explicit FrameSteps(double every_s) : every_ns_(std::llround(every_s * 1e9)) {}  // > 0
 
-  // Returns true once for each step reached, also after a jump back in time (a new epoch).
+  // Returns true at the first call in each step, also after a jump back in time (a new epoch).
   bool is_due(std::int64_t sim_time_ns) {
     const std::int64_t step = sim_time_ns / every_ns_;
     if (step == step_) return false;
@@ -75,8 +75,8 @@ class FramePublisher {
 
   // Marks the current picture of the display as not yet published.
   void note_painted() { unpublished_ = true; }
-  // Publishes pictures that have arrived from the GPU and starts the readback of the current one, without waiting. Call
-  // it after each update.
+  // Publishes pictures that have arrived from the GPU. Starts the readback of the current picture if it is not yet
+  // published. Never waits. Call it after each update. `size`: edge of the display [pixels].
   void work(host::Display& mpd, int size);
   // Publishes the current picture. Waits for the GPU.
   void publish_at_once(host::Display& mpd);

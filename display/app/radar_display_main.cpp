@@ -34,7 +34,7 @@ struct DisplayOptions {
 };
 
 constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // minimum interval: at most 60 redraws per second
-// Interval of updates without a window. At clock rate 1 a live frame is at most 10 ms later than its step (FrameSteps).
+// Interval of updates without a window. At clock rate 1, a frame follows its step (FrameSteps) by about 10 ms at most.
 // No sweep is lost, because the session's ring keeps sweeps for 5 s.
 constexpr std::chrono::milliseconds kHeadlessInterval{10};
 
@@ -50,7 +50,7 @@ class HeadlessDisplay {
         frames_(std::move(frames)),
         publisher_(std::move(publisher)) {}
 
-  // One live update. A failed write loses only that frame.
+  // One update without lockstep. A failed write loses only that frame.
   void step(std::int64_t sim_time_ns) {
     mpd_.update(sim_time_ns);
     const bool due_in_folder = frames_ && steps_.is_due(sim_time_ns);
@@ -204,7 +204,7 @@ class WindowDisplay {
   display::PilotInput& pilot_;
   std::optional<display::FramePublisher> publisher_;
   std::int64_t next_redraw_ns_ = 0;  // CLOCK_MONOTONIC
-  bool stale_ = true;                // the window does not show the current picture
+  bool stale_ = true;                // true: the window does not show the current picture
 };
 
 error::Expected<void> run_window(databuffer::Session& session, const radar::RadarConfiguration& configuration,
@@ -271,7 +271,7 @@ int main(int argc, char** argv) {
       .needs(headless)
       .range(0.005, 1e6);
   app.flag("--publish", display_options.publish,
-           "also publish pictures in the session for other programs, at most 1024 pixels large");
+           "also publish pictures in the session for other programs, with edges of at most 1024 pixels");
   app.option("--size", display_options.size, "edge of the display in pixels (else the configuration's)")
       .range(120, 4096);
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, display_options); });

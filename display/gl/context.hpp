@@ -1,6 +1,6 @@
 // OpenGL 3.3 core contexts: headless (EGL), and a window with keyboard and mouse clicks (GLFW).
 // Errors: a missing library, a missing display, or OpenGL older than 3.3.
-// Threads: a context is current on the thread that created it, for its lifetime.
+// Threads: a context is current on the thread that created it, until its owner object is destroyed.
 #pragma once
 
 #include <memory>
@@ -23,7 +23,8 @@ class Context {
   Context& operator=(const Context&) = delete;
 };
 
-// OpenGL version of this thread's current context as MAJOR * 10 + MINOR: 33 for 3.3. 0: no context, or OpenGL ES.
+// OpenGL version of this thread's current context as MAJOR * 10 + MINOR: 33 for 3.3. 0 without a context and for
+// OpenGL ES.
 int opengl_version();
 
 // Renderer and version of the current context, such as
@@ -31,7 +32,7 @@ int opengl_version();
 std::string renderer_name();
 
 // Opens a context without a window: EGL on Mesa's surfaceless platform, else on the default EGL display.
-// A driver without surfaceless contexts gets a pixel buffer (pbuffer) of one pixel.
+// With a driver that requires a surface, the context gets a pixel buffer (pbuffer) of one pixel.
 // The caller draws into a framebuffer object, because the context has no window.
 error::Expected<std::unique_ptr<Context>> open_headless();
 
@@ -49,7 +50,7 @@ struct WindowInput {
   bool redraw_needed = false;  // the window was uncovered or resized
 };
 
-// Window. The display is the largest square in the middle of the window.
+// Window for the radar display. Clicks assume that the display is the largest square in the middle of the window.
 class Window : public Context {
  public:
   struct Pixels {
@@ -63,8 +64,9 @@ class Window : public Context {
   virtual void present() = 0;  // swaps buffers without waiting for vertical sync
 };
 
-// Opens a window. `size`: edge of the window [GLFW screen coordinates].
-// Errors: neither DISPLAY nor WAYLAND_DISPLAY is set, or no OpenGL 3.3. The error names the headless options.
+// Opens a window. `size`: width and height of the window [GLFW screen coordinates].
+// Errors: the environment has neither DISPLAY nor WAYLAND_DISPLAY, or no OpenGL 3.3. The error names the options of
+// radar-display that need no window.
 error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size);
 
 }  // namespace yars::display::gl

@@ -156,7 +156,7 @@ void main() {
 }
 )";
 
-// texelFetch copies exact pixels. A texture filter could mix two pixels. A blit fails for some target framebuffers.
+// texelFetch copies exact pixels. texture() could mix two pixels. glBlitFramebuffer fails for some target framebuffers.
 constexpr const char* kPictureFragment = R"(#version 330 core
 uniform sampler2D picture;
 uniform ivec2 corner;

@@ -17,7 +17,7 @@ namespace yars::display {
 // A picture of the display as bytes, with its time.
 struct Picture {
   std::int64_t tick = 0;             // tick of the radar state shown
-  std::int64_t sim_time_ns = 0;      // time of the display's last update from the session
+  std::int64_t sim_time_ns = 0;      // sim time of the session data shown
   int size = 0;                      // [pixels] side of the square
   std::vector<std::uint8_t> pixels;  // RGBA, alpha 255; rows from the top without padding
 };
@@ -46,8 +46,8 @@ class Framebuffer {
   int size_ = 0;
 };
 
-// Asynchronous readback into pixel buffer objects. start() begins a copy. take_if_ready() maps the buffer when the
-// fence of the copy is signaled, so that drawing never blocks. At most two copies are pending, first in, first out.
+// Asynchronous readback into pixel buffer objects. start() begins a copy. take_if_ready() reads the buffer only after
+// the GPU has finished the copy, so it never blocks. At most two copies are pending, first in, first out.
 class Readback {
  public:
   Readback();

@@ -84,7 +84,7 @@ void HostStateGuard::set_defaults() const {
   glBindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
   glBlendEquation(GL_FUNC_ADD);
   glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-  // The display writes draw buffer 0 only; other draw buffers of the host stay unchanged.
+  // The display writes draw buffer 0 only. The host's other draw buffers stay unchanged.
   glColorMaski(0, GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   for (std::size_t i = 1; i < kDrawBuffers; ++i)
     glColorMaski(static_cast<GLuint>(i), GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
@@ -120,7 +120,7 @@ HostStateGuard::~HostStateGuard() {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, name_of(pack_buffer_));
   glBindVertexArray(name_of(vertex_array_));
   glBindBuffer(GL_ARRAY_BUFFER, name_of(array_buffer_));
-  // The host may have deleted the program while it was in use. Such a program no longer exists.
+  // A program that the host deleted while it was current ceased to exist when the display bound its own program.
   glUseProgram(glIsProgram(name_of(program_)) != GL_FALSE ? name_of(program_) : 0);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, name_of(read_framebuffer_));
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name_of(draw_framebuffer_));

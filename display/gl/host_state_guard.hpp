@@ -1,6 +1,6 @@
 // Scope guard for the OpenGL state of a host, the program that owns the context. The constructor saves the state and
-// sets the values that the display needs. The destructor restores the state. All state that this folder changes is
-// saved:
+// sets the values that the display needs. The destructor restores the state. All state that display/gl changes
+// is saved:
 // - bound draw and read framebuffers, program, vertex array, array buffer, pixel pack and unpack buffers;
 // - active texture unit, 2D textures and samplers of units 0 and 1;
 // - viewport 0 (restored to all viewport indices), polygon mode, pixel pack and unpack parameters;

@@ -12,14 +12,14 @@ namespace yars::display::gl {
 
 namespace {
 
-// Floats of one instance: apex (2), left edge (2), right edge (2), range, half width, texture row, samples.
+// Floats of one instance, from the members of Wedge: apex (2), left (2), right (2), range, half width, row, samples.
 constexpr int kFloatsPerWedge = 10;
 
 // The number 240 in the shaders is half of kDisplayUnits.
 // kMargin: each wedge is drawn wider by kMargin on either side, so that no gap is visible between adjacent wedges.
 // A gap arises because the apex of a wedge is the aircraft's position, and the aircraft moves between two sweeps.
 // The gap is 0.22 units in a Doppler beam sharpened scan at 4.7 NM range and 250 m/s ground speed.
-// The newer wedge covers the overlap. A larger margin blurs azimuth at edges that no newer wedge covers.
+// In the overlap the newer wedge is on top. A margin larger than needed would blur the edges of the newest wedges.
 constexpr const char* kVideoVertex = R"(#version 330 core
 layout(location = 0) in vec2 apex;
 layout(location = 1) in vec4 edges;
@@ -184,8 +184,8 @@ bool MapPass::has(std::uint64_t id) const {
   return std::ranges::find(maps_, id, &StoredMap::id) != maps_.end();
 }
 
-// Binds a map's texture. A map with more pixels than the display is averaged by mipmaps. Without averaging its
-// speckle would flicker. Mipmaps are generated only for such a map, because they are slow in a software renderer.
+// Binds a map's texture. A map with more pixels than the display is averaged by mipmaps, because its speckle would
+// flicker without averaging. Other maps get no mipmaps, because a software renderer generates mipmaps slowly.
 void MapPass::bind(StoredMap& map, int display_size) {
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map.texture);

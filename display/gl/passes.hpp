@@ -35,12 +35,12 @@ class VideoPass {
   std::uint32_t vertex_array_ = 0, instances_ = 0;
   std::uint32_t video_texture_ = 0;
   int color_location_ = 0;
-  std::vector<std::uint64_t> uploaded_serial_;  // sweep uploaded in each row; 0 = none
+  std::vector<std::uint64_t> uploaded_serial_;  // serial of the sweep in each row; 0: none
   std::vector<float> instance_data_;
 };
 
-// Draws a patch map over the whole display, with the same light table as sweeps. Maps are kept as textures, so that
-// a change to another stored map needs no upload.
+// Draws a patch map over the whole display, with the same light table as sweeps. Maps are kept as textures, so a change
+// between stored maps needs no upload.
 class MapPass {
  public:
   MapPass();
@@ -73,8 +73,8 @@ class MapPass {
 };
 
 // Draws a DrawList over the video: the gray scale, then the layers. A layer has plates (black rectangles), halos (black
-// margins of strokes) and strokes. Strokes have round ends. Their edges are antialiased over one pixel at any display
-// size; the alpha of a pixel depends on its distance from the segment.
+// margins of strokes) and strokes. Strokes have round ends. Edges of strokes and halos are antialiased over one pixel
+// at any display size: the alpha of a pixel depends on its distance from the segment.
 class OverlayPass {
  public:
   OverlayPass();

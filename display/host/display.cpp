@@ -54,7 +54,7 @@ struct Display::State {
   SessionFeed feed;
   // Created at the first press or click, because it occupies one of the session's 16 input lanes.
   std::optional<PilotInput> pilot;
-  std::int64_t sim_time_ns = 0;  // time of the last update()
+  std::int64_t sim_time_ns = 0;  // sim time of the last update()
   std::int64_t painted_tick = 0, painted_sim_time_ns = 0;
 };
 
@@ -108,7 +108,7 @@ bool Display::paint(int size) {
 void Display::draw(const Viewport& viewport) {
   const int size = std::min({viewport.width, viewport.height, kMaxPixels});
   if (size <= 0) return;
-  // paint() has its own HostStateGuard. The host's framebuffer is therefore bound again when show() draws.
+  // paint() has its own HostStateGuard, which binds the host's framebuffer again. show() draws into that framebuffer.
   paint(size);
   const gl::HostStateGuard guard;
   state_->renderer.show(viewport.left + (viewport.width - size) / 2, viewport.bottom + (viewport.height - size) / 2);
@@ -140,7 +140,8 @@ bool Display::wait_for_read(Picture& picture) {
 
 error::Expected<void> Display::press(int button) {
   if (button < 1 || button > kButtons)
-    return error::fail("display", "a button 1 to 20", std::to_string(button), "see display/symbology/readouts.hpp");
+    return error::fail("display", "a button 1 to 20", std::to_string(button),
+                       "see docs/spec/pilots_interface.md#buttons");
   auto pilot = state_->pilot_of_session();
   if (!pilot) return tl::unexpected(pilot.error());
   (*pilot)->press(button);

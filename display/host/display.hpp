@@ -1,7 +1,8 @@
 // Radar display for another program's window: joins a session and draws into the current OpenGL context.
 // Inputs: a session, a current context of OpenGL 3.3 core or later, a viewport [pixels].
 // Outputs: the picture in the viewport, or read back; button presses as input events of the session.
-// Context: it must be current in all functions except press and click, also in constructor and destructor.
+// Context: the OpenGL context must be current in all functions except press and click. This includes the constructor
+//   and the destructor.
 //   The functions restore the OpenGL state listed in display/gl/host_state_guard.hpp.
 // Waits: only attach, read and wait_for_read may wait.
 // Threads: one thread at a time for each Display. A program may have several Displays. Link the target yars_display.
@@ -42,18 +43,19 @@ struct AttachOptions {
 
 class Display {
  public:
-  // Errors: no such configuration, a session of another user or another build, OpenGL older than 3.3.
+  // Errors: no current context, or OpenGL older than 3.3; an unreadable or invalid configuration; a session of another
+  // user or another build.
   static error::Expected<Display> attach(const AttachOptions& options);
-  // For a program with an open session, which must outlive the display. Live, the picture names state-machine or
-  // radar-model as missing if the heartbeat of that program is older than 1 s. In lockstep the picture must not depend
-  // on real time; it then names a program as missing if the program does not take part in the run.
+  // For a program with an open session, which must outlive the display. The picture names state-machine or radar-model
+  // as missing if that program is not alive. In a live session, alive means a heartbeat less than 1 s old. In lockstep,
+  // alive means that the program takes part in the run, so that the picture does not depend on real time.
   Display(databuffer::Session& session, const radar::RadarConfiguration& configuration, bool lockstep);
   Display(Display&&) noexcept;
   Display& operator=(Display&&) noexcept;
   ~Display();
 
   // Copies new records from the session and updates this program's heartbeat. Call update at least once per second,
-  // also while nothing is drawn. The session keeps sweeps for about 5 s; a longer pause between calls loses sweeps.
+  // even while nothing is drawn. The session keeps sweeps for about 5 s; a longer pause between calls loses sweeps.
   void update();
   void update(std::int64_t sim_time_ns);  // uses this simulation time instead of the session's
 
@@ -67,13 +69,15 @@ class Display {
   // The last painted picture as RGB. Waits for the GPU.
   imageio::Image read() const;
   // Asynchronous readback of the picture with its time (Readback in display/gl/framebuffer.hpp).
-  // start_reading returns false if two copies are pending, take_read if none is ready. wait_for_read waits up to 10 s.
+  // start_reading returns false if two copies are pending. take_read returns false if no copy is ready. wait_for_read
+  // waits for a pending copy, at most 10 s.
   bool start_reading();
   bool take_read(Picture& picture);
   bool wait_for_read(Picture& picture);
 
-  // Pilot inputs, sent to the session. press: a button 1..20. click: a position in fractions of the edge from the upper
-  // left corner; returns false if no button's legend area is there. Errors: a button out of range; no free input lane.
+  // Pilot inputs, sent to the session. press: a button 1..20. click: a position as fractions of the display's edge,
+  // from the upper left corner; returns false if the position is in no button's click zone. Errors: a button out of
+  // range; no free input lane.
   error::Expected<void> press(int button);
   error::Expected<bool> click(double right, double down);
 

@@ -15,9 +15,9 @@ namespace yars::display {
 
 namespace {
 
-// Interval between readings of the process table. A reading takes many system calls.
+// Interval between readings of the process table: 0.2 s, because a reading takes many system calls.
 constexpr std::int64_t kHealthInterval_ns = 200'000'000;
-constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;  // age of a heartbeat at which a process counts as silent
+constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;  // 1 s; with an older heartbeat a process is not alive
 
 bool takes_part(const databuffer::SessionLayout& layout, databuffer::LockstepRole role) {
   return (layout.lockstep.roles.load(std::memory_order_relaxed) >> static_cast<unsigned>(role) & 1U) != 0;
@@ -63,7 +63,7 @@ void SessionFeed::take_state() {
   if (state_.refresh(session_->layout().radar_state, *session_, "display: radar state")) input_.state = state_.value();
 }
 
-// Reads each map that the radar state names once, and drops maps that it no longer names.
+// Reads, once each, the maps that the radar state names. Drops maps that the state no longer names.
 void SessionFeed::take_maps() {
   const std::array named{input_.state.map_newest, input_.state.map_old, input_.state.map_stored};
   wanted_maps_.refresh(
@@ -150,7 +150,8 @@ void PilotInput::push(databuffer::InputEvent event) {
   event.monotonic_ns = databuffer::monotonic_ns();
   event.number = ++number_;
   if (session_->layout().input.push(static_cast<std::size_t>(claim_.lane()), event)) return;
-  log::warning("state-machine does not read its input lane: '" + databuffer::text_of(event) + "' is dropped");
+  log::warning("the display's input lane is full, is state-machine running? '" + databuffer::text_of(event) +
+               "' is dropped");
 }
 
 }  // namespace yars::display

@@ -27,8 +27,8 @@ class SessionFeed {
  public:
   using SweepSink = std::function<void(const databuffer::Sweep&)>;
   using MapSink = std::function<void(const databuffer::PatchMap&, std::span<const std::uint8_t>)>;
-  // Live, a program counts as alive if its heartbeat is less than 1 s old. In lockstep it counts as alive if it takes
-  // part in the run, because frames must be repeatable.
+  // In a live session a program counts as alive if its heartbeat is less than 1 s old. In a lockstep session it counts
+  // as alive if it takes part in the run, because frames must be repeatable.
   SessionFeed(databuffer::Session& session, bool lockstep, SweepSink sweeps, MapSink maps);
 
   // Copies all new records. `sim_time_ns`: the present simulation time, or the time of the tick in lockstep.
@@ -64,14 +64,14 @@ class SessionFeed {
 // Writer of pilot inputs: clicks on legends and typed keys become events in an input lane of the session.
 class PilotInput {
  public:
-  // `source`: name of the sender in `yars status`. Error: all input lanes are taken.
+  // `source`: name of the sender in `yars status`. Error: no input lane is free.
   static error::Expected<PilotInput> create(databuffer::Session& session, std::string_view source);
 
   void press(int button);  // 1..20
-  // Presses the button whose legend area contains `at`. Returns false if there is none.
+  // Presses the button whose click zone contains `at`. Returns false if `at` is in no click zone.
   bool click(Point at);
   void send(const gl::WindowInput& input);
-  void release_all();  // releases all held keys, when the window loses focus or closes
+  void release_all();  // releases all held keys; called when the window loses focus or closes
 
  private:
   PilotInput(databuffer::Session& session, databuffer::Claim claim) : session_(&session), claim_(std::move(claim)) {}

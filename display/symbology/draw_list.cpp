@@ -78,9 +78,9 @@ constexpr std::array kGlyphs{
 constexpr Glyph kUnknown{U'\ufffd', "0a0m8m8a0a"};
 
 constexpr int kGap = 3;                  // grid columns between glyphs
-constexpr float kColumn = 0.58F / 8.0F;  // [cap heights] width of a grid column; a capital is 0.58 as wide as high
+constexpr float kColumn = 0.58F / 8.0F;  // [cap heights] width of a grid column; 8 columns are 0.58 wide
 constexpr float kRow = 1.0F / 12.0F;     // [cap heights] height of a grid row
-constexpr std::size_t kMaxPoints = 24;   // maximum per polyline, further points are dropped; glyphs need up to 16
+constexpr std::size_t kMaxPoints = 24;   // maximum per polyline; glyphs have at most 16; further points are dropped
 
 const Glyph& glyph_of(char32_t code) {
   if (code >= U'a' && code <= U'z' && code != U'v') code -= U'a' - U'A';
@@ -142,7 +142,7 @@ float text_width(std::string_view text) {
 
 namespace {
 
-constexpr float kStroke = 1.35F;      // [units] thinner strokes are faint, thicker ones fill gaps of 10-unit text
+constexpr float kStroke = 1.35F;      // [units] thinner strokes are faint; thicker ones close the gaps in 10-unit text
 constexpr float kThin = 1.0F;         // [units] arcs and leader lines; thin, so that they hide little video
 constexpr float kHalo = 1.4F;         // [units] black margin of a stroke, for contrast on bright video
 constexpr float kDash = 3.0F;         // [units] length of a dash and of a gap
@@ -238,8 +238,9 @@ void DrawList::polygon(std::span<const Point> corners, bool dashed) {
 }
 
 void DrawList::thin_arc(Point center, float radius, float from_deg, float to_deg) {
-  // A chord of 8 units deviates from the arc by 8^2 / (8 r): 0.08 units at r = 100 units, the first of four arcs. At
-  // the closest spacing of arcs, 0.05 of the range, r is 20 units and the deviation is 0.4 units. 57.3 deg is 1 rad.
+  // A chord of c = 8 units deviates from an arc of radius r by c^2 / (8 r). At r = 100 units, the first of four arcs,
+  // this is 0.08 units. At the smallest spacing, 0.05 of the range, the first arc has r = 20 units: 0.4 units. 57.3 deg
+  // is 1 rad.
   const int sides = std::max(2, static_cast<int>(radius * (to_deg - from_deg) / 57.3F / 8.0F));
   Point last = on_circle(center, radius, from_deg);
   for (int i = 1; i <= sides; ++i) {

@@ -2,7 +2,8 @@
 // Inputs: drawing calls in display units.
 // Outputs: plain data by layer; boxes occupied by texts, scales and symbols, which label_layout.hpp reads.
 // Units: display units. The edge of the square is 480 units. Origin upper left, x right, y down.
-// Accuracy: coordinates are rounded to 1/8 unit, so that the lists before and after an invisible motion are equal.
+// Accuracy: coordinates of strokes and occupied boxes are rounded to 1/8 unit, so that the list usually stays equal
+//   during an invisible motion.
 // Threads: one thread at a time.
 #pragma once
 
@@ -129,7 +130,7 @@ struct TextStyle {
   float height = 10.0F;  // [units] cap height
   Align align = Align::center;
   bool boxed = false;  // framed
-  bool plate = false;  // black plate behind the text, where lines would cross it
+  bool plate = false;  // black plate behind the text, which hides lines
 };
 
 // Draw list of one picture. clear() keeps the allocated memory for the next picture.
@@ -151,7 +152,7 @@ class DrawList {
   void plate(const Rect& rect);
 
   // Draws text, vertically centred on `at.y`. `style.align`: left end, middle or right end of the text is at `at.x`.
-  // Returns the box of the text, with its frame, and records the box as occupied.
+  // Returns the box of the text, or of its frame if boxed, and records that box as occupied.
   Rect text(std::string_view words, Point at, const TextStyle& style = {}, BoxKind kind = BoxKind::text);
   void occupy(std::string_view name, const Rect& rect, BoxKind kind);  // records a box as occupied
   // Adds a black plate behind each fixed text that a stroke of the layers `lines` or `points` crosses.
@@ -182,7 +183,7 @@ struct Color {
 // Colors of the display. The defaults are the green of the built-in configuration.
 struct ColorScheme {
   Color ground{0.0F, 0.0F, 0.0F};
-  Color video{0.30F, 0.95F, 0.42F};  // video of light 1; lower light scales this color
+  Color video{0.30F, 0.95F, 0.42F};  // color of light 1 (radar_video.hpp); the light scales this color
   Color bright{0.72F, 1.0F, 0.76F};  // symbols; brighter than the brightest video
   Color dim{0.22F, 0.55F, 0.28F};    // arcs, lines
 

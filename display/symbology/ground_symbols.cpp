@@ -19,10 +19,11 @@ namespace yars::display {
 namespace {
 
 constexpr float kSymbolRadius = 6.0F;  // [display units] radius of a point's symbol
-// [display units] Distance of the ends of the cursor's arms from its centre. A point's symbol fits between the arms.
+// [display units] Distances of the inner and outer ends of the cursor's arms from its centre. A point's symbol fits
+// between the inner ends.
 constexpr float kGapInside = 7.0F, kArm = 16.0F;
 // [display units] Minimum distance from a symbol to a text: kMarginDrawn if the last picture had the symbol's name,
-// else kMarginNew. Without this hysteresis the symbol would blink.
+// else kMarginNew. Without this hysteresis the symbol could blink.
 constexpr float kMarginDrawn = 2.5F, kMarginNew = 4.0F;
 constexpr float kArmHalfWidth = 2.0F;  // [display units] half width of a cursor arm with its halo
 
@@ -97,8 +98,8 @@ NameRank rank_of(const databuffer::DrawnPoint& point, const databuffer::RadarSta
   return designated ? NameRank::target : NameRank::other;
 }
 
-// True if a symbol at `at` would overlap a text or a solid scale. Overlap with thin symbols is allowed: carets, ticks
-// of the elevation scale, and the pitch ball.
+// True if a symbol at `at` would be less than `margin` from a text or a solid scale. Overlap with thin symbols is
+// allowed: carets, ticks of the elevation scale, and the pitch ball.
 bool is_covered(Point at, float margin, const DrawList& list) {
   const Rect symbol = grown({at.x, at.y, at.x, at.y}, kSymbolRadius + margin);
   return std::ranges::any_of(list.occupied(), [&symbol](const OccupiedBox& box) {
@@ -119,7 +120,7 @@ void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFram
   list.line({at.x, at.y - kArm}, {at.x, at.y - kGapInside});
   list.line({at.x, at.y + kGapInside}, {at.x, at.y + kArm});
   list.draw_on(Layer::symbols);
-  // One box per pair of arms leaves the space between the arms free for a name.
+  // Two boxes, one per line of the cross, leave the four corners between the arms free for a name.
   list.occupy("cursor",
               {at.x - kArm - kArmHalfWidth, at.y - kArmHalfWidth, at.x + kArm + kArmHalfWidth, at.y + kArmHalfWidth},
               BoxKind::cursor);

@@ -1,8 +1,8 @@
 // Ground symbols: cursor, sequence points with their names, window outline of a map, pattern steering line (PSL).
 // Inputs: DisplayInput, view and frame (plan_view.hpp), route, labels of the last picture.
 // Outputs: strokes and occupied boxes in a draw list; labels for label_layout.hpp.
-// Frame: cursor and video are drawn at their true ground positions. Points and target are displaced from their true
-// positions by the position error of the selected navigator.
+// Frame: the cursor is drawn at its true ground position, as is the video. Points and target are displaced from their
+// true positions by the position error of the selected navigator.
 // Source: docs/spec/pilots_interface.md#symbology
 #pragma once
 

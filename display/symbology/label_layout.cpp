@@ -18,7 +18,7 @@ struct Clearance {
   float around;          // free space on all sides of the text
   float beside_line;     // free space on either side of the leader line
   float beyond_line;     // length added to the ends of all lines in the test for crossing lines
-  bool crosses_symbols;  // the leader line may cross points, solid scales, map outline and steering line
+  bool crosses_symbols;  // the leader line may cross points, solid scales, window outline and steering line
 };
 constexpr Clearance kKeepPosition{2.5F, 1.0F, 0.0F, true};
 // A new position needs more clearance than a kept position. Otherwise the label would move again in the next picture.
@@ -27,7 +27,7 @@ constexpr Clearance kNewPosition{3.5F, 2.0F, 2.0F, false}, kLastResort{3.5F, 2.0
 constexpr Clearance kMoveNearer{7.0F, 3.0F, 3.0F, false};
 constexpr float kEdgeAllowance = 1.5F;  // [units] reduces the clearance from the edge of the display
 constexpr float kBesideText = 3.0F;     // [units] extra clearance beside another text; closer texts read as one word
-constexpr float kAroundSymbol = 2.0F;   // [units] extra around another point, which a closer label seems to name
+constexpr float kAroundSymbol = 2.0F;   // [units] extra clearance from another point; a closer label seems to name it
 
 struct Position {
   Point offset;  // [units] vector from the anchor to the reference point of the text
@@ -104,7 +104,7 @@ class Search {
     const Position position = position_of(label_.role, index);
     const Rect box =
         text_box(words_of(label_.words), moved(label_.anchor, position.offset), {kTextHeight, position.align});
-    // kKeepPosition and kNewPosition also differ at the edge of the display; otherwise a label there would blink.
+    // The clearance from the display's edge, too, is smaller for a kept position. Otherwise a label there could blink.
     return on_display(grown(box, clearance.around - kEdgeAllowance)) && is_clear(grown(box, clearance.around)) &&
            (position.ring == 0 || line_is_clear(position, clearance));
   }
@@ -160,9 +160,9 @@ class Search {
   }
 
   // True when the leader line crosses no text, no label, no cursor arm and no other leader line. It may cross scales
-  // with gaps (BoxKind::scale). With `crosses_symbols` it may also cross points, solid scales and lines that are no
-  // leader lines. A point's symbol or a text that lies on the label's own symbol does not count. `margin` is wider for
-  // a kept position than for a new one (hysteresis).
+  // with gaps (BoxKind::scale). With `crosses_symbols` it may also cross points, solid scales, the window outline and
+  // the steering line. Points and texts close to the gap between the anchor and the start of the line are ignored.
+  // Close means within 1.5 units for a kept position and within 1 unit for a new one, so a kept position is lost later.
   bool line_is_clear(const Position& position, const Clearance& clearance) const {
     const Segment own = line(position);
     for (const OccupiedBox& box : list_.occupied()) {

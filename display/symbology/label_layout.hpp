@@ -1,5 +1,6 @@
 // Label placement for ground symbols: names of points and the heading of the steering line.
-// Inputs: labels in descending rank; a draw list with all texts, scales, symbols, cursor arms and lines already in it.
+// Inputs: labels, the most important first; a draw list that already has all texts, scales, symbols, cursor arms and
+//   lines.
 // Outputs: the labels as texts of the list, clear of each other and of the list's content. Range arcs and the zero
 //   azimuth line may run behind the labels.
 // A label stands in one of eight positions around its symbol, or farther out at the end of a leader line. A label
@@ -34,7 +35,7 @@ Label label_of(LabelRole role, std::string_view words, Point anchor);
 
 inline constexpr std::size_t kMaxLabels = radar::kMaxPointsDrawn + 1;
 
-// The labels of one picture in descending rank. Labels beyond kMaxLabels are dropped.
+// The labels of one picture, the most important first. Labels beyond kMaxLabels are dropped.
 class LabelQueue {
  public:
   void add(const Label& label);
@@ -51,7 +52,7 @@ class LabelMemory {
   struct Kept {
     LabelRole role = LabelRole::name;
     std::array<char, 16> words{};  // identifies a name; ignored for a heading, because a picture has only one
-    std::size_t position = 0;      // index of the position among the candidate positions
+    std::size_t position = 0;      // index of the candidate position (position_of in label_layout.cpp)
   };
   bool names(std::string_view words) const;  // true if the last picture had a label with this name
   std::span<const Kept> kept() const { return {kept_.data(), count_}; }

@@ -97,7 +97,7 @@ class GroundPlan {
             apex_.y - static_cast<float>(up_m * units_per_metre_)};
   }
 
-  // Unit vector on the display.
+  // Direction from one position to another, as a unit vector on the display.
   Point direction(geo::Vector3 from_ecef, geo::Vector3 to_ecef) const {
     const geo::Vector3 from = tangent_.enu_from_ecef(from_ecef);
     const geo::Vector3 to = tangent_.enu_from_ecef(to_ecef);

@@ -30,7 +30,7 @@ struct DisplayInput {
   databuffer::ModelStatus model{};
   databuffer::Ownship ownship{};  // true position and motion
   databuffer::Nav nav{};          // navigation data of the same time
-  databuffer::PatchMap map{};     // the map state.map_shown; with another id: it could not be read
+  databuffer::PatchMap map{};     // map with the id state.map_shown; another id: that map could not be read
   bool state_machine_alive = true;
   bool model_alive = true;
   bool ownship_fresh = true;  // a source delivers ownship
@@ -67,13 +67,13 @@ class PlanView {
 
 ViewFrame frame_of(const databuffer::PatchMap& map);  // frame of a picture that shows the map
 
-// Upper bound of the displacement [units] of ground within the selected range, from a picture in frame `drawn` to a
-// picture in frame `present`. Infinity if the ranges differ.
+// Upper bound of the displacement [units] that ground within the selected range has between a picture in frame `drawn`
+// and a picture in frame `present`. Infinity if the ranges differ.
 double displacement_units(const PlanView& view, const ViewFrame& drawn, const ViewFrame& present);
 
 // Frame of the present picture: the aircraft's position, ground track up. While radar-model is frozen, the frame has
-// the apex and ground track of `newest`, the last sweep of the mode shown. nullptr: no such sweep; the frame then has
-// the aircraft's position and ground track.
+// the apex and ground track of `newest`, the last sweep of the mode shown. nullptr: there is no such sweep, and the
+// frame has the aircraft's position and ground track.
 ViewFrame present_frame(const DisplayInput& input, const StoredSweep* newest);
 
 // A stored sweep in the present frame [units].

@@ -167,7 +167,8 @@ void PolarStore::erase_if(Predicate gone) {
 }
 
 // Erases covered sweeps whose near point is inside the swept sector, as seen from `apex`, the position of the aircraft.
-// As the aircraft flies, the azimuth of ground beyond the near point changes more slowly, so the scan has swept it too.
+// As the aircraft flies, the azimuth of ground beyond the near point changes more slowly than that of the near point.
+// The scan has therefore swept that ground, too.
 void PolarStore::erase_swept(geo::GeoPoint apex) {
   const geo::LocalTangentFrame here(apex, geo::HeightAboveEllipsoid::metres(0.0));
   erase_if([&](const StoredSweep& sweep) {
@@ -177,8 +178,8 @@ void PolarStore::erase_swept(geo::GeoPoint apex) {
   });
 }
 
-// Erases the sweeps that neither `scan` nor the completed scan before it has renewed. A scan that another range or
-// width ends early does not erase any sweep.
+// Erases the sweeps that neither `scan` nor the completed scan before it has renewed. A scan that a new range or width
+// cuts short has no kSweepScanEnd, so it erases no sweep.
 void PolarStore::end_scan(std::uint32_t scan) {
   if (ended_ && *ended_ < scan) {
     erase_if([this](const StoredSweep& sweep) { return sweep.scan < *ended_; });

@@ -25,19 +25,19 @@ std::array<float, 256> video_light(int brightness, int contrast);
 
 // One sweep as a wedge: the sector of ground in which the sweep was measured.
 struct StoredSweep {
-  double azimuth_key_deg = 0.0;        // [-180, 180) azimuth of the middle, from the middle of the first sweep
+  double azimuth_key_deg = 0.0;        // [-180, 180) azimuth of the middle, relative to the middle of the first sweep
   std::uint64_t serial = 0;            // number of the insertion; greater numbers are drawn later
   int row = 0;                         // row of the video, the argument of PolarStore::video
   int samples = 0;                     // used entries of the row
   geo::GeoPoint apex;                  // position of the aircraft
   geo::Vector3 apex_ecef;              // [m]
   geo::Vector3 left_ecef, right_ecef;  // [m] points 1 km from the apex on either edge
-  geo::Vector3 near_ecef;              // [m] point in the middle, at kNearFraction of the range
+  geo::Vector3 near_ecef;              // [m] point on the middle azimuth, at kNearFraction of the range
   geo::Bearing ground_track;           // true, at the time of the sweep
   double half_width_rad = 0.0;
   double range_m = 0.0;  // ground range of the far end
   std::uint32_t scan = 0;
-  std::optional<std::uint32_t> covered;  // last scan that covered the middle of this wedge
+  std::optional<std::uint32_t> covered;  // last scan that covered this sweep (PolarStore); nullopt: none
 };
 
 // Position of an inserted sweep in the order by azimuth. ignored: the sweep was not stored. first: the store was empty.

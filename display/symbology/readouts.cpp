@@ -19,7 +19,7 @@ namespace {
 constexpr float kFirstButton = 80.0F;  // [units] from the corner to the middle of a side's first button
 constexpr float kButtonPitch = 80.0F;  // [units] distance between buttons
 constexpr float kMargin = 6.0F;        // [units] distance from a text to the edge of the display
-constexpr float kTopRow = 12.0F;       // [units] y of the middle of the legends along the top
+constexpr float kTopRow = 12.0F;       // [units] distance of the middle of top and bottom legends from the edge
 constexpr float kZoneDepth = 44.0F;    // [units] depth of a click zone from the edge
 constexpr float kHalfZone = 34.0F;     // [units] half length of a click zone along the side; no zone covers a corner
 
@@ -75,7 +75,7 @@ constexpr float kNoticeHeight = 13.0F;  // [units] cap height of NO OWNSHIP and 
 using text::text_of;
 using Buffer = std::array<char, 40>;
 
-// Text that std::snprintf wrote into a buffer of `size` bytes. `length`: the result of std::snprintf, which counts the
+// Text that std::snprintf wrote into a buffer of `size` bytes. `length`: the result of std::snprintf, which also counts
 // characters that did not fit.
 std::string_view written_text(const char* buffer, std::size_t size, int length) {
   return {buffer, std::min(static_cast<std::size_t>(std::max(length, 0)), size - 1)};

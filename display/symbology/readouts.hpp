@@ -38,7 +38,7 @@ void draw_range(const databuffer::RadarState& state, DrawList& list);           
 void draw_window_size(const databuffer::RadarState& state, DrawList& list);     // above PB 8; blank: no text
 void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // magnetic bearing [deg], range [NM]
 // Position errors of UPDT: north and east components in feet, or in NM if the total error exceeds kUpdateErrorInFeet.
-// INV replaces errors from a cursor position that is too old. The remaining seconds of an INS update are above PB 7.
+// INV replaces the errors when the time for an INS update has expired. The remaining seconds are above PB 7.
 void draw_update_errors(const databuffer::RadarState& state, DrawList& list);
 void draw_map_timer(double seconds, DrawList& list);  // [s]; NaN draws nothing
 // Draws "A/A" or "A/G RANGING" in these modes, because no legend names them. Draws nothing in other modes.

@@ -321,7 +321,7 @@ void draw_ground(const DisplayInput& input, std::span<const radar::RoutePoint> r
 
 void draw_format(const DisplayInput& input, const Format& format, const SymbologyParameters& parameters,
                  const PlanView& view, const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
-  // A map that could not be read has no known position, so ground symbols are omitted.
+  // The position of a map that could not be read is unknown. Without it no ground symbols are drawn.
   const bool placed = format.ground && (!format.map || shows_map(input));
   // The cursor is drawn before the readouts, because draw_number omits numbers beneath the cursor.
   if (placed) draw_cursor(input, view, frame, list);
@@ -357,8 +357,8 @@ void draw_symbology(const DisplayInput& input, const SymbologyParameters& parame
   const databuffer::RadarState& state = input.state;
   list.clear();
   if (has_power(state, radar::Power::off)) {
-    // With power OFF the display is dark. A session that has never had a state machine has power OFF, too. Therefore a
-    // state machine without heartbeat is reported.
+    // With power OFF the display is dark. A session that never had a state machine has power OFF, too. Therefore a
+    // missing state machine is reported even with power OFF.
     if (!input.state_machine_alive) draw_silent({.state_machine_alive = false}, list);
     return;
   }

@@ -25,7 +25,7 @@ namespace yars::display {
 // Azimuth scale with the antenna caret.
 void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list);
 // Two balls on the azimuth scale at the limits of the scan or map, and two ticks at the edges of the blind zone.
-// The balls may pass the ticks at +-60 deg. They stop at the edge of the display.
+// The balls may pass the scale's ticks at +-60 deg. They stop at the edge of the display.
 void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, DrawList& list);
 // Elevation scale with the antenna caret.
 void draw_elevation_scale(double antenna_deg, DrawList& list);
@@ -63,10 +63,11 @@ struct SymbologyParameters {
   const std::vector<radar::RoutePoint>& route;
 };
 
-// Draws all symbols and texts that power and mode require. OFF draws nothing, unless the state machine is silent. STBY
-// draws the legends and the word STBY. `view` and `frame` apply to sweeps. The symbols of a patch map are drawn in the
-// view and frame of the map's record. Silent means: without a heartbeat. A silent state machine, a silent radar model
-// or a missing ownship is reported by a text. `labels` has the label positions of the last picture, and is updated.
+// Draws all symbols and texts that power and mode require. STBY draws legends, messages and the word STBY. A text
+// reports a state machine or radar model that is not alive, and a missing ownship. With power OFF only a state machine
+// that is not alive is reported, and nothing else is drawn. `view` and `frame` apply to pictures of sweeps. Pictures
+// of a patch map use the view and frame of the map's record. `labels` has the label positions of the last picture, and
+// is updated.
 // Pure: the same input and labels give the same list. Repeating the call with the updated labels gives the same list.
 void draw_symbology(const DisplayInput& input, const SymbologyParameters& parameters, const PlanView& view,
                     const ViewFrame& frame, LabelMemory& labels, DrawList& list);

@@ -21,7 +21,7 @@ namespace yars::inputmonitor {
 
 namespace {
 
-constexpr int kMaxWait_ms = 200;  // bounds the delay of a stop request and the interval of heartbeats
+constexpr int kMaxWait_ms = 200;  // maximum delay of a stop request and maximum interval of heartbeats
 
 }  // namespace
 
@@ -89,7 +89,7 @@ class LearningDialogue {
  public:
   LearningDialogue(DeviceReader& reader, Learning& learning) : reader_(&reader), learning_(&learning) {}
 
-  // Runs until all controls are learned, the device disconnects, or the user quits. Returns true if the device has
+  // Runs until no prompt is left, the device disconnects, or the user quits. Returns true if the device has
   // disconnected.
   bool run() {
     show_prompt();
@@ -165,11 +165,11 @@ Expected<void> learn_device(const std::string& path, const std::string& file) {
          "previous one, q ends and writes the map.\n";
   const bool disconnected = LearningDialogue(**reader, learning).run();
   if (learning.learned() == 0)
-    return fail(path, "a control that moves", disconnected ? "the device was disconnected" : "none",
+    return fail(path, "at least one learned control", disconnected ? "a disconnected device" : "none",
                 "nothing was written");
   if (auto written = write_map(learning, file); !written) return written;
   if (disconnected && !learning.finished())
-    return fail(path, "all controls of the prompts", "the device was disconnected before " + learning.prompt(),
+    return fail(path, "a device connected until the last prompt", "a disconnection at " + learning.prompt(),
                 "the map has the controls learned so far");
   return {};
 }

@@ -17,8 +17,8 @@
 
 namespace yars::inputmonitor {
 
-// Runs an event source in a session and pushes the events into the input lane `lane`.
-// Events are pushed on arrival. In lockstep, or with a source that follows sim time, they are pushed once per tick.
+// Runs an event source in a session and pushes its events into the input lane `lane`.
+// Events are pushed on arrival. In lockstep, or with a source that follows sim time, events are pushed once per tick.
 class InputMonitorShell {
  public:
   InputMonitorShell(databuffer::Session& session, std::unique_ptr<EventSource> source, int lane);

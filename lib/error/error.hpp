@@ -1,5 +1,5 @@
 // Errors as values (`Expected<T>`) and conditions that are checked in every build (`YARS_REQUIRE`).
-// Inputs: subject, what was expected, what was found, what the reader can do.
+// Inputs: subject, what was expected, what was found, what the user can do.
 // Outputs: a message of one line without control characters.
 // Use: Expected<T> for faults of files, options and records. YARS_REQUIRE for faults of the caller; it aborts in every
 // build. assert() for faults of the caller that only debug builds check.
@@ -17,8 +17,8 @@ struct Error {
   std::string subject;     // path, option or record that the error is about
   std::string expected;    // description of a valid value
   std::string found;       // description of the actual value
-  std::string action;      // what the reader can do; may be empty
-  bool bad_usage = false;  // true: an error of the command line; exit code 2 instead of 1
+  std::string action;      // what the user can do; may be empty
+  bool bad_usage = false;  // true: a usage error (wrong command line), with exit code 2 instead of 1
 
   // "SUBJECT: expected EXPECTED, found FOUND; ACTION" on one line; control characters are escaped.
   std::string message() const;
@@ -35,7 +35,7 @@ inline tl::unexpected<Error> fail(std::string subject, std::string expected, std
       Error{std::move(subject), std::move(expected), std::move(found), std::move(action), false});
 }
 
-// Makes an error of the command line, or marks an error as one. If it ends the program, the exit code is 2.
+// Marks an error as a usage error (wrong command line), or makes one. If it ends the program, the exit code is 2.
 Error usage_error(Error error);
 Error usage_error(std::string subject, std::string expected, std::string found, std::string action = {});
 

@@ -36,7 +36,7 @@ const char* name_of_kind(mode_t mode) {
 
 namespace {
 
-// True for a user ID without a mapping in this user namespace. A sandbox shows all such users, also root, with one ID.
+// True for a user ID without a mapping in this user namespace. A sandbox shows all such users, even root, with one ID.
 bool is_unmapped(uid_t user) {
   std::ifstream map("/proc/self/uid_map");
   for (std::uint64_t first = 0, outside = 0, count = 0; map >> first >> outside >> count;)
@@ -101,7 +101,7 @@ class FolderWalk {
   }
 
   // True if a link with this owner may be followed: the owner is this user or root. In a sandbox the owner may have no
-  // mapping. A link with an unmapped owner is followed only in folders that this user cannot write to.
+  // mapping. Then the link may be followed only in a folder that this user cannot write to.
   bool may_follow(uid_t owner) const {
     if (owner == ::geteuid() || owner == 0) return true;
     return is_unmapped(owner) && ::faccessat(current_.number(), ".", W_OK, AT_EACCESS) != 0;
@@ -110,7 +110,7 @@ class FolderWalk {
   Expected<void> follow(const std::filesystem::path& step_path, const Descriptor& link, uid_t owner) {
     if (!may_follow(owner))
       return fail(step_path.string(), "a folder, or a link made by this user or root",
-                  "a link made by user " + std::to_string(owner), "name the folder that it leads to");
+                  "a link made by user " + std::to_string(owner), "name the folder that the link leads to");
     std::array<char, PATH_MAX> target{};
     const ssize_t length = ::readlinkat(link.number(), "", target.data(), target.size());
     if (length <= 0)

@@ -1,5 +1,5 @@
-// Folder of the file system, opened as a file descriptor. Files are created relative to the descriptor. A later change
-// of the path, such as a new symbolic link, does not redirect them.
+// Folder of the file system, opened as a file descriptor. Files are created relative to the descriptor, so a later
+// change of the path, such as a new symbolic link, does not redirect them.
 // Inputs: a path, which is opened one component at a time.
 // Outputs: a descriptor (O_PATH) of the last component.
 // Errors: an Error that names the component that cannot be opened, and what was found there.

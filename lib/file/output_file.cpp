@@ -278,7 +278,7 @@ Expected<void> LogFile::open_newest() {
 
 Expected<void> LogFile::rotate() {
   for (std::size_t age = limits_.old; age > 0; --age) folder_.rename_file(name_of(age - 1), name_of(age));
-  // If the rename of NAME.log failed, that file is deleted. It would otherwise grow beyond limits_.bytes.
+  // NAME.log is deleted if it was not renamed. It would otherwise grow beyond limits_.bytes.
   folder_.remove(name_of(0));
   return open_newest();
 }

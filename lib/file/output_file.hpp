@@ -1,10 +1,11 @@
-// Writers of files: a file that replaces its target atomically (NewFile), and a rotated log (LogFile). YARS writes all
-// its files by these classes.
+// Writers of files: a file that replaces its target atomically (NewFile), and a rotated log (LogFile). YARS creates all
+// files except the shared segments (shm/) with these classes.
 // Inputs: a folder and a name, or a path; bytes or text.
 // Outputs: NewFile gives a complete file; if the process dies before place(), the previous file is unchanged. LogFile
 // appends each text without buffering.
 // Errors: the folder cannot be opened (folder.hpp), the target must not be replaced, or a write fails.
-// Security: NewFile writes to no existing file except a character device, and never follows a symbolic link.
+// Security: the only existing file that NewFile writes to is a character device. It never writes through a symbolic
+// link at the target path.
 // Source: docs/security.md.
 #pragma once
 
@@ -51,7 +52,7 @@ class NewFile {
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text);
 
-  // Flushes the file and renames it to its target. Later writes append to the renamed file; recordings use this.
+  // Flushes the file and renames it to its target. Later writes continue the renamed file, as recordings need.
   error::Expected<void> place();
   // Passes buffered bytes to the operating system. Error: this write or an earlier write has failed.
   error::Expected<void> flush();
@@ -91,7 +92,7 @@ error::Expected<std::filesystem::path> write_file_and_folders(const std::filesys
 
 // Log file with rotation, mode 0600. Texts are appended to NAME.log; NAME.1.log is the newest of the old files.
 // If a text does not fit into NAME.log, each file is renamed to the next number and the oldest file is deleted. A text
-// longer than the limit is written as a whole to an empty file.
+// longer than Limits::bytes is written as a whole to an empty file.
 // Errors: NAME.log is not a regular file of this user, or has a second hard link; a write has failed.
 class LogFile {
  public:

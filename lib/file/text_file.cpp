@@ -16,10 +16,11 @@ namespace yars::file {
 
 namespace {
 
-// [bytes] Maximum size of a file. Files are read into memory as a whole. A track of one day at 50 Hz has this size.
+// [bytes] Maximum size of a file, because files are read into memory as a whole. A track of one day at 50 Hz has
+// about this size.
 constexpr std::uintmax_t kMaxFile_bytes = std::uintmax_t{256} << 20;
-// Maximum number of lines. A short line takes more memory after parsing than as text, so the limit on bytes does not
-// bound the memory of the parsed lines.
+// Maximum number of lines, which bounds the memory of the parsed lines. kMaxFile_bytes alone does not bound it, because
+// a short line takes more memory after parsing than as text.
 constexpr std::ptrdiff_t kMaxLines = 10'000'000;
 
 }  // namespace
@@ -55,7 +56,7 @@ error::Expected<std::string> read_text_file(const std::filesystem::path& path) {
     return error::fail(path.string(), "a text file", "a folder", "name a file in it");
   // Reading a pipe can block forever. Reading a device may never end.
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
-    return error::fail(path.string(), "a text file", "a pipe, a socket or a device", "copy it into a plain file");
+    return error::fail(path.string(), "a text file", "a pipe, a socket or a device", "copy it into a regular file");
   const std::uintmax_t size = std::filesystem::is_regular_file(path, code) ? std::filesystem::file_size(path, code) : 0;
   if (size > kMaxFile_bytes)
     return error::fail(path.string(), "at most 256 MiB of text", std::to_string(size) + " bytes");

@@ -20,12 +20,12 @@ namespace yars::file {
 // 256 MiB, or has more than 10 million lines.
 error::Expected<std::string> read_text_file(const std::filesystem::path& path);
 
-// The first `max_bytes` bytes of a regular file, or all if there are fewer. The size in the file's status may be wrong,
-// for example 0 for files in /proc. The call does not block on a pipe. nullopt: the file is not regular, or cannot be
+// The first `max_bytes` bytes of a regular file, or all if there are fewer. The size in the file's status may be wrong;
+// it is 0 for files in /proc. The call does not block on a pipe. nullopt: the file is not regular, or cannot be
 // read; errno has the reason.
 std::optional<std::string> read_regular_file(const std::filesystem::path& path, std::size_t max_bytes);
 
-// Name and range of one number of a line. Both ends belong to the range.
+// Name and range [min, max] of one number of a line.
 struct NumberField {
   std::string_view name;
   double min;

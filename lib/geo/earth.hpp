@@ -5,14 +5,14 @@
 namespace yars::geo {
 
 // [m] Mean radius (2a + b) / 3. It differs by less than 0.6 % from every radius of curvature of the ellipsoid.
-// Another value changes every picture that uses the spherical approximation.
+// A change of this value changes every picture that uses the spherical approximation.
 inline constexpr double kMeanEarthRadius_m = 6'371'008.8;
 
-// [m] Arc of one degree on the sphere of mean radius, rounded to 1 m. It is within 0.6 % of one degree of latitude
-// anywhere on the ellipsoid.
+// [m] Arc of one degree on the sphere of mean radius, rounded to 1 m. One degree of latitude on the ellipsoid differs
+// from this length by less than 0.6 %, at every latitude.
 inline constexpr double kMetresPerDegree = 111'195.0;
 
-// [m] Bounds of one degree of latitude on the ellipsoid: 110,574 m at the equator, 111,693.98 m at a pole.
+// [m] Bounds of the length of one degree of latitude: 110,574 m at the equator, 111,693.98 m at a pole.
 // A distance [m] / kMinMetresPerDegree is an upper bound of the difference in latitude [deg].
 // A difference in latitude [deg] x kMaxMetresPerDegree is an upper bound of the distance [m].
 inline constexpr double kMinMetresPerDegree = 110'500.0;

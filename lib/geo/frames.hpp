@@ -24,7 +24,7 @@ struct GeodeticPosition {
   GeoPoint point;
   HeightAboveEllipsoid height;
 };
-// Position and height of a finite ECEF vector [m]. At the centre of the Earth the latitude is that of a pole.
+// Position and height of a finite ECEF vector [m]. The centre of the Earth gives the latitude of a pole.
 GeodeticPosition geodetic_from_ecef(Vector3 ecef);
 
 // Local tangent frame: x east, y north, z up, in metres, at an origin with a height above the ellipsoid.

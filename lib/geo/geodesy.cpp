@@ -86,7 +86,7 @@ using Coefficients = GeodesicSeries::Coefficients;
 
 constexpr double kTruncationTarget_m = 5e-4;  // [m] bound on the first omitted term: half of the permitted 1 mm
 
-// 1 / k: a multiplication takes a fraction of the time of a division.
+// Element k is 1 / k; element 0 is unused. Multiplication by 1 / k is faster than division by k.
 constexpr std::array<double, GeodesicSeries::kMaxOrder + 1> kInverse{
     0.0, 1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0, 1.0 / 5.0, 1.0 / 6.0, 1.0 / 7.0, 1.0 / 8.0};
 
@@ -97,7 +97,7 @@ double product(const Coefficients& a, const Coefficients& b, std::size_t k) {
   return sum;
 }
 
-// Like product(), but without the terms that contain a[0].
+// Like product(), but without the term a[0] * b[k].
 double product_after_first(const Coefficients& a, const Coefficients& b, std::size_t k) {
   double sum = 0.0;
   for (std::size_t j = 1; j <= k; ++j) sum += a[j] * b[k - j];
@@ -122,10 +122,11 @@ Start start_of(double latitude_deg, Bearing azimuth) {
           scaled_cosine * inverse * std::sin(azimuth_rad), scaled_cosine};
 }
 
-// Power series in the distance [equatorial radii]: longitude, and sine of the geodetic latitude.
-// Definitions: z = sin(beta), p = cos(beta) cos(azimuth), W^2 = 1 - e^2 cos^2(beta), ds = W dsigma.
-// Derivatives by distance: z' = p / W, p' = -z / W, longitude' = east / cos^2(beta), because cos(beta) sin(azimuth) is
-// constant (Clairaut). Output: sin(latitude) = z / W. e: eccentricity; `inverse_w` is 1 / W.
+// Power series in the distance s [equatorial radii]: longitude [rad], and sine of the geodetic latitude.
+// Definitions: z = sin(beta), p = cos(beta) cos(azimuth), W^2 = 1 - e^2 cos^2(beta), ds = W dsigma. e: eccentricity;
+// sigma: arc on the auxiliary sphere. `inverse_w` is 1 / W.
+// Derivatives by s: z' = p / W, p' = -z / W, longitude' = east / cos^2(beta), because east = cos(beta) sin(azimuth) is
+// constant (Clairaut). Output: sin(latitude) = z / W.
 // Source: Karney 2013, eqs. 5-10.
 struct Path {
   Coefficients sin_latitude{}, longitude{};
@@ -162,7 +163,7 @@ Path path_from(const Start& start, std::size_t order) {
   return path;
 }
 
-// Power series of the arcsine of the power series `sine`, without the constant term. `first_cosine`: cosine at start.
+// Power series of the arcsine of the power series `sine`, without the constant term. `first_cosine`: cosine at s = 0.
 // Recurrence: sine' = cosine * angle', cosine' = -sine * angle'; `slope` is angle'.
 Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t order) {
   Coefficients angle{}, slope{}, cosine{};
@@ -178,8 +179,8 @@ Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t 
 }  // namespace
 
 int GeodesicSeries::order_for(double latitude_deg, Length range) {
-  // The series of latitude and longitude converge for ranges up to about the distance to the pole. Term k is about
-  // (distance to the pole) * (range / distance to the pole)^k / k.
+  // The series of latitude and longitude converge for ranges up to about the distance to the nearer pole. Term k is
+  // about to_pole_m * (range / to_pole_m)^k / k.
   const double to_pole_m = (90.0 - std::abs(latitude_deg)) * kRadiansPerDegree * kMeanEarthRadius_m;
   const double ratio = range.metres() / to_pole_m;
   double omitted_m = to_pole_m * ratio;

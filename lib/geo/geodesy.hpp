@@ -34,9 +34,9 @@ GeodesicInverse geodesic_inverse(GeoPoint from, GeoPoint to);
 // Position at a distance from `from` along the geodesic that starts at `azimuth`.
 GeoPoint geodesic_direct(GeoPoint from, Bearing azimuth, Length distance);
 
-// Geodesic from one position along one azimuth, for many positions on it. The construction does the common work; each
-// position then costs the evaluation of one series. No memory is allocated, because the kernel makes a ray for each
-// sweep.
+// Geodesic from one position along one azimuth, for many positions on it. The constructor does the work that all
+// positions share; each position then costs the evaluation of one series. No memory is allocated, because the kernel
+// makes a ray for each sweep.
 class GeodesicRay {
  public:
   GeodesicRay(GeoPoint start, Bearing azimuth);
@@ -62,11 +62,11 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth);
 // Short geodesic: latitude and longitude as Taylor polynomials in the distance from the start.
 // Accuracy: within 1 mm of GeodesicRay up to the range given to order_for() (tests/lib/geo/geodesic_series_test.cpp).
 // Cost: tens of nanoseconds for a position; GeodesicRay takes hundreds.
-// Limit: the series diverges at ranges beyond the distance to the nearer pole. The range must be well below that.
+// Limit: the series diverges at ranges beyond the distance to the nearer pole. Ranges must be well below it.
 struct GeodesicSeries {
   static constexpr int kMaxOrder = 8;
 
-  // The lowest order with an error of at most 1 mm for every azimuth; 0 if no order up to kMaxOrder suffices.
+  // The lowest order with an error of at most 1 mm up to `range`, for every azimuth. 0 if kMaxOrder does not suffice.
   static int order_for(double latitude_deg, Length range);
 
   // `order` is in [1, kMaxOrder]. `start` must not be a pole.
@@ -85,7 +85,7 @@ struct PlanePoint {
   double x_m = 0.0, y_m = 0.0;
 };
 
-// Azimuthal equidistant projection about an origin. Distance and azimuth from the origin equal those of the geodesic.
+// Azimuthal equidistant projection about an origin. Distance and azimuth from the origin are those of the geodesic.
 // Exact for every point of the ellipsoid except the antipode. y points along the azimuth `up` at the origin, x points
 // 90 degrees to its right; by default x is east and y is north.
 class AzimuthalEquidistant {
@@ -102,8 +102,9 @@ class AzimuthalEquidistant {
   Bearing up_;
 };
 
-// Magnetic variation by a model of the earth's field, such as the World Magnetic Model. The model's data must be
-// installed. Debian packages only the program that downloads the data, geographiclib-get-magnetic.
+// Magnetic variation (angle from true to magnetic north) by a model of the earth's field, such as the World Magnetic
+// Model. The model's data must be installed. Debian packages only the program that downloads the data,
+// geographiclib-get-magnetic.
 class MagneticField {
  public:
   // An empty `name` selects GeographicLib's default model, an empty `folder` its default data folder. If the data
@@ -115,7 +116,7 @@ class MagneticField {
 
   bool has_data() const { return model_ != nullptr; }
   const std::string& problem() const { return problem_; }
-  // Variation [deg], east positive. `year` is clamped to the years of the model. NaN without data.
+  // Variation [deg], east positive. `year`, with fraction, is clamped to the years of the model. NaN without data.
   double variation_deg(GeoPoint point, HeightAboveEllipsoid height, double year) const;
 
  private:

@@ -1,7 +1,7 @@
 // Quantities as types: length, angle, speed, duration, bearing, and height over one of three datums.
 // Inputs: numbers with a named unit, such as `Length::feet(500)`.
-// Outputs: numbers with a named unit, such as `range.metres()`. A quantity stores one double in SI units, a bearing one
-// double in degrees.
+// Outputs: numbers with a named unit, such as `range.metres()`. A quantity stores one double in SI units.
+// A bearing stores one double in degrees.
 // Use: convert to a double once before a hot loop, as in `const double range_m = range.metres()`.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace yars::geo {
 
-// Operators of all quantities: sum, difference, negation, scaling, comparison. The ratio of two is a number.
+// Operators of all quantities: sum, difference, negation, scaling, comparison. The ratio of two quantities is a double.
 template <class Derived>
 class Quantity {
  public:

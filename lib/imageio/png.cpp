@@ -51,7 +51,8 @@ void store_message(png_structp png, png_const_charp message) {
 }
 void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
-// Returns false after an error of libpng. The error jumps here by longjmp, so no local variable may have a destructor.
+// Returns false after an error of libpng. On an error libpng returns to setjmp() by longjmp(), which calls no
+// destructors. So no local variable may have a destructor.
 bool write_indexed(png_structp png, png_infop info, std::FILE* file, const IndexedImage& image) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_init_io(png, file);
@@ -61,8 +62,8 @@ bool write_indexed(png_structp png, png_infop info, std::FILE* file, const Index
   for (std::size_t index = 0; index < image.palette.size(); ++index)
     colours[index] = {image.palette[index][0], image.palette[index][1], image.palette[index][2]};
   png_set_PLTE(png, info, colours, static_cast<int>(image.palette.size()));
-  // PNG filters do not improve the compression of indices. A compression level above 4 does not make areas of one index
-  // smaller.
+  // PNG filters do not improve the compression of indices. A compression level above 4 does not compress
+  // areas of one index any further.
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
   png_set_compression_level(png, 4);
   png_write_info(png, info);
@@ -112,7 +113,8 @@ struct PngReader {
   ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
-// Returns false after an error of libpng. The error jumps here by longjmp, so no local variable may have a destructor.
+// Returns false after an error of libpng. On an error libpng returns to setjmp() by longjmp(), which calls no
+// destructors. So no local variable may have a destructor.
 bool read_header(const PngReader& reader, std::FILE* file, int max_side_pixels) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_init_io(reader.png, file);
@@ -167,7 +169,7 @@ error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path
   rows.reserve(static_cast<std::size_t>(image.height));
   for (int row = 0; row < image.height; ++row)
     rows.push_back(&image.pixels[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width)]);
-  if (!read_rows(reader, rows.data())) return error::fail(path.string(), "whole PNG data", reader.message);
+  if (!read_rows(reader, rows.data())) return error::fail(path.string(), "complete PNG data", reader.message);
   return image;
 }
 

@@ -1,8 +1,8 @@
 // PNG files: writer of gray, RGB and RGBA images; writer and reader of images with a palette.
 // Inputs: pixels of 8 bits, or the path of a regular file.
 // Outputs: a file through lib/file/output_file.hpp, or an image. Rows run from top to bottom, without padding.
-// Errors: a file that cannot be written; a file that is no PNG, is too large, is incomplete or is damaged. Each error
-// names the file.
+// Errors: a file that cannot be written; an input file that is no indexed PNG, is too large, is incomplete or is
+// damaged. Each error names the file.
 #pragma once
 
 #include <array>
@@ -23,7 +23,8 @@ struct Image {
   std::vector<std::uint8_t> pixels;
 };
 
-// Writes an image. The program aborts unless the number of pixel bytes is width x height x channels.
+// Writes an image to a path or to a file that the caller has created. The program aborts unless the number of pixel
+// bytes is width x height x channels.
 error::Expected<void> write_png(const std::filesystem::path& path, const Image& image);
 error::Expected<void> write_png(file::NewFile file, const Image& image);
 

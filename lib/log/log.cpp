@@ -22,7 +22,7 @@ namespace yars::log {
 
 namespace {
 
-// Key of the kind of a line: the text before ", found", with each run of digits replaced by '#'.
+// Key of a line: the text before ", found", with each run of digits replaced by '#'. Lines of one kind have equal keys.
 std::string key_of(std::string_view line) {
   std::string key;
   for (const char letter : line.substr(0, line.find(", found"))) {
@@ -101,7 +101,7 @@ std::shared_ptr<spdlog::logger>& file_logger() {
 // Rate limit of all lines of the program.
 struct Filtered {
   std::mutex mutex;
-  RepeatFilter filter{10, 200};  // lines of one kind, of all kinds
+  RepeatFilter filter{10, 200};  // maximum number of lines per window: of one kind, of all kinds
 };
 Filtered& filtered() {
   static Filtered all;
@@ -122,7 +122,8 @@ std::vector<RepeatFilter::SuppressedLines> take_suppressed(SuppressedKinds which
   return filtered().filter.take_suppressed(now_ns(), which == SuppressedKinds::all);
 }
 
-// spdlog sink that writes to a file::LogFile. The file sinks of spdlog would follow a symbolic link at the log's path.
+// spdlog sink that writes to a file::LogFile. spdlog's own file sinks are not used, because they follow a symbolic link
+// at the log's path.
 class FileSink : public spdlog::sinks::base_sink<std::mutex> {
  public:
   explicit FileSink(file::LogFile file) : file_(std::move(file)) {}

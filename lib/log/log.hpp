@@ -17,7 +17,7 @@ namespace yars::log {
 // the others. Two lines are of one kind if they are equal apart from digits and the text after ", found".
 class RepeatFilter {
  public:
-  static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // window length, from the first line of a kind on
+  static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // [ns] length of a window, from a kind's first line on
   static constexpr std::size_t kMaxKinds = 64;                // a 64th kind evicts the oldest kind
 
   // Maximum number of lines that pass within a window, for one kind and for all kinds together.
@@ -38,8 +38,8 @@ class RepeatFilter {
 
  private:
   struct Kind {
-    std::string key;        // the line without digits, as in key_of()
-    std::int64_t begin_ns;  // start of the window
+    std::string key;        // result of key_of(), equal for all lines of the kind
+    std::int64_t begin_ns;  // [ns] start of the kind's window
     int passed;             // lines passed in the window
     SuppressedLines suppressed;
   };
@@ -49,7 +49,7 @@ class RepeatFilter {
   int max_per_kind_, max_total_;
   std::vector<Kind> kinds_;           // oldest first
   Kind evicted_{};                    // suppressed lines of evicted kinds
-  std::int64_t window_begin_ns_ = 0;  // start of the window for the limit on all kinds
+  std::int64_t window_begin_ns_ = 0;  // [ns] start of the window for the limit on all kinds
   int passed_in_window_ = 0;          // lines of all kinds in that window
 };
 

@@ -18,7 +18,7 @@ void* allocate_lines(std::size_t bytes) {
   const std::size_t rounded_bytes = (bytes + unit - 1) / unit * unit;
   void* memory = rounded_bytes >= bytes ? std::aligned_alloc(unit, rounded_bytes) : nullptr;
   if (memory == nullptr) throw std::bad_alloc();
-  // The result is not checked: the advice only changes speed, and a kernel without large pages ignores it.
+  // The result is not checked: the advice only changes speed, and a system without large pages ignores it.
   if (large) madvise(memory, rounded_bytes, MADV_HUGEPAGE);
   return memory;
 }

@@ -4,8 +4,9 @@ namespace yars::parallel {
 
 namespace {
 // Number of polls before a thread sleeps. One poll takes tens of nanoseconds; a wake-up takes tens of microseconds.
-// All polls together take some hundred microseconds. This is about the longest wait of a thread within a scan.
-// With fewer polls, threads sleep and wake up within a scan. With more polls, a core stays busy after a scan.
+// All polls together take a few hundred microseconds, about the longest wait of a thread within an offline scan.
+// With fewer polls, threads would sleep and wake up within a scan. With more polls, they would keep the cores busy
+// longer after a scan.
 constexpr int kPolls = 8000;
 
 // Leaves the processor core to its other hardware thread for some clock cycles.

@@ -16,11 +16,11 @@
 
 namespace yars::parallel {
 
-// Waits until `value` differs from `seen`, and returns its new value. It spins for a few hundred microseconds, then
-// blocks. The thread that changes the value must call notify_one() or notify_all().
+// Waits until `value` differs from `seen`, and returns the new value. The thread spins for a few hundred microseconds,
+// then blocks. The thread that changes the value must call notify_one() or notify_all().
 std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t seen);
 
-// Pool of threads that wait between jobs. Starting threads for each scan would cost as much as a short scan.
+// Pool of threads that are reused for all jobs. Starting threads takes as long as a short offline scan.
 class ThreadPool {
  public:
   // `threads`: number of threads including the calling thread, at least 1.
@@ -39,7 +39,7 @@ class ThreadPool {
   // Separate cache lines avoid false sharing: polling one atomic does not slow writes to the other.
   alignas(64) std::atomic<std::uint32_t> job_number_{0};
   alignas(64) std::atomic<std::uint32_t> busy_workers_{0};
-  const std::function<void(std::size_t)>* job_ = nullptr;  // null: the workers end when job_number_ changes
+  const std::function<void(std::size_t)>* job_ = nullptr;  // null: the workers end at the next change of job_number_
   std::vector<std::thread> workers_;
 };
 
@@ -77,8 +77,9 @@ class ChunkQueue {
 };
 
 // Calls job(first, end, thread) for ranges [first, end) of at most `chunk` items, which together cover `count` items.
-// In every loop of equal size a thread begins with the same chunks, whose data is often still in its cache. A thread
-// without chunks takes chunks of other threads. With one thread the job is called once, for all items.
+// In all loops of equal `count` and `chunk`, a thread begins with the same chunks, whose data is often still in its
+// cache. A thread without chunks takes chunks of other threads. With one thread, the job is called once for all
+// items, and `chunk` has no effect.
 template <class Job>
 void parallel_for(const Executor& executor, int count, int chunk, const Job& job) {
   if (executor.threads == 1) return executor.run([&](std::size_t thread) { job(0, count, thread); });

@@ -1,6 +1,6 @@
 // Maps of cockpit hardware: the radar events of each button and axis of a Linux input device.
 // config/schema reads the maps from GUF files; inputmonitor/ applies them.
-// A map applies to devices of a vendor and product, with a name, or with a control.
+// The conditions of a map select the devices to which it applies: vendor, products, device name, a control.
 // Source: codes of linux/input-event-codes.h; events as `yars inject` accepts them.
 #pragma once
 
@@ -13,7 +13,7 @@
 namespace yars::radar {
 
 inline constexpr std::size_t kMaxDevices = 64;    // maximum number of maps
-inline constexpr std::size_t kMaxControls = 256;  // maximum number of buttons in a map, and of axes
+inline constexpr std::size_t kMaxControls = 256;  // maximum number of buttons per map; the same for axes
 
 struct DeviceButton {
   std::string code;       // for example BTN_TRIGGER; config/schema/devices.hpp has all spellings
@@ -28,15 +28,16 @@ struct DeviceButton {
 enum class AxisUse : std::uint8_t { tdc_x = 0, tdc_y = 1, elevation = 2, directions = 3, lever = 4 };
 
 struct DeviceAxis {
-  static constexpr double kAsDevice = std::numeric_limits<double>::quiet_NaN();  // the value that the device reports
+  // low, high: the limit that the device reports. centre: the middle between low and high.
+  static constexpr double kAsDevice = std::numeric_limits<double>::quiet_NaN();
 
   std::string code;  // for example ABS_X; config/schema/devices.hpp has all spellings
   AxisUse use = AxisUse::tdc_x;
   double low = kAsDevice;     // raw value at the low end
   double high = kAsDevice;    // raw value at the high end
-  double centre = kAsDevice;  // raw value at rest; kAsDevice: the middle between the ends
-  double dead_zone = 0.05;    // fraction of the travel from the centre to an end without effect, [0, 0.9]
-  double curve = 0.0;         // response: 0 = linear, 1 = cubic
+  double centre = kAsDevice;  // raw value at rest
+  double dead_zone = 0.05;    // fraction of the travel from the centre to each end that has no effect, [0, 0.9]
+  double curve = 0.0;         // response: 0 = linear, 1 = cubic; between: weighted mean of both
   bool inverted = false;      // true: the low end is right or up
   std::string positive;       // directions, lever: event of a move to the high end, after inversion
   std::string negative;       // directions, lever: event of a move to the low end, after inversion

@@ -43,7 +43,7 @@ std::optional<std::size_t> largest_window_that_fits(geo::Length range, std::span
 // Window of a blank selection at a cursor range; nullopt if no map is possible.
 std::optional<geo::Length> window_of_blank_selection(geo::Length cursor_range, const WindowLimits& table);
 
-// Resolution cells along one edge of every window. Another value changes resolution and formation time.
+// Resolution cells along one edge of every window. A change of this value changes resolution and formation time.
 inline constexpr int kMapCells = 480;
 
 // Edge of a resolution cell: the window divided by kMapCells.
@@ -62,7 +62,7 @@ struct MapGeometry {
 
 // Parameters that determine azimuth resolution and formation time of a synthetic array. The object copies the values.
 struct SyntheticArray {
-  // Converts from a configuration with these three sections, such as RadarConfiguration.
+  // Converts from a configuration with the sections receiver, antenna and high_resolution, such as RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.high_resolution; }
   SyntheticArray(const Configuration& whole)
@@ -74,7 +74,7 @@ struct SyntheticArray {
 
   double frequency_ghz;
   double azimuth_beamwidth_deg;  // [deg] one-way 3 dB, of the real beam
-  double broadening;             // k of the weighting: width of the response, in units of 1 / bandwidth
+  double broadening;             // k of the weighting: half-power width of the response times the bandwidth
   double max_formation_time_s;   // [s] upper bound of the formation time
   double dwell_s;                // [s] dwell of the HRM PPI on each direction
 };
@@ -91,7 +91,7 @@ geo::Duration formation_time(const MapGeometry& geometry, const SyntheticArray& 
 bool in_blind_zone(geo::Angle squint, double blind_zone_deg);
 
 // Azimuth resolution of the Doppler beam sharpened scan: lambda / (2 V T sin(squint)), at most the real beam width.
-// lambda: wavelength; V: ground speed; T: dwell.
+// lambda: wavelength; V: ground speed; T: dwell. If the result is the real beam width, the scan is not sharpened.
 geo::Angle dbs_beamwidth(geo::Angle squint, geo::Speed ground_speed, const SyntheticArray& array);
 
 // Position, heading and ground track of the aircraft. Bearings are true.
@@ -103,12 +103,15 @@ struct MapViewpoint {
 
 struct MapWindow {
   geo::Length size;    // zero: blank selection, window not determined yet
-  bool blank = false;  // true: `size` is from a blank selection, and limits of the blank selection also permit the map
+  // true: `size` is from a blank selection. The map is then possible if the limits of `size` or those of the blank
+  // selection permit it.
+  bool blank = false;
 };
 
 // Limits of the position of a patch map. The table of windows must outlive this object.
 struct MapLimits {
-  // Converts from a configuration with these three sections, such as RadarConfiguration.
+  // Converts from a configuration with the sections antenna, high_resolution and window_limits, such as
+  // RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.window_limits; }
   MapLimits(const Configuration& whole)
@@ -121,8 +124,8 @@ struct MapLimits {
   const WindowLimits& windows;
 };
 
-// Message of the display if a patch map about `centre` is not possible; nullopt if the map is possible. The limits of a
-// re-map are the same. A position that is not finite gives "NO CURSOR".
+// Message of the display if a patch map about `centre` is not possible; nullopt if the map is possible. A re-map
+// has the same limits. A position that is not finite gives "NO CURSOR".
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the 1996 report.
 std::optional<std::string_view> map_rejection(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
                                               const MapLimits& limits);

@@ -21,9 +21,9 @@ struct NavigationConfiguration {
   double drift_east_mps = 0.0;      // [m/s] velocity error when the session begins
   double drift_down_mps = 0.0;      // [m/s] velocity error when the session begins
   double walk_mps = 0.0;            // [m/s] random walk of the velocity error: standard deviation after one hour
-  double update_validity_s = 30.0;  // [s] time after a cursor move in which an INS update is valid
+  double update_validity_s = 30.0;  // [s] validity of the cursor position for an INS update, from its last move
   double velocity_period_s = 60.0;  // [s] time between velocity updates
-  double velocity_noise_mps = 0.1;  // [m/s] standard deviation of each measured horizontal component; 1/3 ft/s
+  double velocity_noise_mps = 0.1;  // [m/s] standard deviation of each measured horizontal component; about 1/3 ft/s
   std::string magnetic_model;       // model of the magnetic field, such as "wmm2020"; empty: default of GeographicLib
   std::string magnetic_folder;      // folder of the model's data; empty: default of GeographicLib
   double magnetic_year = 2025.0;    // [year] date of the magnetic field; needed, because a session has no date
@@ -56,7 +56,7 @@ struct WindowLimits {
 
 // Range that the radar selects by height above the surface. Source: docs/spec/pilots_interface.md#rule-1.
 struct HeightRanges {
-  std::vector<double> heights_ft{500, 1000};  // [ft] ascending; a height equal to a limit has the shorter range
+  std::vector<double> heights_ft{500, 1000};  // [ft] ascending; a height equal to an entry has the shorter range
   std::vector<double> ranges_nm{10, 20, 40};  // [NM] range up to each height; the last value applies above all heights
 };
 

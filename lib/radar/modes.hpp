@@ -1,9 +1,10 @@
-// Modes, switch positions and array sizes, as the numbers in records; names of sequence points.
+// Modes and switch positions with their numbers in records, sizes of arrays in records, names of sequence points.
 // Abbreviations: docs/spec/pilots_interface.md.
 // Inputs: a number from a record, or the name of a sequence point.
 // Outputs: texts for legends; the number and offset in a sequence point's name; the order of the names.
 // Errors: "?" for a number outside its enumeration; std::nullopt for a text that is no name of a sequence point.
-// Compatibility: changing a number changes the layout of the segment and of recordings.
+// Compatibility: a changed enumerator changes the meaning of records. A changed size changes the layout of the segment
+// and of recordings.
 #pragma once
 
 #include <cstdint>

@@ -29,7 +29,7 @@ struct ReceiverConfiguration {
   double frequency_ghz = 9.6;      // [GHz]
   double stc_exponent = 3.0;       // n of the sensitivity time control (R/R0)^n; R: slant range, R0: selected range
   double dynamic_range_db = 45.0;  // [dB] power ratio of white to black at gain 3, logarithmic receiver
-  double gain_step_db = 8.0;       // [dB] gain change between two of the settings GAIN 3 to 0
+  double gain_step_db = 8.0;       // [dB] gain change between neighbouring settings GAIN 3, 2, 1, 0
   double noise_floor_db = -42.0;   // [dB] thermal noise relative to full scale
   double land_gamma_db = -14.0;    // [dB] gamma of land without culture: sigma0 = gamma sin(grazing angle)
   int looks = 4;                   // independent looks averaged in each sample; more looks give less speckle
@@ -38,7 +38,7 @@ struct ReceiverConfiguration {
 // Patch maps and the Doppler beam sharpened scan (HRM PPI); docs/spec/physics.md#hrm.
 struct HighResolutionConfiguration {
   std::vector<double> looks{2, 3};     // looks averaged at ML1 and ML2; ML2 takes 1.5 times as long
-  double broadening = 1.2;             // k of the weighting: width of the response, in units of 1 / bandwidth
+  double broadening = 1.2;             // k of the weighting: half-power width of the response times the bandwidth
   double sidelobe_db = -35.0;          // [dB] level of the highest sidelobes of the Taylor weighting
   double max_formation_time_s = 60.0;  // [s] upper bound of the formation time
   double blind_zone_deg = 8.0;         // [deg] either side of the ground track
@@ -47,10 +47,10 @@ struct HighResolutionConfiguration {
   double sector_step_deg = 0.125;      // [deg] azimuth between sweeps of the HRM PPI
   double dynamic_range_db = 45.0;      // [dB] power ratio of white to black, logarithmic receiver
   double brightest_gamma_db = 8.0;     // [dB] gamma of level ground that is drawn white
-  double noise_gamma_db = -34.0;       // [dB] gamma of level ground as strong as thermal noise at 20 NM, window 0.67 NM
-  double double_bounce_db = 6.0;       // [dB] reflection by ground and wall at its foot, relative to the wall's return
+  double noise_gamma_db = -34.0;       // [dB] thermal noise at 20 NM, window 0.67 NM, as the gamma of level ground
+  double double_bounce_db = 6.0;       // [dB] double reflection by wall and ground, relative to the wall's return
   int default_material = 2;            // material code of scene faces without one; 2 = part metal
-  double detail_contrast = 0.5;        // standard deviation of the natural logarithm of the synthetic detail
+  double detail_contrast = 0.5;        // standard deviation of the natural logarithm of the ground texture's factor
 };
 
 }  // namespace yars::radar

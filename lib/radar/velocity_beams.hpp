@@ -44,7 +44,7 @@ inline geo::Vector3 line_of_sight(geo::Bearing azimuth, geo::Angle elevation) {
           -std::sin(elevation.radians())};
 }
 
-// Velocity [m/s] that minimizes the squared errors of the speeds along `lines`. `speeds_mps` has one speed per line.
+// Velocity [m/s] with the least sum of squared errors of the speeds along `lines`. `speeds_mps` has one speed per line.
 inline std::optional<geo::Vector3> velocity_of(std::span<const geo::Vector3> lines,
                                                std::span<const double> speeds_mps) {
   YARS_REQUIRE(lines.size(), ==, speeds_mps.size());

@@ -30,13 +30,13 @@ struct Material {
   std::string name;
   double gamma_db = 0.0;     // [dB] gamma at LandConfiguration::reference_frequency_ghz
   double cardinal_db = 0.0;  // [dB] cardinal effect: additional return of walls that face the radar
-  double texture = 0.0;      // shape parameter of the gamma-distributed texture; small values vary most; 0 = none
+  double texture = 0.0;      // shape parameter of the gamma-distributed texture; a smaller shape varies more; 0 = none
 };
 
 // Return of land. The gamma of land without culture is ReceiverConfiguration::land_gamma_db.
 struct LandConfiguration {
   double frequency_slope_db = 5.0;        // [dB] increase of every gamma for a tenfold frequency
-  double reference_frequency_ghz = 10.0;  // [GHz] frequency at which the following gammas apply
+  double reference_frequency_ghz = 10.0;  // [GHz] frequency at which the configured gammas apply
   double cardinal_width_deg = 6.0;        // [deg] half-power width of the cardinal effect
   double texture = 0.0;                   // texture of land without culture
   std::vector<Material> materials{
@@ -92,7 +92,7 @@ struct Jammer {
 
 struct JammingConfiguration {
   double radar_power_dbw = 72.0;  // [dBW] effective radiated peak power of the radar
-  double sidelobe_db = -35.0;     // [dB] minimum one-way antenna gain, relative to the beam centre
+  double sidelobe_db = -35.0;     // [dB] lower bound of the one-way antenna gain, relative to the beam centre
   std::vector<Jammer> jammers;
 };
 
@@ -118,7 +118,7 @@ struct Mover {
   std::string name;
   geo::GeoPoint position;            // position at sim time 0
   double speed_mps = 0.0;            // [m/s] over ground
-  double heading_deg = 0.0;          // [deg] direction of motion from true north at sim time 0
+  double heading_deg = 0.0;          // [deg] true direction of motion at sim time 0
   double cross_section_m2 = 1000.0;  // [m^2] radar cross section
   double height_m = 6.096;           // [m] height of the scatterer above the ground; 20 ft
 };

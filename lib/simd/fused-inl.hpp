@@ -1,7 +1,7 @@
 // Fused multiply-add for Highway vectors of float or double, of any width.
 // Inputs: three vectors of the same type.
-// Outputs: a * b + c, rounded once. The bits are equal on every target, with and without an FMA instruction.
-// Reason: Highway's MulAdd rounds twice on targets without FMA, which would change the hash of a sweep.
+// Outputs: a * b + c, c - a * b or a * b - c, rounded once. All targets, with or without FMA, give equal bits.
+// Reason: Highway's MulAdd rounds twice on targets without FMA, so sweeps would differ between targets.
 // Use: include this file once for each target, inside Highway's foreach_target.h.
 // Source: docs/decisions/0009-vectors-by-highway.md; Boldo and Melquiond 2008, "Emulation of a FMA and correctly
 // rounded sums", IEEE Trans. Computers 57.
@@ -25,8 +25,8 @@ namespace yars::simd::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 #if !HWY_NATIVE_FMA
-// a * b + c, rounded once to float. The sum in double is rounded to odd. Its rounding to float then gives the correct
-// result (Boldo and Melquiond 2008).
+// a * b + c, rounded once to float. The sum in double is rounded to odd (an inexact sum gets an odd last bit). Its
+// rounding to float then gives the correct result (Boldo and Melquiond 2008).
 HWY_INLINE float rounded_once(float a, float b, float c) {
   const double product = static_cast<double>(a) * static_cast<double>(b);  // exact
   const auto addend = static_cast<double>(c);

@@ -46,13 +46,14 @@ bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& 
 }
 
 namespace {
-// Ratio of the turn-around time to the time of one pass without it. With 0.1 a scan of 100 deg takes 1 s at 110 deg/s.
+// Ratio of the turn-around time to the time in which a pass crosses the sector. With 0.1, a scan of 100 deg takes 1 s
+// at 110 deg/s.
 constexpr double kTurnFraction = 0.1;
 constexpr double kMinWidth_deg = 1.0;  // a narrower sector would have one or two sweeps a pass at 110 deg/s
-constexpr double kMinRate_dps = 1.0;   // at lower rates, which are configuration mistakes, a scan takes minutes
+constexpr double kMinRate_dps = 1.0;   // at a lower rate, a configuration mistake, a scan would take minutes
 constexpr int kMaxBars = 4;
-// Tolerance [ticks] of the quotient for ceil(). Without a tolerance, a quotient rounded up from a whole number would
-// add a tick.
+// [ticks] Subtracted from a quotient before ceil(). Without it, a quotient that rounding leaves just above a whole
+// number would add a tick.
 constexpr double kTickTolerance = 1e-9;
 }  // namespace
 
@@ -227,8 +228,8 @@ void Antenna::slew(const Platform& platform) {
   direction_known_ = true;
   azimuth_.command_position(centre_deg + pattern_.edge_deg(0, direction_));
   azimuth_.step();
-  // The scan also waits for the elevation, which can take longer than the azimuth. If no finite elevation has been
-  // commanded, the scan does not wait for it.
+  // The scan starts when azimuth and elevation are reached. If no finite elevation has been commanded, the scan does
+  // not wait for the elevation.
   const bool elevation_reached = elevation_.mode() != AxisMode::position || elevation_.reached();
   if (!azimuth_.reached() || !elevation_reached) return;
   phase_ = Phase::sweeping;

@@ -110,7 +110,7 @@ struct AntennaStep {
   geo::Bearing right;    // true bearing of the sweep's right edge; valid while sweeping
   geo::Bearing azimuth;  // true bearing of the antenna at the end of the tick
   geo::Angle elevation;  // above the horizon
-  int direction = 1;     // +1 clockwise
+  int direction = 1;     // +1 clockwise, -1 counter-clockwise
   int bar = 0;
   bool reachable = true;    // false: an edge of the sweep is outside the gimbal limits, so the sweep is blank
   bool scan_start = false;  // first sweep of the scan
@@ -124,8 +124,8 @@ struct Sector {
 };
 
 // Two-axis antenna. It slews to an edge of a sector, then scans the sector, stabilized in space about the scan centre.
-// The beam's position in the scan depends on the tick number alone and is exactly periodic.
-// The second edge of a sweep equals the first edge of the next sweep, also while the aircraft turns: there are no gaps.
+// The beam's direction relative to the scan centre depends only on the tick within the scan and is exactly periodic.
+// Within a pass, a sweep ends at the edge at which the next sweep begins, also while the aircraft turns.
 class Antenna {
  public:
   explicit Antenna(const radar::AntennaConfiguration& configuration);

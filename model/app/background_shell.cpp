@@ -13,7 +13,8 @@ namespace {
 // more memory.
 constexpr double kRegionMargin_m = 20'000.0;
 
-// True if the requested region has the detail of `region`, contains it with half of the margin, and is not much larger.
+// True if the requested region has the detail of `region` and contains it with half of the margin. The requested radius
+// must also be at most two margins larger.
 bool still_covers(const terrain::TerrainRegion& requested, const terrain::TerrainRegion& region) {
   if (region.detail != requested.detail) return false;
   if (region.radius_m > requested.radius_m || region.radius_m + 2.0 * kRegionMargin_m < requested.radius_m)

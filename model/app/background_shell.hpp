@@ -119,7 +119,7 @@ class PatchMaker {
     std::vector<std::uint8_t> pixels;  // video, size x size
   };
 
-  // `traffic`: moving targets at the start of the map.
+  // Requests the picture of a map. `traffic`: moving targets at the start of the map's formation.
   void request(const kernel::PendingMap& map, const std::vector<physics::MovingPoint>& traffic);
   // Picture of the map if the picture is complete, else null. Valid until the next finished().
   const Picture* finished(const kernel::PendingMap& map);

@@ -75,8 +75,8 @@ int main(int argc, char** argv) {
   databuffer::add_common_options(app, options, true);
   ModelOptions model_options;
   app.option("--terrain", model_options.terrain,
-             "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); else the configuration's");
-  app.option("--samples", model_options.samples, "number of samples of a sweep (else the configuration's)")
+             "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); else the configuration's folder");
+  app.option("--samples", model_options.samples, "number of samples of a sweep (else the configuration's number)")
       .range(1, radar::kMaxSamples);
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, model_options); });
 }

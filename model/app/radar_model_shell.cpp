@@ -19,8 +19,8 @@ namespace yars::model {
 
 namespace {
 
-// Weight of the newest tick in the smoothed load. The time constant is 1 s, because with a shorter one `yars status`
-// would fluctuate.
+// Weight of the newest tick in the smoothed load. The time constant is 1 s. With a shorter time constant,
+// the load in `yars status` would fluctuate.
 constexpr double kLoadSmoothing = radar::kTickSeconds / 1.0;
 
 // Processor time of the calling thread.
@@ -120,7 +120,7 @@ void RadarModelShell::announce_jump(const databuffer::Ownship& ownship, std::uin
       databuffer::WaitPolicy::none);
   if (!changed) return;  // another process is changing the clock; the next tick tries again
   const std::string text =
-      "the aircraft of '" + databuffer::name_of_source(ownship, lane) + "' has jumped: a new epoch";
+      "the aircraft of '" + databuffer::name_of_source(ownship, lane) + "' has jumped; a new epoch begins";
   session_->note(databuffer::NoteKind::restart, text);
   log::info(text);
 }

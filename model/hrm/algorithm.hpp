@@ -3,7 +3,8 @@
 // Inputs: PatchInputs, and the members of PatchData that earlier stages filled. Outputs: further members of PatchData;
 // the last stage fills PatchData::picture.
 // A void returns no power.
-// Threads: one caller at a time; stages run on the executor's threads. Results have equal bits for any number of them.
+// Threads: one caller at a time; stages run on the executor's threads. Results have equal bits for any number of
+// threads.
 // Source: docs/radar_maths.md, "Patch maps".
 #pragma once
 
@@ -29,8 +30,8 @@ class Algorithm {
   // Stage `terrain`: reads the terrain that only this algorithm needs. PatchFormation has filled surface, crests and
   // horizon.
   virtual void read_terrain(const PatchInputs& /*inputs*/, PatchData& /*data*/) {}
-  // Stage `scene`: draws or reads the scene's tiles. Triangles that lie on the ground replace its gamma
-  // (SurfacePoint::gamma).
+  // Stage `scene`: draws the scene's triangles on the grid, or reads them for ray casting. Triangles that lie on the
+  // ground replace the gamma of the ground (SurfacePoint::gamma).
   virtual void draw_scene(const PatchInputs& inputs, PatchData& data) = 0;
   // Stage `profile`: computes shadow and radar return of ground and scene.
   virtual void cast_profiles(const PatchInputs& inputs, PatchData& data) = 0;

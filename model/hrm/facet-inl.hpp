@@ -54,7 +54,7 @@ HWY_INLINE void order(Corner& a, Corner& b) {
 // Triangle seen from above, corners from left to right.
 struct Triangle {
   Corner left, middle, right;
-  // Clamps a height to the corners' heights, because the plane of a nearly vertical triangle is rounding noise.
+  // Clamps a height to the corners' heights, because rounding errors dominate the plane of a nearly vertical triangle.
   HWY_INLINE Floats within(Floats height) const {
     const auto min = hn::Min(hn::Min(left.height, middle.height), right.height);
     const auto max = hn::Max(hn::Max(left.height, middle.height), right.height);
@@ -84,7 +84,7 @@ class Edges {
   }
 
  private:
-  // Change per column. NaN or infinite for an edge of constant column; at() does not use such a value.
+  // Change per column. NaN or infinite for an edge of constant column, which at() does not use if left <= x < right.
   HWY_INLINE Floats slope(const Corner& begin, const Corner& end) const {
     return hn::Div(hn::Sub(end.*coordinate_, begin.*coordinate_), hn::Sub(end.column, begin.column));
   }
@@ -129,8 +129,8 @@ HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, con
   return facet;
 }
 
-// Factor on gamma: mean facing `a`, `b`, `c` of the vertex normals divided by the facing of the facet, at most
-// physics::kMaxShading. The factor is 1 for a facet that faces away or differs little from its vertices (kSmooth).
+// Factor on gamma: mean of `a`, `b`, `c`, the facings of the vertex normals, divided by the facing of the facet. It is
+// at most physics::kMaxShading. It is 1 for a facet that faces away or differs little from its vertices (kSmooth).
 HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
   const Tag d;
   const auto facing = hn::Div(facet.towards, facet.length);

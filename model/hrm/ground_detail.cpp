@@ -14,7 +14,7 @@ namespace yars::model::hrm {
 
 namespace {
 constexpr int kFinestEdge = 512;          // [texels] 512^2 words of 4 bytes are 1 MiB and fit the L2 cache
-constexpr double kFinestTexel_m = 4.0;    // [m] finer detail would be hidden by speckle
+constexpr double kFinestTexel_m = 4.0;    // [m] speckle would hide a finer texture
 constexpr double kLongestWave_m = 256.0;  // [m] terrain posts resolve longer features
 constexpr float kMaxByte = 255.0F;
 constexpr std::uint32_t kSeed = 0x59a75u;  // fixed, so that the texture is the same in every run
@@ -48,8 +48,8 @@ std::vector<float> fractal_table(int edge, double texel_m) {
   return table;
 }
 
-// Makes the noise log-normal with mean 1. The logarithm of a sample has half the variance of the factor's logarithm,
-// because the factor is the product of two samples. `contrast`: standard deviation of the factor's logarithm.
+// Makes the noise log-normal with mean 1. The factor on gamma is the product of two samples. The logarithm of a sample
+// therefore has half the variance of the factor's logarithm. `contrast`: standard deviation of the factor's logarithm.
 void shape(std::vector<float>& table, double contrast) {
   double sum = 0.0;
   double squares = 0.0;
@@ -72,7 +72,7 @@ void shape(std::vector<float>& table, double contrast) {
 
 GroundTexture::GroundTexture(double contrast, double pixel_m)
     : pixel_m_(pixel_m), texels_per_metre_(0.0F), edge_(kFinestEdge) {
-  // A texel is at least half a pixel, because shorter wavelengths would alias. The smallest texture is one block.
+  // A texel is at least half a pixel, because a finer texture would alias. The smallest texture is one block.
   double texel_m = kFinestTexel_m;
   while (texel_m < 0.5 * pixel_m && edge_ > simd::kDetailBlock) {
     texel_m *= 2.0;

@@ -17,7 +17,7 @@ namespace yars::model::hrm {
 // Texture of the ground for one pixel size.
 class GroundTexture {
  public:
-  // `contrast`: standard deviation of the natural logarithm of the factor. `pixel_m`: spacing of the samples.
+  // `contrast`: standard deviation of the natural logarithm of the factor. `pixel_m`: spacing of the positions.
   GroundTexture(double contrast, double pixel_m);
 
   double pixel_m() const { return pixel_m_; }

@@ -42,8 +42,8 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
   const double pixel_m = geometry.window_m() / image.size;
   const double edge_m = 0.5 * geometry.window_m();
   const geo::Angle squint = geometry.squint(ground_track);
-  // Half the angle that the map subtends at the aircraft. No pixel is blind if the centre is farther than this from the
-  // blind zone.
+  // Half the angle that the map subtends at the aircraft. No pixel is blind if the centre is farther than this
+  // angle from the blind zone.
   const double half_view_deg =
       std::atan2(edge_m, std::max(geometry.distance_m() - edge_m, 1.0)) / geo::kRadiansPerDegree;
   const double off_deg = std::abs(squint.degrees());

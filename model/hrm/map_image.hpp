@@ -46,8 +46,8 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
 
 // Speckle of one map. Each look is a field of circular complex Gaussian numbers. The intensity is the mean of the
 // squared magnitudes of all looks. It has mean 1 and variance 1 / looks at every pixel.
-// Pixels finer than resolution cells (kMapCells per side): one number per cell, interpolated to pixels with weights of
-// unit energy, which keep the statistics. Other pixels: one independent intensity per pixel.
+// Pixels finer than resolution cells (kMapCells per side): one number per cell and look, interpolated to pixels with
+// weights of unit energy, which keep the statistics. Other pixels: one independent intensity per pixel.
 // Source: Goodman, "Statistical properties of laser speckle patterns" (1975); docs/spec/physics.md#speckle.
 class Speckle {
  public:
@@ -90,7 +90,7 @@ double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo:
 // Speckle and thermal noise of one map.
 struct MapNoise {
   double thermal = 0.0;    // gamma of thermal noise, from noise_gamma()
-  int looks = 1;           // looks of the speckle
+  int looks = 1;           // number of independent looks
   std::uint32_t map = 0;   // number of the map; seed and number are the key of the noise
   std::uint64_t seed = 1;  // from the configuration
   bool with_speckle = true;

@@ -61,7 +61,7 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
     const auto offset = hn::ShiftLeft<4>(line);
     const auto left_at = hn::Add(start_of(column, strip_size), offset);
     // Prefetches the grid rows of the next map rows, which are nearer to the aircraft. The hardware prefetcher cannot
-    // follow one stream per strip.
+    // follow as many streams as there are strips.
     hwy::Prefetch(cross_section_m2 + hn::GetLane(left_at) - kPrefetchRows * kStripColumns);
     const auto right_at = hn::Add(start_of(hn::Add(column, hn::Set(di, 1)), strip_size), offset);
     const auto near_left = hn::GatherIndex(d, cross_section_m2, left_at);
@@ -121,8 +121,8 @@ void spread(const float* from, std::ptrdiff_t stride, std::span<const float> wei
   }
 }
 
-// Sums the contributions of all nonzero entries in a register, then stores the sum. Otherwise each entry would have to
-// wait for the store of the previous entry.
+// Sums the contributions of all nonzero entries in a register, then stores the sum. With one store per entry, each
+// entry would have to wait for the store of the previous entry.
 void spread_along(const float* from, std::size_t radius, const float* middle, float* to) {
   const Tag d;
   std::size_t nonzero[kBlock];

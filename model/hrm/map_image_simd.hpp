@@ -24,7 +24,7 @@ struct MapRow {
 // Precondition: pixels lie within the grid.
 void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow& row, float* pixel);
 
-// Entries of a block. The impulse response works on blocks of this size.
+// Pixels of a block: adjacent pixels of a row that the impulse response computes together.
 inline constexpr std::size_t kBlock = 16;
 
 // to[i] = weights[0] * from[i] + sum over k > 0 of weights[k] * (from[i - k * stride] + from[i + k * stride]).

@@ -36,7 +36,7 @@ class Occluders {
     int cells = 1;
     int cell(double value) const;
   };
-  void measure();  // sets the extent and the resolution of the grid
+  void measure();  // sets extent and resolution of the grid from the triangles
   // Calls visit(cell) for the cells within the triangle's bounding box.
   template <class Visit>
   void visit_cells(const Corners& corners, const Visit& visit) const;

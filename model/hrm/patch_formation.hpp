@@ -22,7 +22,8 @@
 
 namespace yars::model::hrm {
 
-// reset: no map. database: give() is awaited. processing, output: advance() runs a stage. done: the map is complete.
+// reset: no map. database: waits for give(). processing: a stage before the last is next. output: the last stage is
+// next. done: the map is complete.
 enum class PatchState : std::uint8_t { reset, database, processing, output, done };
 
 // Names of the stages, in order.
@@ -37,7 +38,7 @@ class PatchFormation {
 
   PatchNeed begin(const PatchOrder& order);        // returns the terrain to load; any state -> database
   void give(const PatchEnvironment& environment);  // sets the inputs; database -> processing
-  void advance();                                  // runs one stage; before the last: -> output; after it: -> done
+  void advance();                                  // runs one stage; after `map`: -> output; after `video`: -> done
   PatchState state() const;
   int stages_done() const;  // number of kPatchStages that are complete
 
@@ -45,7 +46,7 @@ class PatchFormation {
   const std::vector<std::uint8_t>& picture() const;
   // Valid after the stage `map`: power before speckle and noise, in the unit of map_image.hpp.
   const MapImage& image() const;
-  const PatchGeometry& geometry() const;
+  const PatchGeometry& geometry() const;  // valid after give()
   geo::Duration formation() const;    // time in which the synthetic array is formed
   std::size_t triangles() const;      // number of triangles in the scene tiles near the window
   std::size_t posts_pending() const;  // number of samples over terrain that was not loaded

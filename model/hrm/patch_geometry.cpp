@@ -53,7 +53,7 @@ double laid_over_m(double distance_m, double height_m, double above_level_m) {
 }
 
 namespace {
-// Limit of each margin [window sides]. Mountains above the aircraft would otherwise make the grid arbitrarily large.
+// Limit of each margin [window sides]. Without it, high mountains close to the aircraft would make the grid very large.
 constexpr double kMaxMarginWindows = 4.0;
 }  // namespace
 
@@ -76,8 +76,8 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
       std::max(nearest_m - 3.0 * grid.spacing_m - std::min(margins.near_m, max_margin_m), grid.spacing_m);
   const double far_m =
       std::hypot(centre_m + half_m, half_m) + 2.0 * grid.spacing_m + std::min(margins.far_m, max_margin_m);
-  // On the line of sight to the centre, rows lie on pixel centres. Otherwise interpolation between rows would blur the
-  // picture. `offset` [rows]: distance of the pixel centres from the map's centre, modulo 1.
+  // On the line of sight to the centre, rows lie on pixel centres. Rows between pixel centres would blur the picture
+  // by interpolation. `offset` [rows]: distance of the pixel centres from the map's centre, modulo 1.
   const double offset = std::fmod(0.5 * cells * (pixels % 2 == 0 ? 1.0 : 0.0), 1.0);
   const double before = std::floor((centre_m - near_m) / grid.spacing_m - offset) + offset;
   grid.first_distance_m = centre_m - before * grid.spacing_m;
@@ -89,7 +89,7 @@ namespace {
 constexpr double kPathDetail_m = 60.0;  // [m] minimum sample spacing that selects the terrain detail of the path
 constexpr int kReliefSteps = 24;        // intervals between height samples, in each direction
 constexpr double kReliefReserve = 1.2;  // factor on sampled heights, for ground between the samples
-// Lower bound of the sine of the grazing angle (1.1 degrees). At smaller angles shadows are longer than any margin.
+// Lower bound of the sine of the grazing angle (1.1 degrees). It limits a shadow to 50 times the object's height.
 constexpr double kMinSine = 0.02;
 
 constexpr double kCellsPerNode = 2.0;    // [grid cells] node spacing of the smoothed ground
@@ -153,7 +153,8 @@ Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& grou
 }
 
 // Greatest distance [m] before the window's near edge from which a tile casts shadow across that edge. Tiles too low to
-// extend the margin are skipped first, which saves their geodesics. `tangent`: tangent of the grazing angle.
+// extend the margin are skipped first, because geometry.point_of() computes a geodesic. `tangent`: tangent of the
+// grazing angle.
 double shadow_margin_m(const PatchGeometry& geometry, const std::vector<const scene::Tile*>& tiles, double tangent) {
   const double half_m = 0.5 * geometry.window_m();
   double margin_m = 0.0;

@@ -49,8 +49,9 @@ struct MapPoint {
 };
 
 // Position and orientation of a patch map. The map plane is azimuthal equidistant about the aircraft, so lines of sight
-// are straight lines on the plane. `ahead_m` is up_m + distance_m(): the distance from the aircraft. The map plane has
-// the centre's elevation and curves with the effective earth. Heights without "msl" are above the map plane.
+// are straight lines on the plane. In code, `ahead_m` is up_m + distance_m(): the coordinate from the aircraft towards
+// the centre. The map plane has the centre's elevation and curves with the effective earth. Heights without "msl" are
+// above the map plane.
 class PatchGeometry {
  public:
   // `elevation_m` [m MSL]: ground at the centre, which becomes the height of the map plane.
@@ -137,10 +138,11 @@ struct PolarMargins {
 // part of window and margins that lies ahead of the aircraft.
 PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, const PolarMargins& margins);
 
-// Surface at one grid point, the input of the stage `profile`. Arrays are indexed by PolarGrid::at(). Gain and height
+// Surface at one grid point, the input of the stage `profile`. Arrays are indexed by PolarGrid::at(). Gamma and height
 // share a cache line because the scene raster updates both.
 struct SurfacePoint {
-  float gamma = 0.0F;     // gamma: cross section per projected area [m^2/m^2]; negative for a standing scene surface
+  // Cross section per projected area [m^2/m^2]. Negated for a standing scene surface: one that is not on the ground.
+  float gamma = 0.0F;
   float height_m = 0.0F;  // highest surface, above the map plane
 };
 

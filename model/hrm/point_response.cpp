@@ -14,7 +14,7 @@ namespace yars::model::hrm {
 namespace {
 constexpr int kEqualLobes = 5;           // n-bar: number of nearly equal sidelobes (Taylor)
 constexpr double kMainLobeCells = 1.5;   // [cells] half width of the main lobe; at -35 dB the first null is at 1.4
-constexpr int kRowsPerTask = 32;         // rows of the image
+constexpr int kRowsPerTask = 32;         // rows of the image per task of a thread
 constexpr double kSidelobeCells = 16.0;  // [cells] radius of the response; farther sidelobes are invisible
 
 // Taylor's coefficients F_m of the weighting w(x) = 1 + 2 sum F_m cos(2 pi m x), x in [-1/2, 1/2] across the aperture.
@@ -196,7 +196,8 @@ void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t 
   const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
   if (strong.row >= first && strong.row < last)
     simd::spread_along(strong.power.data(), along_radius_, &along_[along_middle_], at);
-  // The sidelobes above the block lie in the rows strong.row - taps + 1 to strong.row - lobe. Those below are mirrored.
+  // The sidelobes above the block lie in the rows strong.row - taps + 1 to strong.row - lobe. The sidelobes below
+  // are mirrored.
   const std::size_t nearest = strong.row >= last ? std::max(lobe, strong.row - last + 1) : lobe;
   const std::size_t farthest = strong.row >= first ? std::min(taps, strong.row - first + 1) : 0;
   if (nearest < farthest)

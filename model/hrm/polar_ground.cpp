@@ -21,7 +21,8 @@ constexpr double kMaxPathSamples = 4096.0;  // bounds the work of a column
 constexpr float kNoHorizon = -1.0e6F;       // [m] or tangent: below every line of sight and below all ground
 // Maximum spacing of sampled columns as a fraction of the post spacing, in the window and on the path to it. If posts
 // are many columns apart, only every third or fifth column is sampled, and the columns between are interpolated. The
-// first and the last column of a strip are always sampled. The path affects only the horizon.
+// first and the last column of a strip are always sampled. kMaxPathStep is larger, because the path affects only the
+// horizon.
 constexpr double kMaxWindowStep = 0.25;
 constexpr double kMaxPathStep = 0.5;
 // Row spacings, as fractions of the post spacing, above which crests between rows are computed. Closer rows sample
@@ -287,7 +288,8 @@ void PolarGround::store_crests(const PolarGrid& grid, int strip, float* crest_m)
       points[row * kStripColumns + lane] = strip_crest_[lane * pitch_ + row];
 }
 
-// Subtracts the map plane from the heights of the current column. Voids get gamma 0 and the last known height.
+// Subtracts the map plane from the heights of the current column. Voids get gamma 0 and the height of the last known
+// point before them.
 void PolarGround::subtract_plane(const PatchGeometry& geometry, std::size_t lane) {
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());
   const std::size_t rows = window_->positions.count;

@@ -1,7 +1,7 @@
 // Terrain sampled on the polar grid of a patch map: height and gamma of each point, and the horizon before row 0.
 // Inputs: terrain views of the window and of the path, the radar's configuration, optional ground detail.
 // Outputs: GroundArrays, filled strip by strip.
-// Units: metres; gamma is a ratio; the horizon is the greatest tangent of elevation of nearer ground.
+// Units: metres; gamma is a ratio; the horizon is the slope of the line of sight over the highest nearer ground.
 // Threads: one instance per thread, because an instance has the buffers of a column.
 // Source: docs/radar_maths.md, "Patch maps"; decision 19 (every post raises the horizon).
 #pragma once
@@ -41,7 +41,8 @@ struct GroundArrays {
   // A void has gamma 0 (SurfacePoint::gamma) and the height of the nearest known point before it. Without one, it has
   // the height of the first known point of the column.
   SurfacePoint* surface = nullptr;
-  float* horizon = nullptr;  // greatest (height - PatchGeometry::above_plane_m()) / distance before row 0
+  // Horizon at row 0 by column: greatest (height - PatchGeometry::above_plane_m()) / distance over the nearer ground.
+  float* horizon = nullptr;
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
   // over the crest passes this row. -1e6 without a crest. Null: not computed.
   float* crest_m = nullptr;

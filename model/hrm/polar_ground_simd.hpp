@@ -9,8 +9,8 @@
 
 namespace yars::model::hrm::simd {
 
-// Side of a square block of texels. Blocks are stored row by row; the texels of a block, too. One block is one cache
-// line, so samples along a straight path in any direction read few cache lines.
+// Side of a square block of texels. Blocks are stored row by row, and so are the texels of a block. One block is one
+// cache line, so samples along a straight path in any direction read few cache lines.
 inline constexpr int kDetailBlock = 4;
 
 // Periodic texture of edge * edge words; `edge` is a power of two and at least kDetailBlock. The bytes of word (x, y)

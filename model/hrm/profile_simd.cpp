@@ -15,8 +15,8 @@ using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// Minimum climb of a piece with a wall, as a fraction of the row spacing. With a smaller climb the surface does not
-// rise at the wall, and the wall is ignored.
+// Minimum climb of a piece with a wall, as a fraction of the row spacing. With a smaller climb the heights do not
+// show the wall, and the wall is ignored.
 constexpr float kMinStep = 0.2F;
 // [rows] minimum apparent extent of a piece. Prevents a division by zero for a piece at constant slant range.
 constexpr float kMinExtent = 1.0e-3F;
@@ -196,11 +196,11 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   // A wall accounts for its fraction of the climb. The rest of the piece returns like the ground before the wall.
   const auto face = hn::Mul(hn::Mul(width, hn::Mul(distance_m, climb_m)), walls.fraction);
   const auto built = hn::Add(hn::Mul(face, walls.gamma), hn::Mul(hn::Max(hn::Sub(area_m2, face), zero), near.gamma));
-  // On ground without walls, each half of a fully visible piece has the gamma of its end. The visible part of another
-  // piece has far.gamma.
+  // On ground without walls, each half of a fully visible piece has the gamma of its end. If a piece is only partly
+  // visible, its visible part has far.gamma.
   const auto half_area_m2 = hn::Mul(half, area_m2);
   const auto open = hn::Mul(hn::IfThenElse(halves, half_area_m2, area_m2), far.gamma);
-  // A wall stands within half a row of the farther point, so its foot appears one row behind the nearer point.
+  // A wall stands within half a row of the farther point, so its foot appears one row beyond the nearer point.
   const auto foot_row = hn::IfThenElse(hn::And(walls.present, fully_visible), hn::Add(begin, one), begin);
   const auto start = hn::IfThenElse(halves, middle, foot_row);
   const auto extent = hn::Max(hn::Abs(hn::Sub(far.row, start)), hn::Set(d, kMinExtent));

@@ -29,7 +29,7 @@ struct Strip {
   float first_distance_m = 0.0F;
   float spacing_m = 0.0F;
   bool layover = true;                   // false: every scatterer returns at its own distance over ground
-  float double_bounce = 0.0F;            // return of a wall's foot relative to the wall's return; 0: none
+  float double_bounce = 0.0F;            // double bounce at a wall's foot relative to the wall's return; 0: none
   const float* distance_m = nullptr;     // by row
   const float* inverse_m = nullptr;      // 1 / distance, by row
   const float* above_plane_m = nullptr;  // PatchGeometry::above_plane_m(), by row
@@ -38,9 +38,9 @@ struct Strip {
   const float* arc = nullptr;            // width of a column divided by distance [rad], by column
   const float* horizon = nullptr;        // greatest tangent of elevation before row 0, by column
   // The following arrays are indexed by row and column.
-  const SurfacePoint* surface = nullptr;  // gamma is negative for a standing scene surface
+  const SurfacePoint* surface = nullptr;  // gamma is negated for a standing scene surface
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
-  // over the crest passes this row. Null: rows are so close that there are no crests.
+  // over the crest passes this row. Null: no crests, because rows are close enough.
   const float* crest_m = nullptr;
   WallPoint* walls = nullptr;  // set to zero after use; null: no walls
   float* power = nullptr;      // cross section [m^2] by apparent row and column; cast_profile() adds to it

@@ -15,9 +15,8 @@ namespace {
 
 constexpr double kPathSpacing_m = 15.0;  // [m] spacing of samples on the path if its terrain has no posts
 constexpr double kSeaSpacing_m = 100.0;  // [m] spacing of samples on ground without posts (sea), which GroundWalk omits
-constexpr double kMinWalkSpacing = 0.1;  // [post spacings] no GroundWalk between rows closer than this
-// GroundWalk steps per post on the path, if rows are closer than kMinWalkSpacing, because shadow edges must be exact to
-// a row.
+constexpr double kMinWalkSpacing = 0.1;  // [post spacings] rows closer than this need no GroundWalk between them
+// GroundWalk steps per post on the path, if rows are closer than kMinWalkSpacing. Shadow edges must be exact to a row.
 constexpr double kFineSteps = 40.0;
 constexpr double kNoTangent = -std::numeric_limits<double>::infinity();
 constexpr double kFacetPixels = 1.0 / 3.0;  // [pixels] maximum side of a facet

@@ -38,7 +38,7 @@ struct ShadingInputs {
   const float* horizon;         // by column: greatest tangent of elevation before row 0
 };
 
-// Computes the brightness of the columns [first, last) from their heights and those of the neighbouring columns.
+// Computes the brightness of the columns [first, last) from the heights of these columns and their neighbours.
 void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const ShadingInputs& inputs, int first,
                       int last, float* brightness) {
   const auto spacing_m = static_cast<float>(grid.spacing_m);
@@ -53,7 +53,7 @@ void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, cons
       brightness[at] = 0.0F;
       if (!(tangent > horizon)) continue;
       horizon = tangent;
-      // SurfacePoint::gamma is gamma, negated for a scene surface: +0 is a void, -0 a scene surface with gamma 0.
+      // SurfacePoint::gamma is negated for a standing scene surface: +0 is a void, -0 such a surface with gamma 0.
       if (const float gamma = inputs.surface[at].gamma; gamma == 0.0F && !std::signbit(gamma)) continue;
       const int nearer = std::max(row - 1, 0);
       const int farther = row == 0 ? 1 : row;
@@ -127,7 +127,7 @@ void Report1996::draw_video(const PatchInputs& inputs, PatchData& data) {
   const MapImage& image = data.image;
   std::vector<std::uint8_t>& picture = data.picture;
   constexpr auto kHalfOfBits =
-      2147483648.0F;  // 2^31; bits / 2^31 - 1 maps 32 bits to [-1, 1]; float rounds the greatest 128 up to 1
+      2147483648.0F;  // 2^31; bits / 2^31 - 1 maps 32 bits to [-1, 1]; float rounding makes the 128 greatest values 1
   const auto noise = static_cast<float>(noise_);
   const auto size = static_cast<std::size_t>(image.size);
   picture.resize(image.power.size());

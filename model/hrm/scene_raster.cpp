@@ -25,8 +25,8 @@ PlacedTile placed_tile(const PatchGeometry& geometry, const scene::Tile& tile) {
   const double stretch = angle_rad > 1e-6 ? angle_rad / std::sin(angle_rad) : 1.0;
   const double sine = std::sin(turn_rad);
   const double cosine = std::cos(turn_rad);
-  // Components of the tile's east and north along and across the line of sight to the tile. The following code rotates
-  // them to the axes of the map.
+  // Components of the tile's east and north axes, along and across the line of sight to the tile. The code below
+  // rotates them to the axes of the map.
   const double along_east = std::sin(away_rad);
   const double along_north = std::cos(away_rad);
   const double across_east = stretch * std::cos(away_rad);
@@ -79,7 +79,7 @@ bool find_columns(const PatchGeometry& geometry, const PolarGrid& grid, PlacedTi
       max_row = std::max(max_row, corner.row);
     }
   }
-  // Rows have a margin of one, because distance is not linear within a large tile.
+  // The row limits have a margin of one row, because the corners of a large tile do not bound its distances exactly.
   return placement.max_column >= 0.0F && placement.min_column < static_cast<float>(grid.columns) && max_row >= -1.0F &&
          min_row < static_cast<float>(grid.rows) + 1.0F;
 }
@@ -215,7 +215,8 @@ void PolarScene::draw(const PatchInputs& inputs, PatchData& data) {
   dirty_ = true;
   const parallel::Executor& executor = inputs.executor;
   while (rasters_.size() < executor.threads) rasters_.emplace_back(surface_);
-  // A tile that crosses bands is drawn in each of them, so bands are few. Two bands per thread balance the load.
+  // A tile that crosses bands is drawn once for each band, so few bands save work. Two bands per thread balance the
+  // load.
   const auto bands = static_cast<int>(executor.threads == 1 ? 1 : 2 * executor.threads);
   const std::vector<PlacedTile> placed = place_tiles(*data.geometry, data.grid, data.tiles, executor);
   const std::vector<int> begin = even_bands(data.grid, placed, bands);

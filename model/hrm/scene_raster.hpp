@@ -1,6 +1,6 @@
 // Draws scene triangles, as seen from above, onto the polar grid of a patch map.
 // Inputs: tiles of a SceneView, the surface of the ground. Outputs by grid point: highest surface, its gamma, walls.
-// Units: metres; columns and rows of the polar grid.
+// Units: metres; columns (azimuth) and rows (distance over ground) of the polar grid (patch_geometry.hpp).
 // Threads: one SceneRaster per thread; threads draw disjoint ranges of columns (bands).
 #pragma once
 
@@ -26,20 +26,20 @@ struct PlacedTile {
   double right_east = 0.0, right_north = 0.0, up_east = 0.0, up_north = 0.0;  // right and up per metre east, north
   float lift_m = 0.0F;  // height of the tile's vertical zero (Tile::zero_msl_m) above the map plane
   float toward_east = 0.0F, toward_north = 0.0F, toward_up = 0.0F;  // unit vector to the radar; toward_up is vertical
-  float min_column = 0.0F, max_column = 0.0F;                       // range of grid columns of the tile's bounds
+  float min_column = 0.0F, max_column = 0.0F;                       // grid columns that the tile's bounds span
 };
 
 // Places the tiles that overlap the polar grid, in the order of `tiles`.
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
                                     const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor);
 
-// Divides the strips into `bands` ranges (bands) with about equal numbers of triangles. Returns the first strip of each
-// band, then the number of strips.
+// Divides the strips (16 columns each) into `bands` contiguous bands with about equal numbers of triangles. Returns the
+// first strip of each band, followed by the number of strips.
 std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> tiles, int bands);
 
 // Draws scene triangles onto the polar grid as seen from above. At each grid point the highest surface wins. Walls have
-// no area from above and are summed as WallPoint. Surfaces on the ground, for example runways, set its gamma and leave
-// its height.
+// little or no area from above, so their return is summed as WallPoint. Surfaces on the ground, for example runways,
+// set the ground's gamma and do not change its height.
 class SceneRaster {
  public:
   explicit SceneRaster(const physics::SceneSurface& surface);
@@ -57,10 +57,10 @@ class SceneRaster {
   }
 
   physics::SceneSurface surface_;
-  std::vector<float> cardinal_effect_;
+  std::vector<float> cardinal_effect_;                   // as simd::CardinalShape::effect
   std::vector<float> gamma_, cardinal_;                  // by surface kind of the scene
   std::vector<float> column_, row_, height_m_, facing_;  // current tile, by vertex
-  simd::FoundTriangles found_;                           // triangles of the current tile to draw
+  simd::FoundTriangles found_;                           // triangles to draw of the current tile
   simd::Fragments fragments_;
 };
 
@@ -69,7 +69,8 @@ class PolarScene {
  public:
   explicit PolarScene(const physics::RadarParameters& parameters) : surface_(parameters) {}
 
-  // Call before each map. Resizes the array of walls, and clears walls that are new or left by an abandoned map.
+  // Call before each map. Enlarges the array of walls as needed. Sets it to zero if it has grown, or if an abandoned
+  // map has left walls in it.
   void begin(const PatchData& data);
   void draw(const PatchInputs& inputs, PatchData& data);
 

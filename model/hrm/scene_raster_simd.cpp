@@ -18,9 +18,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr float kWideColumns = 12.0F;  // [columns] wider triangles are drawn one by one; affects only speed
 
-// Draws one triangle, one column per lane. In each column the triangle is extended by `reach` rows at both ends, with
-// the height of the edge. With half a row (kSurfaceReach), the first and the last grid point of a column are on average
-// as far apart as the edges. `put(at, column, row, wanted)` draws a vector of grid points.
+// Draws one triangle, one column per lane. In each column the triangle is extended by `reach` rows at both ends. Grid
+// points beyond an edge get the height at that edge. With a reach of half a row (kSurfaceReach), the grid points drawn
+// in a column span on average the distance between the edges.
+// `put(at, column, row, wanted)` draws a vector of grid points.
 template <class Put>
 HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float reach, const Put& put) {
   const Tag d;
@@ -125,7 +126,7 @@ HWY_INLINE Corner gather(const GridVertices& vertices, hn::Vec<SignedTag> i) {
           hn::GatherIndex(d, vertices.height_m, i)};
 }
 
-// Gamma with the factor of shading() in the lanes whose triangles have vertex normals.
+// Gamma, multiplied by the factor of shading() in the lanes whose triangles have vertex normals.
 HWY_INLINE Floats shaded(Floats gamma, const GridVertices& vertices, const CornerNumbers& corners, const Facet& facet) {
   const Tag d;
   const SignedTag di;
@@ -139,7 +140,7 @@ HWY_INLINE Floats shaded(Floats gamma, const GridVertices& vertices, const Corne
   return hn::IfThenElse(hn::RebindMask(d, with_normals), hn::Mul(gamma, factor), gamma);
 }
 
-// Draws the wide triangles of one vector one by one.
+// Draws those triangles of one vector that are wide (mask `wide`), one by one.
 void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* gamma, Mask wide,
                const GridVertices& vertices, const Canvas& canvas) {
   const Tag d;
@@ -169,7 +170,8 @@ void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, co
       gamma[lane] = tile.gamma[kind];
       cardinal[lane] = tile.cardinal[kind];
     }
-    // Lanes beyond the last triangle contain earlier corners, which are valid indices. These lanes are masked out.
+    // Lanes beyond the last triangle contain zeros or corners of other triangles. Both are valid vertex indices. These
+    // lanes are masked out.
     const auto valid = hn::FirstN(d, count);
     const CornerNumbers corners = numbers_at(triangles, i);
     const Corner a = gather(vertices, corners.first);

@@ -1,8 +1,8 @@
 // Vector loops that draw scene triangles onto the polar grid.
 // Triangles of up to 12 columns are drawn many at a time, one per lane. A wider triangle is drawn with one column per
-// lane. The result does not depend on the order in which standing surfaces are drawn. The higher surface wins. Of
-// surfaces with equal height the one with the greater gamma wins. The field `gamma` has the sign that
-// SurfacePoint::gamma has. Cardinal effect: stronger return of walls that face the radar (docs/spec/physics.md#land).
+// lane. Standing surfaces are all surfaces that do not lie on the ground. The result does not depend on the order in
+// which they are drawn: the higher surface wins, and at equal height the one with the greater gamma.
+// Cardinal effect: stronger return of walls that face the radar (docs/spec/physics.md#land).
 // Determinism: all Highway targets give equal bits.
 #pragma once
 

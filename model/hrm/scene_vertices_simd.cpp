@@ -32,7 +32,7 @@ HWY_INLINE void transform_vector(std::size_t at, const TileVertices& tile, const
   const auto north = hn::LoadU(d, tile.north_m + at);
   const auto centre = hn::Set(d, map.centre_m);
   const auto right = hn::Add(hn::Set(d, map.right_m), sum_of(map.right_east, east, map.right_north, north));
-  // Vertices behind the aircraft are moved to 1 m ahead of it, far outside the grid.
+  // Vertices less than 1 m ahead of the aircraft are moved to 1 m ahead, which keeps right / ahead finite.
   const auto up = hn::Max(hn::Add(hn::Set(d, map.up_m), sum_of(map.up_east, east, map.up_north, north)),
                           hn::Sub(hn::Set(d, 1.0F), centre));
   const auto ahead = hn::Add(centre, up);
@@ -128,7 +128,7 @@ HWY_INLINE hn::Mask<Tag> faces(const ThreeCorners& column, const ThreeCorners& r
   return hn::Or(hn::Gt(area, hn::Zero(d)), hn::And(steep, hn::Gt(towards, hn::Zero(d))));
 }
 
-// Loads at most `count` vertex indices. Further lanes are 0.
+// Loads one vector of vertex indices, at most `count`. Lanes from `count` on are 0.
 HWY_INLINE hn::Vec<SignedTag> corners_at(const std::uint16_t* vertices, std::size_t count) {
   const SignedTag di;
   const hn::Rebind<std::uint16_t, SignedTag> narrow;

@@ -19,8 +19,8 @@ struct VertexMap {
   float lift_m;                                      // height of the tile's vertical zero above the map plane
   float toward_east, toward_north, toward_up;        // unit vector from the tile to the radar
   float centre_m;                                    // distance over ground from the aircraft to the centre
-  float columns_per_tangent, middle_column;          // middle_column: at tangent 0
-  float rows_per_metre, middle_row;                  // middle_row: at the centre's distance
+  float columns_per_tangent, middle_column;          // middle_column: column of the centre (tangent 0)
+  float rows_per_metre, middle_row;                  // middle_row: row of the centre's distance
 };
 // Vertices of a tile. Element 0 of the normals belongs to the first vertex that has a normal.
 struct TileVertices {
@@ -38,7 +38,7 @@ void transform_vertices(std::size_t count, const TileVertices& tile, const Verte
 
 inline constexpr float kSurfaceReach = 0.5F;  // [rows] extension of a drawn surface beyond its edges
 
-// Part of the grid to draw, and the size of its cells.
+// Part of the grid to draw, and the distances between grid points.
 struct GridLimits {
   float first_column, last_column, first_row, last_row;
   float column_width_m, row_height_m;
@@ -64,8 +64,8 @@ struct FoundTriangles {
   std::array<std::vector<std::int32_t>, 3> corner;
 };
 
-// Selects triangles of [begin, end), in ascending order. Selected triangles extend over the centre of at least one
-// column, overlap the limits, and face up or are walls that face the radar.
+// Selects triangles of [begin, end), in ascending order. A selected triangle extends over the centre of at least one
+// column and overlaps the limits. It faces up, or it is a wall that faces the radar.
 void select_triangles(std::size_t begin, std::size_t end, const Corners& corners, const GridVertices& grid,
                       const GridLimits& limits, FoundTriangles& found);
 

@@ -30,12 +30,12 @@ constexpr std::size_t kPrefetchPoints = 24;  // distance of the prefetch [fragme
 constexpr float kUnderRoof_m = 0.02F;        // [m] lowers the top of a wall, so that its roof is higher and wins
 // [steps of kWallStep_m] limit of one wall's height and return, which keeps the conversion to int32 defined.
 constexpr float kMaxWall = 1.0e9F;
-constexpr std::uint32_t kFullWall = 0x7fffffffU;  // limit of a sum; without it sums would wrap
+constexpr std::uint32_t kFullWall = 0x7fffffffU;  // upper limit of the sums in WallPoint, so that they do not wrap
 
 // Converts a SurfacePoint (height in the upper half, gamma in the lower half) to an integer for comparison. The greater
-// height has the greater integer. At equal height a standing scene surface is greater than the ground, because its
-// gamma is negated gamma and the sign bit counts most. Of two standing surfaces at equal height the one with the
-// greater gamma is greater. The function is its own inverse.
+// height has the greater integer. At equal height a standing scene surface has a greater integer than the ground,
+// because its gamma is negated, which sets the highest bit of the lower half. Of two standing surfaces at equal height,
+// the one with the greater gamma has the greater integer. The function is its own inverse.
 static_assert(std::endian::native == std::endian::little);
 HWY_INLINE std::int64_t ordered_bits(std::int64_t point) {
   constexpr std::int64_t kHeight = 0x7fffffff00000000;

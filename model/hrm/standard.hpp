@@ -1,6 +1,6 @@
 // Default algorithm of the patch map, in float and with SIMD instructions (Highway).
-// Scene triangles are drawn onto the polar grid as seen from above. Each column of the grid gives cross sections by
-// shadow and layover (profile_simd.hpp). Pixels are interpolated between the cross sections of grid points.
+// Scene triangles are drawn onto the polar grid as seen from above. Cross sections of the grid points are computed
+// column by column, with shadow and layover (profile_simd.hpp). Pixels are interpolated between these cross sections.
 // Accuracy against Reference: docs/radar_maths.md, "Patch maps"; tests/model/bounds/patch_reference_test.cpp.
 // Determinism: equal bits for any number of threads and any vector width.
 #pragma once

@@ -97,8 +97,8 @@ bool allows_interleaved_update(std::uint8_t mode) {
 
 DopplerVelocityUpdate::DopplerVelocityUpdate(const DopplerParameters& parameters)
     : parameters_(parameters),
-      // The configured standard deviation applies to a horizontal component of the solution. The standard deviation of
-      // a beam's speed follows from the beam directions.
+      // The configured standard deviation applies to a horizontal component of the measured velocity. The standard
+      // deviation of a beam's speed follows from it and the beam directions.
       beam_noise_mps_(parameters.navigation.velocity_noise_mps /
                       radar::horizontal_dilution(parameters.navigation.beam_azimuths_deg,
                                                  parameters.navigation.beam_depressions_deg)

@@ -54,23 +54,25 @@ int ticks_per_dbs_sweep(const DopplerParameters& parameters);
 antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
                            const DopplerParameters& parameters);
 
-// Azimuth resolution cell in which the middle of a wedge lies. All wedges of one cell have equal returns. Cells adjoin,
-// and one of their edges lies at the ground track. If cells are no wider than the configured `sector_step_deg`, the
-// wedge itself is the cell.
+// Azimuth resolution cell that contains the middle of a wedge. Its width is radar::dbs_beamwidth() at the squint of
+// that middle. Cell boundaries are at multiples of this width from the ground track. If the width is at most the
+// configured `sector_step_deg`, the wedge itself is the cell.
 struct DbsCell {
   geo::Bearing middle;
   geo::Angle width;
 };
 DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose, const DopplerParameters& parameters);
 
-// Elevation angle from the aircraft to a point on the ground, positive above the horizon, on a flat earth. `ground_m`
-// is MSL; NaN counts as sea level.
+// Elevation angle from the aircraft to a point on the ground, positive above the horizon, on a flat earth. `ground_m`:
+// elevation of the point [m MSL]; NaN counts as sea level.
 geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m);
 
 // Doppler velocity update (PVU, IPVU): a round of beams, and the velocity over ground from a complete round.
 // Each beam measures the speed along its line of sight with Gaussian noise. Least squares give the velocity.
-// The aircraft's sensors measure acceleration during a round. The model therefore takes all speeds at the round's end.
-// PVU repeats rounds. IPVU interleaves one round per period with scans. A round outside the gimbal limits is cancelled.
+// A real radar knows the acceleration during a round from the aircraft's sensors and refers all speeds to the round's
+// end. The model therefore computes all speeds from the velocity at that time.
+// PVU repeats rounds. IPVU interleaves one round per period with scans. A beam outside the gimbal limits cancels the
+// round.
 class DopplerVelocityUpdate {
  public:
   explicit DopplerVelocityUpdate(const DopplerParameters& parameters);
@@ -78,11 +80,11 @@ class DopplerVelocityUpdate {
   void resume(const databuffer::ModelStatus& status);
   void describe(databuffer::ModelStatus& status) const;
 
-  // Evaluates the tick's command. While the radar transmits (power switch at OPR, no SNIFF), PVU requests the dish
-  // always, and IPVU once a period in the modes RBM, HRM PPI, patch and BCN.
+  // Evaluates the tick's command. While the radar transmits (power switch at OPR, no SNIFF), PVU always requests the
+  // dish. IPVU requests it once a period in the modes RBM, HRM PPI, patch and BCN.
   void read_command(const databuffer::ModelTick& tick);
   bool needs_dish() const { return needs_dish_; }
-  // Cancels the round, for example when a map needs the dish. The next step begins a new round.
+  // Cancels the round, for example when a map needs the dish. The next call of step() begins a new round.
   void cancel();
 
   struct Direction {

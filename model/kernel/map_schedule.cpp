@@ -110,7 +110,7 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   request_ = tick.command.map_request;
   const auto order = order_of(tick, pose, commanded);
   if (!order) {
-    // No map is possible at this position. The command is completed without a map, and a shown map stays.
+    // No map is possible with this position and window. The command is completed without a map; a shown map stays.
     if (commanded) done_request_ = request_;
     return;
   }

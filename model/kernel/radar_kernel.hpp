@@ -34,9 +34,10 @@ class RadarKernel {
   // picture complete, the caller sets the flag kTickMapComplete.
   const MapSchedule& maps() const;
 
-  // Terrain region that the tick's command needs, for TerrainStore::prepare(). `ground` is false if no terrain is
-  // needed: no scan is commanded, the scan is frozen, SNIFF (receive only) without jammers, BCN (beacons only) without
-  // beacons and jammers, or no valid position yet.
+  // Terrain region that the commanded scan needs, for TerrainStore::prepare(). `ground` is false if no terrain is
+  // needed: no scan is commanded, a patch map is commanded or shown, the scan is frozen, or there is no valid position
+  // yet. SNIFF (receive only) without jammers and BCN (beacons only) without beacons and jammers need no terrain
+  // either.
   struct Need {
     bool ground = false;
     terrain::TerrainRegion region;

@@ -156,7 +156,8 @@ void ScanState::use_fidelity(const ModelTick& input) {
   dbs_chain = SweepChain(dbs_settings);
 }
 
-// A NaN width keeps the current width. NaN differs from itself and would restart the scan at each tick.
+// Replaces a width that is not finite by the current width. Otherwise NaN, which equals no number, would restart the
+// scan at each tick.
 double ScanState::commanded_width_deg(const databuffer::RadarCommand& request) const {
   return std::isfinite(request.scan_width_deg) ? request.scan_width_deg : scan_width_deg;
 }
@@ -173,7 +174,7 @@ void ScanState::restart(const databuffer::RadarCommand& request) {
   clear_chains();
 }
 
-// Latches the values that are constant during a scan.
+// Increments the scan number and latches the values that are constant during a scan.
 void ScanState::start_scan(const databuffer::RadarCommand& request) {
   ++scan;
   scan_range_m = geo::Length::nautical_miles(request.range_nm).metres();

@@ -23,7 +23,7 @@ using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
 // Configuration with which the algorithms of the real beam map compute a scan with Doppler beam sharpening (DBS): 480
-// samples, pulse at most one range cell, one ray, no azimuth smear.
+// samples, pulse at most one range cell, one ray per sweep, no azimuth smear.
 radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration);
 
 // True if a sweep needs terrain. In SNIFF (receive only, `silent`) and in BCN (beacons only) there is no ground return.
@@ -98,7 +98,7 @@ struct ScanState {
   std::uint32_t scan = 0;          // number of the current scan
   std::uint32_t next_sweep = 0;    // number of the next sweep
   std::uint32_t scan_restart = 0;  // last applied RadarCommand::scan_restart
-  bool started = false;            // a tick or a status to resume from has been received
+  bool started = false;            // a tick with a known pose, or a status to resume from, has been received
   bool scanning = false;
   bool frozen = false;
   bool noise_only = false;  // the current scan is in SNIFF (receive only)

@@ -32,7 +32,7 @@ struct SweepHeader {
   geo::Angle elevation;  // of the antenna
   geo::Length range;
   int direction = 1;                           // 1: clockwise, -1: counter-clockwise
-  geo::Duration sim_time{};                    // for positions of movers; the record has Labels::sim_time_ns
+  geo::Duration sim_time{};                    // for positions of movers; the record's sim time is in Labels
   std::uint8_t band = 0;                       // 0..4: A..E
   std::uint8_t channel = 1;                    // 1..8
   std::optional<geo::Bearing> beam_azimuth{};  // true azimuth of the beam's centre; nullopt: middle of the wedge
@@ -73,13 +73,13 @@ class SweepChain {
     std::uint32_t flags = 0;  // databuffer::kSweepBlank, kSweepNoiseOnly and others
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
-    bool no_return = false;  // blind zone: the video is black and overwrites the old picture, unlike with kSweepBlank
+    bool no_return = false;  // blind zone: black video, which overwrites the old picture; kSweepBlank leaves it
   };
 
   // Measures the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.
   bool advance(const SweepHeader& header, const Labels& labels, const physics::Environment& environment,
                databuffer::Sweep& sweep);
-  // Ends the pass: finishes the last sweep, which has no successor. False if there is no such sweep.
+  // Ends the pass: finishes the last sweep, which has no successor. Returns false if no sweep is unfinished.
   bool flush(databuffer::Sweep& sweep);
   void clear() { held_ = 0; }
 
@@ -104,8 +104,8 @@ class SweepChain {
   rbm::Strobes strobes_;
   rbm::Beacons beacons_;
   std::array<Measured, 3> measured_;
-  std::size_t next_ = 0;  // slot of the next sweep
-  std::size_t held_ = 0;  // number of the newest sweeps that belong to this pass, at most 2
+  std::size_t next_ = 0;  // index of the next sweep in measured_
+  std::size_t held_ = 0;  // how many of the two newest sweeps belong to this pass: 0 to 2
   std::uint64_t posts_pending_ = 0;
 };
 

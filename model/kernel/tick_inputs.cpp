@@ -73,11 +73,11 @@ int scan_detail(const radar::Fidelity& fidelity, geo::Length range) {
 }
 
 namespace {
-// Expected ratio of a preset's cost to the cost of the next cheaper preset, used until the preset is measured. The
-// ratios follow from the counts of samples, rays and effects. Source: docs/performance.md.
+// Expected ratio of a preset's cost to the cost of the next cheaper preset, used without a recent load of the preset.
+// The ratios follow from the counts of samples, rays and effects. Source: docs/performance.md.
 constexpr std::array<double, FidelityGovernor::kLadder.size()> kCostOverLower{1.0, 3.0, 30.0, 25.0};
-// A finer preset is selected if its expected load is below this fraction of the core share. With 1, small changes of
-// the load would make two presets alternate.
+// A finer preset is selected if its expected load is below this fraction of the core share. The margin keeps two
+// presets from alternating at small changes of the load.
 constexpr double kUpgradeMargin = 0.7;
 constexpr int kMaxAge_scans = 120;  // scans after which a measured load is outdated (two minutes of 1 s scans)
 }  // namespace

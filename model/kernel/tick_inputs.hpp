@@ -47,8 +47,9 @@ std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic);
 // Terrain detail of a scan (TerrainRegion::detail) for the fidelity's posts per sample at a range; 0: the finest.
 int scan_detail(const radar::Fidelity& fidelity, geo::Length range);
 
-// Fidelity `automatic`: selects the finest preset with a load within a configured fraction of a core. The governor uses
-// no clock; the shell measures the load. Ticks record the selected preset, so a replay repeats it.
+// Fidelity `automatic`: selects, one preset at a time, the finest preset with a load within a configured fraction of a
+// core. The governor uses no clock; the shell measures the load. Ticks record the selected preset, so a replay repeats
+// it.
 class FidelityGovernor {
  public:
   // `core_share`: maximum fraction of one core, (0, 1].

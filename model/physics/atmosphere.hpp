@@ -45,7 +45,7 @@ GasAttenuation gas_attenuation(double frequency_ghz, const Air& air);
 // Source: mean annual global reference atmosphere, ITU-R P.835, Annex 1.
 Air reference_air(const radar::AtmosphereConfiguration& atmosphere, double height_m);
 
-// Table of attenuation over height at one frequency, linear between heights 100 m apart.
+// Table of one-way attenuation over height at one frequency, linear between heights 100 m apart.
 class GasProfile {
  public:
   // Empty if the configuration switches gases off.
@@ -68,7 +68,7 @@ class GasPath {
   // True if gases are switched off.
   bool none() const { return profile_.empty(); }
 
-  // One-way attenuation from an altitude to a point at a distance over ground and a height.
+  // One-way attenuation [dB] from an altitude to a point at a distance over ground and a height.
   double one_way_db(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
   // Factors on power, in (0, 1]: for the way there and back, and for one way.
   double two_way_transmission(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
@@ -87,7 +87,7 @@ class GasSamples {
   GasSamples(const RadarParameters& parameters, std::size_t samples);
 
   // Sets the samples' distances over ground, ascending. `same_distances`: true if the distances depend on `range_m`
-  // alone, as equal steps of ground range do. Then nothing is recomputed while altitude and range are unchanged.
+  // alone, as for equal steps of ground range. Then nothing is recomputed while altitude and range are unchanged.
   void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m,
            bool same_distances);
   // power[i] *= two-way loss for ground at height_m[i]. A NaN height counts as sea level.
@@ -108,8 +108,8 @@ class GasSamples {
 
 // Rain: volume reflectivity eta and attenuation at the rain rate r, and their common profile across a shower.
 // Reflectivity factor Z = a r^b. Source: Marshall and Palmer 1948.
-// Reflectivity eta = pi^5 |K|^2 Z / lambda^4. Source: Probert-Jones 1962.
-// Attenuation k r^alpha. Source: ITU-R P.838-3.
+// Reflectivity eta = pi^5 |K|^2 Z / lambda^4; |K|^2: dielectric factor, lambda: wavelength. Source: Probert-Jones 1962.
+// Attenuation k r^alpha. Source: ITU-R P.838-3. The configuration has a, b, |K|^2, k and alpha.
 // The profile at the distance rho from the shower's centre is (1 - (rho / radius)^2)^2, a project choice. It falls
 // smoothly to 0, and its integral has a closed form.
 
@@ -135,8 +135,9 @@ RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint mid
 
 // Rain along one sweep: return at each range, and attenuation of other returns.
 // A shower is a vertical cylinder from the ground to its top. RainChord has the profile across it.
-// Return: eta times the illuminated volume R theta_az (c tau / 2) R I. I is the integral of the beam pattern over
-// elevation, from the horizon to the top. With 1/R^4 the power falls as R^-2.
+// Return: eta times the illuminated volume R theta_az (c tau / 2) R I. R: slant range; theta_az: azimuth beamwidth;
+// c tau / 2: pulse length. I is the integral of the beam pattern over elevation, from the horizon to the top. With
+// 1/R^4 the power falls as R^-2.
 // Attenuation: the profile integrated along each chord, there and back.
 class RainPath {
  public:
@@ -146,7 +147,7 @@ class RainPath {
   void enter(const SweepGeometry& geometry);
   bool dry() const { return crossed_.empty(); }
 
-  // Factor on the power returned by a point.
+  // Factor on the power returned by a point: two-way rain attenuation.
   double two_way_transmission(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m,
                               double slant_range_m) const;
 

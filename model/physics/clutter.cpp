@@ -50,8 +50,8 @@ double lower_series(double shape, double x) {
   return sum * std::exp(shape * std::log(x) - x - std::lgamma(shape));
 }
 
-// Regularized upper incomplete gamma function by Lentz's method for the continued fraction
-// x + 1 - s - 1(1 - s)/(x + 3 - s - 2(2 - s)/(...)), where s is the shape; used for x >= shape + 1.
+// Regularized upper incomplete gamma function: x^s e^-x / Gamma(s), divided by the continued fraction
+// x + 1 - s - 1(1 - s)/(x + 3 - s - 2(2 - s)/(...)). s is the shape. Lentz's method; used for x >= shape + 1.
 double upper_fraction(double shape, double x) {
   double b = x + 1.0 - shape;
   double d = 1.0 / b;

@@ -29,7 +29,7 @@ struct NoiseState {
 inline constexpr int kLooksPerGroup = 4;
 inline constexpr std::uint32_t kDrawsPerCell = 8;  // draws for kMaxLooks (receiver.hpp), two looks per draw
 
-// 2^32 / golden ratio, made odd. The first thousands of multiples differ in their upper bits.
+// Prime near 2^32 / golden ratio. Its first thousands of multiples differ in their upper bits.
 inline constexpr std::uint32_t kGoldenSection = 0x9e3779b1U;
 
 NoiseState make_noise_state(const NoiseKey& key);
@@ -57,14 +57,14 @@ struct GroundGrid {
   std::array<double, 180> columns{};  // cells round the earth, for each degree of latitude from the south pole
 };
 
-// [m] length of one degree of latitude on the grid: 60 NM, within 0.6 % of the ellipsoid's. Another value changes every
-// picture's texture.
+// [m] length of one degree of latitude on the grid: 60 NM, within 0.6 % of the ellipsoid's. The texture of every
+// picture depends on this value.
 inline constexpr double kGridMetresPerDegree = 60.0 * geo::kMetresPerNauticalMile;
 
 // Grid of cells with the edge `edge_m` > 0. Edges are within 2 % of `edge_m` below 60 degrees of latitude.
 GroundGrid make_ground_grid(double edge_m);
 
-// 32 random bits of the cell at a position. The longitude may be any number; the latitude is within +-90 degrees.
+// 32 random bits of the cell at a position. The longitude is any finite number; the latitude is within +-90 degrees.
 std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position);
 
 // Texture of K-distributed clutter: a gamma variate of mean 1 and variance 1/shape, fixed to the ground.

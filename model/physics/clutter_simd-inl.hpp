@@ -164,8 +164,9 @@ struct GroundReturn {
 
 constexpr std::uint32_t kWaterBit = 1U << static_cast<unsigned>(radar::kWaterMaterial);
 
-// Ground return of the samples from `i` on. `level_sine` is the sine of the grazing angle times any positive factor:
-// only its sign is used. `sin_grazing()` returns the sine. It is called only if a sample has water.
+// Ground return of the vector of samples that begins at `i`. `level_sine` is the sine of the grazing angle on level
+// ground, times any positive factor: only its sign is used. `sin_grazing()` returns the sine itself. It is called only
+// if a sample has water.
 template <class Sine>
 HWY_INLINE GroundReturn ground_return(const GroundInputs& in, GroundCache& cache, std::size_t i,
                                       GroundFloats level_sine, const Sine& sin_grazing) {

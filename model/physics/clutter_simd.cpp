@@ -139,7 +139,7 @@ HWY_INLINE hn::Vec<SignedTag> rounded(Floats value) {
 void form_video(std::size_t count, const VideoInputs& inputs, std::uint8_t* video) {
   const Tag d;
   const hn::Rebind<std::uint8_t, Tag> d8;
-  // A local copy spares the compiler from reloading the inputs after each store.
+  // With a local copy the compiler need not reload the inputs after each store.
   const VideoInputs in = inputs;
   const auto first = hn::Set(d, in.weights[0]);
   const auto second = hn::Set(d, in.weights[1]);

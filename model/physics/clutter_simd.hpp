@@ -4,8 +4,8 @@
 // Outputs: reflectivity as power ratios, speckle as gamma variates of mean 1, 8-bit video.
 // Accuracy of the reflectivity: see ground_return.hpp.
 // Threads: pure functions. The instruction set is chosen at run time; results are equal bit by bit on all of them.
-// Arrays have terrain::kRunSlack more entries than samples, because vectors read past the end. For rbm::simd::sweep()
-// they have kPairSlack (ray.hpp) more.
+// Arrays have terrain::kRunSlack more entries than samples, because vectors read past the end. Arrays for
+// rbm::simd::sweep() have kPairSlack (ray.hpp) more entries than samples.
 #pragma once
 
 #include <array>
@@ -47,8 +47,8 @@ struct GroundInputs {
 // `sin_grazing`.
 void reflect(std::size_t count, const GroundInputs& ground, const float* sin_grazing, float* land, float* sea);
 
-// Texture grid in one square degree. Its south-west corner is `cells_north` and `cells_east` whole degrees from
-// `positions.corner`.
+// Texture grid in a one-degree square. The square's south-west corner is `cells_north` and `cells_east` whole degrees
+// from `ground.positions.corner` (arguments of texture_degree()).
 struct TextureDegree {
   std::int32_t row = 0, column = 0;               // grid cell at the square's south-west corner
   float row_offset = 0.0F, column_offset = 0.0F;  // [0, 1) fraction of that cell outside the square
@@ -78,7 +78,7 @@ struct VideoInputs {
   const float* weights;      // weights of the three sweeps
   float noise;               // power added to the weighted sum
   const float* variate;      // speckle of each resolution cell; null: no speckle; 16 more entries are read
-  const std::int32_t* cell;  // resolution cell of each sample, 0 or 1 above the previous one; null: sample i has cell i
+  const std::int32_t* cell;  // resolution cell of sample i: that of sample i - 1, or 1 more; null: cell i
   float gain_db;
   float dynamic_range_db;
 };

@@ -1,7 +1,7 @@
 // Environment of a sweep (terrain, scenes, moving targets), and the echoes of the moving targets.
 // Inputs: sweep geometry, receiver, terrain below the movers, sim time.
 // Outputs: distance over ground [m], tangent of elevation angle, power (full scale = 1) of each mover in the beam.
-// A mover over void terrain stands on elevation 0.
+// Where the terrain is void, a mover stands on elevation 0.
 // Threads: one thread at a time may use a Movers object.
 // Source: docs/spec/physics.md#power (radar equation of a point).
 #pragma once

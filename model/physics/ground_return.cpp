@@ -177,7 +177,7 @@ Ground::Sample Ground::reflect(const SweepGeometry& geometry, const terrain::Pos
   return {land_gamma_.data(), sea_sigma0_.data()};
 }
 
-// Cardinal effect of the samples with walls. Few samples have walls, so they are computed one by one.
+// Sets wall_gain_ to the cardinal effect at the samples with walls. These samples are few and computed one by one.
 void Ground::compute_wall_gain(const terrain::PositionRun& positions, geo::Bearing azimuth) {
   const std::size_t count = positions.north_deg.size();
   const auto next = [&](std::size_t from) {

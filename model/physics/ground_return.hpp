@@ -28,13 +28,13 @@ struct Facet {
   double slant_range_m = 0.0;  // > 0
   double sin_local = 0.0;      // [0, 1] sine of the local grazing angle on the facet; used by land
   double sin_grazing = 0.0;    // sine of the grazing angle on level ground; used by the sea
-  double water = 0.0;          // [0, 1] fraction of water among the posts
+  double water = 0.0;          // [0, 1] fraction of water, as terrain::Surface::water
   std::uint8_t material = 0;   // surface material code; the water material sets the fraction of water to 1
 };
 
 // Cross section of the ground in one resolution cell, in double precision, for the algorithm `reference`.
-// Land return depends on material and cardinal effect, sea return on wind and grazing angle. Texture (clutter.hpp)
-// multiplies both.
+// Land return depends on material and cardinal effect (stronger return of walls that face the radar). Sea return
+// depends on wind and grazing angle. Texture (clutter.hpp) multiplies both.
 class SurfaceReturn {
  public:
   explicit SurfaceReturn(const RadarParameters& parameters);
@@ -90,7 +90,7 @@ class Ground {
 
   LandReturn land_;
   SeaTable sea_;
-  double wind_north_, wind_east_;  // unit vector towards where the wind comes from
+  double wind_north_, wind_east_;  // unit vector in the direction that the wind blows from
   simd::MaterialTables tables_;
   simd::GroundInputs inputs_;
   memory::CacheAlignedVector<float> sigma0_;  // sea table at the sweep's azimuth

@@ -17,7 +17,7 @@ namespace {
 // Maximum longitude change along a piece, extrapolated from the rate of change at the piece's start.
 constexpr double kMaxTurn_rad = 0.5 * geo::kRadiansPerDegree;
 // Maximum ratio of a piece's length to its distance from the pole. Bend and longitude change are extrapolated from the
-// piece's start. With this ratio the true values are less than twice as large.
+// piece's start. With this ratio the true values are less than twice the extrapolated values.
 constexpr double kMaxPoleDistanceFraction = 0.25;
 }  // namespace
 
@@ -29,8 +29,8 @@ PolarPassage::PolarPassage(geo::GeoPoint apex, geo::Bearing azimuth, double max_
   offset_m_ = std::abs(to_pole_m * std::sin(azimuth.radians()));
 }
 
-// An arc of length L on a circle of radius r about the pole deviates from its chord by L^2 / (8 r). Along a
-// straight ray, longitude linear in distance has at most the same error in metres.
+// An arc of length L on a circle of radius r about the pole deviates from its chord by L^2 / (8 r). If longitude is
+// taken as linear in distance along a straight ray, the error of the position is at most as large.
 double PolarPassage::straight_at(double to_pole_m) const {
   const double by_bend_m = std::sqrt(8.0 * max_bend_m_ * to_pole_m);
   const double by_turn_m = kMaxTurn_rad * to_pole_m * to_pole_m / std::max(offset_m_, 1.0);
@@ -87,7 +87,7 @@ Newton newton_form(int knots, const Knots& points, const Knots& values) {
   return form;
 }
 
-// Polynomial in powers of t. It gives degrees from the corner's latitude or longitude.
+// Converts Newton's form to powers of t. The polynomial gives degrees from the corner's latitude or longitude.
 simd::Curve curve_of(const Newton& form, int corner_deg) {
   const auto knots = static_cast<std::size_t>(form.knots);
   simd::Curve curve{knots, {}};
@@ -102,7 +102,7 @@ simd::Curve curve_of(const Newton& form, int corner_deg) {
   return curve;
 }
 
-// Stores one position. The longitude may be off by any multiple of 360 degrees.
+// Stores one position. Its longitude need not be wrapped to [-180, 180).
 void store_position(PositionArrays& positions, std::size_t i, geo::GeoPoint apex, geo::GeoPoint position) {
   const double north_deg = position.latitude_deg - positions.corner.south_deg;
   // Longitude relative to the apex: continuous across the antimeridian.
@@ -114,7 +114,7 @@ void store_position(PositionArrays& positions, std::size_t i, geo::GeoPoint apex
   positions.east_deg[i] = static_cast<float>(east_deg - std::floor(east_deg));
 }
 
-// `axis`: the three components of the position's unit vector.
+// Positions from the interpolated unit vector. `axis`: its three components, as functions of t = distance * scale - 1.
 void sample_by_vector(geo::GeoPoint apex, const float* distance_m, double scale, const std::array<Newton, 3>& axis,
                       PositionArrays& positions) {
   for (std::size_t i = 0; i < positions.count; ++i) {
@@ -271,8 +271,9 @@ double GroundWalk::highest_of_piece(const geo::GeodesicRay& ray, double from_m, 
   return highest;
 }
 
-// Maximum tangent where the ray crosses columns of posts. Columns converge towards a pole. They are tested only if they
-// are closer than posts.ray_step_m, which sets the steps. If several columns lie within one step, only one is tested.
+// Maximum tangent where the ray crosses columns of posts, which converge towards a pole. Columns are tested only if
+// they are less than posts.ray_step_m apart. If several columns lie within one step of the walk, only one of them is
+// tested.
 double GroundWalk::highest_of_columns(const Piece& piece) const {
   const double latitude_rad = (piece.begin.latitude_deg + 0.5 * piece.north_deg) * geo::kRadiansPerDegree;
   const double column_m = geo::kMetresPerDegree * piece.posts.columns_deg * std::cos(latitude_rad);

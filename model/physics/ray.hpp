@@ -60,7 +60,8 @@ namespace yars::model::physics {
 // modelled as a straight line in the tangent plane of the nearer pole, with an error of 20 m in 320 NM.
 class PolarPassage {
  public:
-  // `max_bend_m`: maximum distance between ray and piece. `min_piece_m`: minimum length, even if a piece deviates more.
+  // `max_bend_m`: maximum distance between ray and piece. `min_piece_m`: minimum length of a piece. A piece of this
+  // length may be farther than `max_bend_m` from the ray.
   PolarPassage(geo::GeoPoint apex, geo::Bearing azimuth, double max_bend_m, double min_piece_m);
 
   // Maximum length of a piece that begins at a distance along the ray. Longitude changes by less than one degree along
@@ -78,11 +79,12 @@ class PolarPassage {
 };
 
 // Methods for the positions of a sweep's samples, selected by the number of knots:
-// - kSeriesKnots or more: a Taylor series of the geodesic where its error is below 1 mm (GeodesicSeries), else
-//   interpolation. The error is below 1 mm for rays that are short compared with the distance to the pole.
-// - fewer, but not 0: interpolation in double between that many exact points, clamped to [kMinKnots, kMaxKnots].
-//   Near a pole the unit vector is interpolated, elsewhere latitude and longitude.
-// - kExactPositions: the geodesic itself at every sample.
+// - kSeriesKnots or more: a Taylor series of the geodesic if its error is at most 1 mm (GeodesicSeries). This holds for
+//   rays much shorter than the distance to the pole. Other rays are interpolated, with at most kMaxKnots knots.
+// - 1 to kSeriesKnots - 1: interpolation with that many knots, at least kMinKnots.
+// - kExactPositions (0): the geodesic itself at every sample.
+// Knots are exact positions on the geodesic. Interpolation between them is in double: of the unit vector near a pole,
+// of latitude and longitude elsewhere.
 // Accuracy with five knots or more: 0.5 m against the geodesic up to 160 NM, millimetres at middle latitudes.
 inline constexpr int kMinKnots = 2;
 inline constexpr int kMaxKnots = 9;
@@ -114,8 +116,8 @@ struct PositionArrays {
   memory::CacheAlignedVector<float> cells_north, cells_east, north_deg, east_deg;
 };
 
-// Computes the positions of all samples. `distance_m` has one finite, ascending value in [0, range] per sample.
-// terrain::kRunSlack entries after them are read.
+// Computes the positions of all samples. `distance_m` has one finite value in [0, range] per sample, in ascending
+// order. terrain::kRunSlack entries after the last sample are read.
 void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
                       PositionArrays& positions);
 

@@ -79,7 +79,7 @@ HWY_INLINE void store_position(const Pieces& pieces, std::size_t piece, hn::Vec<
 void positions_on_curves(std::size_t count, std::size_t piece_size, const float* distance_m, const Curves& input,
                          const PositionSpans& positions) {
   const FloatTag d;
-  // A local copy spares the compiler from reloading the coefficients after each store.
+  // With a local copy the compiler need not reload the coefficients after each store.
   const Curves curves = input;
   Pieces north, east;
   HWY_ALIGN float middle_m[kGroup];

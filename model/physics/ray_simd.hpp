@@ -1,8 +1,8 @@
 // Latitude and longitude polynomials of a ray, evaluated at the samples in Highway vectors. Results are equal bit by
-// bit on every target. The ray is divided into short pieces. Each polynomial is expanded in double about a piece's
-// middle, and evaluated there as a cubic in float.
-// Accuracy: 8 mm against evaluation in double for a ray of 160 NM. Rounding a fraction of a degree to float alone errs
-// by up to 4 mm.
+// bit on every target. The ray is divided into short pieces. For each piece the polynomials are expanded in double
+// about the piece's middle. At the piece's samples they are evaluated as cubics in float.
+// Accuracy: 8 mm against evaluation in double for a ray of 160 NM. Rounding the fraction of a degree to float
+// contributes up to 4 mm.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace yars::model::physics::simd {
 
 inline constexpr std::size_t kMaxTerms = 9;
 
-// Polynomial [deg] with coefficient[k] at x^k, x = distance * scale - shift.
+// Polynomial [deg]: sum of coefficient[k] x^k for k < terms. x = distance * scale - shift (Curves).
 struct Curve {
   std::size_t terms = 0;
   std::array<double, kMaxTerms> coefficient{};

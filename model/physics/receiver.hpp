@@ -21,8 +21,8 @@ struct Receiver {
   double elevation_beamwidth_rad = 0.0;
   double pulse_length_m = 0.0;  // c tau / 2, extent of a pulse in range; tau is its duration
   double land_gamma = 0.0;      // sigma0 / sine of the grazing angle, of land without culture
-  double stc_exponent = 0.0;
-  double stc_range_m = 0.0;       // R0, the selected range; sensitivity time control is 1 at R0
+  double stc_exponent = 0.0;      // n: sensitivity time control multiplies power by (slant range / R0)^n
+  double stc_range_m = 0.0;       // R0, the selected range
   double full_scale = 0.0;        // [1/m^2] value of returned_power() at full scale, see Receivers::at()
   double noise = 0.0;             // power of thermal noise, full scale = 1
   double dynamic_range_db = 0.0;  // black to white
@@ -30,7 +30,8 @@ struct Receiver {
   int looks = 1;  // 1..kMaxLooks, independent looks averaged in a sample
 };
 
-inline constexpr double kMetresPerMicrosecond = 149.896229;  // c / 2 times 1 us: slant range per delay or pulse length
+// c / 2 times 1 us: slant range per microsecond of echo delay, pulse length per microsecond of pulse duration.
+inline constexpr double kMetresPerMicrosecond = 149.896229;
 inline constexpr int kMaxLooks = 16;
 inline constexpr int kFullGain = 3;  // GAIN 3 is full gain; each lower step is gain_step_db less
 
@@ -84,7 +85,7 @@ inline constexpr double kTwoWayExponent = 5.545;
 // Pulse smear: weights of the samples that a pulse covers, at the offsets -reach..reach [samples] from its middle. The
 // sum of weights is 1. A pulse shorter than a sample has reach 0.
 struct PulseSmear {
-  static constexpr std::ptrdiff_t kMaxRadius = 32;  // [samples] a longer pulse is shortened to 64 samples
+  static constexpr std::ptrdiff_t kMaxRadius = 32;  // [samples] limits the pulse to 64 samples
   std::ptrdiff_t reach = 0;
   std::array<double, 2 * kMaxRadius + 1> weights{};
 };

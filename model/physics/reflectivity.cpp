@@ -44,7 +44,7 @@ void StreetFinder::use_column(Row& row, std::int32_t number, int middle) {
     const std::uint32_t hash = random::lattice_hash((column + row.columns) % row.columns, number, 3, kSeed);
     patch.origin = {(number + static_cast<double>(hash & 0xFFFFU) / 65536.0) * kRow_deg - 90.0,
                     (column + static_cast<double>(hash >> 16U) / 65536.0) * row.column_deg - 180.0};
-    // Half of the patches have streets within 7.5 degrees of the compass directions, as surveyed towns do.
+    // Half of the patches have streets within 7.5 degrees of north-south and east-west, as surveyed towns do.
     const std::uint32_t draw = random::lattice_hash((column + row.columns) % row.columns, number, 4, kSeed);
     patch.bearing_deg = (draw & 1U) != 0 ? 90.0 * random::unit_fraction(draw)
                                          : std::fmod(97.5 - 15.0 * random::unit_fraction(draw), 90.0);

@@ -34,9 +34,9 @@ inline double wavelength_m(double frequency_ghz) {
   return kSpeedOfLight / (frequency_ghz * 1e9);
 }
 
-// Area of a few kilometres in which all streets have one direction. Patches depend on position alone, not on the loaded
-// terrain. So synthetic and real culture at one position have the same streets and the same cardinal effect. The
-// cardinal effect is the strong return of walls that face the radar.
+// Area of a few kilometres in which all streets follow one rectangular grid. Patches depend on position alone, not on
+// the loaded terrain. So synthetic and real culture at one position have equal streets and an equal cardinal effect.
+// The cardinal effect is the strong return of walls that face the radar.
 struct StreetPatch {
   geo::GeoPoint origin;      // a crossing of the patch's street grid
   double bearing_deg = 0.0;  // bearing in [0, 90) of one set of streets; the other set is perpendicular
@@ -83,7 +83,7 @@ struct LandReturn {
   std::array<double, radar::kMaterials> gamma{};
   // Relative increase of gamma by a wall perpendicular to the ray; 0: no walls.
   std::array<double, radar::kMaterials> cardinal{};
-  double cardinal_width_deg = 6.0;
+  double cardinal_width_deg = 6.0;  // `width_deg` of cardinal_gain()
 };
 LandReturn make_land_return(const RadarParameters& parameters);
 
@@ -119,7 +119,8 @@ class SceneSurface {
   double cutoff_tangent_;  // tangent of cutoff_deg_, the angle beyond which the cardinal effect is 0
 };
 
-// Upper limit of the ratio cos(ray, interpolated normal) / cos(ray, facet's normal), which diverges at silhouettes.
+// Upper limit of shading, a factor on gamma: cos(ray, interpolated normal) / cos(ray, facet's normal). The ratio
+// diverges at silhouettes.
 inline constexpr double kMaxShading = 4.0;
 
 // Sea return. Source: NRL model, Gregers-Hansen and Mital 2012 (DTIC ADA559494), 0.1 to 60 degrees grazing, sea states
@@ -136,8 +137,9 @@ double nrl_sigma0_db(const SeaCoefficients& c, double grazing_deg, double freque
 // Sea state (WMO code 3700) in [0, 6] of a wind by the Beaufort scale. Example: force 3, 7 to 10 kt, is state 2.
 double sea_state_of_wind(geo::Speed wind);
 
-// Upwind term of sigma0 [dB]: 10 lg e * factor (1 - 2.8 psi) (lambda + 0.015)^-0.4; 0 if the grazing angle psi exceeds
-// 1/2.8 rad (20 degrees). For other azimuths the term is multiplied by the cosine of the angle off the wind.
+// Upwind term of sigma0 [dB]: 10 lg e * factor (1 - 2.8 psi) (lambda + 0.015)^-0.4, with the wavelength lambda [m]. The
+// term is 0 if the grazing angle psi exceeds 1/2.8 rad (20 degrees). At other azimuths it is multiplied by the cosine
+// of the angle between the ray and the direction that the wind comes from.
 double upwind_db(double factor, double wavelength_m, double grazing_rad);
 
 // Parameters of the sea return, from the configuration.
@@ -155,8 +157,9 @@ SeaReturn make_sea_return(const RadarParameters& parameters);
 // Below 0.1 degrees the formula is extrapolated. 0 if sin_grazing <= 0.
 double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing azimuth);
 
-// Table of the sea's sigma0 over the sine of the grazing angle. It is linear in each of sixteen pieces per octave.
-// The upper bits of the sine as a float select the piece. Below the first entry sigma0 is proportional to the sine.
+// Table of the sea's sigma0 over the sine of the grazing angle. Each octave of the sine has sixteen pieces. Within a
+// piece sigma0 is interpolated linearly. The upper bits of the sine as a float select the piece. Below the first entry
+// sigma0 is proportional to the sine.
 // Accuracy against sea_sigma0(): 0.02 dB from 0.02 to 15 degrees, 0.2 dB to 55, 0.4 dB at 60 degrees, where the NRL
 // model ends.
 // Entries are logarithms, so each azimuth takes one exp2 per entry.
@@ -166,7 +169,7 @@ struct SeaTable {
   static constexpr std::size_t kPieces = 192;                   // twelve octaves, to the sine of 90 degrees
 
   std::array<float, kPieces + 1> across{};  // log2 of sigma0 across the wind
-  std::array<float, kPieces + 1> upwind{};  // log2(upwind / across); times the cosine of the angle off the wind
+  std::array<float, kPieces + 1> upwind{};  // log2(sigma0 upwind / sigma0 across); see simd::sigma0_at_azimuth()
 };
 SeaTable make_sea_table(const SeaReturn& sea);
 

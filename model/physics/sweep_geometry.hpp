@@ -26,8 +26,8 @@ struct BeamSlice {
   double left_rad = -std::numeric_limits<double>::infinity();
   double right_rad = std::numeric_limits<double>::infinity();
   double beam_rad = 0.0;   // azimuth of the beam's centre, relative to the ray
-  double factor = 1.0;     // factor on the pattern's gain: 1 / (weight of the ray among the sub-beams)
-  bool sharpened = false;  // [left, right) is one resolution cell of a synthetic aperture
+  double factor = 1.0;     // factor on the gain: 1 / (weight of this ray in the sum of the rays across the beam)
+  bool sharpened = false;  // [left, right) is one resolution cell of Doppler beam sharpening
 };
 
 struct AzimuthInterval {
@@ -40,7 +40,7 @@ AzimuthInterval point_interval(const BeamSlice& slice, double beamwidth_rad);
 
 // Two-way gain in azimuth of a target with its middle at `offset_rad` and the width `width_rad`. The gain is 0 if the
 // middle is outside point_interval(). In a sharpened cell the gain is instead the fraction of the target inside the
-// cell, times beamwidth / cell width.
+// cell, times beamwidth / cell width. All gains include BeamSlice::factor.
 double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double offset_rad, double width_rad = 0.0);
 
 // Apex, direction and range of one ray of a sweep.
@@ -112,8 +112,8 @@ class EffectiveEarth {
 EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoint apex, geo::Bearing azimuth);
 
 // Distance over ground of each sample's centre [m], ascending: evenly spaced in ground range, or in slant range.
-// Slant range assumes level ground at the elevation below the aircraft (0 if unknown). Samples at a slant range too
-// short to meet that ground are NaN.
+// For slant range, level ground is assumed, at the ground elevation below the aircraft (0 if unknown). Samples at a
+// slant range too short to meet that ground are NaN.
 void sample_distances(const GeometryParameters& parameters, const EffectiveEarth& earth, const SweepGeometry& geometry,
                       const terrain::TerrainView& terrain, std::span<double> distance_m);
 

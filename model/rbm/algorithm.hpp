@@ -30,8 +30,7 @@ class Algorithm {
                               std::span<float> power) = 0;
 
   // Lit mask of the last measure(): 1 if no nearer ground hides the sample; 0 in shadow and over a void. Report1996
-  // also sets 0 outside the beam. SubBeams gives the mask of the middle ray, or of the right one
-  // of two middle rays.
+  // also sets 0 outside the beam. SubBeams gives the mask of its middle ray; of two middle rays, the right one.
   virtual void lit(std::span<std::uint8_t> mask) const = 0;
 
   // Computes the video of the sweep that has the power `window.centre`: azimuth smear, noise, receiver characteristic.
@@ -40,7 +39,7 @@ class Algorithm {
                           std::span<std::uint8_t> video) = 0;
 };
 
-// Configured number of samples per sweep, clamped to [1, kMaxSamples].
+// Number of samples per sweep, in [1, kMaxSamples].
 inline std::size_t sample_count(const physics::RadarParameters& parameters) {
   return parameters.samples;
 }

@@ -16,7 +16,7 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr double kMast_m = 10.0;         // height above ground of an emitter without a configured altitude
-constexpr double kMinDistance_m = 10.0;  // lower limit of the distance, so that power is finite below the aircraft
+constexpr double kMinDistance_m = 10.0;  // lower limit of an emitter's distance, so that its power is finite
 
 // True if the jammer jams the radar's band and channel.
 bool is_jammed(const radar::Jammer& jammer, const physics::SweepGeometry& geometry) {

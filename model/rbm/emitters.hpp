@@ -69,7 +69,7 @@ class Beacons {
   // the selected range. The span is valid until the next call.
   std::span<const Reply> replies(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
 
-  // Power of the replies in each sample, near to far, full scale = 1.
+  // Sets `power` to the power of the replies in each sample, near to far, full scale = 1.
   void measure(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain, std::span<float> power);
 
  private:

@@ -69,7 +69,7 @@ class ElevationGain {
         [&](Floats off, Floats on) {
           const Tag d;
           const auto angle = polynomials::angle(d, hn::Abs(off), on);
-          // The gain is at least 2^-64. Smaller gains would give subnormal powers, which are slow to compute.
+          // The gain is limited to at least 2^-64. Without this limit powers could be subnormal, which is slow.
           const auto octaves = hn::Neg(hn::Mul(hn::Mul(constant<Floats>(c_.gaussian), angle), angle));
           return polynomials::exp2(d, hn::Max(octaves, constant<Floats>(-64.0F)));
         },

@@ -21,7 +21,7 @@ namespace yars::model::rbm {
 
 // Finds the crests of a ray at any latitude. TerrainView::crests() assumes that the ray is straight in latitude and
 // longitude between samples. Near a pole the ray is curved. There each interval between samples is split into nearly
-// straight pieces of at least 3 m. Where pieces have this minimum length, the ground at their ends is sampled, too.
+// straight pieces of at least 3 m. The ground at the ends of pieces of this minimum length is sampled, too.
 class RayCrests {
  public:
   explicit RayCrests(std::size_t samples);

@@ -103,8 +103,8 @@ void Reference::read_cross_slopes(const physics::SweepGeometry& geometry, const 
 void Reference::cast_shadows(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                              const physics::GroundWalk& walk) {
   // All ground raises the horizon, also between samples and outside the beam. A void neither raises the horizon nor
-  // returns power. Where a cell is reduced to fewer posts, the highest original posts cast the shadow. The mean heights
-  // determine the power.
+  // returns power. Where a cell is reduced to fewer posts, the highest original posts cast the shadow (peak_m). The
+  // means of the original posts determine the power (height_m).
   double horizon = -std::numeric_limits<double>::infinity();
   double previous_m = 0.0;
   for (Sample& sample : samples_) {

@@ -34,7 +34,7 @@ class Reference : public Algorithm {
     geo::GeoPoint position;
     geo::Bearing azimuth;       // direction of the ray at the position
     double height_m = 0.0;      // [m MSL] ground that returns power; NaN: void
-    double peak_m = 0.0;        // [m MSL] highest ground around the position, casts the shadow; NaN: void
+    double peak_m = 0.0;        // [m MSL] ground that casts the shadow: terrain::Surface::peak_m; NaN: void
     double water = 0.0;         // fraction of water [0, 1]
     std::uint8_t material = 0;  // surface material code
     double cross_slope = 0.0;   // slope across the sweep, positive if it rises to the right

@@ -12,11 +12,12 @@ namespace {
 constexpr std::array<float, 3> kPostWeights{0.25F, 0.5F, 0.25F};
 constexpr float kNoHorizon = -1.0e30F;  // lower than the tangent of any terrain
 constexpr int kGainSteps = 4;
-constexpr double kReferenceFraction = 0.5;  // reference distance (full scale of level ground) / selected range
-// [m MSL] Lower limit of the altitude in reference_intensity(). A lower reference would make even dark slopes white.
+constexpr double kReferenceFraction = 0.5;  // [selected ranges] distance at which level ground gives full scale
+// [m MSL] Lower limit of the altitude in reference_intensity(). Without it the reference would go to 0 at low altitude,
+// and even dark slopes would be white.
 constexpr double kMinAltitude_m = 100.0;
 
-// Intensity of level ground at sea level at the reference distance. It is equal for every bar and azimuth.
+// Intensity of level ground at sea level at half the selected range. It is equal for every bar and azimuth.
 float reference_intensity(const physics::SweepGeometry& geometry) {
   const double altitude_m = std::max(geometry.altitude.metres(), kMinAltitude_m);
   return static_cast<float>(altitude_m / std::hypot(altitude_m, kReferenceFraction * geometry.range.metres()));
@@ -98,7 +99,7 @@ void Report1996::form_video(const physics::PowerWindow& window, geo::Length /*ra
   const float scale = 255.0F * static_cast<float>(gain + 1) / static_cast<float>(kGainSteps);
   for (std::size_t i = 0; i < video.size(); ++i) {
     const float power = std::min(smoothed(window.before[i], window.centre[i], window.after[i]), 1.0F);
-    const float level = scale * power + 0.5F;  // half a step, as the conversion to an integer rounds down
+    const float level = scale * power + 0.5F;  // + 0.5, because the conversion to an integer rounds down
     video[i] = static_cast<std::uint8_t>(level);
   }
 }

@@ -4,8 +4,8 @@
 // a beamwidth above the highest bar or below the lowest bar.
 // Smear: weights 1/4 1/2 1/4 over three samples and over three sweeps. Gain steps: 1/4 1/2 3/4 1 of full scale. No
 // noise.
-// Outputs: power is the intensity divided by that of level ground at sea level at half the selected range. Video is
-// proportional to power up to power 1, and constant above.
+// Outputs: power is the smeared intensity, divided by the intensity of level ground at sea level at half the selected
+// range. Video is proportional to power up to power 1, and constant above.
 // Source: docs/spec/physics.md#preset-1996, docs/decisions/0020-brightness-of-the-preset-1996.md.
 // The algorithm uses four values of the configuration: elevation beamwidth, samples, geodesic knots, interpolation.
 #pragma once

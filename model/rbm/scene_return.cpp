@@ -99,7 +99,8 @@ void SceneReturn::apply(const physics::SweepGeometry& geometry, const physics::R
     if (in_range(*scene, geometry)) add_standing(sweep, *scene);
 }
 
-// Replaces the power of the samples that lie on covers of the scene.
+// Mixes the return of covers (flat faces on the ground, summed by square) into the power of the samples. The new power
+// of a sample is the mean of its power and the cover's, weighted with the covered fraction of its square.
 void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scene) {
   const std::size_t number = scene.level_for(sweep.spacing_m);
   const scene::ScattererLevel& level = scene.levels[number];
@@ -221,7 +222,7 @@ double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& sca
   };
   const double lowest = tangent(scatterer.min_msl_m), highest = tangent(scatterer.max_msl_m);
   const std::size_t nearer = physics::samples_nearer(ground_.distance_m, distance_m);
-  // Ground up to the last nearer sample hides the scatterer. The path beyond that sample need not be tested.
+  // If ground up to the last nearer sample hides the scatterer, the path beyond that sample need not be tested.
   if (nearer > 0 && highest <= ground_.horizon[nearer - 1]) return 0.0;
   const double horizon = sweep.walk->horizon_before(ground_.distance_m, distance_m,
                                                     [&](std::size_t sample) { return ground_.horizon[sample]; });
@@ -230,7 +231,7 @@ double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& sca
 }
 
 // Distributes power evenly over the interval of length `extent_m` about `distance_m`. Each sample gets the part of the
-// interval that is nearest to its centre.
+// interval that is nearer to its centre than to the centre of any other sample.
 void SceneReturn::spread(double distance_m, double extent_m, double power) {
   const std::vector<double>& centre_m = ground_.distance_m;
   const double from_m = distance_m - 0.5 * extent_m, to_m = distance_m + 0.5 * extent_m;

@@ -1,7 +1,7 @@
 // Return of polygonal scenes in a sweep of the real beam map.
 // A standing object has the cross section sigma: the sum over its faces of gamma times the area that faces the radar.
-// It returns at its own range and bearing. Only the part above the ground's horizon is lit. Covers (runways, roads)
-// replace the ground's return.
+// It returns at its own range and bearing. Only the part above the ground's horizon is lit. Covers are flat faces on
+// the ground, such as runways and roads. They replace the ground's return in proportion to the area that they cover.
 // Inputs: sweep geometry, receiver, scenes, the sweep's ground with its horizon and power.
 // Outputs: the power of the samples before the pulse smear, changed in place.
 // Accuracy: double precision; `reference` and `standard` use the same function.

@@ -134,8 +134,8 @@ void Standard::add_movers(const physics::SweepGeometry& geometry, const physics:
   }
 }
 
-// Adds rain echo and rain attenuation. Both are computed in double at every (count / 512)-th sample, or at every sample
-// if there are fewer than 1024. Between these samples both are interpolated linearly.
+// Adds rain echo and applies rain attenuation. Both are computed in double at every (count / 512)-th sample, or at
+// every sample if there are fewer than 1024. Between these samples both are interpolated linearly.
 void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const physics::Receiver& receiver) {
   const std::size_t step = std::max<std::size_t>(1, count_ / 512);
@@ -174,16 +174,16 @@ const physics::Receiver& Standard::receiver_at(geo::Length range) {
   return receiver_;
 }
 
-// Updates the ground distances of the samples and the reciprocals of their spacings. Samples at equal steps of ground
-// range change with the selected range only. Samples at equal steps of slant range change with each sweep.
+// Updates the ground distances of the samples and the reciprocals of their spacings. At equal steps of ground range the
+// distances change with the selected range only. At equal steps of slant range they are recomputed for each sweep.
 void Standard::update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                                 const terrain::TerrainView& terrain) {
   const bool slant = fidelity_.slant_range;
   if (!slant && spaced_range_m_ == geometry.range.metres()) return;
   spaced_range_m_ = geometry.range.metres();
   physics::sample_distances(fidelity_, earth, geometry, terrain, distance_m_);
-  // Altitude hole: samples at slant ranges below the height above ground have no ground point. They get distance 0.
-  // read_terrain() makes them voids.
+  // Altitude hole: samples at slant ranges below the height above ground have no ground point. Here they get distance
+  // 0; read_terrain() makes them voids.
   holes_ = 0;
   while (holes_ < count_ && std::isnan(distance_m_[holes_])) distance_m_[holes_++] = 0.0;
   for (std::size_t i = 0; i < count_; ++i) distance_.data()[i] = static_cast<float>(distance_m_[i]);

@@ -1,9 +1,10 @@
 // Default algorithm of the real beam map, in float, in Highway vectors of the machine's width.
-// The fidelity's `geodesic_knots` selects how positions are computed: usually by a Taylor series of the geodesic, near
-// a pole by interpolation (ray.hpp). The drop of the ground by the earth's curvature is a truncated series
-// (sweep_simd.cpp).
-// Accuracy against Reference, without noise: shadow differs in at most 0.5 % of the samples, video by at most 0.5 of
-// 255 gray levels RMS (tests/model/rbm/standard_test.cpp). Bits are equal for any number of threads and any vector
+// The fidelity's `geodesic_knots` selects how the positions of samples are computed (ray.hpp). The default is a Taylor
+// series of the geodesic, replaced near a pole by interpolation between exact positions. The drop of the ground by the
+// earth's curvature is a truncated series (sweep_simd.cpp).
+// Accuracy against Reference, without noise: shadow differs in at most 0.5 % of the samples. Over test hills, video
+// differs by at most 0.5 of 255 gray levels RMS. Over real terrain, samples with different shadow increase this
+// difference (tests/model/rbm/standard_test.cpp). Results are equal bit by bit for any number of threads and any vector
 // width.
 #pragma once
 
@@ -75,10 +76,10 @@ class Standard : public Algorithm {
   physics::Receiver receiver_;  // result of the last receiver_at()
   std::size_t count_;
   std::size_t holes_ = 0;  // number of samples nearest the aircraft with a slant range too short to meet the ground
-  double spaced_range_m_ = 0.0;   // [m] range for which distance_m_ was computed; 0: none
-  double smeared_samples_ = 0.0;  // pulse length [samples] of smear_weights_; 0: none
-  std::ptrdiff_t smear_reach_ = 0;
-  float cells_per_sample_ = 0.0F;  // value for which cell_ was computed; 0: none
+  double spaced_range_m_ = 0.0;     // [m] range for which distance_m_ was computed; 0: none
+  double smeared_samples_ = 0.0;    // pulse length [samples] of smear_weights_; 0: none
+  std::ptrdiff_t smear_reach_ = 0;  // [samples] smear_weights_ has offsets -smear_reach_ to smear_reach_
+  float cells_per_sample_ = 0.0F;   // value for which cell_ was computed; 0: none
   std::array<float, 2 * physics::PulseSmear::kMaxRadius + 1> smear_weights_{};
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, two_step_inverse_;

@@ -13,7 +13,8 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr double kHalfSpan = 0.75;  // [beamwidths] half width of the bundle of rays; two-way gain is below 5 % outside
+// [beamwidths] Half width of the bundle of rays. Outside it the two-way gain is below 5 % of the maximum.
+constexpr double kHalfSpan = 0.75;
 }  // namespace
 
 SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const physics::RadarParameters& parameters)
@@ -22,7 +23,7 @@ SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const physics::RadarParameter
   double sum = 0.0;
   std::vector<double> weights;
   for (int k = 0; k < count; ++k) {
-    // [beamwidths] Each ray is at the middle of one of `count` equal parts of the bundle.
+    // [beamwidths] from the beam's centre. Each ray is at the middle of one of `count` equal parts of the bundle.
     const double offset = kHalfSpan * ((2.0 * k + 1.0) / count - 1.0);
     weights.push_back(std::exp(-physics::kTwoWayExponent * offset * offset));
     sum += weights.back();

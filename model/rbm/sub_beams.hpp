@@ -10,8 +10,8 @@
 
 namespace yars::model::rbm {
 
-// Weighted sum of several rays across the beam, for ground that changes within the beamwidth. Weights follow the
-// two-way pattern and sum to 1, so uniform ground has the power of a single ray.
+// Algorithm for ground that changes within the beamwidth. Its power is the weighted sum of the powers of several rays
+// across the beam. Weights follow the two-way pattern and sum to 1, so uniform ground has the power of a single ray.
 class SubBeams : public Algorithm {
  public:
   SubBeams(std::unique_ptr<Algorithm> ray, const physics::RadarParameters& parameters);
@@ -31,7 +31,7 @@ class SubBeams : public Algorithm {
   std::unique_ptr<Algorithm> ray_;
   std::vector<Ray> rays_;
   std::vector<float> power_;
-  std::vector<std::uint8_t> lit_;  // lit mask of the middle ray
+  std::vector<std::uint8_t> lit_;  // lit mask of the middle ray; of an even number, the ray right of the centre
 };
 
 // Makes the algorithm that the fidelity names, wrapped in SubBeams if the fidelity has more than one sub-beam.

@@ -20,7 +20,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 namespace clutter = physics::simd::HWY_NAMESPACE;
 namespace polynomials = physics::HWY_NAMESPACE;
 
-constexpr std::size_t kMaxLanes = 16;
+constexpr std::size_t kMaxLanes = 16;  // limit of lanes in Tag (sample_groups-inl.hpp)
 
 // Position of the ground in the vertical plane of the ray. R is the radius of the effective earth, a the angle at the
 // earth's centre between aircraft and ground.
@@ -31,7 +31,7 @@ struct Geometry {
 };
 
 // Drop and chord are series in a, truncated before the fifth power. At 160 NM and earth radius factor k = 4/3, a is
-// below 0.04 rad. Accuracy at 0.1 rad (320 NM, k = 1): drop 0.01 m, chord 1e-6 relative.
+// below 0.04 rad. Accuracy at 0.1 rad (340 NM with k = 1): drop 0.01 m, chord 1e-6 relative.
 template <class Group>
 HWY_INLINE Geometry<Group> geometry(const SweepConstants& c, const Group& distance, const Group& height) {
   const auto curvature = constant<Group>(c.curvature);
@@ -79,7 +79,8 @@ HWY_INLINE Group inverse_root(const Group& value) {
   return each([](Floats x) { return polynomials::inverse_root(Tag(), x); }, value);
 }
 
-// Reflectivity of a group's ground. It is 0 for vectors entirely in shadow.
+// Reflectivity of the ground of a group of samples (sample_groups-inl.hpp): gamma of land, sigma0 of sea. Both are 0 in
+// a vector of the group that is entirely in shadow.
 template <class Group>
 struct Reflected {
   Group land, sea;
@@ -105,7 +106,7 @@ HWY_INLINE Reflected<Group> reflected(const physics::simd::GroundInputs& ground,
 
 // Inverse of the illuminated length in range [1/m]: the larger of the pulse-limited and the beam-limited value.
 // `sine` and `cosine` of the grazing angle may have a common factor; the result has the same factor.
-// `range_inverse` returns 1 / slant range. Usually the pulse limits the area, and it is not called.
+// `range_inverse` returns 1 / slant range. It is called only if the beam limits the length of some sample.
 template <class Group, class RangeInverse>
 HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const Group& cosine,
                               const Group& slant_square, const RangeInverse& range_inverse) {
@@ -115,7 +116,8 @@ HWY_INLINE Group area_inverse(const SweepConstants& c, const Group& sine, const 
   return max(by_pulse, mul(by_beam, range_inverse()));
 }
 
-// Power of a group with lit samples, with sensitivity time control of exponent 3. store_power() corrects the exponent.
+// Power of a group with at least one lit sample, with sensitivity time control of exponent 3. store_power() applies the
+// rest of the exponent.
 template <class Group, class GroupMask>
 HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, const SweepInputs& in,
                            clutter::GroundCache& cache, std::size_t i, const Geometry<Group>& g, const Group& height,
@@ -127,8 +129,8 @@ HWY_INLINE Group lit_power(const SweepConstants& c, radar::BeamPattern beam, con
   // Sine and cosine of the grazing angle, times the slant range.
   const auto level_sine = mul_sub(altitude, g.cosine, add(height, g.drop_m));
   const auto level_cosine = mul_add(altitude, g.sine, g.chord_m);
-  // Sine and cosine of the local grazing angle, times slant range and length of the facet's normal. The factors cancel
-  // in the power.
+  // Sine and cosine of the local grazing angle, times two factors: slant range and length of the facet's normal. These
+  // factors cancel in the power.
   const auto slope = along_slope(in, height, i);
   const auto sine = max(mul_add(slope, level_cosine, level_sine), zero);
   auto cosine = abs(neg_mul_add(slope, level_sine, level_cosine));
@@ -177,8 +179,7 @@ class SweepPass {
     const auto crest = in_.crest == nullptr ? constant<Group>(kNoHorizon) : load<Group>(in_.crest + i);
     const auto [upto, before_crest] = horizon_.after(max(tangent, crest));
     const auto before = max(before_crest, crest);
-    // Beside a void the highest ground may be known and the mean elevation unknown. The highest ground then casts a
-    // shadow, but no power is returned.
+    // Beside a void, peak_m may be known where elevation_m is NaN. This ground casts a shadow but returns no power.
     tangent = choose(known, tangent, constant<Group>(kNoHorizon));
     store(tangent, out_.tangent + i);
     store(before, out_.before + i);
@@ -191,7 +192,7 @@ class SweepPass {
  private:
   template <class Group, class GroupMask>
   HWY_INLINE void store_power(std::size_t i, const Geometry<Group>& g, const Group& height, const GroupMask& lit) {
-    // A sample without ground may be at the aircraft itself. The lower limit keeps its slant range at 1 m or more.
+    // A void counts as height 0, which may be the aircraft's position. The limit keeps the slant range at 1 m or more.
     const auto slant_square = max(mul_add(g.out_m, g.out_m, mul(g.up_m, g.up_m)), constant<Group>(1.0F));
     auto power = lit_power(c_, beam_, in_, ground_, i, g, height, slant_square, lit);
     if (c_.range_power != 0.0F) {
@@ -213,7 +214,7 @@ class SweepPass {
   const physics::simd::GroundInputs none_;  // for ground_ if in.ground is null
   clutter::GroundCache ground_;
   RunningMaximum horizon_;
-  const Floats range_octaves_;  // log2 of R0
+  const Floats range_octaves_;  // log2 of R0 [m], the range at which sensitivity time control is 1
 };
 
 void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,

@@ -2,8 +2,9 @@
 // in one array per quantity.
 // Inputs: elevations, distances, slopes and crests of the samples; constants of the sweep; ground reflectivity.
 // Outputs: tangents of elevation angles, horizon, power (full scale = 1).
-// Threads: pure functions. The instruction set is chosen at run time; results are equal bit by bit on all of them.
-// All arrays have kPad readable and writable entries before the first and after the last sample.
+// Threads: pure functions. The instruction set is chosen at run time. All instruction sets give results equal bit by
+// bit. All arrays of samples have kPad readable and writable entries before the first and after the last sample.
+// Exception: `result` of smear().
 #pragma once
 
 #include <cstddef>
@@ -50,7 +51,7 @@ struct SweepInputs {
 struct SweepOutputs {
   float* tangent;  // tangent of the elevation angle of the ground that casts the shadow; kNoHorizon over a void
   float* before;   // maximum tangent of all ground nearer than the sample
-  float* horizon;  // maximum of `before` and the tangent at the sample
+  float* horizon;  // maximum tangent of all ground up to and including the sample
   float* power;    // full scale = 1, after sensitivity time control, before pulse smear; 0 in shadow and over a void
 };
 
@@ -59,7 +60,8 @@ struct SweepOutputs {
 void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,
            const SweepOutputs& outputs);
 
-// result[i] = sum of weights[reach + k] * power[i + k] over k = -reach..reach. Exactly `count` entries are written.
+// Applies the pulse smear: result[i] = sum of weights[reach + k] * power[i + k] over k = -reach..reach. Writes exactly
+// `count` entries.
 void smear(std::size_t count, const float* power, const float* weights, std::ptrdiff_t reach, float* result);
 
 }  // namespace yars::model::rbm::simd

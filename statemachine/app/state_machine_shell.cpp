@@ -84,8 +84,8 @@ void StateMachineShell::latch_recorder() {
   inputs_.recorder_failed = inputs_.recorder_present && recorder_.value().problem[0] != '\0';
 }
 
-// Evaluates the magnetic field once per second, because an evaluation takes longer than a step. Variation changes
-// slowly.
+// Evaluates the magnetic field once per second. An evaluation takes longer than all other work of step(), and the
+// variation changes slowly.
 void StateMachineShell::latch_variation() {
   constexpr std::int64_t kTicksBetween = 200;  // 1 s
   const bool due = inputs_.tick % kTicksBetween == 0 || std::isnan(inputs_.field_variation_deg);
@@ -96,7 +96,8 @@ void StateMachineShell::latch_variation() {
                                                      parameters_.navigation.magnetic_year);
 }
 
-// Drops records of maps that are no longer named, and reads missing records. Each record is read once.
+// Drops records of maps that neither the state nor the model names any more. Reads each record of a newly named map
+// once.
 void StateMachineShell::latch_maps() {
   const std::array<std::uint64_t, kMaxMaps> wanted{state_.map_newest, state_.map_old, state_.map_stored,
                                                    inputs_.model.map_newest};
@@ -141,7 +142,7 @@ void StateMachineShell::take(const databuffer::InputEvent& event, std::size_t la
   applied.event = event;
   applied.lane = static_cast<std::uint32_t>(lane);
   session_->layout().applied_events.publish(applied);
-  log::debug(databuffer::text_of(event) + (applied.effective != databuffer::kEventDead ? "" : " (dead here)"));
+  log::debug(databuffer::text_of(event) + (applied.effective != databuffer::kEventDead ? "" : " (without effect)"));
 }
 
 // A change of the tick alone does not count as a change of the state.

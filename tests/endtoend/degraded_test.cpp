@@ -72,7 +72,8 @@ TEST_F(Degraded, ARoleThatTheRadarDoesNotNeedIsRetriedEvery30SecondsAfterItsSixt
   ::kill(pid_of("flight-model"), SIGKILL);
   EXPECT_TRUE(eventually([&] { return start_log().find("tried again every 30 s") != std::string::npos; }, kTimeout_s));
   EXPECT_TRUE(set_.runs("start"));
-  EXPECT_TRUE(eventually([&] { return reasons().find("no ownship: nobody flies") != std::string::npos; }, kTimeout_s));
+  EXPECT_TRUE(
+      eventually([&] { return reasons().find("no ownship: no source runs") != std::string::npos; }, kTimeout_s));
   EXPECT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].contains("flight-model"); }, 120.0));
   EXPECT_EQ(end(), 0) << start_log();
 }
@@ -180,7 +181,7 @@ TEST_F(Degraded, AnInputMonitorThatDiedIsReported) {
   EXPECT_THAT(reasons(), Not(HasSubstr("no input")));
   set_.kill("input-monitor", SIGKILL);
   set_.wait("input-monitor");
-  EXPECT_THAT(reasons(), HasSubstr("no input: who sent events has died"));
+  EXPECT_THAT(reasons(), HasSubstr("no input: all senders of events have died"));
 }
 
 // Up to 500 invalid records a second are counted and reported. The earlier note of a restart stays in the status.

@@ -114,7 +114,7 @@ TEST(ReplayToTheDisplay, ADamagedBlockLosesOnlyThatBlockAndIsReportedWithItsTick
   const std::string ticks = std::to_string(block.first_tick) + " to " + std::to_string(block.last_tick);
   const auto compared = set.yars({"replay", "--events", damaged.string()});
   EXPECT_EQ(compared.code, 1);
-  EXPECT_NE(compared.errors.find("missing are ticks " + ticks), std::string::npos) << compared.errors;
+  EXPECT_NE(compared.errors.find("missing ticks: " + ticks), std::string::npos) << compared.errors;
   const auto result = nlohmann::json::parse(compared.output);
   const auto whole = nlohmann::json::parse(set.yars({"replay", "--events", run().recording().string()}).output);
   EXPECT_EQ(result["different"], 0);

@@ -160,7 +160,7 @@ TEST_F(Supervision, StatusNamesHangingAndMissingRoles) {
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 3; }, kTimeout_s));
   EXPECT_THAT(reasons(), HasSubstr("the radar is off"));
   ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);
-  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kTimeout_s)) << reasons();
+  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: no source runs"])"; }, kTimeout_s)) << reasons();
   set_.kill("radar-display", SIGSTOP);
   EXPECT_TRUE(eventually([&] { return reasons().find("the display hangs") != std::string::npos; }, kTimeout_s));
   set_.kill("radar-display", SIGCONT);
@@ -181,7 +181,7 @@ TEST_F(Supervision, ADeadSourceIsReportedAsNoOwnship) {
   EXPECT_EQ(status()["ownship_lanes"].size(), 1u) << "a stopped source keeps its lane";
   set_.kill("flight-model", SIGKILL);
   set_.wait("flight-model");
-  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: nobody flies"])"; }, kTimeout_s)) << reasons();
+  EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: no source runs"])"; }, kTimeout_s)) << reasons();
   EXPECT_EQ(status()["ownship_lanes"].size(), 0u) << "the status does not list the lane of a dead source";
 }
 

@@ -1,6 +1,6 @@
 // IPVU by the whole set in lockstep: radar-model measures velocity by Doppler beams between scans, state-machine
-// corrects the mission navigator, and a replay computes the same sweeps. The hour of the requirement would take minutes
-// to run; a flight of 70 s has two updates.
+// corrects the mission navigator, and a replay computes the same sweeps. The requirement is stated for one hour of
+// flight, which would take minutes to compute. This test flies 70 s, enough for two updates.
 #include <gtest/gtest.h>
 #include <unistd.h>
 

@@ -114,7 +114,8 @@ std::vector<std::uint64_t> bits_of(const model::antenna::Antenna::State& state) 
           static_cast<std::uint64_t>(state.phase)};
 }
 
-// The antenna's next state depends only on its State, which contains no time. Two scans, one in each direction, return
+// With constant platform and commanded elevation, the antenna's next state depends only on its State. The only time in
+// it is the tick within the scan. Two scans, one in each direction, return
 // the state to the same bits. So do all pairs of scans in thirty days (1,296,000 pairs of the widest scan): the edges
 // of sweeps do not drift.
 TEST(ExtremeTimes, TwoScansReturnTheAntennaToTheSameBits) {

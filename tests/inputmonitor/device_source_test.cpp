@@ -86,7 +86,7 @@ TEST_F(Fifo, RecordsThatAreWrittenBecomeEvents) {
   plug_in();
   send({key(0x121, 1), kReport, key(0x121, 0), kReport, axis(ABS_X, 50), kReport});
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("pb 13", "tdc 0.5 0"));
-  EXPECT_THAT(report(*panel), HasSubstr("plays the map panel"));
+  EXPECT_THAT(report(*panel), HasSubstr("uses the map panel"));
 }
 
 TEST_F(Fifo, AnIncompleteRecordWaitsForItsRest) {
@@ -126,7 +126,7 @@ TEST_F(Fifo, AnUnpluggedDeviceReleasesItsControlsAndIsReported) {
   report(*panel);
   unplug();
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("tdc release", "tdc 0 0"));
-  EXPECT_THAT(report(*panel), HasSubstr("! " + path_.string() + " has gone; waits for it"));
+  EXPECT_THAT(report(*panel), HasSubstr("! " + path_.string() + " is disconnected; input-monitor waits for it"));
 }
 
 TEST_F(Fifo, ADeletedAndRecreatedFifoIsOpenedAgain) {
@@ -143,7 +143,7 @@ TEST_F(Fifo, ADeletedAndRecreatedFifoIsOpenedAgain) {
   unplug();
   make_fifo();
   EXPECT_THAT(take_after(*panel, 300), IsEmpty());
-  EXPECT_THAT(report(*panel), HasSubstr("plays the map panel"));
+  EXPECT_THAT(report(*panel), HasSubstr("uses the map panel"));
   plug_in();
   send({key(0x121, 1)});
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("pb 13"));
@@ -151,7 +151,7 @@ TEST_F(Fifo, ADeletedAndRecreatedFifoIsOpenedAgain) {
 
 TEST_F(Fifo, AMissingDeviceIsOpenedWhenItAppears) {
   const auto panel = source();
-  EXPECT_THAT(report(*panel), HasSubstr("is not there; waits for it"));
+  EXPECT_THAT(report(*panel), HasSubstr("is missing; input-monitor waits for it"));
   EXPECT_THAT(take_after(*panel, 300), IsEmpty());
   make_fifo();
   take_after(*panel, 300);
@@ -205,7 +205,7 @@ TEST_F(Fifo, APlainFileOfRecordsIsPlayedOnce) {
   const auto panel = source();
   EXPECT_THAT(take_after(*panel, 20), ElementsAre("pb 13"));
   for (int i = 0; i < 3; ++i) EXPECT_THAT(take_after(*panel, 300), IsEmpty());
-  EXPECT_THAT(report(*panel), HasSubstr("has come to its end"));
+  EXPECT_THAT(report(*panel), HasSubstr("was read to its end"));
 }
 
 TEST_F(Fifo, AnUnknownMapOrAFileThatIsNoDeviceIsRefused) {

@@ -57,7 +57,7 @@ inline std::vector<radar::Device> shipped_maps() {
   return maps_of(std::string(config::shipped_devices_text()));
 }
 
-// The resolved map of one device with these buttons and axes, for a descriptor without device information.
+// Device map with these buttons and axes, resolved as for a FIFO or a file, which does not report its controls.
 inline DeviceMap ready(const std::string& controls) {
   const auto maps = maps_of("( Devices `( ( Device :name \"it\" " + controls + " ) ) )");
   auto map = resolve_map(maps.at(0), {});

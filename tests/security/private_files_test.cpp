@@ -53,7 +53,7 @@ TEST_F(PrivateFiles, AFileOverwrittenByARecordingGetsMode0600) {
 TEST_F(PrivateFiles, ARecordingFollowsNoPlantedLink) {
   const auto victim = write("victim", "keep this");
   const auto planted = link("flight.yrec", victim);
-  EXPECT_THAT(refusal_of(RecordingWriter::create(planted, {})), HasSubstr("it is a link"));
+  EXPECT_THAT(refusal_of(RecordingWriter::create(planted, {})), HasSubstr("a symbolic link"));
   EXPECT_EQ(content_of(victim), "keep this");
   EXPECT_EQ(mode_of(victim), 0666U);
 }

@@ -302,7 +302,7 @@ TEST_F(Maps, RequestNumbersContinueAboveThoseOfTheModel) {
   pilot.around.maps[0].id = pilot.around.model.map_newest = 17;
   pilot.press("tdc release");
   EXPECT_EQ(pilot.state.map_request, 41U);
-  EXPECT_TRUE(pilot.is(kMapping)) << "after a new start, an old map does not answer the request";
+  EXPECT_TRUE(pilot.is(kMapping)) << "after a restart of state-machine, a map made before does not answer the request";
 }
 
 // A damaged status may leave the greatest 64-bit number as the id of the newest map; no later id would be greater.

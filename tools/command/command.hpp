@@ -40,22 +40,22 @@ struct ConfigurationOptions {
   std::string terrain;               // directory of terrain cells
   std::string fidelity;              // name of a preset
   std::vector<std::string> scenes;   // FILE or FILE@LAT,LON,HDG; added to the configured scenes
-  std::vector<std::string> without;  // names of scene parts to leave out
+  std::vector<std::string> without;  // names of objects or groups to leave out of scenes
   std::int64_t seed = -1;
 };
 
 // Adds --scene and --scene-without.
 void add_scene_options(databuffer::Command command, ConfigurationOptions& options);
-// Adds --without: names of scene parts to leave out.
+// Adds --without: names of objects or groups to leave out.
 void add_without(databuffer::Command command, std::vector<std::string>& names);
 // Filter that leaves out these names; `*` and `?` are wildcards.
 model::scene::NameFilter name_filter(const std::vector<std::string>& names);
 // Adds an option `name` that takes the name of a fidelity preset.
 databuffer::Option add_preset_option(databuffer::Command command, const std::string& name, std::string& preset,
                                      const std::string& help);
-// The radar's configuration in `file` (empty: built-in defaults), changed by `options`. Throws CommandFailed for an
-// unreadable file, or a scene option that is not valid. Callers must include
-// lib/radar/configuration.hpp, because RadarConfiguration is only declared here.
+// The radar's configuration in `file` (empty: built-in defaults), changed by `options`. Throws CommandFailed for a file
+// that cannot be loaded, or a scene option that is not valid. Callers must include lib/radar/configuration.hpp, because
+// RadarConfiguration is only declared here.
 radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options);
 
 // Pose of the aircraft. Its ground track equals its heading.

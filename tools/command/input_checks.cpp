@@ -80,7 +80,7 @@ error::Error window_error(std::string_view reason, const geo::GeodesicInverse& t
   const std::string side = short_number(window.nautical_miles());
   if (!limits)
     return {std::string(reason), "a window of the radar: " + list_of(table.windows_nm) + " NM", side + " NM",
-            std::string("give --window-nm one of them, ") + kForce};
+            std::string("give one of these as --window-nm, ") + kForce};
   return {std::string(reason),
           "for a window of " + side + " NM a target " + short_number(limits->min.nautical_miles()) + " to " +
               short_number(limits->max.nautical_miles()) + " NM away",
@@ -117,7 +117,7 @@ std::optional<error::Error> beyond_depression(const model::hrm::PatchOrder& orde
 std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,
                                           const radar::AntennaConfiguration& antenna) {
   const auto broken = [](const char* option, double limit_deg, geo::Angle found) {
-    return error::Error{option, "at most " + short_number(limit_deg) + " deg by the configuration's gimbal",
+    return error::Error{option, "at most " + short_number(limit_deg) + " deg within the configured gimbal limits",
                         short_number(found.degrees()) + " deg", std::string("give a smaller angle, ") + kForce};
   };
   if (std::abs(elevation.degrees()) > antenna.elevation_limit_deg)

@@ -29,7 +29,7 @@ void check_file_name(const std::string& option, const std::string& name, const s
   const std::string ending = ending_of(name);
   if (name.empty()) return;
   if (std::find(endings.begin(), endings.end(), ending) != endings.end()) {
-    // The destructor of NewFile removes the temporary file when nothing is committed.
+    // The file is never committed, so the destructor of NewFile removes it.
     if (const auto begun = file::NewFile::create(name); !begun) throw_failure(begun.error());
     return;
   }
@@ -43,7 +43,7 @@ void check_folder_name(const std::string& option, const std::string& name) {
                                                   ".zip", ".gz",  ".dt0",  ".dt1", ".dt2", ".ded", ".flt", ".guf"};
   const std::string ending = ending_of(name);
   if (std::find(kFiles.begin(), kFiles.end(), ending) != kFiles.end())
-    throw_failure(error::usage_error(option, "the name of a folder", name + ", which has the extension of a file"));
+    throw_failure(error::usage_error(option, "the name of a folder", name + ", which ends like the name of a file"));
 }
 
 error::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values) {
@@ -100,7 +100,7 @@ ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
 void ProgressLine::show(const std::string& text) {
   const auto now = std::chrono::steady_clock::now();
   if (!terminal_ || (text.empty() ? !shown_ : now - last_print_time_ < std::chrono::milliseconds(100))) return;
-  // Writes to the descriptor, because the guard of stderr (databuffer/runtime/process.hpp) removes control characters.
+  // Writes to the descriptor: the stream stderr escapes control characters (sanitize_terminal_output() in process.hpp).
   const std::string line = "\r\033[K" + text::printable(text);
   const ssize_t written = ::write(STDERR_FILENO, line.data(), line.size());
   if (written < 0) return;

@@ -21,7 +21,7 @@ std::string ending_of(const std::string& name);
 // command-line option in the message. An empty name means no output file and passes.
 void check_file_name(const std::string& option, const std::string& name, const std::vector<std::string>& endings);
 
-// Requires a folder name. A name with the extension of a file format that YARS reads or writes is an error.
+// Requires a folder name. A name that ends like a file which YARS reads or writes (".png", ".dt1") is an error.
 void check_folder_name(const std::string& option, const std::string& name);
 
 // Writes 32-bit floats in the order given, little endian on every machine, without header.
@@ -33,8 +33,8 @@ double wall_ms();
 // The median; for an even number of values, the larger of the two middle values. Requires at least one value.
 double median(std::vector<double> values);
 
-// Progress of a long command: items done, total, estimated time left. Prints at most one line per second.
-// With 64 items or fewer it also prints one line for each item that has a note.
+// Progress of a long command: items done, total, estimated time left. Prints at most one line per second, and a line
+// for the last item if a line precedes it. With 64 items or fewer it also prints each item that has a note.
 class Progress {
  public:
   explicit Progress(std::size_t total, std::FILE* out = stdout);
@@ -49,7 +49,7 @@ class Progress {
   std::chrono::steady_clock::time_point last_print_time_;
 };
 
-// One status line on standard error, overwritten in place at most ten times a second. Prints nothing if standard
+// One status line on standard error. New text overwrites it at most ten times a second. Prints nothing if standard
 // error is not a terminal. The destructor erases the line.
 class ProgressLine {
  public:

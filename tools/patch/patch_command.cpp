@@ -1,5 +1,5 @@
-// `yars patch`: computes one patch map in this process. Writes a picture or numbers, and prints one line of
-// JSON with run times. Source of option names and JSON fields: docs/spec/commands.md#patch.
+// `yars patch`: computes one patch map in this process. Writes a picture or numbers to the file of --out, if given.
+// Prints one line of JSON with run times. Source of option names and JSON fields: docs/spec/commands.md#patch.
 
 #include <algorithm>
 #include <array>
@@ -30,7 +30,7 @@
 namespace yars::tools {
 
 // Output of `yars patch`: a picture (.png), power (.f32, see output.hpp), or picture or power as GeoTIFF (.tif, by
-// GDAL). The first row is the far edge of the map. Errors: throws CommandFailed.
+// GDAL). The first row is the far edge of the map. Errors: the functions throw CommandFailed.
 
 struct PatchOutput {
   std::string file;              // empty: none
@@ -41,8 +41,8 @@ struct PatchOutput {
 // a .tif in a build without GDAL.
 void check_patch_output(const PatchOutput& output);
 
-// Writes the file. A power of 1 is the return of level ground with gamma 1. The preset 1996 has brightness instead of
-// power. The power of pixels in the blind zone is "no data" in a .tif and -1 in a .f32.
+// Writes the file. A power of 1 is the return of level ground with gamma 1. With the preset `1996` the
+// values are brightness, not power. The power of pixels in the blind zone is "no data" in a .tif and -1 in a .f32.
 void write_patch(const PatchOutput& output, const model::hrm::PatchOrder& order,
                  const model::hrm::PatchFormation& patch_formation);
 
@@ -188,7 +188,7 @@ void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& en
   if (const auto problem = beyond_depression(order, target_ground_m, configuration.antenna)) throw_failure(*problem);
 }
 
-// Names the cause of black pixels on standard error: blind zone, or shadow and horizon. The picture does not show it.
+// Names the cause of black pixels on standard error: blind zone, or shadow and horizon. The picture shows no cause.
 void report_dark_pixels(const hrm::MapImage& image) {
   const auto pixels = static_cast<double>(image.power.size());
   const auto blind = std::count_if(image.power.begin(), image.power.end(), [](float power) { return power < 0.0F; });
@@ -229,7 +229,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   std::array<std::vector<double>, hrm::kPatchStages.size()> stages_ms;
   for (int run = 0; run <= options.repeat; ++run) {
     const Timing timing = run_once(patch_formation, order, environment);
-    if (run == 0) continue;  // warm-up, not timed
+    if (run == 0) continue;  // warm-up: its time is not used
     whole_ms.push_back(timing.whole_ms);
     for (std::size_t stage = 0; stage < stages_ms.size(); ++stage) stages_ms[stage].push_back(timing.stages_ms[stage]);
   }
@@ -258,9 +258,9 @@ void add_patch_command(databuffer::Command app, const CommonOptions& common) {
   command.option("--terrain", options->configuration.terrain, "directory of terrain cells (else the configuration's)");
   add_scene_options(command, options->configuration);
   add_pose_options(command, options->pose);
-  command.option("--speed-kt", options->speed_kt, "[kt] over ground").range(0.0, 10000.0);
-  command.option("--target-lat", options->target_latitude_deg, "[deg] centre of the map").range(-90.0, 90.0);
-  command.option("--target-lon", options->target_longitude_deg, "[deg]").range(-180.0, 180.0);
+  command.option("--speed-kt", options->speed_kt, "[kt] speed over ground").range(0.0, 10000.0);
+  command.option("--target-lat", options->target_latitude_deg, "[deg] latitude of the map's centre").range(-90.0, 90.0);
+  command.option("--target-lon", options->target_longitude_deg, "[deg] its longitude").range(-180.0, 180.0);
   command.option("--window-nm", options->window_nm, "[NM] side of the map (else the configuration's at power-up)")
       .range(0.01, 200.0);
   command.flag("--force", options->force, "ignore the radar's limits; the blind zone stays blank");

@@ -48,7 +48,8 @@ namespace {
 
 // Duration of a block: 1 s of sim time. Longer blocks compress better, but cost more in a seek and lose more by damage.
 constexpr std::uint64_t kBlockTicks = 200;
-// A block is full at half of the reader's limits. A larger item would be alone in its block, within the limits.
+// A block is full at half of the reader's limits. A larger item has a block of its own. Up to twice kFullBytes, that
+// block is within the reader's limits.
 constexpr std::size_t kFullBytes = kMaxBlockBytes / 2;
 constexpr std::size_t kFullItems = kMaxBlockItems / 2;
 
@@ -62,7 +63,7 @@ bool BlockBuilder::is_full_for(const RecordParts& parts, std::optional<std::int6
   if (empty()) return false;
   if (raw_bytes_ + parts.fixed.size() + parts.tail.size() > kFullBytes || order_.size() >= kFullItems) return true;
   if (!tick || !first_tick_) return false;
-  // True unless the tick is within 1 s before or after the first tick. Unsigned arithmetic is defined for any ticks.
+  // True unless the tick is from 200 before to 199 after the first tick. Unsigned arithmetic is defined for any ticks.
   return static_cast<std::uint64_t>(*tick) - static_cast<std::uint64_t>(*first_tick_) + kBlockTicks >= 2 * kBlockTicks;
 }
 
@@ -131,7 +132,8 @@ bool BlockItems::decode(Column& column, std::size_t& remaining_bytes, std::span<
   const std::size_t bytes = column.count * kind.bytes;
   if (bytes > remaining_bytes) return false;
   remaining_bytes -= bytes;
-  // Upper bound of the coded size: the coding adds two bytes for each word, and it pads the last word of each record.
+  // Upper bound of the coded size. A column is one 8-byte word of all records. The coding adds two bytes for each
+  // column and pads the last word of each record.
   constexpr std::size_t kWord_bytes = 8;
   const std::size_t max_bytes = (column.count + 2) * (kind.bytes + kWord_bytes);
   const auto coded = take_chunk({kind.number, ChunkPart::records}, max_bytes, body);

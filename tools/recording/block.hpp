@@ -1,4 +1,4 @@
-// Block of a recording: about 1 s of recorded items, which can be decoded without other blocks.
+// Block of a recording: about 1 s of recorded items, which can be decoded without other blocks. An item is one record.
 // Format: a head of 56 bytes with checksums, then a body of chunks (compression.hpp).
 // First chunk: the kind of each item, in the order of recording.
 // Other chunks, in ascending order of kind: the fixed-size records as columns, then their variable-size tails.
@@ -19,8 +19,8 @@
 
 namespace yars::tools::recording {
 
-// Limits of a block of items. A block that exceeds them is taken as damaged. This bounds the memory of a reader.
-inline constexpr std::size_t kMaxBlockBytes = std::size_t{8} << 20;  // 8 MiB, for the compressed and the full size
+// Limits of a block of items. The reader treats a block beyond them as damaged, which bounds its memory.
+inline constexpr std::size_t kMaxBlockBytes = std::size_t{8} << 20;  // 8 MiB; limit of raw_bytes and of body_bytes
 inline constexpr std::size_t kMaxBlockItems = std::size_t{1} << 14;
 
 enum class BlockContent : std::uint32_t { items = 1, index = 2 };  // index: table of the blocks, for seeking
@@ -32,7 +32,7 @@ struct BlockHead {
   std::int64_t first_tick, last_tick;
   std::uint32_t items;       // number of items; in an index: number of blocks
   std::uint32_t raw_bytes;   // size of all records and tails before compression
-  std::uint32_t body_bytes;  // compressed size of all chunks
+  std::uint32_t body_bytes;  // size of all chunks as stored, with their heads
   std::uint32_t body_checksum;
   std::uint32_t reserved;
   std::uint32_t head_checksum;  // checksum of the bytes of the head before this field
@@ -42,11 +42,11 @@ static_assert(sizeof(BlockHead) == 56);
 // The magic number: the first four bytes of a block.
 std::string_view magic_of_blocks();
 
-// The block as stored in the file. Sets magic, body_bytes and checksums of the head, and appends the body to the head.
+// Returns the block as stored in the file: the head with magic number, body_bytes and checksums set, then the body.
 std::vector<std::byte> block_bytes(BlockHead head, std::span<const std::byte> body);
 
-// True if magic number and head checksum are correct. A block of items must also be within the limits above. A block
-// with the index may have any size.
+// True if magic number and head checksum are correct. A block of items must also be within the limits above; an
+// index may have any size.
 bool is_sound(const BlockHead& head);
 
 // True if the body has the length and the checksum that the head states.
@@ -55,12 +55,13 @@ bool body_matches(const BlockHead& head, std::span<const std::byte> body);
 // Encoder: collects items and compresses them into a block.
 class BlockBuilder {
  public:
-  // True if the item needs a new block: its tick is 1 s or more from the first tick, or the block is full.
+  // True if the item needs a new block: this block is full, or the item's tick is about 1 s or more away from its first
+  // tick. False if this block has no items.
   bool is_full_for(const RecordParts& parts, std::optional<std::int64_t> tick) const;
   void append(const RecordedKind& kind, const RecordParts& parts, std::optional<std::int64_t> tick);
   bool empty() const { return order_.empty(); }
-  // Returns the block as stored in the file, and empties the builder. If no item of the next block has a tick, its
-  // first and last tick are the last tick of this block.
+  // Returns the block as stored in the file, and empties the builder. If no item of the next block has a tick,
+  // that block's first and last tick are the last tick of this block.
   std::vector<std::byte> take(Compressor& compressor);
 
   std::uint64_t kinds() const { return kinds_; }  // bit n: the block has items of kind n
@@ -82,8 +83,8 @@ class BlockBuilder {
 // Decoder: iterates over the items of a block in the order of recording.
 class BlockItems {
  public:
-  // Decodes a body for which is_sound() and body_matches() are true. nullopt: the records do not match the head.
-  // Memory: at most about kMaxBlockBytes for each of body, columns and records.
+  // Decodes a body for which is_sound() and body_matches() are true. nullopt: the chunks are damaged or
+  // do not match the head. Memory: at most about kMaxBlockBytes for each of body, coded columns and records.
   static std::optional<BlockItems> decode(const BlockHead& head, std::span<const std::byte> body);
   std::optional<RecordingItem> next();                            // nullopt: no further item
   std::optional<RecordingItem> last_of(std::uint8_t kind) const;  // last item of this kind in the block
@@ -93,7 +94,7 @@ class BlockItems {
     const RecordedKind* kind = nullptr;
     std::size_t count = 0;
     std::vector<std::byte> records, tails;
-    std::vector<std::size_t> tail_begins;  // offset of each tail, and the end of the last tail; empty: no tails
+    std::vector<std::size_t> tail_begins;  // offset of each tail, and end of the last; empty: kind without tails
     std::size_t at = 0;                    // index of the next record
   };
   static bool decode(Column& column, std::size_t& remaining_bytes, std::span<const std::byte>& body);

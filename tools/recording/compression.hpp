@@ -15,8 +15,8 @@ namespace yars::tools::recording {
 class Compressor {
  public:
   Compressor();
-  // Appends the compressed form of `bytes` to `compressed`. False: that form is not shorter, so it is not
-  // appended.
+  // Appends the compressed form of `bytes` to `compressed`. Returns false and appends nothing if compression does
+  // not make `bytes` shorter.
   bool compress(std::span<const std::byte> bytes, std::vector<std::byte>& compressed);
 
  private:
@@ -31,13 +31,14 @@ bool decompress(std::span<const std::byte> compressed, std::span<std::byte> byte
 
 std::uint32_t checksum_of(std::span<const std::byte> bytes);  // CRC-32 of zlib (ISO 3309)
 
-// Columnar coding of records of one size. Slowly varying values become zero bytes, which Zstandard compresses well.
+// Columnar coding of records of one size. Slowly varying values give residuals with few nonzero bytes.
 // Column: the 8-byte words at the same offset of all records.
-// Prediction: each word is extrapolated from the 1, 2 or 3 words before it in its column (order 1, 2 or 3).
+// Prediction: each word is extrapolated from the 1, 2 or 3 words before it in its column. A column has one order,
+// which is this number of words.
 // Residual: the prediction error modulo 2^64, zigzag coded. The coding is therefore exact for any bytes.
-// Byte planes: plane n has byte n (weight 256^n) of all residuals of a column. Planes that are all zero are omitted.
-// Format, in this order: the first record; for each column one byte with the order and one byte with the planes present
-// (bit n: plane n); the planes, with one byte for each record after the first.
+// Byte planes: plane n has byte n (weight 256^n) of all residuals of a column. Planes of zeros are omitted.
+// Format, in this sequence: the first record; for each column one byte with its order and one byte with the planes
+// present (bit n: plane n); the planes, column by column, with one byte for each record after the first.
 
 // Appends the coded `records` to `coded`. `records`: complete records of `record_bytes` each, without padding between.
 void encode_columns(std::span<const std::byte> records, std::size_t record_bytes, std::vector<std::byte>& coded);
@@ -47,8 +48,9 @@ void encode_columns(std::span<const std::byte> records, std::size_t record_bytes
 bool decode_columns(std::span<const std::byte> coded, std::size_t count, std::size_t record_bytes,
                     std::vector<std::byte>& records);
 
-// A chunk is a part of a block's body. Its head has kind, part, compression, raw size (uncompressed) and stored size.
-// The bytes follow the head, uncompressed if compression does not shorten them. Parts and kinds: block.hpp.
+// A block's body is a series of chunks (block.hpp). A chunk's head has kind of record, part, compression, uncompressed
+// size and stored size. The bytes follow the head, uncompressed if compression does not shorten them.
+// What the bytes of a chunk are: kinds of the items in order, fixed-size records, tails, or the index of the file.
 enum class ChunkPart : std::uint8_t { order = 0, records = 1, tails = 2, index = 3 };
 
 struct ChunkName {
@@ -60,8 +62,8 @@ struct ChunkName {
 void append_chunk(ChunkName name, std::span<const std::byte> bytes, Compressor& compressor,
                   std::vector<std::byte>& body);
 
-// Removes the chunk at the beginning of `body` and returns its decompressed bytes. nullopt if the chunk has another
-// name, has more than `max_bytes` decompressed, or is incomplete or damaged.
+// Removes the chunk at the beginning of `body` and returns its decompressed bytes. nullopt if the chunk's name
+// is not `name`, or if the chunk has more than `max_bytes` decompressed, or is incomplete or damaged.
 std::optional<std::vector<std::byte>> take_chunk(ChunkName name, std::size_t max_bytes,
                                                  std::span<const std::byte>& body);
 

@@ -55,7 +55,7 @@ RecordingItem patch_from(const RecordParts& parts) {
 template <class T>
 constexpr RecordedKind row() {
   constexpr KindName name = kKindOf<T>;
-  static_assert(name.number >= 1 && name.number <= 63, "a kind is a bit of a 64-bit mask; 0 is the order of the items");
+  static_assert(name.number >= 1 && name.number <= 63, "a kind is a bit of a 64-bit mask; 0 stands for no kind");
   if constexpr (std::is_same_v<T, Sweep>)
     return {name.number, name.name, name.version, kSweepFields, sweep_tail, sweep_from};
   else if constexpr (std::is_same_v<T, Patch>)

@@ -37,13 +37,13 @@ inline SweepDigest digest_of(const databuffer::Sweep& sweep) {
   return {sweep.tick, sweep.hash, sweep.epoch, sweep.number, sweep.flags, 0};
 }
 
-// Status of the model before the ticks that follow in the recording. A replay starts from this status if the model
-// already ran when the recording began.
+// Status of the model before the ticks that follow in the recording. A replay resumes the model from this status. It is
+// recorded when writing begins or resumes while the model already runs.
 struct StartingPoint {
   databuffer::ModelStatus status;
 };
 
-// The radar state after a change at state.tick.
+// The radar state, recorded when it changes and when writing begins. Its tick is state.tick.
 struct StateChange {
   databuffer::RadarState state;
 };
@@ -53,7 +53,7 @@ struct StatusReport {
   databuffer::ModelStatus status;
 };
 
-// Numbers of records that were lost because the recorder was too slow.
+// Numbers of published records that were overwritten before the recorder read them.
 struct Gap {
   std::uint64_t ticks;
   std::uint64_t events;
@@ -135,7 +135,7 @@ struct RecordedKind {
 std::span<const RecordedKind> recorded_kinds();
 const RecordedKind* recorded_kind(std::uint8_t number);  // nullptr: no such kind
 
-// Tick at which the record was made; nullopt for records without a tick, and for StateChange (see state.tick).
+// Tick at which the record was made. nullopt: the record has no tick, or is a StateChange, whose tick is state.tick.
 template <class T>
 std::optional<std::int64_t> tick_of(const T& record) {
   if constexpr (requires { record.tick; })
@@ -152,7 +152,8 @@ std::optional<std::int64_t> tick_of(const T& record) {
 // are recorded in addition.
 inline constexpr std::int64_t kPaceTicks = 20;
 
-// Rate limit: a value is due if kPaceTicks have passed since the last recorded value, or if the tick has gone back.
+// Rate limit: a value is due if none was recorded yet, if kPaceTicks have passed since the last recorded value, or if
+// the tick has gone back.
 class Pace {
  public:
   bool is_due(std::int64_t tick) const { return !last_ || tick < *last_ || tick - *last_ >= kPaceTicks; }

@@ -57,8 +57,8 @@ bool read_more(std::istream& file, std::size_t count, std::vector<std::byte>& by
 }
 
 std::string described(const KindEntry& entry, const RecordedKind* kind) {
-  return (kind != nullptr ? std::string(kind->name) : "kind " + std::to_string(entry.number)) + " " +
-         std::to_string(entry.version) + " of " + std::to_string(entry.bytes) + " bytes";
+  return (kind != nullptr ? std::string(kind->name) : "kind " + std::to_string(entry.number)) + " version " +
+         std::to_string(entry.version) + " with records of " + std::to_string(entry.bytes) + " bytes";
 }
 
 error::Expected<void> check_kinds(std::span<const std::byte> entries, const std::string& file_name) {
@@ -216,7 +216,7 @@ IndexEntry hole_at(std::istream& file, std::uint64_t begin, std::uint64_t next, 
   return hole;
 }
 
-// Index made from the heads of the blocks.
+// Index made from the heads of the complete blocks from `begin` on, with entries for damaged bytes between them.
 std::vector<IndexEntry> rebuilt_index(std::istream& file, std::uint64_t begin, std::uint64_t size) {
   std::vector<IndexEntry> blocks;
   BlockHead head{};
@@ -224,12 +224,12 @@ std::vector<IndexEntry> rebuilt_index(std::istream& file, std::uint64_t begin, s
     if (is_complete_at(file, begin, size, head)) {
       if (head.content == BlockContent::items) blocks.push_back({begin, head.first_tick, head.last_tick, head.kinds});
       begin += sizeof head + head.body_bytes;
-      // Only the trailer follows an index.
+      // Only the trailer follows the index block.
       if (head.content == BlockContent::index) break;
       continue;
     }
     const std::uint64_t next = next_block(file, begin + 1, size);
-    if (next == size) break;  // the file ends within this block
+    if (next == size) break;  // no complete block follows
     blocks.push_back(hole_at(file, begin, next, size, blocks));
     begin = next;
   }

@@ -1,4 +1,4 @@
-// Header and index of a recording file: the first and the last part of the file.
+// Header and index of a recording file. The header begins the file; the index and a trailer end it.
 // Source: docs/recordings.md. Errors: see read_header(). A damaged index is no error: read_index() rebuilds it.
 #pragma once
 
@@ -15,8 +15,8 @@ namespace yars::tools::recording {
 
 // Configuration and terrain of the recorded model. A replay needs the same configuration and terrain.
 struct RecordingHeader {
-  std::string configuration;  // path of the GUF file; empty = built-in
-  std::string terrain;        // directory; empty = the configuration's
+  std::string configuration;  // path of the GUF file; empty = built-in configuration
+  std::string terrain;        // directory of cells; empty = the directory in the configuration
 };
 
 inline constexpr std::size_t kMaxHeaderText = std::size_t{1} << 16;  // [bytes] maximum length of a path
@@ -28,8 +28,8 @@ std::vector<std::byte> bytes_of(const RecordingHeader& header);
 // file, another format version, a kind with another version or size than in this build, a damaged or incomplete header.
 error::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name);
 
-// Index entry of one block. When the writer closes the recording, it stores the index after the last block: a block of
-// content `index`, then a trailer of 16 bytes with the offset of the index block.
+// Index entry of one block of items. When the writer closes the recording, it stores the index after the last of these
+// blocks: a block of content `index`, then a trailer of 16 bytes with the offset of the index block.
 // In a rebuilt index, damaged bytes between two blocks have an entry with kinds = 0 and the range of missing ticks.
 struct IndexEntry {
   std::uint64_t offset;  // [bytes] offset of the block's head in the file

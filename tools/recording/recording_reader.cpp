@@ -12,10 +12,10 @@ namespace yars::tools::recording {
 
 error::Expected<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
   std::error_code code;
-  // Opening a pipe could block forever, and a pipe cannot seek.
+  // Opening a pipe could block forever, and a reader cannot seek in a pipe.
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
-    return error::fail(path.string(), "a recording in a plain file", "a folder, a pipe, a socket or a device",
-                       "copy it into a plain file");
+    return error::fail(path.string(), "a recording in a regular file", "a folder, a pipe, a socket or a device",
+                       "copy the recording into a regular file");
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
   if (!*file) return error::fail(path.string(), "a recording that can be read", std::strerror(errno));
   return read(std::move(file), path.string());

@@ -29,13 +29,13 @@ class RecordingReader {
   const RecordingHeader& header() const { return header_; }
   // Next item; nullopt at the end. Skips damaged blocks.
   std::optional<RecordingItem> next();
-  // True once after next() has skipped a damaged block (a hole). Items are then missing before the returned item.
+  // True once after next() has skipped a damaged block (a hole): items are missing before the item just returned.
   bool take_damage_flag() { return std::exchange(hole_, false); }
 
-  // next() then returns the first item of this block. `block` in [0, blocks().size()]; the upper limit is the end.
+  // next() then returns the first item of this block. `block` in [0, blocks().size()]; at the upper limit: nullopt.
   void seek_block(std::size_t block);
-  // Number of the first block that contains this tick, else of the last block that begins before it, else 0. Ticks go
-  // back within a recording if the session was reset.
+  // Number of the first block that contains this tick, else of the last block that begins before it, else 0. Several
+  // blocks may contain a tick, because ticks go back when the session is reset.
   std::size_t block_of(std::int64_t tick) const;
   // Items of one block; nullopt if the block is damaged. Does not change the position of next().
   std::optional<BlockItems> items_of(std::size_t block);
@@ -51,7 +51,7 @@ class RecordingReader {
   std::span<const IndexEntry> blocks() const { return index_.blocks; }
   // True if the recorder did not close the file, or a damaged block was found.
   bool cut_short() const { return index_.cut_short || !missing_.empty(); }
-  // Damaged blocks found so far, by offset in the file.
+  // Damaged blocks found so far, in order of their offset in the file.
   const std::vector<IndexEntry>& missing() const { return missing_; }
 
  private:

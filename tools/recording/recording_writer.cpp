@@ -17,8 +17,8 @@ error::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Fol
   const auto status = folder->status_of(name);
   const std::string path = (folder->path() / name).string();
   if (status && S_ISLNK(status->st_mode))
-    return error::fail(path, "a file that can be written", "a link",
-                       "it is a link: name the file that it leads to, or remove it");
+    return error::fail(path, "a file that can be written", "a symbolic link",
+                       "name the file that the link leads to, or remove the link");
   if (status && S_ISREG(status->st_mode) && existing == file::Existing::refused)
     return error::fail(path, "a new file to record into", "an existing file",
                        "name another file, or write over it with --overwrite");
@@ -31,7 +31,8 @@ error::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Fol
 
 constexpr off_t kMinFree_bytes = 1 << 20;  // free space required to resume, so that the next blocks are not lost
 
-// Checks for free space after offset `at`. Returns 0, or the errno of the failure. Always returns 0 for a device.
+// Checks for kMinFree_bytes of free space after offset `at`, which must be the end of the file. Returns 0, or the errno
+// of the failure. Always returns 0 for a device.
 int check_free_space(int descriptor, std::uint64_t at) {
   struct stat status {};
   if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
@@ -51,7 +52,7 @@ int append_whole(int descriptor, std::uint64_t at, const std::vector<std::byte>&
       continue;
     }
     const int problem = count == 0 ? ENOSPC : errno;
-    // A device cannot be truncated.
+    // On a device ftruncate fails, and the bytes already written remain.
     if (ftruncate(descriptor, static_cast<off_t>(at)) == 0) lseek(descriptor, static_cast<off_t>(at), SEEK_SET);
     return problem;
   }

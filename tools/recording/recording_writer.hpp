@@ -21,24 +21,26 @@
 
 namespace yars::tools::recording {
 
-using file::Existing;  // what to do with an existing regular file of this name
+using file::Existing;  // what to do with an existing regular file at the path of the recording
 
 class RecordingWriter {
  public:
   // Creates the file with mode 0600 and writes the header. Errors: the file exists (`Existing::refused`), is a symbolic
-  // link or cannot be created, or a path of the header is too long. The first append() reports a full disk.
+  // link or cannot be created, or a path of the header is too long.
+  // On a full disk create() succeeds, and the first append() fails.
   static error::Expected<RecordingWriter> create(const std::filesystem::path& path, const RecordingHeader& header,
                                                  Existing existing = Existing::refused);
 
-  // Appends a record of one of the types of RecordingItem. Errors: a write failed, usually on a full disk. All calls
-  // then return this error until resume() succeeds.
+  // Appends a record of one of the types of RecordingItem. Errors: a write failed, usually on a full disk. append(),
+  // flush() and close() then return this error until resume() succeeds.
   template <class T>
   error::Expected<void> append(const T& record) {
     return append(*recorded_kind(kKindOf<T>.number), parts_of(record), tick_of(record));
   }
   // Writes the collected items as a block.
   error::Expected<void> flush();
-  // After an error: drops the collected items and continues after the last complete block. Fails if the disk is full.
+  // After an error: drops the collected items and continues after the last complete block. Fails if the disk
+  // has less than 1 MiB free.
   error::Expected<void> resume();
   // Writes the collected items and the index, and closes the file.
   error::Expected<void> close();

@@ -18,7 +18,7 @@ void Comparison::replayed(const databuffer::Sweep& sweep) {
 
 void Comparison::recorded(const SweepDigest& digest) {
   for (int byte = 0; byte < 8; ++byte) run_hash_ = (run_hash_ ^ (digest.hash >> (8 * byte) & 0xffU)) * kFnvPrime;
-  // A sweep over terrain that was still loading is not compared, because it also depends on the time of loading.
+  // A sweep over terrain that was still loading is not compared, because its hash depends on how much was loaded.
   if ((digest.flags & databuffer::kSweepNotReady) != 0U)
     ++not_ready_;
   else
@@ -77,8 +77,9 @@ const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {
   return &sweep_;
 }
 
-// Repeats a restart of the model: a new kernel resumes from the last status of the old process. This is the status of
-// the last tick. If the process was killed between its last tick and its status, it is the status of the tick before.
+// Repeats a restart of the model: a new kernel resumes from the last status of the old process. Normally this is the
+// status of the last tick. If the process was killed between that tick and its status, it is the status of the tick
+// before.
 void Replay::restart(std::int64_t resumed_tick) {
   const databuffer::ModelStatus& resumed = before_last_.tick == resumed_tick ? before_last_ : last_;
   kernel_ = model::kernel::RadarKernel(*configuration_);
@@ -90,7 +91,7 @@ namespace {
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
 
-constexpr double kMaxJump_ticks = 2'000.0;  // 10 s; a longer interval without ticks is a cut
+constexpr double kMaxJump_ticks = 2'000.0;  // 10 s; a larger jump between consecutive ticks is a cut
 
 template <class T>
 bool has(const IndexEntry& block) {
@@ -102,8 +103,8 @@ bool any_has(const RecordingReader& reader) {
   return std::ranges::any_of(reader.blocks(), has<T>);
 }
 
-// Tick of a ModelTick or StartingPoint; nullopt for other items, which are played together with the item before them.
-// The tick of such an item may belong to the epoch that has just ended.
+// Tick of a ModelTick or StartingPoint. nullopt for other items, which are played together with the item before them.
+// Their own tick is not used, because it may belong to the epoch that has just ended.
 std::optional<std::int64_t> time_of(const RecordingItem& item) {
   if (const auto* tick = std::get_if<ModelTick>(&item)) return tick->tick;
   if (const auto* start = std::get_if<StartingPoint>(&item)) return start->status.tick;
@@ -142,7 +143,7 @@ bool Player::is_cut() const {
   if (std::holds_alternative<StartingPoint>(*ahead_)) return true;
   const auto* tick = std::get_if<ModelTick>(&*ahead_);
   if (tick == nullptr) return false;
-  // In double precision, because the difference of two arbitrary ticks may overflow.
+  // In double precision, because the difference of two damaged ticks may overflow an int64.
   const double jump = std::abs(static_cast<double>(tick->tick) - static_cast<double>(tick_));
   return tick->epoch != epoch_ || jump > kMaxJump_ticks;
 }
@@ -182,7 +183,8 @@ Played Player::seek(std::int64_t tick) {
     take_status(report->status, played);
   }
   if (const auto traffic = reader_->last_before<databuffer::Traffic>()) use_traffic(*traffic);
-  // The last status before the block may be too old by some ticks. The kernel waits for the first status in the block.
+  // The kernel cannot resume from the last status before the block, because the ticks between that status and the
+  // block are not played. It waits for the first status in the block.
   awaits_status_ = world_.has_value() && begin > 0;
   pending_.clear();
   while (look_ahead() && is_due(tick)) {
@@ -235,7 +237,7 @@ void Player::take_tick(const ModelTick& tick, Played& played) {
   tick_ = tick.tick;
   epoch_ = tick.epoch;
   newest_tick_ = tick;
-  // The status is recorded ten times a second. The ownship of each tick keeps the status's position up to date.
+  // The status is recorded at most ten times a second. The ownship of each tick updates its position in between.
   if (status_) {
     status_->ownship = tick.ownship;
     played.status = status_;
@@ -284,7 +286,7 @@ void Player::pass_over_hole() {
 }
 
 // Resumes the kernel and runs the pending ticks that are newer than the status. Such ticks exist, because the recorder
-// may write them before the status.
+// may write ticks before an older status.
 void Player::start_late(const ModelStatus& status, Played& played) {
   awaits_status_ = false;
   start_kernel(status);
@@ -310,7 +312,7 @@ std::optional<ModelStatus> Player::status_at(std::size_t block, std::int64_t tic
   return std::nullopt;
 }
 
-// Number of the block from which to play, so that the picture is complete at the tick.
+// Number of the block from which to play, so that the picture is complete at the tick. `block`: the tick's block.
 std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
   const auto at = status_at(block, tick);
   const auto& blocks = reader_->blocks();

@@ -1,5 +1,5 @@
-// Replay of a recording. Replay runs the radar kernel again over the recorded ticks and compares its sweeps. Player
-// returns what a session showed at any time.
+// Replay of a recording. Class Replay runs the radar kernel again over the recorded ticks and compares the computed
+// sweeps with the recorded ones. Class Player returns the records of the session for any sim time.
 // Inputs: RecordingReader, configuration, terrain and scenes. Outputs: counts of equal and different sweeps, records.
 #pragma once
 
@@ -38,7 +38,7 @@ class Comparison {
   std::uint64_t not_ready() const { return not_ready_; }      // not compared: recorded while terrain was loading
   std::uint64_t missing() const { return recorded_.size(); }  // recorded, not replayed
   std::uint64_t extra() const { return replayed_.size(); }    // replayed, not recorded
-  std::uint64_t run_hash() const { return run_hash_; }        // FNV-1a 64 over the recorded hashes in order
+  std::uint64_t run_hash() const { return run_hash_; }        // FNV-1a 64 over all recorded hashes in order
 
  private:
   using Key = std::pair<std::uint32_t, std::uint32_t>;
@@ -59,8 +59,8 @@ class Replay {
 
   // Makes a new kernel that resumes from this status. Allowed before the first tick and between ticks.
   void start(const StartingPoint& point);
-  // Runs one tick and returns its finished sweep. nullptr: no sweep, or a sweep that is not compared. The first sweeps
-  // after a start are not compared, because their azimuth smear needs sweeps from before the start.
+  // Runs one tick and returns its finished sweep. nullptr: no sweep, or a sweep that is not compared. The first two
+  // sweeps after start() are not compared, because their azimuth smear needs sweeps from before the start.
   const databuffer::Sweep* tick(const databuffer::ModelTick& tick);
   // Sets the traffic from the next tick on.
   void traffic(const databuffer::Traffic& traffic) { traffic_ = model::kernel::points_of(traffic); }
@@ -84,24 +84,24 @@ class Replay {
   databuffer::ModelStatus last_{}, before_last_{};  // status after the newest tick, and after the tick before
   Comparison comparison_;
   std::uint64_t ticks_ = 0, sweeps_ = 0;
-  std::uint64_t skip_sweeps_ = 0;  // number of coming sweeps that are not compared
+  std::uint64_t skip_sweeps_ = 0;  // number of sweeps still to come that are not compared
 };
 
 // Configuration, terrain and scenes of the kernel. The stores must outlive the player; `scenes` may be null.
 struct PlayerWorld {
-  std::shared_ptr<radar::RadarConfiguration> configuration;  // for one player, which sets its fidelity.samples
+  std::shared_ptr<radar::RadarConfiguration> configuration;  // not shared: the player sets fidelity.samples
   model::terrain::TerrainStore* store = nullptr;
   model::scene::SceneStore* scenes = nullptr;
 };
 
-// Records of an interval of play: the newest state, status and outputs if they changed, and all sweeps and maps.
+// Records that Player returns from one call: the newest state, status and outputs if they changed, all sweeps and maps.
 struct Played {
   std::optional<databuffer::RadarState> state;
   std::optional<databuffer::ModelStatus> status;  // newest status, with the ownship of the newest tick
   std::optional<databuffer::Outputs> outputs;
   std::deque<databuffer::Sweep> sweeps;
   std::vector<Patch> maps;
-  std::optional<std::int64_t> cut_to_tick;  // tick at which the recording continues after a cut
+  std::optional<std::int64_t> cut_to_tick;  // tick at which the recording continues after a cut (see Player)
   bool ended = false;                       // the recording has no more items
 };
 
@@ -113,8 +113,8 @@ struct Played {
 // After a damaged block the kernel waits for the next status.
 class Player {
  public:
-  static constexpr std::uint32_t kPictureSweeps = 1024;  // minimum number of earlier sweeps in a seek, if recorded
-  static constexpr std::size_t kMaxSeekSweeps = 900;     // less than the capacity of the session's sweep ring
+  static constexpr std::uint32_t kPictureSweeps = 1024;  // minimum of earlier sweeps that a seek reads
+  static constexpr std::size_t kMaxSeekSweeps = 900;     // maximum that a seek returns; the session's ring holds 1,024
 
   // `world` may be empty only if has_video(reader).
   Player(RecordingReader& reader, std::optional<PlayerWorld> world);
@@ -152,7 +152,7 @@ class Player {
   std::optional<Replay> kernel_;
   bool awaits_status_ = false;          // the kernel needs a status to resume from
   std::vector<RecordingItem> pending_;  // ticks and traffic while awaits_status_ is true
-  std::int64_t kernel_from_tick_ = -1;  // tick of the status from which the kernel resumed; skips ticks up to it
+  std::int64_t kernel_from_tick_ = -1;  // the kernel resumed from this tick's status; skips ticks up to it; -1: none
   std::uint32_t kernel_from_epoch_ = 0;
   std::optional<RecordingItem> ahead_;  // the next item, already read
   bool started_ = false;                // an item with a tick was played since the seek

@@ -47,7 +47,7 @@ namespace {
 
 using databuffer::Sweep;
 
-// Red, green and blue [0, 1], by which the video level, 0 to 255, is multiplied.
+// Factors [0, 1] of red, green and blue. Each channel of a pixel is the video level (0 to 255) times its factor.
 constexpr std::array<double, 3> kGreen{0.35, 1.0, 0.45};
 constexpr std::array<double, 3> kGray{1.0, 1.0, 1.0};
 
@@ -159,7 +159,7 @@ model::kernel::ScanRequest request_of(const ScanOptions& options) {
   return request;
 }
 
-// One row for each sweep: position, hash, and the video [0, 255] of all samples.
+// A header line, then one row for each sweep: number, azimuths, range, hash, and the video [0, 255] of all samples.
 void write_csv(std::ostream& file, std::span<const databuffer::Sweep> sweeps) {
   file << "sweep,azimuth_left_deg,azimuth_right_deg,range_m,hash,video...\n";
   file.precision(12);
@@ -205,7 +205,8 @@ struct Times {
   std::vector<double> whole_ms;    // [ms] wall time of each warm scan, from terrain to video and hash
 };
 
-// Runs one scan, and then `repeat` warm scans. `begin_ms`: reading of wall_ms() when reading of terrain began.
+// Runs one scan. Then, `repeat` times, runs a warm scan to the video and another warm scan to the power only.
+// `begin_ms`: value of wall_ms() when the reading of terrain began.
 Times run_scans(model::kernel::OfflineScan& work, const model::physics::Environment& environment, int repeat,
                 double begin_ms) {
   Times times;
@@ -293,7 +294,7 @@ void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   command.option("--range-nm", options->range_nm, "[NM]").range(0.1, 1000.0);
   command.option("--scan-width", options->width_deg, "[deg]").range(1.0, 120.0);
   command.option("--elevation", options->elevation_deg, "[deg] antenna elevation above the horizon").range(-90.0, 90.0);
-  command.flag("--force", options->force, "ignore the gimbal limits, and an aircraft below the ground");
+  command.flag("--force", options->force, "allow angles beyond the gimbal limits, and an aircraft below the ground");
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset (else the configuration's)");
   command.option("--samples", options->samples, "samples of a sweep").range(1, radar::kMaxSamples);
   command.option("--gain", options->gain, "0 to 3").range(0, 3);

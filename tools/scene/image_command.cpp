@@ -24,7 +24,7 @@ namespace yars::tools {
 
 enum class PlanColors { file, material };
 
-// Area of a plan view. West and south edges are offsets from the model's base.
+// Area of a plan view. West and south edges are offsets from Model::base.
 struct PlanFrame {
   double west_m = 0.0, south_m = 0.0, metres_per_pixel = 1.0;
   int width = 0, height = 0;  // [pixels]
@@ -190,7 +190,7 @@ struct Options {
 
 constexpr double kMinWindow_m = 0.1;  // smaller windows would show the rounding of float coordinates
 constexpr double kMaxWindow_m = 1e6;  // maximum side of the window
-constexpr double kMaxEdge_m = 1e7;  // maximum distance of an edge from the origin; polygons beyond it count as damaged
+constexpr double kMaxEdge_m = 1e7;  // maximum distance of an edge from the origin; the reader uses no vertex beyond it
 
 // Error of bad usage for a window that cannot be drawn.
 std::optional<error::Error> window_problem(const std::vector<double>& window) {
@@ -231,10 +231,10 @@ void add_scene_image(databuffer::Command scene) {
   command.option("file", options->file, "OpenFlight file").required();
   command.option("--out", options->out, "PNG file").required();
   command.option("--width", options->width, "[pixels] of the longer side").range(16, 8192).show_default();
-  command.option("--window", options->window, "[m] WEST and SOUTH edge from the origin, SIDE; else the whole model")
+  command.option("--window", options->window, "[m] WEST, SOUTH edge from the origin, SIDE of square; else whole model")
       .values(3);
   add_without(command, options->without);
-  command.flag("--material", options->material, "colours by surface material code; magenta: no code");
+  command.flag("--material", options->material, "colours by surface material code; magenta: code 0, or above 13");
   command.callback([options] { draw(*options); });
 }
 

@@ -188,7 +188,7 @@ void generate(const GenerateOptions& options) {
   check_file_name("--out", options.out, {".flt"});
   worldgen::SceneRequest order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
   order.kind = *worldgen::generated_kind(options.kind);
-  // parse_scene() reads FILE@LAT,LON. Only the position is used.
+  // parse_scene() reads FILE@LAT,LON. The option's name stands for the file, because only the position is used.
   const auto parsed = parse_scene("--origin@" + options.origin);
   if (!parsed)
     throw CommandFailed{"--origin: expected LATITUDE,LONGITUDE in degrees, found '" + options.origin + "'", 2};
@@ -211,7 +211,7 @@ void add_scene_generate(databuffer::Command scene) {
   command.option("--kind", options->kind, "kind of scene")
       .one_of({"airfield", "harbour", "bridge", "town"})
       .show_default();
-  command.option("--triangles", options->triangles, "approximate number; each use of an instance counts")
+  command.option("--triangles", options->triangles, "approximate number; an instance counts at each use")
       .range(std::uint64_t{1}, worldgen::kMaxGenerated)
       .show_default();
   command.option("--seed", options->seed, "seed; each seed gives another scene").show_default();

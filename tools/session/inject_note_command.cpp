@@ -1,4 +1,4 @@
-// `yars note`, `yars inject`: a line for the flight recorder of a session, input events for a session.
+// `yars note` writes a line into the flight recorder of a session. `yars inject` sends input events to a session.
 
 #include <algorithm>
 #include <chrono>
@@ -106,7 +106,7 @@ std::string events_text(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " event" : " events");
 }
 
-// The radar state after the events. The state machine publishes this state a little later than the applied events.
+// The radar state after the events. Waits 20 ms, because the state machine publishes it after the applied events.
 databuffer::RadarState state_after_events(Session& session) {
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   return databuffer::read_valid(session.layout().radar_state).value_or(databuffer::RadarState{});

@@ -35,7 +35,7 @@ class ReplaySession {
   // Returns true once after another process has begun an epoch (`yars sim reset`).
   bool was_reset();
 
-  // Publishes a key frame, and clears state, outputs and status where the key frame has none.
+  // Publishes a key frame. Clears the session's state, outputs or status if the key frame has none.
   void publish_key_frame(const recording::Played& played);
   void publish(const recording::Played& played);
   void heartbeat();
@@ -53,7 +53,7 @@ class ReplaySession {
   databuffer::Session machine_, model_;
   databuffer::Claim machine_role_, model_role_, lane_;
   std::uint32_t epoch_ = 0;
-  std::array<std::uint64_t, 4> maps_named_{};  // ids of maps of the newest state, which must not be overwritten
+  std::array<std::uint64_t, 4> maps_named_{};  // ids of the newest state's maps, which are not overwritten
 };
 
 namespace {
@@ -64,7 +64,7 @@ using databuffer::Session;
 // Sweeps are published in bursts, and a pause follows each burst. So a display that reads the ring of 1,024 sweeps 60
 // times per second loses no sweep.
 constexpr std::size_t kSweepsPerBurst = 400;
-constexpr long kReaderPause_ns = 30'000'000;  // [ns] 30 ms, almost two polls of a display
+constexpr long kReaderPause_ns = 30'000'000;  // 30 ms, almost two polls of a display
 
 void pause_for_readers() {
   const timespec pause{0, kReaderPause_ns};
@@ -81,7 +81,7 @@ error::Expected<ReplaySession> ReplaySession::create(const std::string& name) {
   auto model = Session::open(name, databuffer::name_of(databuffer::Role::radar_model));
   if (!model) return tl::unexpected(model.error());
   if (std::as_const(*machine).layout().lockstep.enabled.load() != 0)
-    return error::fail("session " + name, "a live session", "a lockstep session", "replay into another --session");
+    return error::fail("session " + name, "a live session", "a lockstep session", "name a live session with --session");
   ReplaySession session(std::move(*machine), std::move(*model));
   auto machine_role = session.machine_.claim(databuffer::Role::state_machine);
   if (!machine_role) return tl::unexpected(error::usage_error(machine_role.error()));
@@ -99,7 +99,7 @@ error::Expected<void> ReplaySession::set_clock(std::int64_t tick, const double* 
   constexpr std::int64_t kLatestTick = databuffer::kLatestClockBase_ns / radar::kTickNanoseconds;
   if (tick < 0 || tick > kLatestTick)
     return error::fail("the recording", "ticks of 0 to " + std::to_string(kLatestTick), std::to_string(tick),
-                       "the recording is damaged there; --seek another time");
+                       "the recording is damaged at this tick; begin at another time with --seek");
   return machine_.change_clock([&](const ClockState& clock) {
     ClockState next = clock;
     next.base_monotonic_ns = databuffer::monotonic_ns();
@@ -199,7 +199,7 @@ void ReplaySession::drop_events() {
 
 namespace {
 
-constexpr long kPollInterval_ns = 5'000'000;  // [ns] one tick at rate 1
+constexpr long kPollInterval_ns = 5'000'000;  // 5 ms, one tick at rate 1
 
 double seconds_of(std::int64_t tick) {
   return static_cast<double>(tick) * radar::kTickSeconds;
@@ -220,7 +220,7 @@ error::Expected<std::int64_t> first_tick(const recording::RecordingReader& reade
   const double tick = std::round(*options.seek_s / radar::kTickSeconds);  // NaN fails both comparisons
   if (tick >= static_cast<double>(first) && tick <= static_cast<double>(last)) return static_cast<std::int64_t>(tick);
   return tl::unexpected(error::usage_error(
-      "--seek", "a time of " + options.file + ", " + text_of_seconds(first) + " to " + text_of_seconds(last) + " s",
+      "--seek", "a time within " + options.file + ", " + text_of_seconds(first) + " to " + text_of_seconds(last) + " s",
       std::to_string(*options.seek_s)));
 }
 

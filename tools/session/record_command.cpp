@@ -20,8 +20,8 @@ namespace {
 using databuffer::Session;
 
 constexpr std::int64_t kPollInterval_ns = 50'000'000;  // [ns] 50 ms; the ring of ticks holds 5 s of sim time
-// Number of polls without a written block, 2 s, after which the incomplete block is written. With a frozen clock no
-// block would become full.
+// After this number of polls (2 s) without a written block, the incomplete block is written. With a frozen clock a
+// block does not become full.
 constexpr int kQuietPolls = 40;
 
 struct RecordOptions {
@@ -38,7 +38,7 @@ std::int64_t tick_of(const Session& session) {
   return session.sim_time_ns() / radar::kTickNanoseconds;
 }
 
-// Appends the remaining records. The tick is kPaceTicks ahead, so that the rate limit (StatePace) takes the last state.
+// Appends the remaining records. Passes a tick kPaceTicks ahead, so that the rate limit (Pace) takes the last values.
 void drain_remaining(Session& session, Recorder& recorder) {
   recorder.drain(tick_of(session) + recording::kPaceTicks);
 }
@@ -104,7 +104,7 @@ void record(const CommonOptions& common, const RecordOptions& options) {
               static_cast<unsigned long long>(recorder.sweeps()), static_cast<unsigned long long>(writer->bytes()),
               options.file.c_str());
   if (recorder.refused() > 0)
-    log::warning(std::to_string(recorder.refused()) + " records out of range were not recorded");
+    log::warning(std::to_string(recorder.refused()) + " records failed validation and were not recorded");
   if (!outcome) throw_failure(outcome.error());
 }
 

@@ -45,7 +45,7 @@ Recorder::Recorder(databuffer::Session& session, recording::RecordingWriter& wri
 
 void Recorder::begin_here() {
   const auto& layout = session_->layout();
-  // Resets the rate limits, so that each start writes the latest values even if they have not changed.
+  // Resets the rate limits, so that each start writes the radar state even if it has not changed.
   state_pace_ = {};
   status_pace_ = outputs_pace_ = {};
   tick_cursor_ = layout.model_ticks.next();
@@ -120,8 +120,8 @@ void Recorder::drain(std::int64_t tick) {
 }
 
 // Stops or starts writing when the number of presses since the last call is odd. The press that stops writing is
-// recorded; the press that starts writing is not. During a write error, a press sets whether writing starts again after
-// the error.
+// recorded; the press that starts writing is not. During a write error, a press toggles whether writing starts again
+// after the error.
 void Recorder::apply_vtr_request(std::uint32_t vtr_request) {
   const bool changes = (vtr_request - vtr_request_) % 2 != 0;
   vtr_request_ = vtr_request;
@@ -186,8 +186,8 @@ void Recorder::take_ticks(std::uint64_t& lost) {
   }
 }
 
-// Appends the traffic that the model used at this tick. The caller appends the tick afterwards. Lost traffic records
-// are not counted, because a later record has replaced them.
+// Appends the traffic records up to the one that the model used at this tick. The caller appends the tick afterwards.
+// Lost traffic records are not counted, because a later record has replaced them.
 void Recorder::take_traffic_before(const databuffer::ModelTick& tick) {
   databuffer::Traffic traffic{};
   while (traffic_cursor_ < tick.traffic && session_->layout().traffic_latched.read(traffic_cursor_, traffic).delivered)
@@ -225,7 +225,7 @@ void Recorder::take_patches() {
   std::vector<std::uint64_t> ids;
   for (const databuffer::PatchSlot& slot : layout.patches) ids.push_back(slot.id.load(std::memory_order_acquire));
   std::sort(ids.begin(), ids.end());
-  // Remembers all ids in the pool instead of the largest id: a damaged, very large id would hide all later maps.
+  // Remembers all ids in the pool. If only the largest were remembered, a damaged, very large id would hide later maps.
   std::erase_if(patches_seen_, [&ids](std::uint64_t id) { return std::ranges::find(ids, id) == ids.end(); });
   for (const std::uint64_t id : ids) {
     if (id == 0 || std::ranges::find(patches_seen_, id) != patches_seen_.end() ||

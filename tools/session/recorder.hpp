@@ -1,7 +1,7 @@
 // Recorder of a session: reads the records that the session's processes publish and appends them to a recording.
 // Inputs: rings and latest values of the segment. A press of push button 12 (counted in RadarState::vtr_request) stops
 // or starts writing. Each start writes a new StartingPoint into the same file.
-// Outputs: the recording; RecorderStatus about once a second and on each change.
+// Outputs: the recording; RecorderStatus about once per second of sim time and on each change.
 // Errors: a write error, such as a full disk, stops writing. Every 5 s the recorder tries to start again. A record that
 // fails validation is left out and noted in the flight recorder.
 // Threads: one. No call waits for another process.
@@ -20,7 +20,7 @@ namespace yars::tools {
 struct RecordedExtras {
   bool sweeps = false;           // true: sweeps with video; false: only their hashes
   bool patches = false;          // true: patch maps with pixels; false: no patch maps
-  std::uint64_t keep_bytes = 0;  // [bytes] limit of this file and FILE.before together; 0: no limit
+  std::uint64_t keep_bytes = 0;  // [bytes] limit of the recording and its predecessor FILE.before; 0: none
 };
 
 class Recorder {
@@ -64,7 +64,7 @@ class Recorder {
   recording::RecordingWriter* writer_;
   RecordedExtras extras_;
   std::uint64_t tick_cursor_ = 0, event_cursor_ = 0, sweep_cursor_ = 0, traffic_cursor_ = 0;
-  std::optional<std::int64_t> from_tick_;  // ticks of from_epoch_ before it are not written; nullopt: all are
+  std::optional<std::int64_t> from_tick_;  // earlier ticks of from_epoch_ are not written; nullopt: all are written
   std::uint32_t from_epoch_ = 0;
   shm::LatestReader<databuffer::RadarState> state_;
   shm::LatestReader<databuffer::ModelStatus> status_;
@@ -73,10 +73,10 @@ class Recorder {
   recording::Pace status_pace_, outputs_pace_;
   databuffer::Sweep sweep_{};
   recording::Patch patch_;
-  std::vector<std::uint64_t> patches_seen_;  // ids of maps in the pool that were written
+  std::vector<std::uint64_t> patches_seen_;  // ids of maps in the pool that were already read
   std::uint64_t ticks_ = 0, sweeps_ = 0;
   bool writing_ = true;
-  std::uint32_t vtr_request_ = 0;  // the last request applied
+  std::uint32_t vtr_request_ = 0;  // RadarState::vtr_request that was last applied
   databuffer::RecorderStatus published_{};
   bool has_published_ = false;
   error::Expected<void> outcome_;   // the write error that has stopped writing

@@ -77,13 +77,13 @@ void report_missing(const recording::RecordingReader& reader, const std::string&
   for (std::size_t i = 0; i < std::min(missing.size(), kMaxListed); ++i)
     ticks += (i == 0 ? "" : ", ") + text_of_ticks(missing[i]);
   if (missing.size() > kMaxListed) ticks += ", and more";
-  throw_failure({file, "whole blocks",
-                 std::to_string(missing.size()) + (missing.size() == 1 ? " damaged one" : " damaged ones") +
-                     "; missing are ticks " + ticks,
+  throw_failure({file, "undamaged blocks",
+                 std::to_string(missing.size()) + (missing.size() == 1 ? " damaged block" : " damaged blocks") +
+                     "; missing ticks: " + ticks,
                  "the rest was read", false});
 }
 
-// Replaces invalid UTF-8, because texts in a file may be damaged.
+// JSON text on one line. Replaces invalid UTF-8, because texts in a file may be damaged.
 std::string text_of(const nlohmann::ordered_json& object) {
   return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
@@ -271,7 +271,7 @@ void add_replay_command(databuffer::Command app, const CommonOptions& common) {
     auto reader = recording::RecordingReader::open(options->file);
     if (!reader) throw_failure(reader.error());
     if (options->events) return compare(common, *reader, *options);
-    // Ignores YARS_SESSION, because that session may be live.
+    // Ignores YARS_SESSION, because the session that it names may be live.
     if (!options->print) return play(common, *reader, *options, named ? common.session : "replay");
     print_entries(*reader);
     report_missing(*reader, options->file);

@@ -23,7 +23,7 @@ using databuffer::ClockState;
 using databuffer::Session;
 
 constexpr double kMaxRate = 10.0;  // sim time / real time; at higher rates programs skip late ticks
-// Ticks by which `step` advances the clock at once. Must not exceed kMaxTicksBehind (20): programs skip older ticks.
+// Ticks by which `step` advances the clock at once. At most kMaxTicksBehind (20), because programs skip older ticks.
 constexpr std::int64_t kStepPortion_ticks = 10;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -102,14 +102,14 @@ void step(const CommonOptions& common, std::int64_t ticks) {
     });
     if (session.clock().epoch != epoch)
       throw_failure(
-          {"step", "the epoch in which it began", "a reset or repositioning by another program", "step again", false});
+          {"step", "no new epoch while stepping", "a reset or repositioning by another program", "step again", false});
     ticks -= portion;
     pause_for_roles();
   }
   report(session);
 }
 
-// Advances a frozen clock by one more tick after a new epoch has begun. The programs run the first tick of an epoch in
+// Advances a frozen clock by one tick after a new epoch has begun. The programs run the first tick of an epoch in
 // no defined order. From the second tick on, each program reads the other programs' records of the new epoch.
 void advance_if_frozen(Session& session) {
   if (session.clock().running != 0) return;

@@ -17,7 +17,7 @@
 
 namespace yars::tools {
 
-// All entries of the process table, and the needed roles that do not run. First the roles in the order of kSet:
+// All entries of the process table, and the needed roles that do not run. The roles of kSet come first, in its order.
 // [{name, pid (0: not running), heartbeat_ms (null: not running), hangs, restarts, restarts_last_minute}].
 // A role hangs if its heartbeat is older than 2 s. Only restarts by the supervisor count.
 nlohmann::ordered_json roles_json(const databuffer::Session& session);
@@ -57,7 +57,7 @@ ordered_json role_json(const databuffer::ProcessInfo& process, std::int64_t now_
   return {{"name", process.name}, {"pid", process.pid}, {"heartbeat_ms", heartbeat_ms}, {"hangs", hangs}};
 }
 
-// Restarts have separate counters in the segment, so that many lines in the flight recorder do not hide them.
+// Restarts have counters in the segment, because the flight recorder keeps only its last 1,000 lines.
 void add_restarts(ordered_json& role, const databuffer::Session& session, std::int64_t now_ns) {
   const auto index = databuffer::counted_role(role["name"].get<std::string>());
   const databuffer::RecentCount none{};
@@ -92,7 +92,7 @@ void add_radar_reasons(const ordered_json& status, std::vector<std::string>& rea
   // Without a running model, its status in the segment is out of date.
   if (!runs(status["roles"], "radar-model")) return;
   if (watch["ownship"].is_null())
-    reasons.push_back(status["ownship_lanes"].empty() ? "no ownship: nobody flies"
+    reasons.push_back(status["ownship_lanes"].empty() ? "no ownship: no source runs"
                                                       : "no ownship: its source is silent");
   else if (model["terrain_bytes"] == 0 && watch["power"] == "OPR" && watch["sweeps"] > 0)
     reasons.emplace_back("terrain missing: none is loaded at the aircraft's position");
@@ -106,7 +106,7 @@ void add_input_reasons(const ordered_json& status, std::vector<std::string>& rea
     reasons.push_back("the session's clock is damaged (" + status["clock_problem"].get<std::string>() +
                       "): yars sim reset sets it");
   const auto& input = status["input"];
-  if (input["sources"] == 0 && input["missing"] > 0) reasons.emplace_back("no input: who sent events has died");
+  if (input["sources"] == 0 && input["missing"] > 0) reasons.emplace_back("no input: all senders of events have died");
   const auto& refusals = status["refusals"];
   if (refusals["last_10_s"] < kManyRefusals) return;
   const std::string newest = refusals["newest"].is_null() ? "" : ": " + refusals["newest"].get<std::string>();
@@ -119,7 +119,7 @@ ordered_json roles_json(const databuffer::Session& session) {
   const std::int64_t now_ns = databuffer::monotonic_ns();
   const auto processes = session.processes();
   ordered_json roles = ordered_json::array();
-  // First the roles of kSet in their order, then other processes.
+  // First the roles in the order of kSet, then other processes.
   for (std::size_t index = 0; index <= kSet.size(); ++index) {
     bool found = false;
     for (const auto& process : processes) {

@@ -1,6 +1,6 @@
 // Output of `yars status`: the JSON object of `--json`, and the text made of it (status_text.cpp).
-// Inputs: a session, read only. A record that fails validation counts as absent. Absent values are null,
-// left out, or defaults.
+// Inputs: a session, read only. A record that fails validation counts as absent. An absent value is null,
+// omitted, or the default of its type.
 #pragma once
 
 #include <map>

@@ -121,7 +121,7 @@ void print_notes(const ordered_json& status) {
     separator = ", ";
   }
   if (const auto folded = status["notes_folded"].get<std::uint64_t>(); folded > 0)
-    std::printf("; %llu repeated notes are only counted", static_cast<unsigned long long>(folded));
+    std::printf("; %llu repeated notes are counted, not listed", static_cast<unsigned long long>(folded));
   std::printf("\n");
   const auto& notes = status["notes"];
   for (std::size_t i = notes.size() > kNotesShown ? notes.size() - kNotesShown : 0; i < notes.size(); ++i)

@@ -31,7 +31,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kWindow{100};  // duration of the load measurement
 
-// Total CPU time [ns] of the running threads of a process; nullopt if it cannot be read.
+// Total CPU time [ns] of the present threads of a process; nullopt if it cannot be read.
 std::optional<std::uint64_t> run_time_ns(int pid) {
   std::error_code error;
   std::filesystem::directory_iterator threads("/proc/" + std::to_string(pid) + "/task", error);
@@ -59,7 +59,7 @@ std::map<int, double> measure_loads(const std::vector<int>& pids) {
   const auto elapsed_ns = static_cast<double>(databuffer::monotonic_ns() - began_ns);
   std::map<int, double> loads;
   for (const auto& [pid, before_ns] : before)
-    // run_time_ns() covers only running threads. If it has decreased, a thread has ended, and the load is unknown.
+    // run_time_ns() covers only present threads. If it has decreased, a thread has ended, and the load is unknown.
     if (const auto run_ns = run_time_ns(pid); run_ns && *run_ns >= before_ns)
       loads[pid] = static_cast<double>(*run_ns - before_ns) / elapsed_ns;
   return loads;

@@ -11,7 +11,7 @@ namespace yars::tools {
 void add_radar_state(nlohmann::ordered_json& object, const databuffer::RadarState& state);
 
 // All fields. Unknown values are null. A radar state or model status that fails validation is replaced by default
-// values. `ranging` is null if the Outputs record fails validation.
+// values. `ranging` is null without a target, or if the Outputs record fails validation.
 nlohmann::ordered_json watch_object(const databuffer::Session& session);
 
 }  // namespace yars::tools

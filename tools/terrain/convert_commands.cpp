@@ -79,12 +79,13 @@ struct TerrainBatch {
   std::string command;  // subcommand, for error messages
   std::string in;
   std::string out;
-  int reduction = 0;  // reads every 2^reduction-th post, averaged over the posts around it
+  int reduction = 0;  // reads every 2^reduction-th post; its height is the mean of the posts around it
   // `name` returns the path of a cell's file relative to `out`. `write` writes the cell to this path below `tree`.
   std::function<std::string(model::terrain::CellCorner, const model::terrain::Cell&)> name;
   std::function<error::Expected<std::filesystem::path>(const std::filesystem::path& tree, const model::terrain::Cell&)>
       write;
-  // Minimum number of rows of the written culture, which is reduced towards it. Empty: culture is not reduced.
+  // Minimum number of rows of the written culture. The culture's rows are halved as often as this number allows. Empty:
+  // culture is not reduced.
   std::function<int(const model::terrain::Cell&)> culture_posts = {};
 };
 
@@ -174,7 +175,7 @@ void run_terrain_batch(const TerrainBatch& batch) {
   std::size_t failed = 0;
   std::uintmax_t bytes_in = 0;
   std::uintmax_t bytes_out = 0;
-  std::set<std::filesystem::path> files;  // counts the size of a file with several cells once
+  std::set<std::filesystem::path> files;  // input files already in bytes_in; a file may hold several cells
   for (const auto& [slot, file] : *index) {
     ++seen;
     const auto written = convert_cell(batch, file, corner_of_slot(slot), notes);
@@ -233,7 +234,7 @@ void add_terrain_convert(databuffer::Command terrain) {
   command.option("--to", options->output.format, "format").one_of({"dted", "hgt", "jp2"}).show_default();
   command
       .option("--level", options->output.level,
-              "DTED level of the grid (else the finest with no more rows than the cell)")
+              "DTED level of the grid; else the finest with no more rows than the cell, for jp2 the cell's own grid")
       .range(0, 2);
   command.callback([options] { convert(*options); });
 }

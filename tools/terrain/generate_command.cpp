@@ -77,7 +77,7 @@ class Generation {
     if (failed_) throw_failure(*failed_);
     const std::size_t land = written_;
     std::printf("%zu cells with land in %s; %zu cells with only sea %s\n", land, options_.out.c_str(),
-                corners_.size() - land, options_.sea ? "are there too" : "have no file");
+                corners_.size() - land, options_.sea ? "also have files" : "have no file");
   }
 
  private:
@@ -100,8 +100,8 @@ class Generation {
     }
   }
 
-  // Generates and writes one cell. Returns a line that describes the cell. An all-sea cell has no file unless --sea is
-  // set; its line is empty.
+  // Generates and writes one cell. Returns a line that describes the cell. Without --sea, an all-sea cell gets no file
+  // and an empty line.
   error::Expected<std::string> make(CellCorner corner) {
     const worldgen::MadeCell made = landscape_.make(corner, dted::kPostsOfLevel[options_.level],
                                                     dted_columns(corner, options_.level), threads_per_cell_);
@@ -162,13 +162,13 @@ void add_terrain_generate(databuffer::Command terrain) {
   command.flag("--culture,!--no-culture", options->culture, "surface materials beside each cell (wLLL/nBB.smc.png)")
       .show_default();
   command.flag("--sea", options->sea, "also write cells with only sea (a cell without a file is sea)");
-  command.option("--threads", options->threads, "0: one per core; the number does not change the files")
+  command.option("--threads", options->threads, "number; 0: one per core. The files do not depend on it")
       .range(0, 256)
       .show_default();
   command.callback([options] {
     check_folder_name("--out", options->out);
     if (options->south_deg + options->cells_latitude > 90)
-      throw CommandFailed{"--cells-lat: expected an area that ends at the north pole, found one beyond it", 2};
+      throw CommandFailed{"--cells-lat: expected an area up to the north pole at most, found one beyond it", 2};
     Generation(*options).run();
   });
 }

@@ -262,7 +262,7 @@ void add_terrain_image(databuffer::Command terrain) {
   command.option("--terrain", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
       .required();
   command.option("--out", options->out, "PNG file").required();
-  command.option("--south", options->south_deg, "[deg] south edge of the map (else of the folder's coverage)")
+  command.option("--south", options->south_deg, "[deg] south edge of the map; else the south edge of the cells")
       .range(-90.0, 90.0);
   command.option("--north", options->north_deg, "[deg] north edge").range(-90.0, 90.0);
   command.option("--west", options->west_deg, "[deg] west edge").range(-180.0, 180.0);

@@ -66,8 +66,8 @@ bool set_posts_per_sample(Fidelity& fidelity, std::string_view text) {
   return true;
 }
 
-// Knots are the exact positions on a sweep's geodesic, between which others are interpolated: 2 to 9. One knot does not
-// define an interpolation. 0: all positions are exact.
+// Knots are the positions on a sweep's geodesic that are computed exactly, 2 to 9. All other positions are interpolated
+// between them, which needs two knots. 0: all positions are exact.
 bool set_geodesic_knots(Fidelity& fidelity, std::string_view text) {
   constexpr int kMaxKnots = 9;
   const auto value = text::whole_number<int>(text);

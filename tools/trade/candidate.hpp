@@ -12,8 +12,8 @@
 
 namespace yars::tools::trade {
 
-// A fidelity to compare: a preset, or a base preset with one knob changed. Names equal those of presets and of GUF
-// slots of `Fidelity`, so a configuration can use them.
+// A fidelity to compare: a preset, or a base preset with one knob changed. Presets and knobs have the names that a GUF
+// file uses for presets and for slots of the form `Fidelity`.
 struct Candidate {
   std::string name;    // "standard", "samples=240"
   std::string family;  // "preset" or the knob's name; a plot connects the points of one family
@@ -24,7 +24,7 @@ struct Candidate {
 // Errors: an unknown preset.
 error::Expected<std::vector<Candidate>> preset_candidates(std::string_view list);
 
-// Kind of picture that a trade compares. knob_candidates() accepts only knobs that affect it.
+// Kind of picture that a trade compares. knob_candidates() accepts only knobs that affect this kind.
 enum class Subject : std::uint8_t { scan, map };
 
 // Candidates of a knob's values such as "samples=120,240". Errors: an unknown knob, a value out of the knob's range.

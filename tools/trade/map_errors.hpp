@@ -41,8 +41,8 @@ class MarkScene final : public model::scene::SceneView {
   std::vector<model::scene::SceneObject> objects_;
 };
 
-// Configuration in which the marks of a MarkScene return far more power than water, and other ground returns none.
-// Ground with culture of the marks' material (metal) returns as much as a mark. mapDetail and mapResponse are off, and
+// Configuration in which the marks of a MarkScene return far more power than water, and other land returns none.
+// Ground whose culture is the marks' material (metal) returns as much as a mark. mapDetail and mapResponse are off, and
 // there are no movers.
 radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 
@@ -50,13 +50,13 @@ radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 // fidelity draws different random numbers.
 struct MapObservation {
   int size = 0;                                            // [pixels] edge of the map
-  std::vector<float> power;                                // relative to gamma of level ground; 1996: brightness
-  std::vector<std::uint8_t> dark;                          // 1: power below 5 % of level ground
+  std::vector<float> power;                                // as gamma of level ground; 1996: brightness
+  std::vector<std::uint8_t> dark;                          // 1: less than 5 % of the power of level ground
   std::vector<std::uint8_t> video;                         // 0 to 255
   std::vector<std::optional<model::hrm::MapPoint>> marks;  // apparent position of each mark; nullopt: hidden
   bool power_is_radar = true;                              // false: `power` is the brightness of 1996
   double noise = 0.0;                                      // thermal noise, as gamma of level ground
-  double took_ms = 0.0;                                    // [ms] time of the map without marks, by the given clock
+  double took_ms = 0.0;                                    // [ms] time of the map without marks, by `clock`
 };
 
 // Function that returns the CPU time of the thread [ms]. It is a parameter, because only the commands read clocks.
@@ -71,10 +71,10 @@ double time_map(model::hrm::PatchFormation& patch_formation, const model::hrm::P
                 const model::hrm::PatchEnvironment& environment, Clock clock);
 
 struct MapErrors {
-  double position_m = 0.0;      // [m] maximum distance of a mark between the maps; NaN: no mark visible in both
+  double position_m = 0.0;      // [m] maximum distance between a mark's two positions; NaN: no mark is visible in both
   double shadow_percent = 0.0;  // [%] pixels that are dark in one map only
   // [dB] RMS ratio of powers, over pixels that are dark in neither map and exceed the noise in the ruler. NaN: there is
-  // no such pixel, or the map is of 1996.
+  // no such pixel, or the compared map is by the algorithm of 1996.
   double power_db = 0.0;
   double gray_levels = 0.0;  // [0 to 255] RMS difference of the video
 };

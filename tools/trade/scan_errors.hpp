@@ -51,7 +51,7 @@ ScanObservation observe(const radar::RadarConfiguration& configuration, const mo
 // Scan of the reference algorithm, with which other scans are compared.
 struct Ruler {
   ScanObservation observation;
-  std::vector<std::uint8_t> ground;  // 1: elevation known; 0: void
+  std::vector<std::uint8_t> ground;  // 1: elevation known; 0: void or not loaded
   double noise = 0.0;                // thermal noise, full scale = 1
 };
 
@@ -60,9 +60,9 @@ Ruler make_ruler(const radar::RadarConfiguration& configuration, const model::ke
 
 struct Errors {
   double position_m = 0.0;      // [m] ScanObservation::position_m of the compared scan
-  double shadow_percent = 0.0;  // [%] fraction of the ruler's ground samples that are lit in one scan only
-  // [dB] RMS ratio of powers, over samples that return power in both and exceed the noise in the ruler. NaN: there is
-  // no such sample, or the scan is of 1996.
+  double shadow_percent = 0.0;  // [%] of the ruler's samples with known ground: lit in one scan only
+  // [dB] RMS ratio of powers, over samples that return power in both scans and exceed the noise in the ruler. NaN:
+  // there is no such sample, or the compared scan is by the algorithm of 1996.
   double power_db = 0.0;
   double gray_levels = 0.0;  // [0 to 255] RMS difference of the video
 };

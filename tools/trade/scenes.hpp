@@ -83,7 +83,7 @@ inline constexpr std::array<std::string_view, 5> kScanFields{"latitude_deg", "lo
 struct Cost {
   double scan_ms = 0.0;  // [ms] thread CPU time
   double samples_per_second = 0.0;
-  double terrain_bytes = 0.0;  // resident
+  double terrain_bytes = 0.0;  // [bytes] terrain in memory
 };
 
 Values values_of(const Cost& cost, const Errors& errors);
@@ -102,7 +102,7 @@ inline constexpr std::array<std::string_view, 6> kMapFields{
 
 struct MapCost {
   double map_ms = 0.0;         // [ms] thread CPU time
-  double terrain_bytes = 0.0;  // resident, for the window and the path from the aircraft to the window
+  double terrain_bytes = 0.0;  // [bytes] terrain in memory, for the window and the path from the aircraft to it
 };
 
 Values values_of(const MapCost& cost, const MapErrors& errors);

@@ -59,10 +59,10 @@ void add_trade_options(databuffer::Command command, TradeOptions& options) {
       .repeatable();
   add_preset_option(command, "--base", options.base, "preset in which --knob changes one setting");
   command.option("--terrain", options.configuration.terrain,
-                 "directory of cells (else the configuration's, else hills)");
+                 "directory of cells (else the configuration's, else built-in hills)");
   command
       .option("--ruler", options.ruler,
-              "reference, or same: the reference algorithm with the other settings of each candidate")
+              "reference: this preset; same: the reference algorithm with the other settings of each candidate")
       .one_of({"reference", "same"});
   command.option("--repeat", options.repeat, "number of timed runs with warm caches; the result is their median")
       .range(1, 1000);
@@ -274,7 +274,7 @@ void add_trade_command(databuffer::Command app, const CommonOptions& common) {
   add_trade_options(command, *options);
   command.option("--scene", options->scenes, "LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable").repeatable();
   command.option("--scan-width", options->width_deg, "[deg]").range(1.0, 120.0);
-  command.option("--ruler-samples", options->ruler_samples, "samples per sweep of the reference")
+  command.option("--ruler-samples", options->ruler_samples, "samples per sweep of --ruler reference")
       .range(1, radar::kMaxSamples);
   add_trade_maps(command, common);
   command.callback([command, options, &common] {

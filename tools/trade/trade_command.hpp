@@ -28,7 +28,8 @@ struct TradeOptions {
 
 void add_trade_options(databuffer::Command command, TradeOptions& options);
 
-// Call before the measurement. Throws if --out or --csv has another extension or names a file that cannot be created.
+// Call before the measurement. Throws if the name in --out or --csv does not end in .json or .csv, or if that file
+// cannot be created.
 void check_trade_output(const TradeOptions& options);
 // The candidates of --presets and --knob. Throws if an option is not valid or there is no candidate.
 std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::Subject subject);

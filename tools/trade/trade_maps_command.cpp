@@ -104,7 +104,7 @@ class ViewTrade {
     return trade::observe_map(with(fidelity), order_, environment_of(fidelity), thread_ms);
   }
   // Median time of a map [ms] with warm caches, on one thread, with noise as the fidelity sets it. The reference
-  // algorithm is slow, so it does not run again: its time is found.took_ms, measured without noise.
+  // algorithm is slow, so it does not run again: its time is found.took_ms, from one run without noise.
   double time_of(const radar::Fidelity& fidelity, const hrm::PatchEnvironment& environment,
                  const trade::MapObservation& found) const {
     if (fidelity.algorithm == radar::Algorithm::reference) return found.took_ms;
@@ -182,7 +182,7 @@ void add_trade_maps(databuffer::Command trade, const CommonOptions& common) {
   add_trade_options(command, *options);
   add_scene_options(command, options->configuration);
   command.option("--view", options->views, "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM; repeatable").repeatable();
-  command.option("--ruler-size", options->ruler_size, "[pixels] edge of the reference's map").range(16, 1024);
+  command.option("--ruler-size", options->ruler_size, "[pixels] edge of the map of --ruler reference").range(16, 1024);
   command.callback([options, &common] { trade_off(common, *options); });
 }
 

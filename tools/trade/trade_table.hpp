@@ -1,4 +1,5 @@
-// Result table of a trade: one value for each candidate, scene and column, with mean and worst case over the scenes.
+// Result table of a trade (a run of `yars trade`): one value for each candidate, scene and column, with mean and worst
+// case over the scenes. A scene here is the geometry of one scan or of one patch map.
 // Outputs: text (Markdown) and CSV. Columns and scenes: scenes.hpp.
 #pragma once
 
@@ -74,7 +75,8 @@ struct TradeTable {
 // Mean and worst value of one column of one candidate over all scenes.
 Summary summary_of(const TradeTable& table, std::size_t candidate, std::size_t column);
 
-// Markdown table with one row for each candidate, "mean / worst @scene". A numbered list of the scenes follows.
+// Markdown table with one row for each candidate, then a numbered list of the scenes. A field reads "mean / worst
+// @number of the worst scene"; with a single scene it is that scene's value.
 std::string table_text(const TradeTable& table);
 
 // CSV with a header and one row for each candidate and scene; NaN is an empty field.

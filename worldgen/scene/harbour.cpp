@@ -175,7 +175,8 @@ class Harbour {
       });
   }
 
-  // Adds containers row by row, then trucks along the quay, then trees inland, up to the requested number of triangles.
+  // Adds containers layer by layer, then trucks along the quay, then trees inland, up to the requested number of
+  // triangles.
   void fill() {
     for (int height = 0; height < 4; ++height)
       for (int row = 0; row < 64; ++row)

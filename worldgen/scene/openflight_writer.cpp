@@ -142,7 +142,7 @@ std::uint32_t OpenFlightWriter::vertex(const WriterVertex& corner) {
 void OpenFlightWriter::face(std::span<const WriterVertex> corners, const SurfaceKind& kind, bool two_sided) {
   nodes_.begin(kFace, face::kBytes);
   nodes_.put(face::kDrawType, two_sided ? face::kSolidTwoSided : face::kSolidOneSided);
-  // -1: no detail texture (26), texture (28), texture mapping (64), alternate colour (72), shader (78).
+  // -1 means none, at these offsets: detail texture 26, texture 28, texture mapping 64, alternate colour 72, shader 78.
   for (const std::size_t absent : {std::size_t{26}, std::size_t{28}}) nodes_.put<std::int16_t>(absent, -1);
   nodes_.put<std::int16_t>(face::kMaterial, kind.material);
   materials_.emplace(kind.material, kind.color_rgb);

@@ -34,7 +34,7 @@ using model::scene::translation;
 // Sequence of big-endian records.
 class RecordBuilder {
  public:
-  // Begins a record of `bytes` length, filled with zeros. Offsets in put() and put_text() count from its first byte.
+  // Begins a record of `bytes` bytes, filled with zeros. Offsets in put() and put_text() count from its first byte.
   void begin(std::uint16_t opcode, std::size_t bytes) {
     start_ = bytes_.size();
     bytes_.resize(start_ + bytes);
@@ -78,6 +78,7 @@ class OpenFlightWriter {
   void begin_object(const std::string& name);
   // The node is visible while the viewer's distance from `centre` is between switch_out_m and switch_in_m.
   void begin_level_of_detail(const std::string& name, double switch_in_m, double switch_out_m, Vector3 centre);
+  // Bit i of `mask` is 1 if child i of the node is visible.
   void begin_switch(const std::string& name, std::uint32_t mask);
   void begin_definition(std::uint16_t number);
   void end();
@@ -86,7 +87,7 @@ class OpenFlightWriter {
   void external(const std::string& file, const Transform& matrix);
   // Corners are counter-clockwise seen from outside. A two-sided face is visible from both sides.
   void face(std::span<const WriterVertex> corners, const SurfaceKind& kind, bool two_sided = false);
-  // Faces up to end_subfaces() are subfaces of the last face.
+  // Faces up to end_subfaces() are subfaces of the face before begin_subfaces().
   void begin_subfaces();
   void end_subfaces();
 
@@ -108,7 +109,7 @@ class OpenFlightWriter {
   std::optional<geo::GeoPoint> south_west_, north_east_;
   std::int32_t revision_;
   RecordBuilder nodes_, vertices_;
-  std::unordered_map<std::string, std::uint32_t> vertex_offsets_;  // key: bytes of position and normal
+  std::unordered_map<std::string, std::uint32_t> vertex_offsets_;  // by the bytes of position and normal
   std::vector<std::uint32_t> colors_;
   std::map<std::uint32_t, std::int32_t> color_numbers_;
   std::map<std::uint8_t, std::uint32_t> materials_;  // colour of the first face of each surface material

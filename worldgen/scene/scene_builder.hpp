@@ -86,7 +86,7 @@ using GenerationProgress = std::function<void(std::uint64_t triangles)>;
 // millions of triangles is a file of some megabytes.
 GeneratedScene generate_scene(const SceneRequest& request, const GenerationProgress& progress = {});
 
-// Surfaces: DFAD material code, feature id, display colour.
+// Surfaces: DFAD material code and feature id (docs/spec/formats.md#dfad), display colour.
 namespace surface {
 inline constexpr SurfaceKind kMetal{1, 100, 0x9AA4AD}, kDarkMetal{1, 101, 0x5B646B}, kPartMetal{2, 102, 0x7D8790};
 inline constexpr SurfaceKind kStone{3, 103, 0xB9A58C}, kBrick{3, 104, 0xA45A44}, kTiles{3, 105, 0x8C4632};
@@ -150,7 +150,7 @@ class SceneBuilder {
     report_progress();
   }
 
-  // Adds an instance of a definition with this number of triangles. `where`: pose of the instance in the scene.
+  // Adds an instance of a definition with this number of triangles. `where`: pose, to which `mesh.map` is then applied.
   void add_instance(std::uint16_t number, std::uint64_t triangles, const Transform& where) {
     out.instance(number, mesh.map * where);
     mesh.count(triangles);

@@ -123,8 +123,8 @@ void draw_tower(MeshBuilder& mesh, random::CounterRng& rng) {
 
 namespace {
 
-// Wing on one side (+1 left, -1 right), also a tailplane. `_x`: leading edge. The order of the outline makes its upper
-// side face up.
+// Half of a wing or of a tailplane. `side`: +1 left, -1 right. `root_x`, `tip_x`: x of the leading edge. The order of
+// the outline makes its upper side face up.
 void wing(MeshBuilder& mesh, double root_x, double root_chord, double tip_x, double tip_chord, double from_y,
           double to_y, double z, double thickness_m, double side) {
   std::vector<Vector3> outline{{root_x, side * from_y, z},
@@ -135,7 +135,7 @@ void wing(MeshBuilder& mesh, double root_x, double root_chord, double tip_x, dou
   mesh.plate(outline, thickness_m);
 }
 
-// Vertical tail fin from height `from_z` to `to_z`.
+// Vertical tail fin from height `from_z` to `to_z`. `root_x`, `tip_x`: x of the leading edge.
 void fin(MeshBuilder& mesh, double root_x, double root_chord, double tip_x, double tip_chord, double y, double from_z,
          double to_z) {
   mesh.plate({{root_x, y, from_z}, {tip_x, y, to_z}, {tip_x - tip_chord, y, to_z}, {root_x - root_chord, y, from_z}},

@@ -145,9 +145,9 @@ std::vector<double> areas_km2(const ReliefTile& relief, const Flood& flood, cons
   return areas;
 }
 
-// Sets water heights. They begin at 2 to 10 m below the ground. The first pass runs downstream and lowers each node's
-// water to the level of the water upstream of it, so that the river cuts through higher ground. The second pass runs
-// upstream and raises each node's water to the level of the water downstream of it.
+// Sets water heights. Each starts 2 to 10 m below the ground, but not below 0. The first pass runs downstream and
+// lowers each node's water to the level of the water upstream of it, so that the river cuts through higher ground. The
+// second pass runs upstream and raises each node's water to the level of the water downstream of it.
 void set_water(Drainage& drainage) {
   std::vector<RiverNode>& nodes = drainage.nodes;
   std::vector<double> upstream_m(nodes.size(), 1e9);

@@ -1,4 +1,5 @@
-// Drainage of one tile of one degree: a tree of lattice nodes per river, with drained areas and water heights.
+// Drainage of one tile of one degree: a tree of lattice nodes (relief.hpp) per river, with drained areas and water
+// heights.
 // Input: relief of the tile; gates (passages through its edge) by which rivers leave and enter; area drained by each
 // entering river.
 // Output: river nodes, downstream before upstream. Water never rises downstream.

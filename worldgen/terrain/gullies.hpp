@@ -45,10 +45,11 @@ class GullyRow {
  private:
   struct Wave {
     double cosine = 0.0;  // +1 on a spur, -1 in a gully
-    double sine = 0.0;
+    double sine = 0.0;    // at the same phase
   };
   // A row of squares along a parallel, each with one scattered point. The number of squares in a row depends on its
-  // latitude, so that the density of points is about the same everywhere.
+  // latitude, so that the density of points is about the same everywhere. The unit [rows] is the height of a row, one
+  // wavelength of the octave.
   struct Band {
     std::int32_t index = 0;  // number of the row
     double north = 0.0;      // [rows] distance of this GullyRow's parallel north of the row's south edge

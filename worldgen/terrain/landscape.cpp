@@ -107,7 +107,7 @@ Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Materi
 
 namespace {
 
-constexpr double kDeepSea_m = -100.0;  // gullies do not raise lower ground above the sea
+constexpr double kDeepSea_m = -100.0;  // [m MSL] gullies do not raise ground below this height above the sea
 constexpr GullyOctave kGullies[] = {{2000, 0.17}, {980, 0.12}, {500, 0.08}, {240, 0.06}, {115, 0.05}};
 constexpr double kRough_m = 2.5;             // amplitude of stones and ledges on steep ground
 constexpr double kRoughWavelength_m = 75.0;  // wavelength of stones and ledges

@@ -1,8 +1,8 @@
 // Generated landscape: heights and land cover of an imaginary earth, as rows of posts and as whole cells.
 // Input: a seed, optionally a box that becomes an island; a cell and its numbers of posts.
 // Output: posts [m MSL], sea at 0 m and land at least 1 m, and one surface material code per post.
-// Accuracy: equal bits for any number of threads and any order of cells. Neighbouring cells have equal edges, and a
-//   position has one height at every post spacing. Not for navigation.
+// Accuracy: equal bits for any number of threads and any order of cells. Neighbouring cells have equal edges. The
+//   height of a position does not depend on the post spacing. Not for navigation.
 // Threads: any. Source: docs/generated_terrain.md.
 #pragma once
 
@@ -94,7 +94,7 @@ class Landscape {
   explicit Landscape(std::uint64_t seed, std::optional<LandscapeBox> island = std::nullopt);
 
   // The cell with `rows` x `columns` posts. Requires that `rows - 1` and `columns - 1` are divisors of 3600. Land is at
-  // least 1 m high; sea is 0 m. River water near its mouth may be 0 m too. Requires threads >= 1; the number does not
+  // least 1 m high; sea is 0 m. River water near a mouth may be 0 m too. Requires threads >= 1; the number does not
   // change the result.
   MadeCell make(CellCorner corner, int rows, int columns, int threads = 1) const;
   model::terrain::Cell cell(CellCorner corner, int rows, int columns) const { return make(corner, rows, columns).cell; }

@@ -177,8 +177,9 @@ RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position)
 namespace {
 
 constexpr GullyOctave kValleys[] = {{9000, 0.27}, {4300, 0.24}};
-// Limit of each cache. The relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells (`yars terrain
-// generate`) needs about 200 tiles; a smaller cache would compute tiles again.
+// [tiles] Limit of each cache. The relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells (`yars
+// terrain generate`) needs about 200 tiles, so 700 hold three neighbouring blocks. With fewer than 200, tiles of one
+// block would be computed again.
 constexpr std::size_t kTilesKept = 700;
 
 }  // namespace

@@ -28,7 +28,7 @@ struct Airfield {
   double elevation_m = 0.0;  // [m MSL] elevation of the level ground, whole metres
 };
 
-inline constexpr double kRunwayHalfWidth_m = 70.0;  // with shoulders; 140 m exceed the 93 m between DTED level 1 posts
+inline constexpr double kRunwayHalfWidth_m = 70.0;  // with shoulders; wider than the 93 m between posts of DTED level 1
 inline constexpr double kPadBeyond_m = 250.0;       // level ground beyond the runway's ends
 inline constexpr double kPadHalfWidth_m = 500.0;    // level ground on either side of the runway's centre line
 inline constexpr double kPadBlend_m = 500.0;        // transition from level ground to the land
@@ -53,8 +53,8 @@ struct RunwayPosition {
 RunwayPosition runway_position(const Airfield& airfield, geo::GeoPoint position);
 
 // Cache of at most `limit` tiles. get() makes a tile that is not in the cache. The least recently used tile is dropped
-// first.
-// Safe for any number of threads. `make` may get other tiles from the same cache; a cycle of such calls deadlocks.
+// first. Safe for any number of threads. `make` may get other tiles from the same cache; a cycle of such calls
+// deadlocks.
 template <class Tile>
 class LandscapeCache {
  public:

@@ -67,7 +67,7 @@ inline constexpr double kNodeMetres = kTileMetres / kTileNodes;
 // wrapped. Longitude [-180, 180).
 geo::GeoPoint lattice_node(int row, int column);
 
-// Length [m] of one degree of longitude, at least 1 % of the length at the equator. Slopes at the poles stay finite.
+// Length [m] of one degree of longitude, at least 1 % of the length at the equator to keep slopes at the poles finite.
 double east_m_per_degree(double latitude_deg);
 
 // The cell `north` cells north and `east` cells east of `corner`. Longitude wraps; latitude does not.
@@ -75,7 +75,7 @@ CellCorner neighbour_of(CellCorner corner, int north, int east);
 
 // One degree of the lattice: heights of the broad shapes and the larger valleys. Node (0, 0) is the south-west corner.
 // A tile owns 120 x 120 nodes. The nodes on its north and east edges belong to neighbours. There is a row of tiles
-// beyond each pole, because splines at the poles use their nodes.
+// beyond each pole, because splines at the poles use nodes beyond the poles.
 class ReliefTile {
  public:
   ReliefTile(CellCorner corner, const BroadRelief& broad, const Gullies& valleys);
@@ -122,8 +122,8 @@ class LandscapeLattice {
     const LandscapeLattice* lattice_;
     double latitude_deg_;
     double east_per_node_m_;
-    std::vector<double> value_m_;       // spline along the row, at lattice columns
-    std::vector<double> derivative_m_;  // derivative of the spline to the north, per lattice step
+    std::vector<double> value_m_;       // north-south spline at the row's latitude, for each lattice column
+    std::vector<double> derivative_m_;  // its derivative to the north, per lattice step
   };
 
   // Longitude of a column of posts, [-180, 180).
@@ -136,8 +136,8 @@ class LandscapeLattice {
   struct Column {
     int first;  // lattice column of the first of the four nodes that the spline weights at this column of posts
     double longitude_deg;
-    std::array<double, 4> value;
-    std::array<double, 4> derivative;
+    std::array<double, 4> value;       // weights of these nodes for the height
+    std::array<double, 4> derivative;  // weights for the slope to the east, per lattice step
   };
 
   CellCorner corner_;

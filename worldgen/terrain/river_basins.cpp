@@ -14,7 +14,7 @@ namespace yars::worldgen {
 namespace {
 
 constexpr int kFrozen_deg = 72;      // tiles poleward of this latitude have no rivers
-constexpr double kDeep_m = -10.0;    // lower ground is sea; shallower water may be an artefact of the spline
+constexpr double kDeep_m = -10.0;    // [m MSL] lower ground is sea, as with kDeepSea_m in drainage.cpp
 constexpr int kSamplesPerSide = 8;   // samples per side of a tile
 constexpr int kMaxPathCost = 25000;  // cost of about 20 tiles; a tile with a costlier path has no gate
 constexpr int kNoPath = std::numeric_limits<int>::max() / 4;
@@ -151,8 +151,8 @@ std::optional<CellCorner> RiverBasins::downstream_of(CellCorner corner) {
   return chosen;
 }
 
-// Gate at the lowest pair of nodes on either side of an edge, in [first, last) along the edge. Its bed_m is the height
-// of the higher node, or kNoGate_m if no pair is on land.
+// Gate at the lowest pair of nodes on either side of an edge, in [first, last) along the edge; every second pair is
+// examined. The gate's bed_m is the height of the higher node, or kNoGate_m if no pair is on land.
 RiverGate RiverBasins::gate_between(CellCorner from, int north, int east, int first, int last) const {
   RiverGate gate{from, neighbour_of(from, north, east), north, east, (first + last) / 2, kNoGate_m};
   const int row = (from.south_deg + 90) * kTileNodes;

@@ -3,7 +3,8 @@
 // Output: gates by which rivers leave and enter a tile; drained areas [km2].
 // An inland tile drains through one gate, along the cheapest path of tiles to the sea (low ground is cheap). A coastal
 //   tile drains to its own sea, and through gates to neighbours with more sea. Paths have no cycles.
-// Tiles poleward of 72 degrees have no rivers. A tile with a path above the maximum cost (kMaxPathCost) has no gate.
+// Tiles poleward of 72 degrees have no rivers. An inland tile with a path above the maximum cost (kMaxPathCost) has no
+//   gate.
 // Accuracy: costs are integers with exact sums, so the result does not depend on the order of calls.
 // Threads: any.
 #pragma once
@@ -22,7 +23,7 @@ struct RiverGate {
   CellCorner from;
   CellCorner to;
   int north = 0, east = 0;  // step from `from` to `to`; one of them is 0
-  int along = 0;            // row or column of the two nodes on either side of the edge
+  int along = 0;            // column (step north or south) or row (step east or west) of the nodes beside the edge
   double bed_m = 0.0;       // [m MSL] height of the water at the edge
 };
 

@@ -21,7 +21,7 @@ double half_width_m(double area_km2) {
 
 // A point of a river's course with its cross-section.
 struct CoursePoint {
-  double latitude_deg, longitude_deg;  // the longitude may exceed 180
+  double latitude_deg, longitude_deg;  // the longitude may lie outside [-180, 180]
   RiverPiece::End river;
 };
 
@@ -85,7 +85,7 @@ class CourseMaker {
     point.river = river_of(node.area_km2, node.water_m, node.ground_m - node.water_m);
     return point;
   }
-  // The point half way between `a` and `b`, also across the antimeridian. Its width is that of a river with `area_km2`.
+  // The point half way between `a` and `b`, also across the antimeridian. The drained area `area_km2` gives its width.
   static CoursePoint between(const CoursePoint& a, const CoursePoint& b, double area_km2) {
     const double turn = std::abs(a.longitude_deg - b.longitude_deg) > 180.0 ? 360.0 : 0.0;
     const double east_deg = b.longitude_deg + (b.longitude_deg < a.longitude_deg ? turn : -turn);
@@ -187,8 +187,8 @@ void RiverRow::add(const RiverPiece& piece) {
   const double extent_m = piece.extent_m();
   const double north_m = (latitude_deg_ - piece.from.latitude_deg) * kTileMetres;
   if (north_m < std::min(0.0, piece.north_m) - extent_m || north_m > std::max(0.0, piece.north_m) + extent_m) return;
-  // Columns are evenly spaced, so a division gives the first and the last column near the piece, with a
-  // margin of one column.
+  // Columns are evenly spaced, so a division gives the first and the last column near the piece, with a margin of one
+  // column.
   const double first_deg = longitudes_deg_.front();
   double step_deg = longitudes_deg_[1] - first_deg;
   if (step_deg < 0) step_deg += 360.0;

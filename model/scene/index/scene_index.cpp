@@ -49,7 +49,8 @@ std::optional<double> take_angle(std::string_view& text, char positive, char neg
   return side == negative ? -degrees : degrees;
 }
 
-// Adds `name`, the name of parts to leave out, to each folder and to each scene file that has parts of this name.
+// Adds `name`, the name of parts to leave out, to radar::Scene::without of each folder, and of each scene file that has
+// a part with this name.
 error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::string& name) {
   NameFilter all(name);
   if (scenes.empty() || all.unmatched_names().empty())
@@ -143,13 +144,14 @@ error::Expected<IndexedScene> index_file(const fs::path& file, const radar::Scen
   } else if (header->origin) {
     found.placement.position = *header->origin;
   } else {
-    return error::fail(file.string(), "a scene with a position: given with it, in the file's name, or in the header",
+    return error::fail(file.string(), "a scene with a position: in the scene argument, the file's name or the header",
                        "none", "give latitude and longitude, or FILE@LAT,LON,HDG");
   }
   return found;
 }
 
-// Checks that a file named individually has every part to leave out. Files in folders may lack some of these parts.
+// Checks that each name to leave out matches a part of the scene's file. Not called for the files of a folder, in which
+// a name may match nothing.
 error::Expected<void> check_names(const radar::Scene& scene) {
   if (scene.without.empty()) return {};
   NameFilter filter(scene.without);
@@ -192,7 +194,7 @@ error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar:
     for (const fs::path& file : files) {
       if (terrain::links_outside(file, root)) {
         problems.push_back(error::Error{file.string(), "a file inside " + root.string(), "a link that leads out",
-                                        "copy the scene there, or name the file itself", false}
+                                        "copy the scene into that folder, or give the path of the file", false}
                                .message());
         continue;
       }

@@ -24,30 +24,31 @@ namespace yars::model::scene {
 // is not a position, or there is no text before the '@'.
 error::Expected<radar::Scene> parse_scene(const std::string& text);
 
-// Parses `texts` by parse_scene() and adds the scenes. Then adds `names` to the parts that each scene leaves out.
-// Errors: a text that is not a scene argument, an unreadable file, names but no scene, an empty name, a name that
-// matches nothing in any file. If one scene is a folder, every name is accepted. In files of folders, names are applied
-// when the file is loaded.
+// Parses `texts` by parse_scene() and adds the scenes. Then adds each of `names`, which are names of parts to leave
+// out, to every folder and to every file that has a matching part. Files of a folder apply names when they are loaded.
+// Errors: a text that is not a scene argument, an unreadable file, names but no scene, an empty name. A name that
+// matches nothing in any file is an error if no scene is a folder.
 error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,
                                  const std::vector<std::string>& names);
 
-// Coordinates in a file's name without its folder, in degrees_minutes_seconds: N35_44_51W121_30_2.flt. Nullopt if the
-// name has no coordinates.
+// Coordinates in `name`, a file's name without its folder, in degrees_minutes_seconds: N35_44_51W121_30_2.flt. Nullopt
+// if the name has no coordinates.
 std::optional<geo::GeoPoint> position_in_name(const std::string& name);
 
-// [m] Radius of a scene without corners in its file's header. A smaller value would omit parts of larger scenes.
+// [m] Radius of a scene without corners in its file's header. A map that overlaps such a scene only beyond this radius
+// does not show it.
 inline constexpr double kUnknownReach_m = 20'000.0;
 
 struct IndexedScene {
   std::filesystem::path file;
   Placement placement;
-  double reach_m = kUnknownReach_m;  // radius: from the header's origin to its farthest corner
+  double reach_m = kUnknownReach_m;  // radius: distance between the header's origin and the header's farthest corner
   std::string without{};             // names of parts to leave out, as in radar::Scene::without
 };
 
 // Indexes scenes. A folder is replaced by its .flt files, sorted by name. Unusable files in folders, and links that
-// lead out of their folder, are reported in `problems`. Errors: a file named individually is unusable, or lacks a part
-// that is to be left out; a folder has no .flt file.
+// lead out of their folder, are skipped and reported in `problems`. Errors: a scene that is a single file is unusable,
+// or a name to leave out matches none of its parts; a folder has no .flt file.
 error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar::Scene>& scenes,
                                                         std::vector<std::string>& problems);
 

@@ -50,7 +50,8 @@ PlacedView::PlacedView(std::uint64_t generation, std::vector<std::shared_ptr<con
     : generation_(generation), scenes_(std::move(scenes)), kinds_(std::move(kinds)), objects_(std::move(objects)) {
   std::vector<Disc> discs;
   for (const auto& scene : scenes_) {
-    // reach_m is the distance to the farthest corner of a triangle. Corners of a tile's bounds may lie farther out.
+    // reach_m is the distance to the farthest corner of a triangle. The corners of a tile's bounds may lie farther out,
+    // by a factor of up to the square root of 2.
     discs.push_back({scene->placement.position, 1.5 * scene->reach_m + kTileSide_m});
     bytes_ += scene->bytes;
     if (scene->scatterers) scatterers_.push_back(scene->scatterers.get());
@@ -126,8 +127,8 @@ bool SceneStore::load(std::size_t number) {
   }
   for (const std::string& warning : model->warnings) problems_.push_back(scene.file.string() + ": " + warning);
   const auto objects = static_cast<std::uint32_t>(model->objects.size());
-  // Objects keep their numbers. If the file has more objects than at any earlier load, all get new numbers, and the old
-  // numbers become unused.
+  // A scene that is loaded again reuses the numbers of its objects. If its file now has more objects than at any
+  // earlier load, all its objects get new numbers, and the old numbers become unused.
   if (resident.objects < objects) {
     resident.first_object = static_cast<std::uint32_t>(objects_.size());
     resident.objects = objects;
@@ -142,11 +143,11 @@ bool SceneStore::load(std::size_t number) {
     problems_.push_back(scene.file.string() + ": expected a scene within " +
                         std::to_string(static_cast<long>(scene.reach_m)) + " m of its origin, found one that reaches " +
                         std::to_string(static_cast<long>(reach_m)) +
-                        " m; it is shown only where maps meet its nearer part");
+                        " m; a map that overlaps the scene only beyond the expected radius does not show it");
   const terrain::TerrainViewPointer ground = ground_->prepare({scene.placement.position, reach_m + kTileSide_m, 0});
-  // Scatterers beyond scene.reach_m + kTileSide_m are left out. A region that overlaps only that part of the scene does
-  // not load the file. Without the limit, such a region would show these scatterers only after an earlier region had
-  // loaded the file.
+  // Scatterers beyond scene.reach_m + kTileSide_m are left out. A region that overlaps the scene only beyond this limit
+  // does not load the file. Without the limit, such a region would show these scatterers only if another region had
+  // loaded the file before.
   auto placed = std::make_shared<PlacedScene>(place_model(*model, scene.placement, *ground, resident.first_object,
                                                           kinds_, options_.use, scene.reach_m + kTileSide_m));
   if (placed->objects.front().name.empty()) placed->objects.front().name = scene.file.stem().string();

@@ -59,8 +59,9 @@ struct SceneStoreOptions {
 // Indices of kinds and objects stay valid in later views.
 class SceneStore {
  public:
-  // Errors: a file named in the configuration is missing, is not OpenFlight, has no position, or lacks a part that is
-  // to be left out; a folder has no .flt file. An unusable file inside a folder is reported as a problem instead.
+  // Errors: a file named in the configuration is missing, is not OpenFlight or has no position; a name in
+  // radar::Scene::without matches no part of such a file; a folder has no .flt file. An unusable file inside a folder
+  // is a problem instead.
   static error::Expected<std::unique_ptr<SceneStore>> open(const std::vector<radar::Scene>& scenes,
                                                            std::unique_ptr<terrain::TerrainStore> ground,
                                                            SceneStoreOptions options = {});
@@ -73,7 +74,7 @@ class SceneStore {
   std::vector<std::string> take_problems();
 
   // Number of files whose scenes overlap the last prepared region, and how many of these files are unreadable.
-  // A file that could not be indexed counts in every region, because its position is unknown.
+  // A file that could not be indexed counts in both numbers in every region, because its position is unknown.
   struct Wanted {
     std::size_t files = 0, unreadable = 0;
   };

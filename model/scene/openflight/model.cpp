@@ -63,7 +63,8 @@ bool same(ProjectedPoint a, ProjectedPoint b) {
   return a.u == b.u && a.v == b.v;
 }
 
-// True if the corner at `at` is an ear: it turns left, and its triangle contains no other corner.
+// True if the corner at `at` is an ear: the polygon turns left there, and the triangle of this corner and its two
+// neighbours contains no other corner.
 bool is_ear(const std::vector<ProjectedPoint>& projection, const std::vector<std::uint32_t>& ring, std::size_t at) {
   const std::size_t n = ring.size();
   const ProjectedPoint a = projection[ring[(at + n - 1) % n]], b = projection[ring[at]],
@@ -82,14 +83,14 @@ void clip_ears(const std::vector<ProjectedPoint>& projection, std::vector<std::a
   for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = static_cast<std::uint32_t>(i);
   std::size_t at = 0;
   std::size_t not_ears = 0;  // consecutive corners that are not ears
-  // A polygon that crosses itself leaves triangles that turn right. They face the other side and are left out.
+  // A polygon that crosses itself can give triangles that turn right. They face the other side and are left out.
   const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
     if (turn(projection[a], projection[b], projection[c]) >= 0.0) found.push_back({a, b, c});
   };
   while (ring.size() > 3) {
     const std::size_t n = ring.size();
     at %= n;
-    // A polygon without ears crosses itself or is degenerate. In such a polygon any corner is cut off.
+    // A polygon without ears crosses itself or is degenerate. Its current corner is cut off as if it were an ear.
     if (not_ears < n && !is_ear(projection, ring, at)) {
       ++not_ears;
       ++at;
@@ -115,8 +116,8 @@ Vector3 newell_normal(std::span<const Vector3> corners) {
 
 void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::uint32_t, 3>>& found) {
   found.clear();
-  // Ear clipping takes at least quadratic time. A polygon with more corners counts as damaged and is
-  // triangulated as a fan.
+  // Ear clipping takes at least quadratic time. A concave polygon with more corners than this limit counts as damaged
+  // and becomes a fan.
   constexpr std::size_t kMaxEarClippingCorners = 512;
   if (corners.size() < 3) return;
   if (corners.size() == 3) {
@@ -169,7 +170,7 @@ class Flattener {
   error::Expected<Model> run() {
     if (const auto done = visit(0, Transform{}, 0, 0); !done) return tl::unexpected(done.error());
     if (invalid_ > 0)
-      warnings_.add("polygons with corners that are not numbers or beyond 10,000 km: " + std::to_string(invalid_) +
+      warnings_.add("polygons with coordinates that are not numbers or exceed 10,000 km: " + std::to_string(invalid_) +
                     "; they are left out");
     if (degenerate_ > 0)
       warnings_.add("triangles without area: " + std::to_string(degenerate_) + "; they are left out");
@@ -212,7 +213,7 @@ class Flattener {
       const auto definition = tree_.definitions.find(node.instance);
       if (definition == tree_.definitions.end()) {
         warnings_.add("an instance of definition " + std::to_string(node.instance) +
-                      ", which the file does not have; it is left out");
+                      ", which the file does not have; the instance is left out");
         return {};
       }
       if (auto done = visit(definition->second, transform, object, depth + 1); !done) return done;
@@ -279,12 +280,12 @@ class Flattener {
     for (const ModelVertex& vertex : other.vertices) {
       const Vector3 at = transformed_point(transform, vector(vertex.position_m) + other.base);
       if (!is_valid_position(at))
-        return error::fail(subject_, "an external file placed within 10,000 km", node.name + " farther away",
-                           "correct its matrix");
+        return error::fail(subject_, "an external file within 10,000 km of the origin", node.name + " farther away",
+                           "correct the matrix of the reference");
       append(at, transformed_normal(transform, vector(vertex.normal)));
     }
-    // Objects of the external file stay separate objects. Faces outside any object become part of the object that has
-    // the reference.
+    // Objects of the external file stay separate objects. Faces of that file outside any object become part of the
+    // object that contains the reference.
     const auto first_object = static_cast<std::uint32_t>(model_.objects.size());
     model_.objects.insert(model_.objects.end(), other.objects.begin() + 1, other.objects.end());
     std::vector<std::uint16_t> kinds;

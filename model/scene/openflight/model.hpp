@@ -49,7 +49,7 @@ struct Model {
   Vector3 base;       // [m] origin of position_m; zero unless the vertices lie far from the file's origin
   std::vector<ModelVertex> vertices;
   std::vector<ModelTriangle> triangles;
-  std::vector<std::string> objects;  // names; number 0 is for faces outside objects
+  std::vector<std::string> objects;  // names of the objects; object 0 has the faces outside objects, and no name
   std::vector<SurfaceKind> kinds;
   std::uint64_t polygons = 0;      // polygons that gave triangles, each instance counted
   std::vector<std::string> files;  // paths of the external files, in the order in which they were read
@@ -76,7 +76,7 @@ using LoadExternal = std::function<error::Expected<std::shared_ptr<const Model>>
 // matches (null: omits none). Selects the sibling levels of detail with the minimum switch-out distance, the current
 // mask of a switch, and the first frame of an animation. A two-sided polygon gives triangles for each side.
 // Errors: errors of `load`, exceeded limits, nesting deeper than kMaxNodeDepth, an external file placed more than
-// 10,000 km away.
+// 10,000 km from the origin.
 error::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
                                FlattenLimits limits = {}, NameFilter* filter = nullptr);
 

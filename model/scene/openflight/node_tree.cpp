@@ -52,8 +52,8 @@ std::string lower(std::string_view text) {
   return result;
 }
 
-// True if the name matches the pattern with `*` and `?`. Both are in lower case. Backtracks only to the last star, so
-// time is at most the product of the lengths.
+// True if `name` matches `pattern`, in which `*` and `?` are wildcards. Both texts must be in lower case. The search
+// backtracks only to the last star, so its time is at most proportional to the product of the lengths.
 bool matches(std::string_view pattern, std::string_view name) {
   std::size_t p = 0, n = 0, star = std::string_view::npos, from = 0;
   while (n < name.size()) {
@@ -144,7 +144,7 @@ std::optional<error::Error> NameFilter::unmatched_error(const std::string& subje
   if (names.empty()) return std::nullopt;
   return error::Error{subject, "a part to leave out with the name '" + names.front() + "'", "none",
                       seen_.empty() ? "no part has a name"
-                                    : "it has " + std::to_string(seen_.size()) + " names; the most similar are " +
+                                    : std::to_string(seen_.size()) + " names exist; the most similar are " +
                                           closest_names(names.front(), seen_),
                       false};
 }

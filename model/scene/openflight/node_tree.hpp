@@ -163,14 +163,14 @@ class WarningList {
 // left out with everything below it. `*` matches any characters, `?` one character. Case is ignored.
 class NameFilter {
  public:
-  // `names`: wanted names, which are names to leave out, separated by commas. Blanks around a name are ignored. Empty:
+  // `names`: the names to leave out (wanted names), separated by commas. Blanks around a name are ignored. Empty:
   // nothing is left out.
   explicit NameFilter(std::string_view names);
 
-  // True if `name` matches a wanted name. Records `name` as seen, and the wanted names that it matches.
+  // True if `name` matches a wanted name. Records `name` as seen, and marks the wanted names that it matches.
   bool leaves_out(const std::string& name);
 
-  // Adds the names recorded by another filter.
+  // Adds the names that `other` recorded as seen.
   void add_seen(const NameFilter& other) { seen_.insert(other.seen_.begin(), other.seen_.end()); }
 
   // Wanted names that matched nothing so far.
@@ -182,10 +182,10 @@ class NameFilter {
  private:
   struct Wanted {
     std::string name;
-    bool met = false;
+    bool met = false;  // true: a name matched
   };
   std::vector<Wanted> wanted_;
-  std::set<std::string> seen_;
+  std::set<std::string> seen_;  // names of nodes, for suggestions in errors
 };
 
 // Parses the header record: revision, unit, origin, covered area. A position of exactly 0, 0 counts as absent, because

@@ -34,7 +34,7 @@ error::Expected<NodeTree> TreeParser::parse() {
     tree_.warnings.emplace_back("the file ends inside " + std::to_string(levels_.size()) + " open levels");
   if (surfaces_.unknown_codes() > 0)
     tree_.warnings.emplace_back("faces with a surface material code beyond 31: " +
-                                std::to_string(surfaces_.unknown_codes()) + "; they are treated as without a code");
+                                std::to_string(surfaces_.unknown_codes()) + "; they count as faces without a code");
   tree_.counts.materials = surfaces_.colors().materials();
   tree_.counts.hidden_faces = surfaces_.hidden_faces();
   tree_.kinds = surfaces_.kinds();
@@ -340,7 +340,7 @@ TreeParser::Done TreeParser::add_mesh(const Record& record) {
   const std::optional<TreeFace> surface = surfaces_.read(record, face::kMeshShift, subface_level_);
   meshes_.push_back({.surface = surface.value_or(TreeFace{}), .visible = surface && current_.node != kNone});
   const int mesh = static_cast<int>(meshes_.size()) - 1;
-  // The mesh gets a node of its own, because a matrix may follow. The primitives of the mesh follow a push record.
+  // The mesh gets a node of its own, because a matrix may follow that applies to this mesh only.
   if (current_.node != kNone)
     if (auto made = new_node(NodeKind::group); !made) return made;
   current_.mesh = mesh;

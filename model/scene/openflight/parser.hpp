@@ -1,7 +1,7 @@
 // Parser of one OpenFlight file, revisions 14 to 16.5, into a node tree. The parser opens no other file.
 // Skipped: textures, lights, sounds, extensions, all masks of a switch but the current one, and the transform records
 // 76-82 and 94 (record 49 has their product).
-// Wireframe and light faces are omitted. Hidden faces are omitted, but counted.
+// Wireframe and light faces are omitted. Hidden faces are omitted, too; FileCounts::hidden_faces is their number.
 // Errors: no header, unknown revision or unit, truncated records, more pop records than push records, corners outside
 // their pool, a matrix with NaN or infinity, an exceeded limit (constants below).
 // Source: docs/spec/formats.md#openflight.
@@ -55,7 +55,7 @@ class TreeParser {
   };
 
   Done dispatch(const Record& record);
-  // Returns +1 for a push and -1 for a pop of skipped records, else 0.
+  // Returns +1 for a push record and -1 for a pop record of extensions and attributes, which are skipped; else 0.
   static int nesting_of_skipped(std::uint16_t opcode);
   tl::unexpected<error::Error> too_many(std::size_t limit, const std::string& what);
   Done push();

@@ -62,7 +62,7 @@ class FileSet {
     if (const auto known = read_.find(path); known != read_.end()) return known->second;
     if (open_paths_.size() > kMaxReferenceDepth)
       return error::fail(path.string(), "external references at most " + std::to_string(kMaxReferenceDepth) + " deep",
-                         "deeper references", "join some of the files");
+                         "deeper references", "merge some of the files");
     if (++files_ > kMaxFiles)
       return error::fail(path.string(), "at most " + std::to_string(kMaxFiles) + " files in a scene", "more",
                          "split the scene");
@@ -89,7 +89,7 @@ class FileSet {
         *tree, subject, [this, &path](const std::string& name) { return load_reference(path, name); }, {}, filter_);
   }
 
-  // Loads an external file. Returns null and adds a warning if it has to be skipped.
+  // Loads the external file `name` of the file `from`. Returns null and adds a warning if the file has to be skipped.
   error::Expected<std::shared_ptr<const Model>> load_reference(const fs::path& from, std::string name) {
     name = name.substr(0, name.find('<'));
     std::replace(name.begin(), name.end(), '\\', '/');

@@ -1,8 +1,8 @@
 // Reader of an OpenFlight file and its external files into one Model.
 // Inputs: a path or bytes, a filter of names. Outputs: a Model; skipped external files are among its warnings.
 // A relative path of an external file begins at the folder of the file that names it. Each file is read once.
-// Skipped: files outside the folder of the main file, missing files, and files that refer to themselves, directly or
-// through other files.
+// Skipped: references to files outside the folder of the main file, to missing files, and back to a file that contains
+// the reference, directly or through other files.
 // A reference `NAME.flt<node>` loads the whole of NAME.flt.
 // Errors: errors of parse_openflight() and flatten(); unreadable files; an exceeded limit (constants below).
 #pragma once

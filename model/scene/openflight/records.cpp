@@ -5,8 +5,8 @@ namespace yars::model::scene {
 namespace {
 
 constexpr std::size_t kHeadBytes = 4;
-// [bytes] Limit of a record with its continuations. Allows a local vertex pool of 7 million vertices, and bounds
-// memory.
+// [bytes] Limit of a record with its continuations. Allows a local vertex pool of 7 million vertices with normals (36
+// bytes each), and bounds memory.
 constexpr std::size_t kMaxJoinedBytes = 256U << 20;
 
 bool is_continuation(std::span<const std::byte> bytes, std::size_t at) {
@@ -40,7 +40,7 @@ error::Expected<std::optional<Record>> RecordStream::single() {
   if (!record) {
     const std::size_t left = bytes_.size() - at_;
     const std::string at = "a whole record at byte " + std::to_string(at_);
-    const std::string end = std::to_string(left) + (left == 1 ? " byte" : " bytes") + " before the file's end";
+    const std::string end = std::to_string(left) + (left == 1 ? " byte" : " bytes") + " up to the file's end";
     if (left < kHeadBytes)
       return error::fail(subject_, at + ", of " + std::to_string(kHeadBytes) + " bytes or more", end,
                          "the file is truncated or damaged; fetch it again");
@@ -64,7 +64,7 @@ error::Expected<std::optional<Record>> RecordStream::next() {
     const std::span<const std::byte> more = bytes_.subspan((*record)->start(), (*record)->size()).subspan(kHeadBytes);
     if (joined_.size() + more.size() > kMaxJoinedBytes)
       return error::fail(subject_, "a record of at most " + std::to_string(kMaxJoinedBytes) + " bytes",
-                         "more with its continuations", "split it into several meshes");
+                         "a longer one with its continuations", "split the mesh into several meshes");
     joined_.insert(joined_.end(), more.begin(), more.end());
   }
   return Record(first.start(), first.opcode(), joined_);

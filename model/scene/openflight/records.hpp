@@ -1,4 +1,4 @@
-// Records of an OpenFlight file: opcodes, field offsets, and the stream that reads them.
+// Records of an OpenFlight file: opcodes, offsets of fields, and a stream that reads the records.
 // Format: big-endian; u16 opcode, u16 length of the record, fields. Offsets count from the opcode, in bytes.
 // Errors: a record shorter than 4 bytes, a record that extends beyond the end of the file, a record that is longer than
 // 256 MiB with its continuations. Nothing is read outside the given bytes.

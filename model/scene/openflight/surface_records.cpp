@@ -107,7 +107,7 @@ error::Expected<std::size_t> read_local_pool(const Record& record, double metres
   if (!layout.has_position || record.size() < kPoolHead || count > (record.size() - kPoolHead) / layout.stride)
     return damaged(subject, record, "a vertex pool with positions, and long enough for its count",
                    std::to_string(count) + " vertices of " + std::to_string(layout.stride) + " bytes in " +
-                       std::to_string(record.size()));
+                       std::to_string(record.size()) + " bytes");
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = kPoolHead + i * layout.stride;
     TreeVertex vertex;
@@ -176,7 +176,7 @@ std::uint32_t byte_of(double level) {
 }  // namespace
 
 void ColorPalette::read_colors(const Record& record, std::int32_t revision) {
-  // The number of colours follows from the revision, because names may follow the colours in the record.
+  // The revision gives the number of colours. The record's length does not, because names may come after the colours.
   const std::size_t max_colors = revision >= kIndexRevision ? palette::kColors : palette::kColors / 2;
   colors_.clear();
   for (std::size_t at = palette::kFirstColor; colors_.size() < max_colors; at += 4) {

@@ -29,8 +29,8 @@ class VertexPalette {
 
  private:
   std::size_t start_ = 0;
-  std::vector<std::size_t> offsets_;  // ascending
-  std::vector<std::uint32_t> vertices_;
+  std::vector<std::size_t> offsets_;     // [bytes] of the vertices' records, ascending
+  std::vector<std::uint32_t> vertices_;  // index of each vertex in NodeTree::vertices, parallel to offsets_
 };
 
 // Appends the vertices of a local vertex pool (record 85) and returns their number.

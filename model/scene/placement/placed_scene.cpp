@@ -159,8 +159,9 @@ class ScenePlacer {
     return {kind_numbers_[triangle.kind], first_object_ + object, on_ground};
   }
 
-  // True for a level face on the ground. Its height is compared with `base_m`. With SceneHeights::sea_level, its height
-  // is compared with the terrain, with a larger tolerance, because terrain is less exact than the scene.
+  // True for a level face on the ground: less than kOnGround_m above `base_m`, the altitude of the object's base. With
+  // SceneHeights::sea_level: less than kNearGround_m from the terrain. This limit is larger, because terrain is less
+  // exact than the scene.
   bool lies_on_ground(const Corners3& corners, double base_m) const {
     const Vector3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(area.z > kLevelNormal * length(area))) return false;
@@ -196,15 +197,16 @@ class ScenePlacer {
                 [&](const Corners3& piece) { add_draped(piece, tag_of(triangle, object, true)); });
   }
 
-  // Cuts a face that is not draped into pieces and adds them to the scatterers.
+  // Cuts a face into pieces and adds these to the scatterers. Used for faces that are not draped.
   void scatter(const Corners3& corners, std::uint8_t material, bool on_ground) {
     cutter_.cut(corners, piece_edge_m_, [&](const Corners3& piece) {
       on_ground ? scatter_.add_lying(piece, material) : scatter_.add_standing(piece, material);
     });
   }
 
-  // Returns `edge_m`, the longest allowed edge of a piece, doubled until the triangles for which `counts` is true give
-  // about `max_pieces` pieces or fewer. Large triangles and long slivers give many pieces.
+  // Returns `edge_m`, the limit of a piece's edges, doubled until there are about `max_pieces` pieces or fewer. Only
+  // triangles for which `counts` is true are cut. Estimate for a triangle of length L and width W, at the limit e:
+  // L / e (1 + W / e) pieces.
   template <class Counts>
   double bounded_edge(double edge_m, double max_pieces, const Counts& counts) const {
     const auto pieces = [&] {
@@ -269,6 +271,7 @@ class ScenePlacer {
   ScatterBuilder scatter_;
   double sine_ = 0.0, cosine_ = 1.0;
   double anchor_msl_m_ = 0.0;  // altitude of the terrain at the scene's position; 0 for SceneHeights::sea_level
+  // [m] Limits of the edges of pieces: of draped triangles, of faces for scatterers.
   double edge_m_ = kDrapedEdge_m;
   double piece_edge_m_ = kScattererSides_m.front();
   double reach_m_ = 0.0;

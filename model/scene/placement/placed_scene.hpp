@@ -4,13 +4,14 @@
 // are 128 m squares of that plane. The transform from the plane to a tile is linear. Its error is below 1 mm up to
 // 20 km from the position.
 // SceneHeights::ground: an object with all vertices within 1 m of z = 0 is draped. Its triangles are cut into pieces
-// with edges of at most 30 m. If there would be too many pieces, the limit is doubled, repeatedly. Each corner of a
-// piece is placed at its height z above the terrain. Other objects stand level on the terrain below the centre of their
-// bounding rectangle.
+// with edges of at most 30 m. In a scene with more than about 100,000 such pieces, this limit is doubled, repeatedly.
+// Each corner of a piece is placed at its height z above the terrain. Other objects stand level on the terrain below
+// the centre of their bounding rectangle.
 // Faces outside objects are draped if they are within 1 m of z = 0. Other faces outside objects have z = 0 at the
 // altitude of the terrain at the scene's position.
-// Where the terrain is void, the terrain's altitude at the scene's position is used, or 0 if the position is
-// void, too.
+// SceneHeights::anchor: the whole scene has z = 0 at that altitude. SceneHeights::sea_level: z = 0 is mean sea level.
+// Where the terrain is void, the terrain's altitude at the scene's position is used, or 0 if the terrain is void there,
+// too.
 #pragma once
 
 #include <cstdint>

@@ -39,8 +39,8 @@ class LocalMap {
  private:
   geo::PlanePoint middle_;
   geo::AzimuthalEquidistant to_;
-  geo::PlanePoint east_, north_;          // in the second plane: one metre east and one metre north of the first plane
-  geo::PlanePoint latitude_, longitude_;  // degrees per metre east (x) and north (y)
+  geo::PlanePoint east_, north_;          // one metre east, one metre north of the first plane, in the second plane
+  geo::PlanePoint latitude_, longitude_;  // [deg/m] change per metre east (x) and north (y) of the first plane
 };
 
 // Convex polygon seen from above, clipped by lines along the axes (Sutherland and Hodgman 1974).
@@ -137,8 +137,8 @@ class TriangleCutter {
   std::vector<Corners3> pieces_;
 };
 
-// Rectangle of minimum area around a set of points. One side lies on an edge of the convex hull, so all edges are tried
-// (Freeman and Shapira, CACM 18, 1975).
+// Rectangle of minimum area around a set of points. One of its sides lies on an edge of the points' convex hull. The
+// search therefore tries every edge of the hull (Freeman and Shapira, CACM 18, 1975).
 struct Footprint {
   geo::PlanePoint middle;
   double length_m = 0.0;  // longer side

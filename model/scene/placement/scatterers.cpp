@@ -22,7 +22,7 @@ std::size_t Scatterers::level_for(double resolved_m) const {
 }
 
 std::uint64_t Scatterers::bytes() const {
-  constexpr std::uint64_t kHashNode = 64;  // approximate size of an unordered_map node
+  constexpr std::uint64_t kHashNode = 64;  // [bytes] approximate size of an unordered_map node
   std::uint64_t sum = sizeof(Scatterers);
   for (const ScattererLevel& level : levels)
     sum += level.scatterers.capacity() * sizeof(Scatterer) + level.facings.capacity() * sizeof(Facing) +
@@ -38,7 +38,8 @@ constexpr std::uint32_t kWall = 1U << 31U;                     // bit of a key: 
 // Maximum number of squares with standing faces in a scene. The same limit applies to squares with lying faces. Bounds
 // memory to about 100 MB.
 constexpr std::size_t kMaxSquares = 1U << 18U;
-// Maximum number of squares along the sides of a triangle on the ground. A larger triangle needs a coarser level.
+// Maximum extent east and north of a triangle on the ground, in squares. For a larger triangle, the builder changes to
+// a coarser level.
 constexpr double kMaxSquaresPerEdge = 64.0;
 
 // Key of a face: its material, the bins of its normal's elevation and azimuth, and whether it is a wall. Within a
@@ -82,7 +83,8 @@ bool ScatterBuilder::coarsen() {
   return true;
 }
 
-// Returns the square that contains a point, or null if the limit of squares is exceeded at the coarsest level.
+// Returns the square that contains a point. Null if this square is new and exceeds the limit of squares at the coarsest
+// level.
 ScatterBuilder::Square* ScatterBuilder::square_in(Squares& squares, geo::Vector3 at) {
   while (squares.size() >= kMaxSquares && coarsen()) continue;
   const std::uint64_t key = square_key(at.x, at.y, side_m());

@@ -44,7 +44,8 @@ struct Scatterer {
   std::uint32_t first_facing = 0, facings = 0;
 };
 
-// Sum of the faces on the ground in one square. Their materials replace the material of the ground.
+// Sum of the faces on the ground in one square. On the fraction `share` of the square, their materials replace the
+// material of the ground.
 struct Cover {
   float share = 0;  // fraction of the square's area, at most 1
   std::uint32_t first_facing = 0, facings = 0;
@@ -84,7 +85,8 @@ struct Scatterers {
 std::uint64_t square_key(double east_m, double north_m, double side_m);
 
 // Builds Scatterers while a scene is placed. If a scene needs too many squares, the builder changes to larger squares,
-// to bound memory. If even the largest squares are too many, faces that need a further square are left out.
+// to bound memory. If even the largest squares are too many, faces that need a further square are left out. Also left
+// out are triangles on the ground that extend over more than 64 of the largest squares.
 class ScatterBuilder {
  public:
   // Faces with their centre farther than `max_reach_m` from the position are left out.
@@ -105,7 +107,7 @@ class ScatterBuilder {
     geo::Vector3 area_m2;
   };
   struct Square {
-    geo::Vector3 middle;  // sum of area times centre of a face
+    geo::Vector3 middle;  // sum of area times centre: of a standing face; for lying faces, of a square
     double spread = 0.0;  // sum of area times squared distance from the plane's origin
     double area_m2 = 0.0;
     double min_m = 0.0, max_m = 0.0;  // lowest and highest altitude MSL
@@ -124,8 +126,8 @@ class ScatterBuilder {
   void finish(const geo::AzimuthalEquidistant& plane, double side_m, Scatterers& result, ScattererLevel& level) const;
 
   double max_reach_m_;
-  std::size_t finest_ = 0;    // current level
-  Squares standing_, lying_;  // at level finest_
+  std::size_t finest_ = 0;    // finest level in use; the squares below have its size
+  Squares standing_, lying_;  // squares with standing faces, with faces on the ground
 };
 
 }  // namespace yars::model::scene

@@ -18,7 +18,7 @@ geo::Vector3 on_earth(geo::GeoPoint position) {
   return geo::ecef_from_geodetic(position, geo::HeightAboveEllipsoid::metres(0.0));
 }
 
-// [m] Length of the arc over the chord between two points, to third order. ECEF coordinates [m].
+// [m] Length of the arc between two points, from their chord, to third order. `a`, `b`: ECEF coordinates [m].
 double arc_m(geo::Vector3 a, geo::Vector3 b) {
   const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
   const double square = x * x + y * y + z * z;

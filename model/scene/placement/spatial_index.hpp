@@ -70,11 +70,11 @@ struct Ball {
 class SphereTree {
  public:
   SphereTree() = default;
-  // Sets order[i] to the number of the ball at position i in the tree's order.
+  // Sets order[i] to the number of the ball that is at index i in the tree's order.
   SphereTree(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order);
 
   // A leaf is a run of consecutive balls in the tree's order, from `first` to before `end`. Calls visit(first, end) for
-  // each leaf for which meets(bounding ball) is true, as for all nodes above it. The visits follow the tree's order.
+  // a leaf if meets(bounding ball) is true for the leaf and for all nodes above it. The visits follow the tree's order.
   template <class Meets, class Visit>
   void search(const Meets& meets, const Visit& visit) const {
     for (std::size_t at = 0; at < nodes_.size();) {
@@ -93,7 +93,7 @@ class SphereTree {
  private:
   struct Node {
     float x_m, y_m, z_m, radius_m;  // bounding ball
-    std::uint32_t first, end;       // balls of the subtree: positions in the tree's order
+    std::uint32_t first, end;       // balls of the subtree: indices in the tree's order
     std::uint32_t skip_to;          // index of the node after this subtree
   };
   void build(const std::vector<Ball>& balls, std::vector<std::uint32_t>& order, std::uint32_t first, std::uint32_t end);

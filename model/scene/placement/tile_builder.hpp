@@ -35,13 +35,13 @@ struct DraftVertex {
 struct DraftTriangle {
   std::array<std::uint16_t, 3> corners;
   SurfaceTag tag;
-  bool flat;  // vertex normals equal the triangle's normal
+  bool flat;  // vertex normals equal the triangle's normal (within 0.8 degrees)
 };
 
 // Fills the triangles and vertices of `tile`. Reorders `triangles` and renumbers their corners. Altitudes become
 // heights above Tile::zero_msl_m.
 // Triangles on the ground come first and keep their order, because later ones are painted over earlier ones. Vertices
-// without a normal precede vertices with one. Both groups are numbered by first use.
+// without a normal precede vertices with one. Each of these two groups is numbered by first use.
 void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTriangle>& triangles, Tile& tile);
 
 struct PlacedCorner {

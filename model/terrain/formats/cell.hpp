@@ -27,7 +27,8 @@ struct CellCorner {
   friend bool operator==(CellCorner, CellCorner) = default;
 };
 
-// Index of a cell in a table of all cells of the earth (a slot): row by row from the south-west. Inverse: the corner.
+// Index of a cell in a table of all cells of the earth (a slot): row by row from the south-west. corner_of_slot() is
+// the inverse.
 constexpr std::size_t slot_of(CellCorner corner) {
   return static_cast<std::size_t>(corner.south_deg + 90) * kCellColumns +
          static_cast<std::size_t>(corner.west_deg + 180);
@@ -82,9 +83,9 @@ class PostBlocks {
 inline constexpr std::int16_t kVoidPost = -32768;
 
 // Elevation posts of one degree by one degree, immutable.
-// Posts are whole multiples of `unit_m` above mean sea level, or kVoidPost. Both neighbours of a common edge store its
-// posts. The unit is 1 m, or less where the source has fractions of a metre. DTED cells at latitudes of 50 degrees and
-// more have fewer columns than rows.
+// Posts are whole multiples of `unit_m` above mean sea level, or kVoidPost. The posts of an edge are in both cells that
+// share the edge. The unit is 1 m, or less where the source has fractions of a metre. DTED cells at latitudes of 50
+// degrees and more have fewer columns than rows.
 class Cell {
  public:
   // Requires rows, columns >= 2, rows * columns posts and a unit above 0 m.
@@ -101,7 +102,7 @@ class Cell {
   std::size_t voids() const { return voids_; }             // posts without a height
   std::size_t sea_posts() const { return sea_posts_; }     // posts at exactly 0 m
   double lowest_m() const { return lowest_ * unit_m_; }    // [m] voids left out; 0 m if all posts are void
-  double highest_m() const { return highest_ * unit_m_; }  // [m] like lowest_m()
+  double highest_m() const { return highest_ * unit_m_; }  // [m] voids left out; 0 m if all posts are void
   std::size_t bytes() const { return sizeof(*this) + blocks_.bytes(); }
 
  private:

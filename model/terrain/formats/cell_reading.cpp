@@ -6,8 +6,7 @@
 namespace yars::model::terrain {
 
 namespace {
-// [m] MSL. Bounds below the deepest sea floor and above the highest mountain. Narrower bounds would make real ground
-// void.
+// [m] MSL. Bounds of possible heights: below the deepest sea floor, above the highest mountain.
 constexpr std::int16_t kLowestPost_m = -12'000;
 constexpr std::int16_t kHighestPost_m = 10'000;
 constexpr std::int16_t kCommonVoid_m = -9999;  // [m] written by some producers where they have no data
@@ -25,7 +24,7 @@ void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::
 
 std::string impossible_heights_warning(std::size_t posts) {
   return "impossible heights: " + std::to_string(posts) +
-         " posts; they are void, and the file may be damaged or may not declare its no-data value";
+         " posts; they are made void, and the file may be damaged or may not declare its no-data value";
 }
 
 error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path) {

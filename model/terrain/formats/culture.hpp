@@ -37,11 +37,11 @@ enum class Material : std::uint8_t {
 };
 inline constexpr std::uint8_t kMaxMaterial = 31;
 
-// Surface materials of one cell, one code per post. Rows run from south to north, both edges included. The resolution
-// may differ from that of the elevation cell.
+// Surface materials of one cell, one code per post. Rows run from south to north, both edges included. The spacing of
+// posts may differ from the elevation cell's.
 class Culture {
  public:
-  // Requires rows, columns >= 2, rows * columns codes, none above kMaxMaterial.
+  // Requires rows, columns >= 2 and rows * columns codes. No code may exceed kMaxMaterial.
   Culture(CellCorner corner, int rows, int columns, std::vector<std::uint8_t> codes);
 
   int rows() const { return rows_; }
@@ -78,7 +78,7 @@ std::optional<std::filesystem::path> find_culture(const std::filesystem::path& e
 
 // Reads a culture tile: a pixel's palette index is the code of a post. The palette's colours are ignored.
 // Errors: not an indexed PNG, fewer than 2 or more than kMaxCulturePosts posts a side, a code above kMaxMaterial. The
-// message gives the row and column of a wrong code.
+// message gives column and row of the first wrong code, counted from 0 at the north-west corner.
 error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCorner corner);
 
 // Red, green, blue of a material; gray for the free codes.

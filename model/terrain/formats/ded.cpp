@@ -68,7 +68,7 @@ error::Expected<DedCell> parse_cell(const std::byte* header, std::size_t number,
   const auto west_deg = whole(west, kEdgeTolerance_deg, -180, 179);
   if (!south_deg || !west_deg || !(std::abs(north - south - 1.0) < kEdgeTolerance_deg) ||
       !(std::abs(east - west - 1.0) < kEdgeTolerance_deg))
-    return error::fail(subject, which + " of one degree on whole degrees",
+    return error::fail(subject, which + " from one whole degree to the next",
                        "latitude " + as_text(south) + " to " + as_text(north) + ", longitude " + as_text(west) +
                            " to " + as_text(east),
                        "export the file again, with cells cut at whole degrees");

@@ -71,18 +71,19 @@ std::string stripped(std::string_view field) {
   return text;
 }
 
-// Checks the datums in the description record (DSI). Posts of WGS72 lie 0.554 arc seconds (17 m) from those of WGS84.
-// The reader does not shift them, because interpolation would smooth the heights. The error message advises gdalwarp.
+// Checks the datums in the description record (DSI). WGS72 differs from WGS84 by 0.554 arc seconds (17 m). The reader
+// rejects other datums instead of shifting the posts, because the interpolation would smooth the heights. The error
+// message advises gdalwarp.
 error::Expected<void> check_datums(std::string_view description, const std::string& subject) {
   constexpr std::string_view kSeaLevels[] = {"", "MSL", "E84", "E96", "E08"};
   const std::string vertical = stripped(description.substr(dted::kVerticalDatumAt, dted::kVerticalDatumBytes));
   const std::string horizontal = stripped(description.substr(dted::kHorizontalDatumAt, dted::kHorizontalDatumBytes));
   if (!horizontal.empty() && horizontal != "WGS84")
     return error::fail(subject, "horizontal datum WGS84", "'" + horizontal + "'",
-                       "bring it to WGS84 with gdalwarp -t_srs EPSG:4326 into a .tif");
+                       "convert it to WGS84 with gdalwarp -t_srs EPSG:4326 into a .tif");
   if (std::find(std::begin(kSeaLevels), std::end(kSeaLevels), vertical) == std::end(kSeaLevels))
     return error::fail(subject, "heights above mean sea level (vertical datum MSL, E84, E96, E08 or none)",
-                       "'" + vertical + "'", "make them heights above mean sea level");
+                       "'" + vertical + "'", "convert the heights to mean sea level");
   return {};
 }
 
@@ -183,9 +184,9 @@ error::Expected<ColumnDefects> gather_words(std::span<const std::byte> data, con
   return defects;
 }
 
-// True if the words are in two's complement, because some word would be an impossible height in sign-magnitude.
+// True if some word is an impossible height in sign-magnitude. All words are then taken to be in two's complement.
 bool is_twos_complement(const std::vector<std::uint16_t>& words) {
-  // [m] below the deepest sea floor; docs/spec/formats.md#dted. A higher bound would misread deep sea floors.
+  // [m] below the deepest sea floor, so that real depths in sign-magnitude stay valid; docs/spec/formats.md#dted
   constexpr std::int16_t kLowestSignMagnitude_m = -16000;
   return std::any_of(words.begin(), words.end(), [](std::uint16_t word) {
     return word != dted::kVoidWord && sign_magnitude(word) < kLowestSignMagnitude_m;
@@ -210,7 +211,7 @@ std::vector<std::string> warnings_of(const ColumnDefects& defects, const Header&
   };
   count("columns with a wrong checksum: ", defects.wrong_sums, "; their heights are kept");
   count("absent columns: ", static_cast<std::size_t>(header.columns) - defects.columns_read, "; they are void");
-  count("partial columns: ", defects.partial_columns, "; the rest of them is void");
+  count("partial columns: ", defects.partial_columns, "; their missing posts are void");
   if (twos_complement) warnings.emplace_back("negative heights are in two's complement, not in sign-magnitude");
   return warnings;
 }
@@ -315,7 +316,8 @@ std::uint16_t sign_magnitude_word(std::int16_t post_m) {
 void append_column(const Cell& cell, int column, std::vector<std::byte>& bytes) {
   const std::size_t start = bytes.size();
   const auto number = static_cast<std::uint16_t>(column);
-  // The count of records has three bytes. The sentinel and the high byte, 0, are one word; the low bytes are the next.
+  // The count of records has three bytes. Its high byte, 0, shares the first word with the sentinel. Its low bytes are
+  // the second word.
   memory::append_big_endian(static_cast<std::uint16_t>(dted::kRecordSentinel << 8U), bytes);
   memory::append_big_endian(number, bytes);
   memory::append_big_endian(number, bytes);            // longitude index

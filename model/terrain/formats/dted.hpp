@@ -54,7 +54,7 @@ constexpr std::size_t record_bytes(int posts) {
 namespace yars::model::terrain {
 
 // Reads one cell. Voids become kVoidPost.
-// Absent columns, and posts that are absent at the southern end of a column, become voids with a warning.
+// Absent columns, and posts that are absent at the south end of a column, become voids with a warning.
 // A wrong column checksum is a warning, and the heights are kept (project choice).
 // A file with a height below -16000 m in sign-magnitude is read as two's complement, with a warning.
 // Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Any other datum, such as WGS72, is an error.
@@ -70,10 +70,11 @@ error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const 
 // Requires kPostsOfLevel[level] rows and posts in units of 1 m.
 std::vector<std::byte> dted_bytes(const Cell& cell, int level);
 
-// Writes `tree`/wLLL/nBB.dtN (see lib/file/output_file.hpp), creates missing folders and returns the path.
+// Writes the file dted_name() in the folder `tree` (see lib/file/output_file.hpp), creates missing folders and returns
+// the path.
 error::Expected<std::filesystem::path> write_dted(const std::filesystem::path& tree, const Cell& cell, int level);
 
-// Path relative to the tree: "w122/n36.dt1".
+// Path of a cell's file relative to the folder `tree`: "w122/n36.dt1".
 std::string dted_name(CellCorner corner, int level);
 
 // Number of columns of a cell at a level, by the DTED zone of its latitude.

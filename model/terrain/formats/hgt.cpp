@@ -39,7 +39,7 @@ error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const s
     return error::fail(subject,
                        "an HGT file of " + std::to_string(bytes_of(kPosts[0])) + " or " +
                            std::to_string(bytes_of(kPosts[1])) + " bytes",
-                       std::to_string(bytes.size()) + " bytes", "the file is truncated or no HGT; fetch it again");
+                       std::to_string(bytes.size()) + " bytes", "the file is truncated or is not HGT; fetch it again");
   const auto side = static_cast<std::size_t>(posts);
   std::vector<std::int16_t> heights(side * side);
   for (std::size_t row = 0; row < side; ++row)
@@ -98,7 +98,7 @@ error::Expected<std::uintmax_t> compressed_length(const std::filesystem::path& p
   auto length = file_length(path);
   if (!length || *length <= kMaxCompressedBytes) return length;
   return error::fail(path.string(), "at most " + std::to_string(kMaxCompressedBytes) + " bytes",
-                     std::to_string(*length) + " bytes", "this is no packed HGT cell");
+                     std::to_string(*length) + " bytes", "this is no compressed HGT cell");
 }
 
 // The original file name in the gzip header (RFC 1952, flag FNAME); empty if the header has none.
@@ -106,7 +106,7 @@ std::string name_in_gzip(const std::filesystem::path& path) {
   constexpr std::size_t kHeadBytes = 10;     // fixed part of the header; optional fields and the name follow
   constexpr unsigned kExtra = 4, kName = 8;  // flags, RFC 1952
   const auto length = file_length(path);
-  // The name ends within the first 512 bytes, else it is cut off.
+  // A name that extends beyond the first 512 bytes is cut off.
   const auto head = length ? read_file_part(path, 0, std::min<std::uintmax_t>(*length, 512))
                            : error::Expected<std::vector<std::byte>>{};
   if (!head || head->size() < kHeadBytes) return {};
@@ -155,8 +155,8 @@ struct ZipEntry {
   zip_uint64_t bytes = 0;
 };
 
-// The entry with the name of the archive without `.zip`; nullopt if there is none. `other` then receives the name of an
-// entry of the archive, preferably of an `.hgt` file, for the error message.
+// The entry with the archive's name without `.zip`; nullopt if there is none. For the error message, `other` then
+// receives the name of another entry of the archive, preferably of an `.hgt` file.
 std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path, std::string* other = nullptr) {
   const std::string entry_name = lower_case(path.stem().string());
   for (zip_int64_t index = 0; index < zip_get_num_entries(archive, 0); ++index) {
@@ -213,7 +213,8 @@ error::Expected<CellReading> read_compressed_hgt(const std::filesystem::path& pa
 
 int compressed_hgt_posts(const std::filesystem::path& path) {
   if (is_gzip(path)) {
-    // A gzip stream ends with its uncompressed length, little-endian. It has at least 18 bytes: header and trailer.
+    // A gzip stream has at least 18 bytes: header and trailer. The last 4 bytes are the uncompressed length,
+    // little-endian.
     const auto length = file_length(path);
     if (!length || *length < 18) return 0;
     const auto tail = read_file_part(path, *length - 4, 4);

@@ -131,7 +131,8 @@ Stream stream_over(Source& source) {
   return stream;
 }
 
-// Text about the first difference of an image from rows x columns signed 16-bit heights; empty if there is none.
+// Returns the first property of the image that differs from rows x columns signed 16-bit heights, as text for an error.
+// Empty if the image is as expected.
 std::string mismatch_of(const opj_image_t& image, int rows, int columns) {
   if (image.numcomps != 1) return std::to_string(image.numcomps) + " components";
   const opj_image_comp_t& heights = image.comps[0];
@@ -197,7 +198,7 @@ error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, con
   if (!opened)
     return error::fail(subject, "a JPEG 2000 picture with " + std::to_string(reduction) + " reductions",
                        messages.first.empty() ? "other bytes" : messages.first, "pack the cell again");
-  // Checked before decoding, because the decoder allocates the size in the header.
+  // Checked before decoding, because the decoder allocates memory for the size that the header states.
   if (const std::string mismatch = mismatch_of(*image, rows, columns); !mismatch.empty())
     return error::fail(subject, std::to_string(columns) + " x " + std::to_string(rows) + " signed 16-bit heights",
                        mismatch, "pack the cell again");

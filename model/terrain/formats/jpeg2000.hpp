@@ -22,8 +22,8 @@ struct HeightGrid {
   std::vector<std::int16_t> heights;  // [unit of the cell] row by row, north first
 };
 
-// Encodes a grid with `reductions` wavelet levels. Requires rows, columns >= 2. `reductions` must exceed neither
-// halvings(rows) nor halvings(columns) (cell.hpp); this is not checked.
+// Encodes a grid with `reductions` wavelet levels above level 0. Requires 2 to 32,768 rows and columns. `reductions`
+// must exceed neither halvings(rows) nor halvings(columns) (cell.hpp); this is not checked.
 error::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid, int reductions);
 
 // Decodes level `reduction` of a grid of `rows` x `columns` heights. `subject` names the file in errors.
@@ -36,7 +36,8 @@ struct GridSize {
   int columns = 0;
 };
 inline constexpr std::size_t kJpeg2000HeadBytes = 56;
-// Size of a grid from the first kJpeg2000HeadBytes bytes of a .jp2; zeros if the bytes are no header of a .jp2.
+// Size of a grid from the first kJpeg2000HeadBytes bytes of a .jp2. Zeros if the bytes are no header of a .jp2, or if
+// rows or columns are not in [2, 32768].
 GridSize jpeg2000_size(std::span<const std::byte> head);
 
 // Replaces voids by smooth heights, so that the steps at the edges of voids do not enlarge the file. Each void is

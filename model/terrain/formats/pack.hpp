@@ -1,6 +1,6 @@
 // Reader and writer of packed cells, which `yars terrain pack` makes. A packed cell (a pack) is an elevation cell in
-// two files: `nBB.jp2` has the heights in lossless JPEG 2000; `nBB.side` has voids, sea, edges and peaks
-// (pack_side.hpp).
+// two files, such as n36.jp2 and n36.side. The .jp2 has the heights in lossless JPEG 2000. The .side has voids, sea,
+// edges and peaks (pack_side.hpp).
 // Input: both files and a reduction; a cell to write. Output: a CellReading with peaks; both files.
 // Accuracy: exact at reduction 0; see read_pack() for coarser grids.
 #pragma once
@@ -42,11 +42,11 @@ struct PackedCell {
 // Errors: the encoder fails.
 error::Expected<PackedCell> pack_cell(const Cell& cell);
 
-// Writes `tree`/wLLL/nBB.side, then nBB.jp2, and returns the path of the .jp2. In this order no .jp2 is left without
-// its .side. Errors: the encoder fails, or a file cannot be written.
+// Writes both files in the folder `tree`: first the .side, then the .jp2 (pack_name()). In this order no .jp2 is left
+// without its .side. Returns the path of the .jp2. Errors: the encoder fails, or a file cannot be written.
 error::Expected<std::filesystem::path> write_pack(const std::filesystem::path& tree, const Cell& cell);
 
-// Path relative to the tree: "w122/n36.jp2".
+// Path of a cell's .jp2 relative to the folder `tree`: "w122/n36.jp2".
 std::string pack_name(CellCorner corner);
 
 }  // namespace yars::model::terrain

@@ -23,7 +23,7 @@ constexpr std::uint32_t kVersionWithUnit = 2;  // the last four bytes give the u
 constexpr std::size_t kHeadBytes = 36;         // length of the header, up to and including the number of levels
 constexpr std::size_t kChecksumAt = 28;        // offset of the checksum over all following bytes
 constexpr std::size_t kLevelBytes = 12;        // length of an entry in the table of levels
-constexpr double kUnitsPerMetre = 100.0;       // the file gives the unit of posts in centimetres
+constexpr double kUnitsPerMetre = 100.0;       // the file gives the unit of the posts in centimetres
 constexpr std::uint32_t kMaxReductions = 16;
 constexpr std::uint32_t kMaxPosts = 7201;  // maximum number of posts along an edge: 0.5 arc seconds apart
 
@@ -71,7 +71,7 @@ void append_edges(const Cell& cell, std::vector<std::byte>& bytes) {
 std::size_t bit_bytes(Sides sides) {
   return (sides.posts() + 7) / 8;
 }
-// Uncompressed length of the marks of a reduction.
+// [bytes] Uncompressed length of the marks of a reduction (pack_side.hpp).
 std::size_t mark_bytes(Sides sides, int reduction) {
   if (reduction == 0) return bit_bytes(sides);
   return 3 * bit_bytes(sides) + 4 * static_cast<std::size_t>(sides.rows + sides.columns);
@@ -108,6 +108,7 @@ error::Expected<CompressedLevel> compressed_level(const Cell& cell, int reductio
   for (int row = grid.rows - 1; row >= 0; --row)
     for (int column = 0; column < grid.columns; ++column) grid.heights.push_back(level.peaks.post(row, column));
   fill_voids(grid);
+  // At most 5 wavelet levels, as in pack.cpp.
   auto peaks = encode_jpeg2000(grid, std::min({halvings(grid.rows), halvings(grid.columns), 5}));
   if (!peaks) return tl::unexpected(peaks.error());
   return CompressedLevel{marks.size(), deflated(marks), std::move(*peaks)};
@@ -154,7 +155,8 @@ error::Expected<std::vector<std::byte>> inflated(std::span<const std::byte> comp
   const int status = uncompress(reinterpret_cast<Bytef*>(plain.data()), &size,
                                 reinterpret_cast<const Bytef*>(compressed.data()), compressed.size());
   if (status != Z_OK || size != bytes)
-    return error::fail(subject, std::to_string(bytes) + " bytes of marks", "damaged ones", "pack the cell again");
+    return error::fail(subject, std::to_string(bytes) + " bytes of masks and edges", "damaged data",
+                       "pack the cell again");
   return plain;
 }
 

@@ -1,4 +1,4 @@
-// Side file `nBB.side` of a packed cell (pack.hpp): masks of voids and sea, edges and peaks of each reduction.
+// Side file of a packed cell (pack.hpp), such as n36.side: masks of voids and sea, edges and peaks of each reduction.
 // The edges equal those of reduce(), so that neighbouring cells agree. Each reduction can be read alone.
 // Layout, big-endian: "YARSSIDE", u32 version, rows, columns, bytes and CRC-32 of the .jp2, CRC-32 of all following
 // bytes, u32 reductions + 1; for each reduction {u32 bytes of marks, u32 bytes of compressed marks, u32 bytes of
@@ -37,7 +37,7 @@ error::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reducti
 struct SideHead {
   int rows = 0;
   int columns = 0;
-  int reductions = 0;
+  int reductions = 0;   // highest reduction in the file
   double unit_m = 1.0;  // [m] height of post value 1
 };
 

@@ -56,7 +56,8 @@ std::size_t count_round_trips(PJ* operation, const SamplePoints& points, SampleP
   return count;
 }
 
-// Bounding box of the points that could be transformed; nullopt if there are none, or if it is wider than 180 degrees.
+// Bounding box of the points that could be transformed. Nullopt if there are none, or if the box is wider than 180
+// degrees.
 std::optional<Area> area_of(const SamplePoints& reached) {
   std::optional<Area> area;
   double first_deg = 0.0;
@@ -108,7 +109,7 @@ std::string metres(double accuracy_m) {
   return text.data();
 }
 
-// Name of the first grid file of an operation that is not installed; empty if there is none.
+// Name of the first grid file that an operation needs and that is not installed; empty if there is none.
 std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
   for (int grid = 0; grid < proj_coordoperation_get_grid_used_count(context, operation); ++grid) {
     const char* name = nullptr;
@@ -121,9 +122,9 @@ std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
   return {};
 }
 
-// Names the missing grid file of the most accurate operation that cannot be used because that file is missing. Empty if
-// no such operation is more than 1 m more accurate than the chosen operation. `accuracy_m`: accuracy of the chosen
-// operation; negative: not known.
+// Text that names the missing grid file of the most accurate operation that cannot be used because of it. Empty if no
+// such operation is more than 1 m more accurate than the chosen operation. `accuracy_m`: accuracy of the chosen
+// operation; negative: not known, so that any such operation counts as more accurate.
 std::string better_operation_lacking_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double accuracy_m) {
   std::string best;
   double best_m = accuracy_m < 0.0 ? 1e9 : accuracy_m - 1.0;
@@ -134,7 +135,7 @@ std::string better_operation_lacking_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list
     const std::string grid = missing_grid(context, candidate.get());
     if (grid.empty() || candidate_m < 0.0 || candidate_m >= best_m) continue;
     best_m = candidate_m;
-    best = "the grid " + grid + " (" + metres(candidate_m) + ") is not installed";
+    best = "the grid " + grid + ", with an accuracy of " + metres(candidate_m) + ", is not installed";
   }
   return best;
 }
@@ -145,8 +146,8 @@ std::string warning_of(PJ_CONTEXT* context, PJ_OBJ_LIST* list, PJ* operation) {
       context, list, ballpark ? -1.0 : proj_coordoperation_get_accuracy(context, operation));
   if (!ballpark && better.empty()) return {};
   const std::string what =
-      ballpark ? "PROJ has only a ballpark transformation to WGS84: heights may be displaced by hundreds of metres"
-               : "it is brought to WGS84 with " + accuracy_text(context, operation);
+      ballpark ? "PROJ has only a ballpark transformation to WGS84: posts may be displaced by hundreds of metres"
+               : "the data are converted to WGS84 with " + accuracy_text(context, operation);
   return better.empty() ? what : what + "; " + better;
 }
 

@@ -34,7 +34,8 @@ struct DestroyReference {
 };
 using Reference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroyReference>;
 
-// The system after OSRDemoteTo2D() (without heights) or OSRPromoteTo3D() (with ellipsoidal heights); null on failure.
+// The coordinate system `system` after OSRDemoteTo2D() (without heights) or OSRPromoteTo3D() (with ellipsoidal
+// heights). Null on failure.
 using Change = OGRErr (*)(OGRSpatialReferenceH, const char*);
 Projection changed(PJ_CONTEXT* context, PJ* system, Change change) {
   const char* const text = proj_as_wkt(context, system, PJ_WKT2_2019, nullptr);
@@ -56,7 +57,7 @@ bool names_ellipsoid(std::string name) {
 
 struct Axis {
   std::string direction;
-  double unit = 1.0;  // [m] or [rad]
+  double unit = 1.0;  // size of the axis's unit [m] or [rad]
 };
 
 struct Axes {
@@ -90,7 +91,7 @@ error::Expected<Georeference> Georeference::of(GDALDatasetH dataset, const std::
   if (GDALGetGeoTransform(dataset, georeference.data_from_pixel_.data()) != CE_None ||
       GDALGetSpatialRef(dataset) == nullptr)
     return error::fail(subject, "a coordinate system and a geotransform", "none",
-                       "give it one with gdal_translate -a_srs -a_ullr");
+                       "add them with gdal_translate -a_srs -a_ullr");
   if (GDALInvGeoTransform(georeference.data_from_pixel_.data(), georeference.pixel_from_data_.data()) == 0)
     return error::fail(subject, "an invertible geotransform", "a singular one", kWarpIt);
   georeference.width_ = GDALGetRasterXSize(dataset);
@@ -181,21 +182,21 @@ error::Expected<void> Georeference::find_operation(PJ* horizontal, const std::st
   ChosenOperation found = operation_between(context, horizontal, wgs84.get(), sample_pixels(), Operations::all);
   if (!found.operation)
     return error::fail(subject, "a raster that lies on the earth",
-                       "coordinates of " + name_of(horizontal) + " that PROJ cannot bring to WGS84", kWarpIt);
+                       "coordinates of " + name_of(horizontal) + " that PROJ cannot convert to WGS84", kWarpIt);
   to_wgs84_ = std::move(found.operation);
   if (!found.warning.empty()) warnings_.push_back(name_of(horizontal) + ": " + found.warning);
   return {};
 }
 
-// Treats the degrees of the system as degrees of WGS84, without PROJ. Its coordinates then begin with the latitude.
+// Treats the degrees of the system as degrees of WGS84, without PROJ. to_system() then gives the latitude first.
 void Georeference::treat_as_wgs84(bool longitude_first) {
   to_wgs84_.reset();
   longitude_first_ = longitude_first;
   if (longitude_first) axis_ = {3 - std::abs(axis_[0]), 3 - std::abs(axis_[1])};
 }
 
-// Sets the period of x for a raster in degrees, grads or another angle. If the change of datum moves no pixel of a
-// raster in degrees, treats the system as WGS84.
+// Sets the period of x for a raster in degrees, grads or another angle. In a raster in degrees, also measures how far
+// the change of datum moves four test pixels. If all move less than kNoPixels, treats the system as WGS84.
 void Georeference::find_period(PJ* horizontal) {
   middle_x_ = data_from_pixel_[0] + data_from_pixel_[1] * width_ / 2.0 + data_from_pixel_[2] * height_ / 2.0;
   if (!to_wgs84_) {
@@ -279,7 +280,8 @@ std::vector<double> Georeference::above_sea_level_m(std::span<const double> long
   std::vector<double> first(latitudes_deg.begin(), latitudes_deg.end());
   std::vector<double> second(longitudes_deg.begin(), longitudes_deg.end());
   std::vector<double> height_m(first.size(), 0.0);
-  // Transforms the positions to the raster's system. The geoid operation starts from that system, with a height of 0.
+  // Transforms the positions to the raster's system, from which the geoid operation starts. At an ellipsoidal height of
+  // 0, the resulting height is the correction.
   if (to_wgs84_) transform(to_wgs84_.get(), PJ_INV, first, second, nullptr);
   if (longitude_first_) std::swap(first, second);
   transform(geoid_.get(), PJ_FWD, first, second, height_m.data());

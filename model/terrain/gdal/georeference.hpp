@@ -3,7 +3,7 @@
 // Input: coordinate system and geotransform of a GDAL dataset. The geotransform is GDAL's affine transform from pixels
 //   to coordinates of the system.
 // Output: longitudes and latitudes [deg], pixel positions, geoid corrections [m].
-// Frame: pixel positions count from the corner of the first pixel. Its centre is (0.5, 0.5).
+// Frame: pixel positions count from the outer corner of the first pixel. The centre of this pixel is (0.5, 0.5).
 // Errors: no geotransform, no coordinate system, no PROJ operation to WGS84, ellipsoidal heights for which PROJ has no
 //   geoid.
 // Threads: one thread per object.
@@ -40,8 +40,9 @@ class Georeference {
   // Converts in place: pixel columns in `across` to longitudes, pixel rows in `along` to latitudes [deg].
   // Longitudes are not wrapped. Latitudes beyond 90.5 deg and longitudes beyond 1080 deg make the position NaN.
   void to_earth(std::span<double> across, std::span<double> along) const;
-  // Inverse of to_earth(). `reference`: a position near the positions to convert. First, `reference` is shifted by a
-  // multiple of 360 degrees to the raster's longitudes. Then each position is shifted to within 180 degrees of it.
+  // Inverse of to_earth(). `reference`: a position near the positions to convert. In a raster whose coordinates are
+  // angles, `reference` is first shifted by a multiple of 360 degrees to the raster's longitudes. Then each position is
+  // shifted to within 180 degrees of `reference`.
   void to_pixels(std::span<double> across, std::span<double> along, EarthPosition reference) const;
 
   // Properties of the heights.
@@ -49,7 +50,7 @@ class Georeference {
   bool points_down() const { return points_down_; }            // true: values are depths, positive downwards
   bool heights_are_ellipsoidal() const { return geoid_ != nullptr; }
   // [m] Correction from ellipsoidal height to height above mean sea level: the negative geoid height (EGM96).
-  // NaN outside the grid of the geoid.
+  // NaN outside the grid of the geoid. Requires heights_are_ellipsoidal().
   std::vector<double> above_sea_level_m(std::span<const double> longitudes_deg,
                                         std::span<const double> latitudes_deg) const;
 
@@ -73,7 +74,7 @@ class Georeference {
   std::array<double, 6> data_from_pixel_{}, pixel_from_data_{};
   std::array<int, 2> axis_{1, 2};  // axis of the system, 1 or 2, for x and for y of the data; negative: reversed
   double period_ = 0.0;            // [units of x] a full turn of 360 degrees; 0: the coordinates are projected
-  double middle_x_ = 0.0;          // [units of x] at the raster's middle
+  double middle_x_ = 0.0;          // [units of x] x at the raster's middle
   double metres_per_unit_ = 0.0;
   bool points_down_ = false;
   bool longitude_first_ = false;  // axis order of a system that is treated as WGS84

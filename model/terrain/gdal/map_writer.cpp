@@ -56,7 +56,8 @@ SpatialReference local_projection(double latitude_deg, double longitude_deg) {
   return projection;
 }
 
-// Writes projection, geotransform, band description and pixels. False at the first error, which GDAL reports.
+// Writes projection, geotransform, band description and pixels. Returns false at the first error, about which GDAL
+// sends a message.
 bool write_dataset(GDALDatasetH dataset, const MapPicture& picture) {
   const SpatialReference projection = local_projection(picture.origin_latitude_deg, picture.origin_longitude_deg);
   std::array<double, 6> geotransform = picture.plane_from_pixel;

@@ -17,8 +17,8 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-// Drivers that read regular local files. VRT, and other drivers that follow names or addresses in a file, would let a
-// file open any path.
+// GDAL drivers that open_raster() permits; they read local files only. VRT and similar drivers are absent: their files
+// may name any path or address, which GDAL would open.
 constexpr std::array<const char*, 12> kDrivers = {"GTiff",   "JP2OpenJPEG",    "HFA", "AAIGrid", "EHdr",    "ENVI",
                                                   "USGSDEM", "GRASSASCIIGrid", "BT",  "DTED",    "SRTMHGT", nullptr};
 
@@ -50,11 +50,11 @@ std::string bands_of(GDALDatasetH dataset) {
   const int count = GDALGetRasterCount(dataset);
   if (count == 0) return "no band";
   const GDALDataType type = GDALGetRasterDataType(GDALGetRasterBand(dataset, 1));
-  return std::to_string(count) + " of " + GDALGetDataTypeName(type);
+  return std::to_string(count) + " band(s) of type " + GDALGetDataTypeName(type);
 }
 
-// [m] Unit of the band's heights. If the band states no unit: `by_system`, the unit of the coordinate system. Any
-// stated unit other than feet counts as the metre.
+// [m] Unit of the band's heights. If the band states no unit: `by_system`, the unit of the coordinate system; 0: metre.
+// Any stated unit other than feet counts as the metre.
 double metres_of(GDALRasterBandH band, double by_system) {
   constexpr double kFoot = 0.3048;
   constexpr double kSurveyFoot = 1200.0 / 3937.0;
@@ -114,7 +114,7 @@ error::Expected<Raster> open_raster(const std::filesystem::path& path) {
     return error::fail(subject, "a raster of heights in a plain file (GeoTIFF, JPEG 2000, Erdas Imagine, ...)",
                        messages.first_or("one that GDAL does not open"));
   if (!has_heights(dataset))
-    return error::fail(subject, "one band of heights, 16 bits or more", bands_of(dataset), "this is a picture");
+    return error::fail(subject, "one band of heights, 16 bits or more", bands_of(dataset), "it may be a picture");
   raster.subject = subject;
   raster.heights = GDALGetRasterBand(dataset, 1);
   raster.columns = GDALGetRasterXSize(dataset);
@@ -225,7 +225,7 @@ error::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, 
   pixels.first_column = blocks.first_column * size.across;
   pixels.columns = std::min(raster.columns, (blocks.first_column + blocks.columns) * size.across) - pixels.first_column;
   // Reads the pixels in strips, because all pixels of large blocks together may need too much memory.
-  constexpr int kMaxPixels = 1 << 22;
+  constexpr int kMaxPixels = 1 << 22;  // per strip, unless one row has more
   const int rows_at_once = std::max(1, kMaxPixels / std::max(1, pixels.columns));
   const int end_row = std::min(raster.rows, (blocks.first_row + blocks.rows) * size.along);
   for (pixels.first_row = blocks.first_row * size.along; pixels.first_row < end_row; pixels.first_row += rows_at_once) {

@@ -63,7 +63,7 @@ struct Box {
   std::size_t area() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
-// Reads the heights of pixels [m], row by row. NaN: no data. Infinity: an impossible height.
+// Reads the heights of `pixels` [m MSL], row by row. NaN: no data. Infinity: an impossible height.
 // Impossible are heights below -12,000 m or above 10,000 m, and the undeclared no-data values -32768, -32767 and -9999.
 error::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels);
 

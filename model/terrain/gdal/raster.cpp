@@ -117,7 +117,7 @@ class CellReader {
                                std::min(kTile, grid_.columns - 1 - first_column)});
     const auto bounds = lattice.bounds();
     if (!bounds) return {};
-    constexpr int kMargin = 2;  // [blocks] margin for neighbours of the outermost blocks and for the lattice's error
+    constexpr int kMargin = 2;  // [blocks] for neighbours of the outermost blocks and for PostLattice's error
     const Box around = blocks_within(*bounds, kMargin);
     if (around.columns <= 0 || around.rows <= 0) return {};
     const auto window = read_window(raster_, size_, around, blocks_within(*bounds, 0));
@@ -131,8 +131,9 @@ class CellReader {
     return {};
   }
 
-  // Blocks within `bounds`, extended by `margin` blocks on each side. With margin 0, the last row and column of blocks
-  // are left to the next tile, except at the end of the raster. This avoids counting impossible heights twice.
+  // Blocks within `bounds` without their last row and column, extended by `margin` blocks on each side. The last row
+  // and column belong to the next tile. With margin 0, impossible heights are thus counted once. At the raster's end,
+  // the last row and column are included.
   Box blocks_within(const PixelBounds& bounds, int margin) const {
     const auto span = [&](double low, double high, int pixels, int count) {
       const int first = std::max(0, static_cast<int>(std::floor(low / pixels)) - margin);
@@ -146,7 +147,7 @@ class CellReader {
   }
 
   std::optional<NearestBlock> nearest(const PixelPosition& position) const {
-    constexpr double kSlack = 1e-6;  // [pixels]
+    constexpr double kSlack = 1e-6;  // [pixels] tolerance for rounding errors at the raster's edge
     if (!(position.column >= -kSlack && position.row >= -kSlack && position.column <= raster_.columns + kSlack &&
           position.row <= raster_.rows + kSlack))
       return std::nullopt;
@@ -197,7 +198,7 @@ class CellReader {
     return height_m / total;
   }
 
-  // True only for the post of the cell that is nearest to the block's centre along the cell's rows and columns.
+  // True if no other post of the cell is nearer to the block's centre, along the cell's rows and columns.
   bool is_closest_post(const NearestBlock& block, const PixelStep& step) const {
     const double right = block.right * size_.across;
     const double down = block.down * size_.along;
@@ -240,7 +241,7 @@ error::Expected<RasterSummary> describe_raster(const std::filesystem::path& path
   if (!raster) return tl::unexpected(raster.error());
   RasterSummary summary{cells_of(*raster)};
   if (summary.cells.empty())
-    return error::fail(path.string(), "a raster of several pixels", "one that touches no cell of a degree");
+    return error::fail(path.string(), "a raster with at least one pixel in a one-degree cell", "no such pixel");
   return summary;
 }
 

@@ -46,7 +46,7 @@ bool aligned(double first_deg, double pixel_deg) {
   return is_whole(posts) && std::abs(posts) <= kMaxPostsPerDegree && is_whole(first_deg / pixel_deg);
 }
 
-// Posts per degree for a raster that is resampled: at least twice those of the raster, at most kMaxPostsPerDegree.
+// Posts per degree for a raster that is resampled: at least twice its pixels per degree, at most kMaxPostsPerDegree.
 // Candidates are 15, 45, 75 and 225 times powers of two, which can be halved often, and kMaxPostsPerDegree. Accuracy:
 // see raster.hpp.
 int posts_per_degree_for(double pixels_per_degree) {
@@ -69,8 +69,8 @@ double overlap(double edge, double low, double high) {
 
 std::vector<RasterCell> wgs84_grid_cells(const Raster& raster) {
   const Extent extent = extent_of(raster);
-  // Edges are NaN more than half a degree beyond a pole, and beyond 1080 degrees of longitude: such a raster has no
-  // cells.
+  // to_earth() gives NaN more than half a degree beyond a pole, and beyond +-1080 degrees of longitude. A raster with
+  // such an edge has no cells.
   for (const double edge_deg : {extent.south_deg, extent.north_deg, extent.west_deg, extent.east_deg})
     if (!std::isfinite(edge_deg)) return {};
   const auto posts_of = [](double first_deg, double pixel_deg) {
@@ -148,7 +148,7 @@ Rates rates_in(const Raster& raster, int south_deg, int west_deg) {
   return rates;
 }
 
-// The cells that contain sample pixels of the raster, each with the fraction of the samples in it.
+// The cells that contain sample points of a grid over the raster, each with the fraction of all samples in this cell.
 std::map<std::pair<int, int>, double> cells_of_pixels(const Raster& raster) {
   constexpr int kSteps = 64;
   SampleGrid samples;
@@ -165,13 +165,13 @@ std::map<std::pair<int, int>, double> cells_of_pixels(const Raster& raster) {
   return cells;
 }
 
-// [deg^2] Area of a raster. Used if the raster is so small that no sample point of fraction_inside() lies in it.
+// [deg^2] Area of a raster. Its use: a raster so small that no sample point of fraction_inside() lies on it.
 double area_of(const Raster& raster, const Rates& rates) {
   return static_cast<double>(raster.columns) * raster.rows / std::max(1.0, rates.north * rates.east);
 }
 
-// All cells that may contain pixels between the samples: in the rows from one south to one north of the sampled cells,
-// and in the columns of the sampled cells and the columns beside them.
+// All cells that may contain pixels. Rows of cells: from one row south of all samples to one row north of them. Columns
+// of cells: those with samples, and the columns beside them.
 std::set<std::pair<int, int>> candidates(const std::map<std::pair<int, int>, double>& sampled) {
   int south = 90, north = -90;
   std::set<int> wests;

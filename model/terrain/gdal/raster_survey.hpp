@@ -14,7 +14,7 @@
 
 namespace yars::model::terrain::gdal {
 
-// Statistics of one cell. Pixels on an edge count in both cells.
+// Statistics of one cell. Pixels on the edge between two cells count in both cells.
 struct RasterCellStatistics {
   int south_deg = 0, west_deg = 0;
   int columns = 0;                            // number of pixel columns within the cell
@@ -29,7 +29,7 @@ struct RasterStatistics {
 };
 
 // Surveys a raster; nullopt if its rows and columns are not parallels and meridians of WGS84. `progress` receives the
-// completed fraction of the work, (0, 1].
+// completed fraction of the work, (0, 1]; it may be empty.
 error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesystem::path& path,
                                                                const std::function<void(double)>& progress);
 

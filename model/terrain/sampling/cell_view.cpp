@@ -87,7 +87,7 @@ Surface interpolate(const Cell& cell, double north_deg, double east_deg, radar::
 
 namespace {
 
-// Largest divisor of the old intervals that leaves at least the new number of intervals; 1 if the new grid is finer.
+// Largest divisor of the old number of intervals that leaves at least the new number; 1 if the new grid is finer.
 int whole_factor(int old_posts, int new_posts) {
   const int old_intervals = old_posts - 1;
   for (int factor = old_intervals / (new_posts - 1); factor > 1; --factor)
@@ -135,8 +135,8 @@ double spacing_m(const Cell& cell) {
   return geo::kMetresPerDegree * std::min(1.0 / (cell.rows() - 1), east_deg);
 }
 
-// [m] Step along a ray in a cell: the minimum spacing of posts, limited to [1/3, 1] times the row spacing. Toward a
-// pole the columns converge, although the data do not become finer.
+// [m] Step along a ray in a cell: the minimum spacing of posts, clamped to [1/3, 1] times the row spacing. The reason
+// for 1/3: toward a pole the columns converge, although the data do not become finer.
 double walked_spacing_m(const Cell& cell) {
   const double rows_m = geo::kMetresPerDegree / (cell.rows() - 1);
   return std::clamp(spacing_m(cell), rows_m / 3.0, rows_m);
@@ -196,7 +196,7 @@ Surface CellView::surface_at(geo::GeoPoint position, Interpolation interpolation
   const double east_deg = geo::wrapped_degrees(position.longitude_deg) - corner.west_deg;
   Surface surface = interpolate(*cell.heights, north_deg, east_deg, interpolation);
   if (cell.peaks) {
-    // Peaks are an upper bound of the ground. A cubic between peaks could be below the ground.
+    // Peaks are an upper bound of the ground. A cubic between peaks could be below the ground, so bilinear replaces it.
     const bool nearest = interpolation == Interpolation::nearest;
     surface.peak_m =
         interpolate(*cell.peaks, north_deg, east_deg, nearest ? Interpolation::nearest : Interpolation::bilinear)
@@ -312,7 +312,8 @@ bool CellView::crests(const PositionRun& positions, const RaySight& sight, std::
     const std::size_t behind = first + run.count;
     if (run.table_entry >= kFirstCell && !run.beyond_pole) {
       const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
-      // The steps into and out of this cell lie in two cells. raise() examines the part in one cell.
+      // The step into this cell and the step out of it each lie partly in a neighbouring cell. raise() examines their
+      // parts in this cell.
       crests::raise(crossed(cell, positions, first), ray, std::max<std::size_t>(first, 1), std::min(behind + 1, count),
                     tangent.data());
     }

@@ -19,21 +19,21 @@ using namespace post_simd::HWY_NAMESPACE;
 
 using Mask = hn::Mask<FloatLanes>;
 
-// [m] A crossing closer than this to the next position is left out. With a smaller value, rounding would decide whether
-// the crossing or the position is higher.
+// [m] A crossing closer than this to the step's end is left out. With a smaller value, rounding would decide whether
+// the ground at the crossing or at the end is higher.
 constexpr float kOwnGround_m = 0.5F;
 // Fractions of CrossedCell::spacing_m.
 constexpr float kSlopeFraction = 0.1F;   // distance before a position at which the ground is also sampled
-constexpr float kColumnFraction = 0.3F;  // maximum distance between examined columns; columns between them are skipped
+constexpr float kColumnFraction = 0.3F;  // columns are skipped while examined ones stay this close along the ray
 
-// Vector of ray steps: their coordinates along one axis of a cell [posts]. A line of posts is a row or column across
-// the axis. Every `step`-th line is examined.
+// Start and end of a vector of ray steps along one axis of a cell [posts]. A line of posts is a row or column across
+// the axis. `step`: number of lines from one examined line to the next.
 struct Axis {
   Floats from, to, step;
   bool every = true;  // true: all values of `step` are 1
 };
 
-// Lines of posts strictly between the two ends of a step.
+// Lines of posts strictly between the two ends of a ray step: index of the first, and number of those examined.
 struct Lines {
   Floats first, count;
 };
@@ -162,7 +162,7 @@ class RaySteps {
   };
 
   // Examines the lines of posts across `axis`. `other`: axis along the lines. posts_at(line, post) returns a post of a
-  // line and the next one.
+  // line and the next post of that line.
   template <class PostsAt>
   HWY_INLINE void cross_lines(const Axis& axis, const Axis& other, int lines_of_grid, int posts_of_line,
                               PostsAt posts_at) {

@@ -31,9 +31,9 @@ struct CrossedCell {
   sampling::Grid grid;
   float cells_north = 0.0F, cells_east = 0.0F;  // whole cells from the ray's reference corner to this cell
   float spacing_m = 0.0F;  // [m] smaller spacing of rows and columns; at least 1/3 of the row spacing
-  // True if columns are closer than a third of the row spacing, as toward a pole. Then only some columns are
-  // examined, at most about 0.3 spacing_m apart. Longitudes are compared modulo 360 degrees, because a ray past a pole
-  // may add 360 degrees.
+  // True if columns are closer than a third of the row spacing, as toward a pole. Then columns are skipped while those
+  // examined stay at most 0.3 spacing_m apart along the ray. Longitudes are then compared modulo 360 degrees, because a
+  // ray past a pole may add 360 degrees.
   bool close_columns = false;
 };
 

@@ -80,7 +80,7 @@ struct Words {
 HWY_INLINE Words gather(const std::int16_t* posts, Ints offset) {
   return {gather_word(posts, offset), gather_word(posts + PostBlocks::kColumns, offset)};
 }
-// Heights of the western and of the eastern posts in words. The arithmetic shift preserves their signs.
+// The western and the eastern post of each word. The arithmetic shift preserves their signs.
 HWY_INLINE Ints western(Ints word) {
   return hn::ShiftRight<16>(hn::ShiftLeft<16>(word));
 }

@@ -22,7 +22,8 @@ using Floats = hn::Vec<FloatLanes>;
 // Maximum ratio of a slope to the smaller adjacent difference. Above 3 the cubic may overshoot (Fritsch, Carlson 1980).
 constexpr float kMaxSlopeRatio = 3.0F;
 
-// Heights of four nodes around a position. `north`, `east`: the position, 0 at the south-western node, 1 at the next.
+// Heights of four nodes around a position. `north`, `east`: the position, from 0 at the south-western node to 1 at the
+// next node north or east.
 struct Quad {
   Floats south_west, south_east, north_west, north_east, north, east;
 };
@@ -32,7 +33,7 @@ HWY_INLINE Floats bilinear(const Quad& quad) {
   return fused::mul_add(quad.north, hn::Sub(north, south), south);
 }
 
-// Bilinear over the nodes that are not void, with their weights scaled to a sum of 1. NaN if all are void.
+// Bilinear mean over the nodes that are not void, with their weights scaled to a sum of 1. NaN if all are void.
 HWY_INLINE Floats without_voids(const Quad& quad) {
   const FloatLanes d;
   const auto one = hn::Set(d, 1.0F);
@@ -108,7 +109,7 @@ void limited_slopes(std::size_t count, const Neighbours& posts, float* slope) {
 void between(std::size_t count, const Interval& ends, float fraction, float* height) {
   const FloatLanes d;
   const float complement = 1.0F - fraction;
-  // Hermite basis functions at `fraction`: of the rise between the ends, and of the slopes at start and end.
+  // Hermite basis functions at `fraction`: of the height difference far - near, and of the slopes at near and far.
   const auto rise = hn::Set(d, fraction * fraction * (3.0F - 2.0F * fraction));
   const auto start = hn::Set(d, fraction * complement * complement);
   const auto end = hn::Set(d, -fraction * fraction * complement);

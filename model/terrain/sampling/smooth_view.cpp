@@ -22,8 +22,8 @@ constexpr int kMaxParts = 64;                // maximum number of parts of an in
 constexpr std::size_t kMaxNodes = 1U << 23;  // 32 MiB; in a cell with more nodes, intervals get fewer parts
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 
-// Rectangle of a cell that becomes smooth: its posts around the map's box, first and last included. The rectangle
-// between four posts is divided into row_parts x column_parts parts. The corners of the parts are the nodes.
+// Part of a cell that becomes smooth: the posts around the map's box, first and last included. Each rectangle between
+// four posts is divided into row_parts x column_parts smaller rectangles. Their corners are the nodes.
 struct Part {
   int first_row = 0, last_row = 0, first_column = 0, last_column = 0;
   int row_parts = 1, column_parts = 1;
@@ -42,7 +42,7 @@ int parts_of(double interval_m, const SmoothParameters& parameters) {
 // The part of a cell within the box; nullopt if there is none, or if rows or columns are at most posts_m apart.
 std::optional<Part> part_of(const Cell& cell, const SmoothParameters& parameters) {
   const auto [south_deg, west] = cell.corner();
-  // Longitudes of the box may exceed 180 degrees.
+  // Longitudes of the box may exceed 180 degrees. Whole turns of 360 degrees are removed.
   const double turn_deg = 360.0 * std::ceil((parameters.box.west_deg - (west + 1.0)) / 360.0);
   const auto post = [](double degrees, int intervals) { return std::clamp(degrees, 0.0, 1.0) * intervals; };
   const int row_intervals = cell.rows() - 1, column_intervals = cell.columns() - 1;
@@ -216,7 +216,7 @@ std::optional<double> Grid::height_m(double north_deg, double east_deg) const {
   return weights > 0.0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Sets the blending weight of the smooth ground to 0 at the posts in and next to a box. `weights` has one weight for
+// Sets the blending weight of the smooth ground to 0 at the posts in and around a box. `weights` has one weight for
 // each post of the part.
 void Grid::mark_plain(const GeoBox& box, std::vector<float>& weights) const {
   const double rows_per_degree = static_cast<double>(nodes_.rows_per_degree) / part_.row_parts;
@@ -338,8 +338,8 @@ const Grid* SmoothView::grid_at(const PositionRun& positions, std::size_t first)
   return std::abs(middle.latitude_deg) < kMaxLatitude_deg + 1.0 ? grid_of(cell_containing(middle)) : nullptr;
 }
 
-// crests() samples a ray where it crosses the straight lines between posts. Smooth ground has no such lines, so that
-// the tangents of positions in cells with nodes become kNoTangent.
+// The original view's crests() samples a ray where it crosses the straight lines between posts. Smooth ground has no
+// such lines. The tangents of positions in cells with nodes therefore become kNoTangent.
 bool SmoothView::crests(const PositionRun& positions, const RaySight& sight, std::span<float> tangent) const {
   if (!view_->crests(positions, sight, tangent)) return false;
   for (std::size_t first = 0; first < tangent.size();) {

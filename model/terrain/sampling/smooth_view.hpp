@@ -22,9 +22,9 @@ struct SmoothParameters {
   std::vector<GeoBox> bilinear_boxes{};  // boxes in which the ground stays bilinear, because objects stand on it
 };
 
-// Returns a view of the same ground with nodes in the box. Returns `view` itself if no cell in the box has posts
-// farther apart than posts_m, if spacing_m is not positive, or if the box extends beyond 88 degrees of latitude. Only
-// bilinear sampling uses the nodes.
+// Returns a view of the same ground with nodes in the box. Only bilinear sampling uses the nodes. Returns `view` itself
+// if no cell in the box needs nodes: each has rows or columns at most posts_m apart. Also returns `view` itself if
+// spacing_m is not positive, or if the box extends beyond 88 degrees of latitude.
 TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const SmoothParameters& parameters);
 
 }  // namespace yars::model::terrain

@@ -15,7 +15,8 @@ int detail_for(double spacing_m) {
 namespace {
 
 // [m] Lower bound of the radii of curvature of WGS84. The smallest radius is the meridian's at the equator, 6335.4 km.
-// A distance / kMinRadius_m is never less than the angle. A larger value would miss cells at a region's edge.
+// Distance / kMinRadius_m is never less than the angle that the distance subtends. A larger radius would miss cells at
+// a region's edge.
 constexpr double kMinRadius_m = 6.33e6;
 
 // Great-circle angle by the haversine formula.
@@ -52,8 +53,8 @@ std::vector<CellCorner> cells_within(const TerrainRegion& region) {
   const geo::GeoPoint centre = region.centre;
   const int south = cell_containing({centre.latitude_deg - radius_deg, 0}).south_deg;
   const int north = cell_containing({centre.latitude_deg + radius_deg, 0}).south_deg;
-  // The circle extends asin(sin(radius) / cos(latitude)) in longitude to each side. If the circle contains a pole, it
-  // meets all meridians.
+  // In longitude the circle extends asin(sin(radius_rad) / cos(latitude of the centre)) to each side. If the circle
+  // contains a pole, it meets all meridians.
   const bool over_pole = std::abs(centre.latitude_deg) + radius_deg >= 90.0;
   const double sine = over_pole ? 1.0 : std::sin(radius_rad) / std::cos(centre.latitude_deg * geo::kRadiansPerDegree);
   const double side_deg = over_pole || sine >= 1.0 ? 180.0 : std::asin(sine) / geo::kRadiansPerDegree;

@@ -1,6 +1,7 @@
 // Interfaces of terrain: TerrainView, which kernels sample, and TerrainStore, which makes views; regions of terrain.
 // Input: WGS84 positions in degrees. Output: elevation [m MSL], water fraction [0, 1], DFAD material code.
-// A reduced cell has only every 2^n-th post, and for each of these the highest ground around it, the peak (cell.hpp).
+// A reduced cell has a post at every 2^n-th original post: the mean height around it, and the peak, which is the
+//   highest ground around it (cell.hpp). DFAD codes: culture.hpp.
 // Accuracy: surface_at() is double precision; surfaces() differs by at most 0.05 m + 1e-6 of the cell's relief.
 // Errors: voids and invalid positions give NaN. A store reports problems as sentences.
 // Threads: any thread may read a view, which is immutable. prepare() runs on one thread at a time and may wait.
@@ -131,7 +132,7 @@ struct TerrainRegion {
   geo::GeoPoint centre;
   double radius_m = 0.0;
   int detail = 0;  // posts closer than 2^detail metres are not needed; 0 = the finest available
-  // [m] range of the current scan. A view serves the detail even without the cells beyond this range.
+  // [m] range of the current scan. has_detail() is true for a view even if cells beyond this range are missing.
   double reach_m = std::numeric_limits<double>::infinity();
 };
 

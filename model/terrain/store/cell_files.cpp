@@ -93,8 +93,8 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
   const auto whole = posts_of(file, corner);
   if (!whole) return tl::unexpected(whole.error());
   auto [north, east] = *whole;
-  // Halves the posts by averaging, down to one arc second. Peaks are maxima of the posts read here. Coarser posts
-  // would lose summits.
+  // For a raster finer than one arc second, read_raster() does the first halvings by averaging pixels, at most down to
+  // one arc second. reduced() does the rest and finds the peaks. Averaging to coarser posts would lose summits.
   constexpr int kFinestReduced = 3600;  // posts per degree
   int remaining = reduction;
   for (; remaining > 0 && std::max(north, east) > kFinestReduced && north % 2 == 0 && east % 2 == 0; --remaining) {
@@ -162,7 +162,8 @@ bool links_outside(const std::filesystem::path& path, const std::filesystem::pat
 
 namespace {
 
-constexpr double kFullCover = 0.99;  // fraction of a cell; a raster that lacks one row and column counts as full
+// Minimum covered fraction of a full cell. A raster that lacks 1 of 200 rows and 1 of 200 columns counts as full.
+constexpr double kFullCover = 0.99;
 
 // Sort key among files for one cell: the file with the smallest key is preferred.
 auto rank(const CellFile& file) {
@@ -175,7 +176,7 @@ void add_candidate(CellCorner corner, CellFile file, DirectoryIndex& index) {
   if (!fresh && rank(file) < rank(entry->second)) entry->second = std::move(file);
 }
 
-// The file of a cell, with its spacing if the name, the length or a header states it.
+// The file of a cell, with the spacing of its posts if the file's name, length or header states the spacing.
 CellFile described(const std::filesystem::path& path, const NamedCell& named) {
   const auto with_posts = [&](int rows, int columns) {
     return CellFile{path, named.format, std::max(0, rows - 1), std::max(0, columns - 1)};
@@ -279,7 +280,7 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
       add_file(entry->path(), index, found);
     else
       found.push_back(error::Error{entry->path().string(), "a file inside " + root.string(), "a link that leads out",
-                                   "copy the cell into the folder, or name the folder that contains it", false}
+                                   "copy the cell into the folder, or give the folder of its target", false}
                           .message());
   }
   if (code)

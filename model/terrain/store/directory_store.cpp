@@ -17,7 +17,7 @@ namespace yars::model::terrain {
 
 namespace {
 constexpr int kMaxReduction = 6;     // maximum number of times that the spacing of posts is doubled
-constexpr int kServesNoDetail = -1;  // detail of a view that lacks cells within the scan's range, or has substitutes
+constexpr int kServesNoDetail = -1;  // detail of a view: cells within the scan's range are missing or substituted
 
 std::size_t bytes_of(const TerrainCell& cell) {
   return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
@@ -85,8 +85,9 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
   outside_coverage_ = outside;
 }
 
-// Puts the cells of the region that are loaded at the requested reduction into the view, and other versions in memory
-// for the rest. Sets `changed` if a loaded cell changes the view. Returns the cells still to be loaded, nearest first.
+// Puts the cells of the region into the view: at the requested reduction if that version is in memory, else a
+// substitute. Sets `changed` if a version at the requested reduction changes the view. Returns the versions still to be
+// loaded, nearest first.
 std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
   std::vector<Level> missing;
   region_cells_ = {};
@@ -124,7 +125,8 @@ bool DirectoryTerrainStore::use_in_view(Level level) {
   return changed;
 }
 
-// Until `level` is loaded, the view has the next coarser version of the cell in memory, else the next finer one.
+// Puts a substitute for `level` into the view until `level` is loaded: the next coarser version of the cell in memory,
+// else the next finer version. Without any version in memory, the view does not change.
 void DirectoryTerrainStore::use_substitute(Level level) {
   auto found = resident_.upper_bound(level);
   if (found == resident_.end() || found->first.first != level.first) {

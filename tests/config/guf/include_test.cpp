@@ -90,7 +90,7 @@ TEST(Include, RefusesACycleOfFiles) {
   const Folder folder;
   folder.write("b.guf", "( include \"a.guf\" )");
   const auto path = folder.write("a.guf", "( include \"b.guf\" )");
-  EXPECT_THAT(refusal_of(path), HasSubstr("b.guf:1:1: expected an include that does not come back to its own file"));
+  EXPECT_THAT(refusal_of(path), HasSubstr("b.guf:1:1: expected an include that does not lead back to its own file"));
 }
 
 TEST(Include, RefusesMoreThanEightNestedFiles) {

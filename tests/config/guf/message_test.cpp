@@ -137,7 +137,7 @@ TEST(MessageIncludes, StayInTheFolderOfTheFirstFile) {
 TEST(MessageIncludes, CyclesAndMissingFilesAreRefused) {
   const Folder folder;
   EXPECT_THAT(refusal_of(folder.write("a.cf", "#include \"a.cf\"")),
-              HasSubstr("a.cf:1:1: expected an include that does not come back to its own file"));
+              HasSubstr("a.cf:1:1: expected an include that does not lead back to its own file"));
   EXPECT_THAT(refusal_of(folder.write("b.cf", "Radar: { }\n#include \"none.cf\"")), HasSubstr("b.cf:2:1: expected"));
 }
 
@@ -187,11 +187,11 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"NameWithoutMessage", "Radar: { a := 1 }",
              "text.guf:1:15: expected a keyword with its colon after :=, found 1"},
         Case{"NoColon", "Sea: { }\nRadar { }",
-             "text.guf:2:1: expected Radar: { ... }, found Radar { ... }; put a colon behind the keyword"},
+             "text.guf:2:1: expected Radar: { ... }, found Radar { ... }; put a colon after the keyword"},
         Case{"SlotOutsideAllForms", "rate: 1",
              "text.guf:1:1: expected a message that makes a form, as Radar: { ... }, found rate:"},
         Case{"NoColonInside", "Radar: { Display { } }",
-             "text.guf:1:10: expected Display: { ... }, found Display { ... }; put a colon behind the keyword"},
+             "text.guf:1:10: expected Display: { ... }, found Display { ... }; put a colon after the keyword"},
         Case{"KeywordAmongValues", "Radar: { rate: 1 2 }",
              "text.guf:1:18: expected messages alone or values alone in these braces, found the number 2; give it a "
              "keyword"},
@@ -204,9 +204,9 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"IncludeOfNothing", "#include Radar: { }",
              "text.guf:1:10: expected the name of a file in quotes after #include, found Radar:"},
         Case{"IncludeInAText", "#include \"a.cf\"",
-             "text.guf:1:1: expected #include in a file alone, found it in a text"},
+             "text.guf:1:1: expected #include in files only, found it in a text without a file"},
         Case{"IncludeInATextInside", "Radar: { ranges: { 1 #include \"a.cf\" } }",
-             "text.guf:1:22: expected #include in a file alone, found it in a text"},
+             "text.guf:1:22: expected #include in files only, found it in a text without a file"},
         Case{"CommentNotClosed", "a := /* b", "text.guf:1:6: expected */ at the end of the comment, found none"},
         Case{"CoordinateWithoutMinutes", "Radar: { latitude: N37@ }",
              "text.guf:1:20: expected degrees and minutes, as N37@30.5, found N37@"},
@@ -218,7 +218,7 @@ INSTANTIATE_TEST_SUITE_P(
              "text.guf:1:20: expected a number in [0, 60] arcmin for :minutes, found the number 61; `yars config print "
              "--defaults` explains every slot"},
         Case{"FormInTheWrongPlace", "Radar: {\n RealBeamMode: { Sea: { } } }",
-             "text.guf:2:18: expected a message that belongs into RealBeamMode, found Sea:"},
+             "text.guf:2:18: expected a message that is allowed in RealBeamMode, found Sea:"},
         Case{"ValueForAForm", "Radar: { Display: 480 }",
              "text.guf:1:19: expected { ... } after Display:, found the number 480"},
         Case{"MessageAmongValues", "Radar: { ranges: { a: 1 } }",
@@ -230,7 +230,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"OneSlotTwice", "Radar: { rate: 1\n rate: 2 }",
              "text.guf:2:2: expected the slot :rate once in its form, found it again, first at text.guf:1:10"},
         Case{"WordOfGuf", "include: { \"x\" }",
-             "text.guf:1:1: expected a keyword of the radar, found include:; it is a word of GUF; name it otherwise"},
+             "text.guf:1:1: expected a keyword of the radar, found include:; this is a reserved word of GUF; choose "
+             "another keyword"},
         Case{"TooDeep", "a: " + repeated("{", 65),
              "text.guf:1:68: expected at most 64 brackets open at once, found one more; close a form before this one"},
         Case{"TooManyWords", "a: { " + repeated("1 ", 200'001),

@@ -49,8 +49,9 @@ TEST(Slots, LaterFormsWin) {
 
 TEST(Slots, UnknownOnesWarnWithTheNearestName) {
   const auto configuration = loaded("( Apg70 :rnages `( 1 2 ) )");
-  EXPECT_THAT(configuration.warnings,
-              ElementsAre("text.guf:1:9: the form Apg70 has no slot :rnages; it is ignored; :ranges is near"));
+  EXPECT_THAT(
+      configuration.warnings,
+      ElementsAre("text.guf:1:9: the form Apg70 has no slot :rnages; the slot is ignored; nearest name: :ranges"));
   EXPECT_EQ(fields(configuration.radar), fields(radar::RadarConfiguration{}));
 }
 
@@ -109,7 +110,8 @@ INSTANTIATE_TEST_SUITE_P(
                    "identifier wide"},
         WrongValue{"( Apg70 :name 70 )", "text.guf:1:15: expected a string for :name, found the number 70"},
         WrongValue{"( Terrain :directory true )",
-                   "text.guf:1:22: expected a string, a path relative to its file for :directory, found true"},
+                   "text.guf:1:22: expected a string, a path relative to the file that contains it for :directory, "
+                   "found true"},
         WrongValue{"( Apg70 :ranges `( 10 20 15 ) )",
                    "text.guf:1:26: expected a list of 1 to 16 ascending numbers in [0.1, 500] NM for :ranges, found 15 "
                    "after 20"},

@@ -31,13 +31,13 @@ TEST(WindowLimits, MustIncludeEveryWindowOfSarModeInAnyOrderOfTheForms) {
 
 TEST(WindowLimits, MustAgreeInNumberAndOrder) {
   EXPECT_THAT(refusal("( WindowLimits :least `( 4.7 4.7 ) )"),
-              HasSubstr("text.guf:1:23: expected 8 numbers, one a window of :windows for :least, found 2"));
+              HasSubstr("text.guf:1:23: expected 8 numbers, one for each of :windows, for :least, found 2"));
   EXPECT_THAT(refusal("( WindowLimits :greatest `( 20 40 50 80 160 20 160 160 ) )"),
               HasSubstr("expected more than the least range of the window 20, 20 NM for :greatest, found 20"));
   EXPECT_THAT(refusal("( WindowLimits :blankUpTo `( 50 80 ) )"),
-              HasSubstr("expected 3 numbers, one a window of :blankWindows for :blankUpTo, found 2"));
+              HasSubstr("expected 3 numbers, one for each of :blankWindows, for :blankUpTo, found 2"));
   EXPECT_THAT(refusal("( WindowLimits :blankWindows `( 3.3 5 10 ) )"),
-              HasSubstr("expected windows of :windows for :blankWindows, found 5"));
+              HasSubstr("expected windows that :windows lists for :blankWindows, found 5"));
 }
 
 TEST(HeightRanges, HaveOneRangeMoreThanHeights) {
@@ -52,9 +52,10 @@ TEST(AntennaServo, MustStartWithinTheGimbalLimits) {
   const auto antenna = loaded("( AntennaServo :position `( -20 5 ) )").radar.antenna;
   EXPECT_EQ(antenna.start_azimuth_deg, -20.0);
   EXPECT_EQ(antenna.start_elevation_deg, 5.0);
-  EXPECT_THAT(refusal("( AntennaServo :position `( 70 5 ) )"),
-              HasSubstr("text.guf:1:26: expected a position within the gimbal, 60 and 60 deg either way for :position, "
-                        "found 70 and 5"));
+  EXPECT_THAT(
+      refusal("( AntennaServo :position `( 70 5 ) )"),
+      HasSubstr("text.guf:1:26: expected a position within the gimbal limits, +-60 and +-60 deg, for :position, "
+                "found 70 and 5"));
 }
 
 TEST(ScanBars, AreTheFirstNumberOfAList) {

@@ -43,7 +43,8 @@ TEST(Route, RefusesPointsThatAreInvalidIncompleteOrRepeated) {
   EXPECT_THAT(refusal("( Route `( ( Point \"x\" 1 2 ) ) )"), HasSubstr("expected a name of a sequence point"));
   EXPECT_THAT(refusal("( Route `( ( Point \"1\" 1 2 :kind target ) ) )"),
               HasSubstr("text.guf:1:34: expected the kind that the name 1 has, steer for :kind, found target"));
-  EXPECT_THAT(refusal("( Route `( ( Point \"1\" 1 2 ) ( Point \"1\" 3 4 ) ) )"), HasSubstr("a name once in a route"));
+  EXPECT_THAT(refusal("( Route `( ( Point \"1\" 1 2 ) ( Point \"1\" 3 4 ) ) )"),
+              HasSubstr("a name that is not yet in the route"));
   EXPECT_THAT(refusal("( Route `( ( Point \"1\" 1 ) ) )"),
               HasSubstr("expected a longitude for :longitude, found none"));
 }
@@ -92,10 +93,10 @@ TEST(Route, HasAtMostAHundredPointsAndOneForEachNumber) {
     points += "( Point \"" + name + "\" 1 2 ) ( Point \"" + name + ".1\" 1 2 )";
   }
   EXPECT_EQ(loaded("( Route `( " + points + " ) )").radar.route.size(), 200U) << "offsets do not count";
-  EXPECT_THAT(refusal("( Route `( " + points + " ( Point \"101\" 1 2 ) ) )"), HasSubstr("1 to 100"));
+  EXPECT_THAT(refusal("( Route `( " + points + " ( Point \"101\" 1 2 ) ) )"), HasSubstr("number 1 to 100"));
   EXPECT_THAT(
       refusal("( Route `( ( Point \"2\" 1 2 ) ( Point \"2.\" 1 2 ) ) )"),
-      HasSubstr("expected a number once in a route: steer point or target for :name, found \"2.\" beside \"2\""));
+      HasSubstr("expected a number that no other steer point or target has for :name, found \"2.\" beside \"2\""));
 }
 
 }  // namespace

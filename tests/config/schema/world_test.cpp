@@ -39,7 +39,8 @@ TEST(Materials, AreKeptInAscendingOrderOfCodes) {
 TEST(Materials, RefuseTheCodeOfWaterAndInvalidCodes) {
   EXPECT_THAT(
       refusal("( Materials `( ( Material :code 6 :gamma -30 ) ) )"),
-      HasSubstr("text.guf:1:33: expected any code but water's (Sea says what water returns) for :code, found 6"));
+      HasSubstr(
+          "text.guf:1:33: expected a code other than 6 (water; the form Sea sets its return) for :code, found 6"));
   EXPECT_THAT(refusal("( Materials `( ( Material :gamma -30 ) ) )"), HasSubstr("expected a code of 1 to 31"));
   EXPECT_THAT(refusal("( Materials `( ( Material :code 32 ) ) )"), HasSubstr("a whole number in [1, 31] for :code"));
 }

@@ -130,7 +130,7 @@ void run_yars(FaultSet& set, std::vector<std::string> arguments) {
   if (finished.code != 0) set.tell("yars sim " + arguments[1] + ": " + finished.errors);
 }
 
-// Three random changes of the session's clock: freeze, step, rate, reset, reposition.
+// Three random choices among: freeze, step, rate or reset of the session's clock, and repositioning of the aircraft.
 void sim_clock(FaultSet& set, const std::string&) {
   const std::vector<std::vector<std::string>> jumps{
       {"sim", "freeze"},         {"sim", "step", "400"},

@@ -106,7 +106,7 @@ hrm::MapPoint middle_of(const hrm::PatchFormation& process) {
   return {right_m / sum, up_m / sum};
 }
 
-TEST(Mover, IsDisplacedByRangeTimesItsRadialSpeedOverTheSpeedAcross) {
+TEST(Mover, IsDisplacedByRangeTimesItsRadialSpeedOverTheAircraftsCrossRangeSpeed) {
   Viewpoint view;
   view.distance_m = 20.0 * geo::kMetresPerNauticalMile;
   view.window_m = 3.3 * geo::kMetresPerNauticalMile;

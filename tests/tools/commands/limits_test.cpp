@@ -117,7 +117,7 @@ TEST(PatchLimits, AreThoseOfTheConfiguration) {
          ":least `( 5 5 ) :greatest `( 20 40 ) :blankWindows `( 2.5 ) :blankUpTo `( 30 ) :powerUp 2.5 ) )\n";
   const auto usual = patch(30.0, 20.0, {"--config", file});
   EXPECT_EQ(usual.code, 0) << usual.errors;
-  EXPECT_THAT(usual.output, HasSubstr("\"resolution_ft\":31.6"));  // 2.5 NM / 480 pixels
+  EXPECT_THAT(usual.output, HasSubstr("\"resolution_ft\":31.6"));  // 2.5 NM / 480 resolution cells, for any --size
   EXPECT_THAT(patch(30.0, 45.0, {"--config", file}).errors, HasSubstr("5 to 40 NM away, found 45.00 NM"));
   EXPECT_THAT(patch(30.0, 20.0, {"--config", file, "--window-nm", "4.7"}).errors, HasSubstr("1, 2.5 NM, found 4.7 NM"));
 }
@@ -157,8 +157,9 @@ TEST(ScanLimits, AreTheGimbalOfTheConfigurationAndTheGround) {
   };
   const Row rows[] = {
       {{"--scan-width", "50", "--elevation", "-31"},
-       "--elevation: expected at most 30 deg by the configuration's gimbal, found -31 deg"},
-      {{"--scan-width", "100"}, "--scan-width: expected at most 80 deg by the configuration's gimbal, found 100 deg"},
+       "--elevation: expected at most 30 deg within the configured gimbal limits, found -31 deg"},
+      {{"--scan-width", "100"},
+       "--scan-width: expected at most 80 deg within the configured gimbal limits, found 100 deg"},
       {{"--scan-width", "50", "--alt-ft", "-2000"}, "--alt-ft: expected an aircraft above the ground, which is at "}};
   for (const Row& row : rows) {
     std::vector<std::string> command{"yars", "scan", "--config", file, "--samples", "60", "--range-nm", "10"};

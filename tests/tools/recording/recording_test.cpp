@@ -301,7 +301,7 @@ TEST(Recording, WithRecordsOfAnotherSizeIsRefusedByTheirName) {
   std::memcpy(bytes.data() + header, &checksum, sizeof checksum);
   const auto reader = reader_of(bytes);
   ASSERT_FALSE(reader.has_value());
-  EXPECT_NE(reader.error().message().find("ModelTick 1 of " + std::to_string(sizeof(ModelTick)) + " bytes"),
+  EXPECT_NE(reader.error().message().find("ModelTick version 1 with records of " + std::to_string(sizeof(ModelTick))),
             std::string::npos)
       << reader.error().message();
 }

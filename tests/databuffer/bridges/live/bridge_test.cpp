@@ -143,7 +143,7 @@ TEST_F(Bridge, ARepositioningDoesNotMoveTheExternalProgram) {
   EXPECT_TRUE(eventually([&] { return flown() && latched()->epoch >= 1; }, 30.0))
       << "reports continue in the new epoch";
   EXPECT_TRUE(eventually([&] { return flown() && flyer.distance_m(*latched()) < 40.0; }, 30.0));
-  EXPECT_THAT(set_.log_of("bridge"), HasSubstr("flies by itself"));
+  EXPECT_THAT(set_.log_of("bridge"), HasSubstr("controls the aircraft"));
 }
 
 TEST_F(Bridge, XplaneIsSubscribedMovesOwnshipAndIsUnsubscribed) {

@@ -49,7 +49,7 @@ TEST(NameFilter, AnUnmatchedNameIsAnErrorThatListsSimilarNames) {
   EXPECT_THAT(filter.unmatched_names(), ElementsAre("enviroment"));
   const std::string message = filter.unmatched_error("ship.flt")->message();
   EXPECT_THAT(message, HasSubstr("ship.flt: expected a part to leave out with the name 'enviroment', found none"));
-  EXPECT_THAT(message, HasSubstr("it has 8 names; the most similar are 'environment', 'environment_box'"));
+  EXPECT_THAT(message, HasSubstr("8 names exist; the most similar are 'environment', 'environment_box'"));
   EXPECT_FALSE(NameFilter("").unmatched_error("ship.flt"));
 }
 
@@ -136,7 +136,7 @@ TEST(NameFilter, EachOfSeveralScenesOmitsTheNamesThatItHas) {
   EXPECT_EQ(scenes[1].without, "p*");
   const auto refused = add_scenes(scenes, {}, {"tower"});
   ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message(), HasSubstr("it has 3 names"));
+  EXPECT_THAT(refused.error().message(), HasSubstr("3 names exist"));
   EXPECT_FALSE(add_scenes(scenes, {}, {" , "})) << "no name";
   std::vector<radar::Scene> none;
   EXPECT_FALSE(add_scenes(none, {}, {""})) << "no scene";

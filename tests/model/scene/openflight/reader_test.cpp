@@ -190,7 +190,7 @@ TEST(Faces, WithNaNInTheirCornersAreLeftOut) {
   file.pop();
   const Model model = read(file);
   EXPECT_THAT(model.triangles, IsEmpty());
-  EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("no numbers")));
+  EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("not numbers")));
 }
 
 TEST(Faces, CornersOutsideThePaletteAreRefused) {

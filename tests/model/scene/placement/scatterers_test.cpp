@@ -1,4 +1,5 @@
-// Scatterers, the sums of a scene's faces by square: at each level their areas add up to the scene's area.
+// Scatterers: the faces in each ground square, summed to one scatterer. At each size of square (level) the areas add up
+// to the area of the scene's faces.
 // SphereTree: a search finds all balls that satisfy its condition.
 #include "model/scene/placement/scatterers.hpp"
 

@@ -106,14 +106,14 @@ TEST(RasterVoids, TheLimitsOfHeightsApplyAfterScaleAndOffsetOfTheBand) {
   EXPECT_EQ(reading->impossible, 120U);
 }
 
-TEST(RasterVoids, ImpossibleHeightsOfAllCellsAreCountedInOneWarning) {
+TEST(RasterVoids, ARasterOfTwoCellsGivesOneWarningWithTheCountOfOneCell) {
   const test::TemporaryFolder folder;
   RasterFields fields{240, 120, {20, 1.0 / 120, 0, 11, 0, -1.0 / 120}};
   write_raster(folder.path() / "wide.tif", fields,
                [](int row, int column) { return row == 40 && column % 60 == 7 ? -9999 : hilly(row, column); });
   auto store = DirectoryTerrainStore::open(folder.path(), {});
   ASSERT_TRUE(store.has_value()) << store.error().message();
-  (*store)->prepare({{10.5, 21.0}, 100e3});
+  (*store)->prepare({{10.5, 21.0}, 100e3});  // two cells with two impossible posts each
   EXPECT_THAT((*store)->take_problems(), ElementsAre(AllOf(HasSubstr("wide.tif: impossible heights: 2 posts"))));
 }
 

@@ -198,7 +198,7 @@ TEST(Raster, FilesOtherThanRastersOfHeightsAreRefusedWithTheReason) {
   picture.type = GDT_Byte;
   picture.bands = 3;
   write_raster(folder.path() / "picture.tif", picture, [](int, int) { return 1; });
-  EXPECT_THAT(refusal(folder.path() / "picture.tif"), HasSubstr("this is a picture"));
+  EXPECT_THAT(refusal(folder.path() / "picture.tif"), HasSubstr("it may be a picture"));
   RasterFields nowhere = degree_raster(10, 20, 31);
   nowhere.epsg = 0;
   write_raster(folder.path() / "nowhere.tif", nowhere, [](int, int) { return 1; });
