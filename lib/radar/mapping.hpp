@@ -102,7 +102,7 @@ struct MapViewpoint {
 };
 
 struct MapWindow {
-  geo::Length size;    // zero: blank selection, window not determined yet
+  geo::Length size;  // zero: blank selection, window not determined yet
   // true: `size` is from a blank selection. The map is then possible if the limits of `size` or those of the blank
   // selection permit it.
   bool blank = false;

@@ -47,9 +47,9 @@ class PatchFormation {
   // Valid after the stage `map`: power before speckle and noise, in the unit of map_image.hpp.
   const MapImage& image() const;
   const PatchGeometry& geometry() const;  // valid after give()
-  geo::Duration formation() const;    // time in which the synthetic array is formed
-  std::size_t triangles() const;      // number of triangles in the scene tiles near the window
-  std::size_t posts_pending() const;  // number of samples over terrain that was not loaded
+  geo::Duration formation() const;        // time in which the synthetic array is formed
+  std::size_t triangles() const;          // number of triangles in the scene tiles near the window
+  std::size_t posts_pending() const;      // number of samples over terrain that was not loaded
 
  private:
   struct Work;

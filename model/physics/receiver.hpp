@@ -19,8 +19,8 @@ namespace yars::model::physics {
 struct Receiver {
   double azimuth_beamwidth_rad = 0.0;
   double elevation_beamwidth_rad = 0.0;
-  double pulse_length_m = 0.0;  // c tau / 2, extent of a pulse in range; tau is its duration
-  double land_gamma = 0.0;      // sigma0 / sine of the grazing angle, of land without culture
+  double pulse_length_m = 0.0;    // c tau / 2, extent of a pulse in range; tau is its duration
+  double land_gamma = 0.0;        // sigma0 / sine of the grazing angle, of land without culture
   double stc_exponent = 0.0;      // n: sensitivity time control multiplies power by (slant range / R0)^n
   double stc_range_m = 0.0;       // R0, the selected range
   double full_scale = 0.0;        // [1/m^2] value of returned_power() at full scale, see Receivers::at()

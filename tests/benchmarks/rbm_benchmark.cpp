@@ -1,6 +1,7 @@
 // Benchmark of the real beam map at several ranges: samples per second of `standard` and of `reference`. For comparison
 // it measures the gather limit (gather_limit.hpp) on a grid of posts of the same extent. Medians of interleaved rounds.
-// `standard` is measured with and without noise, from cold caches (cold_M), and without the video (kernel_M: power only).
+// `standard` is measured with and without noise, from cold caches (cold_M), and without the video (kernel_M: power
+// only).
 //  Usage: rbm_benchmark DIRECTORY [LAT LON HEADING]; DIRECTORY has DTED or HGT cells of one spacing; angles in degrees
 #include <cmath>
 #include <cstdio>

@@ -26,7 +26,8 @@ constexpr double kRate = 10.0;            // times real time
 constexpr double kPollInterval_s = 0.25;  // [s] wall time between measurements
 constexpr double kWarmUp = 0.25;          // fraction of the run before resources must stay constant
 constexpr double kMaxAge_s = 0.5;         // [s] sim time by which the last record may be behind the clock
-constexpr double kMaxOffset_m = 50;       // [m] from the expected position; flight-model may replace skipped ticks by one longer step
+constexpr double kMaxOffset_m =
+    50;  // [m] from the expected position; flight-model may replace skipped ticks by one longer step
 #ifdef __SANITIZE_ADDRESS__
 constexpr long kMemoryGrowth_kB = 512 * 1024;  // the sanitizer keeps up to 256 MB of freed memory
 #else

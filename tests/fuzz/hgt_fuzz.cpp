@@ -1,5 +1,6 @@
-// Any bytes as an HGT file: a cell with the elevations of the file, void where these are impossible, or an error if the length is not that of a cell.
-// The input modifies a file of 1201 x 1201 zeros. Its first two bytes may shorten or lengthen the file.
+// Any bytes as an HGT file: a cell with the elevations of the file, void where these are impossible, or an error if the
+// length is not that of a cell. The input modifies a file of 1201 x 1201 zeros. Its first two bytes may shorten or
+// lengthen the file.
 #include "lib/error/error.hpp"
 #include "model/terrain/formats/hgt.hpp"
 #include "tests/fuzz/pieces.hpp"

@@ -29,7 +29,8 @@ model::kernel::ScanRequest narrow_scan(double range_nm) {
 }
 
 TEST(Scenes, LimitTheElevationToTheGimbalOfTheConfiguration) {
-  const Scene scene{{37.0, -122.0}, 600'000.0, 60.0, 10.0};  // sea level at the end of the range lies 84 deg below the horizon
+  const Scene scene{
+      {37.0, -122.0}, 600'000.0, 60.0, 10.0};  // sea level at the end of the range lies 84 deg below the horizon
   for (const double limit_deg : {30.0, 60.0}) {
     radar::AntennaConfiguration antenna;
     antenna.elevation_limit_deg = limit_deg;
@@ -89,7 +90,7 @@ TEST(Trade, ComparesOnTheRulersGridByTheNearestSample) {
   const Errors errors = errors_against(ruler, found);
   EXPECT_DOUBLE_EQ(errors.position_m, 3.0);
   EXPECT_DOUBLE_EQ(errors.shadow_percent, 100.0 / 3.0);  // the void does not count
-  EXPECT_NEAR(errors.power_db, 10.0, 1e-6);              // over the first two samples: the third is in shadow, the fourth void
+  EXPECT_NEAR(errors.power_db, 10.0, 1e-6);  // over the first two samples: the third is in shadow, the fourth void
   EXPECT_DOUBLE_EQ(errors.gray_levels, std::sqrt(8.0));
 }
 

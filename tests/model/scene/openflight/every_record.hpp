@@ -1,6 +1,6 @@
-// A small OpenFlight file with the main kinds of records that the reader supports: groups, objects, levels of detail, a switch,
-// instances, an external reference, replication, subfaces, a concave polygon, a mesh of all four primitives with a
-// continuation.
+// A small OpenFlight file with the main kinds of records that the reader supports: groups, objects, levels of detail, a
+// switch, instances, an external reference, replication, subfaces, a concave polygon, a mesh of all four primitives
+// with a continuation.
 #pragma once
 
 #include <vector>

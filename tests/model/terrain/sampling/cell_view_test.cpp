@@ -203,7 +203,8 @@ TEST(CellView, APositionGetsTheSameBitsInAnyRunOfPositions) {
   std::uniform_real_distribution<double> latitude(0, 2);
   std::vector<geo::GeoPoint> at;
   for (std::size_t i = 0; i < 999; ++i) at.push_back({latitude(random), 179.0 + static_cast<double>(i) / 500});
-  at.front() = {0.5, 179.0};  // fast_path() gives positions relative to the cell of the first position, so both calls begin with the same one
+  at.front() = {0.5, 179.0};  // fast_path() gives positions relative to the cell of the first position, so both calls
+                              // begin with the same one
   const auto found = test::fast_path(*view, at);
   for (std::size_t i = 0; i < at.size(); ++i) {
     const auto pair = test::fast_path(*view, {at.front(), at[i]});
