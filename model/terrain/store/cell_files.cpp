@@ -74,10 +74,21 @@ struct PostsPerDegree {
   int north = 0, east = 0;
 };
 
+// The cells of a raster. Errors: also a DTED file of another datum, which GDAL reads as if it were WGS84 and mean sea
+// level.
+error::Expected<gdal::RasterSummary> describe(const std::filesystem::path& path) {
+  auto summary = gdal::describe_raster(path);
+  if (!summary || !summary->dted_datums) return summary;
+  const auto& [vertical, horizontal] = *summary->dted_datums;
+  if (const auto checked = check_dted_datums(vertical, horizontal, path.string()); !checked)
+    return tl::unexpected(checked.error());
+  return summary;
+}
+
 error::Expected<PostsPerDegree> posts_of(const CellFile& file, CellCorner corner) {
   if (file.posts_per_degree > 0 && file.posts_per_degree_east > 0)
     return PostsPerDegree{file.posts_per_degree, file.posts_per_degree_east};
-  const auto summary = gdal::describe_raster(file.path);
+  const auto summary = describe(file.path);
   if (!summary) return tl::unexpected(summary.error());
   for (const gdal::RasterCell& cell : summary->cells)
     if (CellCorner{cell.south_deg, cell.west_deg} == corner)
@@ -210,7 +221,7 @@ error::Expected<void> add_raster(const std::filesystem::path& path, DirectoryInd
   if (is_virtual_raster_name(path))
     return error::fail(path.string(), "a raster that holds its own heights",
                        "a .vrt, which may name any file or address", "make a GeoTIFF of it with gdal_translate");
-  const auto raster = gdal::describe_raster(path);
+  const auto raster = describe(path);
   if (!raster) return tl::unexpected(raster.error());
   for (const gdal::RasterCell& cell : raster->cells)
     add_candidate({cell.south_deg, cell.west_deg},
