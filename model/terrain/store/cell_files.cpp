@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "lib/error/error.hpp"
+#include "lib/file/folder_names.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/formats/ded.hpp"
@@ -23,11 +24,7 @@ namespace yars::model::terrain {
 
 namespace {
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
+using file::lower_case;
 
 // Signed degrees from the letter of a hemisphere and `digits` digits; nullopt for any other text.
 std::optional<int> signed_degrees(std::string_view text, char positive, char negative, std::size_t digits) {
@@ -231,9 +228,16 @@ error::Expected<void> add_raster(const std::filesystem::path& path, DirectoryInd
 }
 
 // True if the file, its culture file or its side file (of a pack) is a symbolic link with a target outside `root`.
-bool any_leads_out(const std::filesystem::path& path, const std::filesystem::path& root) {
-  return links_outside(path, root) || links_outside(culture_path(path), root) ||
-         links_outside(std::filesystem::path(path).replace_extension(".side"), root);
+bool any_leads_out(const std::filesystem::path& path, const std::filesystem::path& root, file::FolderNames& names) {
+  const auto leads_out = [&](const std::optional<std::filesystem::path>& beside) {
+    return beside && links_outside(*beside, root);
+  };
+  return links_outside(path, root) || leads_out(find_culture(path, names)) ||
+         leads_out(names.find(std::filesystem::path(path).replace_extension(".side")));
+}
+
+void add_cultures(DirectoryIndex& index, file::FolderNames& names) {
+  for (auto& [slot, file] : index) file.culture = find_culture(file.path, names);
 }
 
 bool is_elevation_name(const std::filesystem::path& path) {
@@ -277,6 +281,7 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
     return error::fail(directory.string(), "a directory with elevation cells", code ? code.message() : "no directory",
                        "make one with `yars terrain generate --out DIR`");
   DirectoryIndex index;
+  file::FolderNames names;
   std::vector<std::string> found;
   const std::filesystem::path root = std::filesystem::weakly_canonical(directory, code);
   std::filesystem::recursive_directory_iterator entry(directory, code);
@@ -286,7 +291,7 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
       entry.disable_recursion_pending();
     }
     if (!is_elevation_name(entry->path())) continue;
-    if (!any_leads_out(entry->path(), root))
+    if (!any_leads_out(entry->path(), root, names))
       add_file(entry->path(), index, found);
     else
       found.push_back(error::Error{entry->path().string(), "a file inside " + root.string(), "a link that leads out",
@@ -296,6 +301,7 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
   if (code)
     return error::fail(directory.string(), "a directory that can be read", lower_first(code.message()),
                        "check its permissions");
+  add_cultures(index, names);
   std::sort(found.begin(), found.end());
   if (index.empty() && !found.empty())
     return error::fail(directory.string(), "elevation cells that can be used",
@@ -315,10 +321,11 @@ error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path) {
   const auto named = cell_named(whole.parent_path().filename().string(), whole.filename().string());
   if (named) {
     add_candidate(named->corner, described(path, *named), index);
-    return index;
+  } else if (const auto added = is_ded_name(path) ? add_ded(path, index) : add_raster(path, index); !added) {
+    return tl::unexpected(added.error());
   }
-  const auto added = is_ded_name(path) ? add_ded(path, index) : add_raster(path, index);
-  if (!added) return tl::unexpected(added.error());
+  file::FolderNames names;
+  add_cultures(index, names);
   return index;
 }
 
