@@ -206,10 +206,12 @@ TEST_F(TerrainRoots, ALinkOutAsASideFileOrAsCultureIsReported) {
   write("terrain/w122/n36.dt1", "a cell");
   write("terrain/w122/n37.jp2", "a pack");
   write("terrain/w122/n38.dt1", "a cell");
+  write("terrain/w122/n39.dt1", "a cell");
   link("terrain/w122/n37.side", "/etc/passwd");
   link("terrain/w122/n38.smc.png", "/etc/passwd");
+  link("terrain/w122/N39.SMC.PNG", "/etc/passwd");
   EXPECT_EQ(index().size(), 1U);
-  EXPECT_EQ(problems_.size(), 2U);
+  EXPECT_EQ(problems_.size(), 3U);
 }
 
 TEST_F(TerrainRoots, PipesUnderTheNamesOfCellsDoNotHangTheIndex) {

@@ -71,9 +71,9 @@ error::Expected<std::filesystem::path> write_output(const TerrainOutput& output,
 }
 
 // Batch conversion of elevation cells: reads the cells of a folder or file and writes each cell below another folder.
-// Copies the culture file of each cell. Prints one line for each cell, and at the end the total sizes.
-// The input is never overwritten.
-// Errors: a cell that cannot be read or written is a problem. The batch continues; the command fails at the end.
+// Copies the culture file of each cell, and removes an older culture of a cell without one. Prints one line for each
+// cell, and at the end the total sizes. The input is never overwritten. Errors: a cell that cannot be read or written
+// is a problem. A cell with an unreadable culture is not written. The batch continues; the command fails at the end.
 
 struct TerrainBatch {
   std::string command;  // subcommand, for error messages
@@ -105,10 +105,10 @@ std::uintmax_t bytes_of(const std::filesystem::path& path) {
 }
 
 // Size of a cell's files [bytes]: the cell, the .side file of a packed cell, and the culture.
-std::uintmax_t bytes_on_disk(const std::filesystem::path& path) {
+std::uintmax_t bytes_on_disk(const std::filesystem::path& path, const std::optional<std::filesystem::path>& culture) {
   const std::uintmax_t side_bytes =
       path.extension() == ".jp2" ? bytes_of(std::filesystem::path(path).replace_extension(".side")) : 0;
-  return bytes_of(path) + side_bytes + bytes_of(culture_path(path));
+  return bytes_of(path) + side_bytes + (culture ? bytes_of(*culture) : 0);
 }
 
 // Culture reduced by the largest power of two that leaves at least `posts` rows.
@@ -118,16 +118,16 @@ Culture thinned(const Culture& culture, int posts) {
   return culture.reduced(reduction);
 }
 
-// Copies the culture file of the input to the culture path of the written cell. Reduces it if the batch has
-// culture_posts. Succeeds without a copy if the input has no culture file.
+// Copies the culture file of the input to the culture path of `target`, the cell to be written. Reduces it if the batch
+// has culture_posts. If the input has no culture file, removes an older culture of `target`.
 error::Expected<void> copy_culture(const TerrainBatch& batch, const CellFile& file, const Cell& cell,
-                                   const std::filesystem::path& written) {
-  const auto from = find_culture(file.path);
-  const std::filesystem::path to = culture_path(written);
-  std::error_code code;
-  if (!from || std::filesystem::equivalent(*from, to, code)) return {};
-  const auto culture = read_culture(*from, cell.corner());
+                                   const std::filesystem::path& target) {
+  if (!file.culture) return remove_culture(target);
+  const auto culture = read_culture(*file.culture, cell.corner());
   if (!culture) return tl::unexpected(culture.error());
+  const std::filesystem::path to = culture_path(target);
+  std::error_code code;
+  if (std::filesystem::equivalent(*file.culture, to, code)) return {};
   return write_culture(to, batch.culture_posts ? thinned(*culture, batch.culture_posts(cell)) : *culture);
 }
 
@@ -155,11 +155,10 @@ error::Expected<std::filesystem::path> convert_cell(const TerrainBatch& batch, c
   std::error_code code;
   if (std::filesystem::equivalent(target, file.path, code))
     return error::fail(target.string(), "an output that is not the input", "the input itself", "give another --out");
-  auto written = batch.write(batch.out, reading->cell);
-  if (!written) return written;
-  if (const auto copied = copy_culture(batch, file, reading->cell, *written); !copied)
+  // The culture comes first, so that no cell is left with an older culture or without its own.
+  if (const auto copied = copy_culture(batch, file, reading->cell, target); !copied)
     return tl::unexpected(copied.error());
-  return written;
+  return batch.write(batch.out, reading->cell);
 }
 
 }  // namespace
@@ -184,10 +183,11 @@ void run_terrain_batch(const TerrainBatch& batch) {
       ++failed;
       continue;
     }
-    if (files.insert(file.path).second) bytes_in += bytes_on_disk(file.path);
-    bytes_out += bytes_on_disk(*written);
+    if (files.insert(file.path).second) bytes_in += bytes_on_disk(file.path, file.culture);
+    const std::uintmax_t bytes = bytes_on_disk(*written, find_culture(*written));
+    bytes_out += bytes;
     std::printf("%3zu/%zu  %s  %.3f MB\n", seen, index->size(), written->c_str(),
-                static_cast<double>(bytes_on_disk(*written)) / kMegabyte);
+                static_cast<double>(bytes) / kMegabyte);
     std::fflush(stdout);
   }
   for (const std::string& problem : notes.sentences()) std::fprintf(stderr, "problem: %s\n", problem.c_str());

@@ -107,11 +107,12 @@ class Generation {
                                                     dted_columns(corner, options_.level), threads_per_cell_);
     const bool all_sea = made.cell.highest_m() <= 0;
     if (all_sea && !options_.sea) return std::string();
+    // The culture comes first, so that no cell is left with an older culture or without its own.
+    const std::filesystem::path target = std::filesystem::path(options_.out) / dted_name(corner, options_.level);
+    const auto culture = options_.culture ? write_culture(culture_path(target), made.culture) : remove_culture(target);
+    if (!culture) return tl::unexpected(culture.error());
     const auto path = write_dted(options_.out, made.cell, options_.level);
     if (!path) return tl::unexpected(path.error());
-    if (options_.culture)
-      if (const auto written = write_culture(culture_path(*path), made.culture); !written)
-        return tl::unexpected(written.error());
     written_ += all_sea ? 0 : 1;
     return path->string() + "  " + std::to_string(std::lround(made.cell.lowest_m())) + " to " +
            std::to_string(std::lround(made.cell.highest_m())) + " m";

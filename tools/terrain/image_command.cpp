@@ -212,9 +212,8 @@ void print_problem(const error::Error& error) {
 // Culture of a cell; nullopt if the option is not set, or the file is absent or unreadable.
 std::optional<Culture> culture_of(const Options& options, const CellFile& file, CellCorner corner,
                                   std::size_t& failed) {
-  const auto path = options.culture ? find_culture(file.path) : std::nullopt;
-  if (!path) return std::nullopt;
-  auto culture = read_culture(*path, corner);
+  if (!options.culture || !file.culture) return std::nullopt;
+  auto culture = read_culture(*file.culture, corner);
   if (culture) return std::move(*culture);
   print_problem(culture.error());
   ++failed;

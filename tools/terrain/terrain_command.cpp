@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "model/terrain/formats/cell_reading.hpp"
+#include "model/terrain/formats/culture.hpp"
 #include "model/terrain/gdal/raster_survey.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "tools/command/command.hpp"
@@ -185,6 +186,15 @@ class Inspection {
     publish_progress("");
     totals_.add(corner, statistics);
     print_cell(corner, statistics, file);
+    check_culture(corner, file);
+  }
+
+  void check_culture(CellCorner corner, const CellFile& file) {
+    if (!file.culture || !checked_cultures_.insert(*file.culture).second) return;
+    const auto culture = read_culture(*file.culture, corner);
+    if (culture) return;
+    notes_.add_problem(culture.error().message());
+    ++failed_;
   }
 
   void publish_progress(const std::string& text) { progress_.show(text); }
@@ -195,6 +205,7 @@ class Inspection {
   std::map<std::pair<std::filesystem::path, std::size_t>, CellStatistics> surveyed_;
   std::map<std::filesystem::path, std::string> unreadable_;
   std::set<std::filesystem::path> reported_;
+  std::set<std::filesystem::path> checked_cultures_;
   std::size_t failed_ = 0;
   ProgressLine progress_;
 };

@@ -1,6 +1,7 @@
 #include "model/terrain/formats/culture.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <string>
 #include <system_error>
@@ -9,6 +10,7 @@
 
 #include "lib/error/error.hpp"
 #include "lib/file/folder.hpp"
+#include "lib/file/folder_names.hpp"
 #include "lib/imageio/png.hpp"
 
 namespace yars::model::terrain {
@@ -45,15 +47,29 @@ std::uint8_t Culture::nearest(double north_deg, double east_deg) const {
 
 std::filesystem::path culture_path(const std::filesystem::path& elevation) {
   std::filesystem::path stem = elevation;
-  if (stem.extension() == ".zip" || stem.extension() == ".gz") stem.replace_extension();
+  const std::string ending = file::lower_case(stem.extension().string());
+  if (ending == ".zip" || ending == ".gz") stem.replace_extension();
   return stem.replace_extension(".smc.png");
 }
 
+std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation, file::FolderNames& names) {
+  return names.find(culture_path(elevation));
+}
+
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation) {
-  std::filesystem::path path = culture_path(elevation);
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code)) return std::nullopt;
-  return path;
+  file::FolderNames names;
+  return find_culture(elevation, names);
+}
+
+error::Expected<void> remove_culture(const std::filesystem::path& elevation) {
+  for (auto path = find_culture(elevation); path; path = find_culture(elevation)) {
+    const auto folder = file::Folder::open(path->parent_path());
+    if (!folder) return tl::unexpected(folder.error());
+    if (!folder->remove(path->filename().string()))
+      return error::fail(path->string(), "an older culture that can be removed",
+                         std::error_code(errno, std::generic_category()).message(), "remove it");
+  }
+  return {};
 }
 
 error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCorner corner) {

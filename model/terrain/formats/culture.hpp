@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "lib/file/folder_names.hpp"
 #include "model/terrain/formats/cell.hpp"
 
 namespace yars::model::terrain {
@@ -73,7 +74,9 @@ inline constexpr int kMaxCulturePosts = 10801;  // per edge, 1/3 arc second apar
 // The culture file of an elevation file: w122/n36.smc.png for w122/n36.dt1, N36W122.smc.png for N36W122.hgt.zip.
 std::filesystem::path culture_path(const std::filesystem::path& elevation);
 
-// Like culture_path(), but nullopt if the file does not exist.
+// Like culture_path(), with the case of the name in the folder. nullopt if there is no such entry. An entry that is not
+// a plain file is found, too; read_culture() then returns its error.
+std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation, file::FolderNames& names);
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation);
 
 // Reads a culture tile: a pixel's palette index is the code of a post. The palette's colours are ignored.
@@ -83,6 +86,9 @@ error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCor
 
 // Red, green, blue of a material; gray for the free codes.
 std::array<std::uint8_t, 3> material_colour(std::uint8_t code);
+
+// Removes the culture of an elevation file, under names of either case. Errors: a culture that cannot be removed.
+error::Expected<void> remove_culture(const std::filesystem::path& elevation);
 
 // Writes a culture tile, with the colours of material_colour() as its palette, and creates missing folders.
 error::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture);

@@ -71,22 +71,6 @@ std::string stripped(std::string_view field) {
   return text;
 }
 
-// Checks the datums in the description record (DSI). WGS72 differs from WGS84 by 0.554 arc seconds (17 m). The reader
-// rejects other datums instead of shifting the posts, because the interpolation would smooth the heights. The error
-// message advises gdalwarp.
-error::Expected<void> check_datums(std::string_view description, const std::string& subject) {
-  constexpr std::string_view kSeaLevels[] = {"", "MSL", "E84", "E96", "E08"};
-  const std::string vertical = stripped(description.substr(dted::kVerticalDatumAt, dted::kVerticalDatumBytes));
-  const std::string horizontal = stripped(description.substr(dted::kHorizontalDatumAt, dted::kHorizontalDatumBytes));
-  if (!horizontal.empty() && horizontal != "WGS84")
-    return error::fail(subject, "horizontal datum WGS84", "'" + horizontal + "'",
-                       "convert it to WGS84 with gdalwarp -t_srs EPSG:4326 into a .tif");
-  if (std::find(std::begin(kSeaLevels), std::end(kSeaLevels), vertical) == std::end(kSeaLevels))
-    return error::fail(subject, "heights above mean sea level (vertical datum MSL, E84, E96, E08 or none)",
-                       "'" + vertical + "'", "convert the heights to mean sea level");
-  return {};
-}
-
 error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject, CellCorner corner) {
   std::size_t start = 0;
   // A copy of a tape begins with labels of the volume (VOL) and the file (HDR).
@@ -102,7 +86,11 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
   if (user_header.substr(0, 4) != "UHL1")
     return error::fail(subject, "a DTED file that begins with UHL1", "other bytes");
   const std::string_view description = text_of(bytes.subspan(start + dted::kUserHeaderBytes, dted::kDescriptionBytes));
-  if (const auto checked = check_datums(description, subject); !checked) return tl::unexpected(checked.error());
+  if (const auto checked =
+          check_dted_datums(description.substr(dted::kVerticalDatumAt, dted::kVerticalDatumBytes),
+                            description.substr(dted::kHorizontalDatumAt, dted::kHorizontalDatumBytes), subject);
+      !checked)
+    return tl::unexpected(checked.error());
   const std::optional<int> west_deg = whole_degrees(user_header.substr(4, 8));
   const std::optional<int> south_deg = whole_degrees(user_header.substr(12, 8));
   const std::optional<int> interval = number(user_header.substr(20, 4));
@@ -217,6 +205,23 @@ std::vector<std::string> warnings_of(const ColumnDefects& defects, const Header&
 }
 
 }  // namespace
+
+// Posts of WGS72 lie 0.554 arc seconds (17 m) from those of WGS84. The reader does not shift them, because
+// interpolation would smooth the heights. The error message advises gdalwarp.
+error::Expected<void> check_dted_datums(std::string_view vertical_field, std::string_view horizontal_field,
+                                        const std::string& subject) {
+  constexpr std::string_view kSeaLevels[] = {"", "MSL", "E84", "E96", "E08"};
+  const std::string vertical = stripped(vertical_field);
+  const std::string horizontal = stripped(horizontal_field);
+  if (!horizontal.empty() && horizontal != "WGS84")
+    return error::fail(subject, "horizontal datum WGS84", "'" + horizontal + "'",
+                       "bring it to WGS84 with gdalwarp -s_srs DATUM -t_srs EPSG:4326 into a .tif; DATUM is EPSG:4322 "
+                       "for WGS72, EPSG:4267 for NAD27");
+  if (std::find(std::begin(kSeaLevels), std::end(kSeaLevels), vertical) == std::end(kSeaLevels))
+    return error::fail(subject, "heights above mean sea level (vertical datum MSL, E84, E96, E08 or none)",
+                       "'" + vertical + "'", "make them heights above mean sea level");
+  return {};
+}
 
 error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject,
                                         CellCorner corner) {

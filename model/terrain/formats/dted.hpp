@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lib/error/error.hpp"
@@ -61,6 +62,11 @@ namespace yars::model::terrain {
 // Errors: no UHL, another datum, an origin not in whole degrees or not at `corner`, posts that do not span one
 // degree, a truncated or misplaced record.
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner);
+
+// Checks the datums of a description record. The fields may have blanks and null characters around them.
+// Errors: another datum than those above. `subject` names the file in errors.
+error::Expected<void> check_dted_datums(std::string_view vertical, std::string_view horizontal,
+                                        const std::string& subject);
 
 // Like read_dted(), but from the bytes of a file. `subject` names the file in errors.
 error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject,

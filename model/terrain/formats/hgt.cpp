@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "lib/error/error.hpp"
+#include "lib/file/folder_names.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/memory/byte_order.hpp"
 
@@ -78,12 +79,6 @@ struct CloseZipEntry {
 };
 using ZipArchive = std::unique_ptr<zip_t, DiscardZip>;
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
-
 std::string printable(std::string text) {
   std::replace_if(
       text.begin(), text.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, '?');
@@ -91,7 +86,7 @@ std::string printable(std::string text) {
 }
 
 bool is_gzip(const std::filesystem::path& path) {
-  return lower_case(path.extension().string()) == ".gz";
+  return file::lower_case(path.extension().string()) == ".gz";
 }
 
 error::Expected<std::uintmax_t> compressed_length(const std::filesystem::path& path) {
@@ -125,8 +120,8 @@ std::string name_in_gzip(const std::filesystem::path& path) {
 
 error::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path& path) {
   if (const auto length = compressed_length(path); !length) return tl::unexpected(length.error());
-  const std::filesystem::path inside = lower_case(name_in_gzip(path));
-  if (inside.extension() == ".hgt" && inside.filename() != lower_case(path.stem().string()))
+  const std::filesystem::path inside = file::lower_case(name_in_gzip(path));
+  if (inside.extension() == ".hgt" && inside.filename() != file::lower_case(path.stem().string()))
     return error::fail(path.string(), path.stem().string() + " as the name in the gzip header",
                        quoted(printable(inside.filename().string())), "give the file the name of the cell in it");
   const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
@@ -158,12 +153,12 @@ struct ZipEntry {
 // The entry with the archive's name without `.zip`; nullopt if there is none. For the error message, `other` then
 // receives the name of another entry of the archive, preferably of an `.hgt` file.
 std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path, std::string* other = nullptr) {
-  const std::string entry_name = lower_case(path.stem().string());
+  const std::string entry_name = file::lower_case(path.stem().string());
   for (zip_int64_t index = 0; index < zip_get_num_entries(archive, 0); ++index) {
     zip_stat_t status;
     if (zip_stat_index(archive, static_cast<zip_uint64_t>(index), 0, &status) != 0) continue;
     if ((status.valid & ZIP_STAT_NAME) == 0 || (status.valid & ZIP_STAT_SIZE) == 0) continue;
-    const std::filesystem::path name = lower_case(status.name);
+    const std::filesystem::path name = file::lower_case(status.name);
     const ZipEntry entry{static_cast<zip_uint64_t>(index), status.size};
     if (name.filename() == entry_name) return entry;
     const bool is_hgt = name.extension() == ".hgt";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "lib/file/folder_names.hpp"
 #include "lib/file/output_file.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/dted.hpp"
@@ -92,7 +93,8 @@ error::Expected<CellReading> parse_pack(std::span<const std::byte> jp2, std::spa
 error::Expected<CellReading> read_pack(const std::filesystem::path& path, CellCorner corner, int reduction) {
   const auto jp2 = read_file(path, kMaxFile_bytes);
   if (!jp2) return tl::unexpected(jp2.error());
-  const auto side = read_file(std::filesystem::path(path).replace_extension(".side"), kMaxFile_bytes);
+  const auto side_path = std::filesystem::path(path).replace_extension(".side");
+  const auto side = read_file(file::FolderNames().find(side_path).value_or(side_path), kMaxFile_bytes);
   if (!side) return tl::unexpected(side.error());
   return parse_pack(*jp2, *side, path.string(), corner, reduction);
 }

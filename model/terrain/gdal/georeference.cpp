@@ -348,6 +348,14 @@ double PostLattice::above_sea_level_m(int row, int column) const {
   return above_m_.empty() ? 0.0 : between(above_m_, node_at(row, column));
 }
 
+std::optional<PixelCorners> PostLattice::corners() const {
+  const PixelCorners corners{position(0, 0), position(0, intervals_east_), position(intervals_north_, intervals_east_),
+                             position(intervals_north_, 0)};
+  for (const PixelPosition& corner : corners)
+    if (!std::isfinite(corner.column + corner.row)) return std::nullopt;
+  return corners;
+}
+
 std::optional<PixelBounds> PostLattice::bounds() const {
   std::optional<PixelBounds> bounds;
   for (std::size_t i = 0; i < column_.size(); ++i) {

@@ -98,6 +98,9 @@ struct PixelPosition {
   double column, row;  // [pixels] from the corner of the first pixel; NaN: the transform has no result
 };
 
+// Corners of a quadrilateral, in the order of its edges.
+using PixelCorners = std::array<PixelPosition, 4>;
+
 // Distance in pixels from a post to its northern and its eastern neighbour.
 struct PixelStep {
   double column_north, row_north, column_east, row_east;
@@ -118,6 +121,7 @@ class PostLattice {
   PixelStep step(int row, int column) const;
   double above_sea_level_m(int row, int column) const;  // [m] to add to an ellipsoidal height; 0 for other heights
   std::optional<PixelBounds> bounds() const;            // nullopt: no post has a position
+  std::optional<PixelCorners> corners() const;          // of the box; nullopt: a corner has no position
 
  private:
   static constexpr int kStep = 16;  // [posts] between nodes; more posts increase the error

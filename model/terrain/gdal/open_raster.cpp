@@ -131,16 +131,27 @@ namespace {
 // [m] MSL. Bounds of possible heights, as in cell_reading.cpp.
 constexpr double kLowest_m = -12'000.0;
 constexpr double kHighest_m = 10'000.0;
-// Band values that producers write where they have no data, often without declaring them.
-constexpr float kUsualVoids[] = {-32768.0F, -32767.0F, -9999.0F};
 constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 constexpr float kImpossible = std::numeric_limits<float>::infinity();
+
+// Band values that producers write where they have no data, often without declaring them. They are compared before
+// scale, offset and unit are applied: scaled or in feet, some would be possible heights.
+std::vector<float> usual_voids_of(const Raster& raster) {
+  const GDALDataType type = GDALGetRasterDataType(raster.heights);
+  if (type != GDT_UInt16 && type != GDT_UInt32) return {-32768.0F, -32767.0F, 32767.0F, -9999.0F};
+  std::vector<float> voids;
+  if (type == GDT_UInt16) voids.push_back(65535.0F);
+  // With a scale, 32767 is a usual height in the middle of an unsigned band's range.
+  if (GDALGetRasterScale(raster.heights, nullptr) == 1.0) voids.push_back(32767.0F);
+  return voids;
+}
 
 // Converts a band value to a height [m MSL]. NaN: no data. Infinity: an impossible height.
 class HeightCheck {
  public:
   explicit HeightCheck(const Raster& raster)
-      : scale_(raster.scale),
+      : usual_voids_(usual_voids_of(raster)),
+        scale_(raster.scale),
         offset_m_(raster.offset_m),
         void_number_(raster.void_number ? static_cast<float>(*raster.void_number) : kMissing) {}
 
@@ -148,27 +159,46 @@ class HeightCheck {
     if (std::isnan(number) || number == void_number_) return kMissing;
     const double height_m = static_cast<double>(number) * scale_ + offset_m_;
     const bool possible = height_m >= kLowest_m && height_m <= kHighest_m && height_m != kCommonVoid_m &&
-                          std::find(std::begin(kUsualVoids), std::end(kUsualVoids), number) == std::end(kUsualVoids);
+                          std::find(usual_voids_.begin(), usual_voids_.end(), number) == usual_voids_.end();
     return possible ? static_cast<float>(height_m) : kImpossible;
   }
 
  private:
   static constexpr double kCommonVoid_m = -9999.0;
+  std::vector<float> usual_voids_;
   double scale_, offset_m_;
   float void_number_;
 };
 
-// Accumulates pixels into the means of a window's blocks. `counted`: blocks whose impossible heights are counted.
+bool contains(const Box& box, int column, int row) {
+  return column >= box.first_column && row >= box.first_row && column < box.first_column + box.columns &&
+         row < box.first_row + box.rows;
+}
+
+// True if a position lies in a polygon. A position on the common edge of two polygons lies in one of them.
+bool contains(const PixelCorners& polygon, PixelPosition position) {
+  bool inside = false;
+  for (std::size_t i = 0, before = polygon.size() - 1; i < polygon.size(); before = i++) {
+    const PixelPosition& a = polygon[i];
+    const PixelPosition& b = polygon[before];
+    if ((a.row > position.row) != (b.row > position.row) &&
+        position.column < a.column + (b.column - a.column) * (position.row - a.row) / (b.row - a.row))
+      inside = !inside;
+  }
+  return inside;
+}
+
+// Accumulates pixels into the means of a window's blocks, and counts impossible heights.
 class Means {
  public:
-  Means(BlockSize size, const Box& blocks, const Box& counted)
+  Means(BlockSize size, const Box& blocks, const CountedPixels& counted)
       : size_(size), counted_(counted), window_{blocks, {}, 0}, sums_m_(blocks.area()), counts_(blocks.area()) {}
 
   void add(const std::vector<float>& heights_m, const Box& pixels) {
     std::size_t pixel = 0;
     for (int row = pixels.first_row; row < pixels.first_row + pixels.rows; ++row)
       for (int column = pixels.first_column; column < pixels.first_column + pixels.columns; ++column)
-        add(column / size_.across, row / size_.along, heights_m[pixel++]);
+        add(column, row, heights_m[pixel++]);
   }
 
   HeightWindow take() {
@@ -179,21 +209,23 @@ class Means {
   }
 
  private:
-  void add(int column, int row, float height_m) {
+  void add(int pixel_column, int pixel_row, float height_m) {
+    const int column = pixel_column / size_.across;
+    const int row = pixel_row / size_.along;
     if (std::isfinite(height_m)) {
       const Box& blocks = window_.blocks;
       const auto block = static_cast<std::size_t>(row - blocks.first_row) * static_cast<std::size_t>(blocks.columns) +
                          static_cast<std::size_t>(column - blocks.first_column);
       sums_m_[block] += static_cast<double>(height_m);
       ++counts_[block];
-    } else if (std::isinf(height_m) && column >= counted_.first_column && row >= counted_.first_row &&
-               column < counted_.first_column + counted_.columns && row < counted_.first_row + counted_.rows) {
+    } else if (std::isinf(height_m) && contains(counted_.blocks, column, row) &&
+               (!counted_.corners || contains(*counted_.corners, {pixel_column + 0.5, pixel_row + 0.5}))) {
       ++window_.impossible;
     }
   }
 
   BlockSize size_;
-  Box counted_;
+  CountedPixels counted_;
   HeightWindow window_;
   std::vector<double> sums_m_;
   std::vector<int> counts_;
@@ -219,7 +251,8 @@ error::Expected<std::vector<float>> read_heights(const Raster& raster, const Box
   return heights;
 }
 
-error::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, const Box& blocks, const Box& counted) {
+error::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, const Box& blocks,
+                                          const CountedPixels& counted) {
   Means means(size, blocks, counted);
   Box pixels;
   pixels.first_column = blocks.first_column * size.across;

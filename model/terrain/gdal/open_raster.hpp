@@ -63,8 +63,9 @@ struct Box {
   std::size_t area() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
 };
 
-// Reads the heights of `pixels` [m MSL], row by row. NaN: no data. Infinity: an impossible height.
-// Impossible are heights below -12,000 m or above 10,000 m, and the undeclared no-data values -32768, -32767 and -9999.
+// Reads the heights of pixels [m], row by row. NaN: no data. Infinity: an impossible height.
+// Impossible are heights below -12,000 m or above 10,000 m, a height of -9999 m, and undeclared no-data values of the
+// band: -32768, -32767, 32767 and -9999. In unsigned bands: 65535 of 16 bits, and 32767 of bands without a scale.
 error::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels);
 
 // Size of the blocks of pixels that are averaged. The first block begins at the raster's first pixel.
@@ -83,7 +84,14 @@ struct HeightWindow {
   }
 };
 
-// Reads the mean heights of `blocks`. Impossible heights are counted in the blocks of `counted` only.
-error::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, const Box& blocks, const Box& counted);
+// Pixels whose impossible heights are counted.
+struct CountedPixels {
+  Box blocks;                           // pixels of these blocks
+  std::optional<PixelCorners> corners;  // of them, only pixels with a centre between these corners; nullopt: all
+};
+
+// Reads the mean heights of `blocks`.
+error::Expected<HeightWindow> read_window(const Raster& raster, BlockSize size, const Box& blocks,
+                                          const CountedPixels& counted);
 
 }  // namespace yars::model::terrain::gdal

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -120,7 +122,7 @@ class CellReader {
     constexpr int kMargin = 2;  // [blocks] for neighbours of the outermost blocks and for PostLattice's error
     const Box around = blocks_within(*bounds, kMargin);
     if (around.columns <= 0 || around.rows <= 0) return {};
-    const auto window = read_window(raster_, size_, around, blocks_within(*bounds, 0));
+    const auto window = read_window(raster_, size_, around, counted_pixels(lattice, *bounds));
     if (!window) return tl::unexpected(window.error());
     impossible_ += window->impossible;
     const int end_row = std::min(first_row + kTile, grid_.rows);
@@ -131,9 +133,16 @@ class CellReader {
     return {};
   }
 
-  // Blocks within `bounds` without their last row and column, extended by `margin` blocks on each side. The last row
-  // and column belong to the next tile. With margin 0, impossible heights are thus counted once. At the raster's end,
-  // the last row and column are included.
+  // Pixels of a tile, so that no impossible height is counted in two tiles. The tiles of a raster whose rows are not
+  // parallels are quadrilaterals.
+  CountedPixels counted_pixels(const PostLattice& lattice, const PixelBounds& bounds) const {
+    if (const auto corners = lattice.corners(); corners && !raster_.georeference.is_wgs84_grid())
+      return {blocks_within(bounds, 1), corners};
+    return {blocks_within(bounds, 0), std::nullopt};
+  }
+
+  // Blocks within `bounds`, extended by `margin` blocks on each side. With margin 0, the last row and column of blocks
+  // are left to the next tile, except at the end of the raster.
   Box blocks_within(const PixelBounds& bounds, int margin) const {
     const auto span = [&](double low, double high, int pixels, int count) {
       const int first = std::max(0, static_cast<int>(std::floor(low / pixels)) - margin);
@@ -232,6 +241,19 @@ class CellReader {
 
 }  // namespace
 
+namespace {
+
+std::optional<DtedDatums> dted_datums_of(GDALDatasetH dataset) {
+  if (GDALGetDriverShortName(GDALGetDatasetDriver(dataset)) != std::string_view("DTED")) return std::nullopt;
+  const auto field = [&](const char* name) {
+    const char* const text = GDALGetMetadataItem(dataset, name, nullptr);
+    return std::string(text == nullptr ? "" : text);
+  };
+  return DtedDatums{field("DTED_VerticalDatum"), field("DTED_HorizontalDatum")};
+}
+
+}  // namespace
+
 bool available() {
   return true;
 }
@@ -239,7 +261,7 @@ bool available() {
 error::Expected<RasterSummary> describe_raster(const std::filesystem::path& path) {
   const auto raster = open_raster(path);
   if (!raster) return tl::unexpected(raster.error());
-  RasterSummary summary{cells_of(*raster)};
+  RasterSummary summary{cells_of(*raster), dted_datums_of(raster->dataset.get())};
   if (summary.cells.empty())
     return error::fail(path.string(), "a raster with at least one pixel in a one-degree cell", "no such pixel");
   return summary;

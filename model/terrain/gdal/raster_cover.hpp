@@ -2,6 +2,8 @@
 // Input: the header of an opened raster. Output: one RasterCell per cell.
 #pragma once
 
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace yars::model::terrain::gdal {
@@ -18,8 +20,16 @@ struct RasterCell {
   int posts_per_degree_east = 0;
 };
 
+// Datums in the description record of a DTED file, as written there.
+struct DtedDatums {
+  std::string vertical, horizontal;
+};
+
 struct RasterSummary {
   std::vector<RasterCell> cells;  // cells that the raster overlaps
+  // nullopt: not a DTED file. GDAL's coordinate system of a DTED file ignores its vertical datum and all horizontal
+  // datums but WGS84 and WGS72.
+  std::optional<DtedDatums> dted_datums = {};
 };
 
 // The declarations below are used in this folder only.

@@ -129,7 +129,8 @@ error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesy
                                                                const std::function<void(double)>& progress) {
   const auto raster = open_raster(path);
   if (!raster) return tl::unexpected(raster.error());
-  if (!raster->georeference.is_wgs84_grid()) return std::nullopt;
+  const Georeference& georeference = raster->georeference;
+  if (!georeference.is_wgs84_grid() || georeference.heights_are_ellipsoidal()) return std::nullopt;
   auto statistics = Survey(*raster).run(progress);
   if (!statistics) return tl::unexpected(statistics.error());
   return std::move(*statistics);

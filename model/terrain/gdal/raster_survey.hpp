@@ -28,8 +28,9 @@ struct RasterStatistics {
   std::vector<std::string> warnings;        // about the whole raster
 };
 
-// Surveys a raster; nullopt if its rows and columns are not parallels and meridians of WGS84. `progress` receives the
-// completed fraction of the work, (0, 1]; it may be empty.
+// Surveys a raster. nullopt if its rows and columns are not parallels and meridians of WGS84, or if its heights are
+// ellipsoidal: they become heights above mean sea level in the posts of cells only. `progress` receives the completed
+// fraction of the work, (0, 1]; it may be empty.
 error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesystem::path& path,
                                                                const std::function<void(double)>& progress);
 

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "lib/error/error.hpp"
+#include "lib/file/folder_names.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/formats/ded.hpp"
@@ -23,11 +24,7 @@ namespace yars::model::terrain {
 
 namespace {
 
-std::string lower_case(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(),
-                 [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
+using file::lower_case;
 
 // Signed degrees from the letter of a hemisphere and `digits` digits; nullopt for any other text.
 std::optional<int> signed_degrees(std::string_view text, char positive, char negative, std::size_t digits) {
@@ -74,10 +71,21 @@ struct PostsPerDegree {
   int north = 0, east = 0;
 };
 
+// The cells of a raster. Errors: also a DTED file of another datum, which GDAL reads as if it were WGS84 and mean sea
+// level.
+error::Expected<gdal::RasterSummary> describe(const std::filesystem::path& path) {
+  auto summary = gdal::describe_raster(path);
+  if (!summary || !summary->dted_datums) return summary;
+  const auto& [vertical, horizontal] = *summary->dted_datums;
+  if (const auto checked = check_dted_datums(vertical, horizontal, path.string()); !checked)
+    return tl::unexpected(checked.error());
+  return summary;
+}
+
 error::Expected<PostsPerDegree> posts_of(const CellFile& file, CellCorner corner) {
   if (file.posts_per_degree > 0 && file.posts_per_degree_east > 0)
     return PostsPerDegree{file.posts_per_degree, file.posts_per_degree_east};
-  const auto summary = gdal::describe_raster(file.path);
+  const auto summary = describe(file.path);
   if (!summary) return tl::unexpected(summary.error());
   for (const gdal::RasterCell& cell : summary->cells)
     if (CellCorner{cell.south_deg, cell.west_deg} == corner)
@@ -211,7 +219,7 @@ error::Expected<void> add_raster(const std::filesystem::path& path, DirectoryInd
   if (is_virtual_raster_name(path))
     return error::fail(path.string(), "a raster that holds its own heights",
                        "a .vrt, which may name any file or address", "make a GeoTIFF of it with gdal_translate");
-  const auto raster = gdal::describe_raster(path);
+  const auto raster = describe(path);
   if (!raster) return tl::unexpected(raster.error());
   for (const gdal::RasterCell& cell : raster->cells)
     add_candidate({cell.south_deg, cell.west_deg},
@@ -221,9 +229,16 @@ error::Expected<void> add_raster(const std::filesystem::path& path, DirectoryInd
 }
 
 // True if the file, its culture file or its side file (of a pack) is a symbolic link with a target outside `root`.
-bool any_leads_out(const std::filesystem::path& path, const std::filesystem::path& root) {
-  return links_outside(path, root) || links_outside(culture_path(path), root) ||
-         links_outside(std::filesystem::path(path).replace_extension(".side"), root);
+bool any_leads_out(const std::filesystem::path& path, const std::filesystem::path& root, file::FolderNames& names) {
+  const auto leads_out = [&](const std::optional<std::filesystem::path>& beside) {
+    return beside && links_outside(*beside, root);
+  };
+  return links_outside(path, root) || leads_out(find_culture(path, names)) ||
+         leads_out(names.find(std::filesystem::path(path).replace_extension(".side")));
+}
+
+void add_cultures(DirectoryIndex& index, file::FolderNames& names) {
+  for (auto& [slot, file] : index) file.culture = find_culture(file.path, names);
 }
 
 bool is_elevation_name(const std::filesystem::path& path) {
@@ -267,6 +282,7 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
     return error::fail(directory.string(), "a directory with elevation cells", code ? code.message() : "no directory",
                        "make one with `yars terrain generate --out DIR`");
   DirectoryIndex index;
+  file::FolderNames names;
   std::vector<std::string> found;
   const std::filesystem::path root = std::filesystem::weakly_canonical(directory, code);
   std::filesystem::recursive_directory_iterator entry(directory, code);
@@ -276,7 +292,7 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
       entry.disable_recursion_pending();
     }
     if (!is_elevation_name(entry->path())) continue;
-    if (!any_leads_out(entry->path(), root))
+    if (!any_leads_out(entry->path(), root, names))
       add_file(entry->path(), index, found);
     else
       found.push_back(error::Error{entry->path().string(), "a file inside " + root.string(), "a link that leads out",
@@ -286,6 +302,7 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
   if (code)
     return error::fail(directory.string(), "a directory that can be read", lower_first(code.message()),
                        "check its permissions");
+  add_cultures(index, names);
   std::sort(found.begin(), found.end());
   if (index.empty() && !found.empty())
     return error::fail(directory.string(), "elevation cells that can be used",
@@ -305,10 +322,11 @@ error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path) {
   const auto named = cell_named(whole.parent_path().filename().string(), whole.filename().string());
   if (named) {
     add_candidate(named->corner, described(path, *named), index);
-    return index;
+  } else if (const auto added = is_ded_name(path) ? add_ded(path, index) : add_raster(path, index); !added) {
+    return tl::unexpected(added.error());
   }
-  const auto added = is_ded_name(path) ? add_ded(path, index) : add_raster(path, index);
-  if (!added) return tl::unexpected(added.error());
+  file::FolderNames names;
+  add_cultures(index, names);
   return index;
 }
 

@@ -29,6 +29,7 @@ struct CellFile {
   int posts_per_degree = 0;       // along a meridian, in the file; 0: known only after reading
   int posts_per_degree_east = 0;  // along a parallel
   double covered = 1.0;           // fraction of the cell that the file spans; below 1 for rasters only
+  std::optional<std::filesystem::path> culture = {};  // its culture file (culture.hpp), set by the index
 };
 
 // Cell and format that the names of a file and its folder state. cell_named() returns nullopt if they state no cell.

@@ -160,9 +160,8 @@ bool DirectoryTerrainStore::load(Level level) {
 
 // Culture of the cell at the same reduction; null if the culture file is missing or cannot be read.
 std::shared_ptr<const Culture> DirectoryTerrainStore::read_culture_of(Level level, const CellFile& file) {
-  const auto path = find_culture(file.path);
-  if (!path) return nullptr;
-  const error::Expected<Culture> culture = read_culture(*path, corner_of_slot(level.first));
+  if (!file.culture) return nullptr;
+  const error::Expected<Culture> culture = read_culture(*file.culture, corner_of_slot(level.first));
   if (culture) return std::make_shared<const Culture>(culture->reduced(level.second));
   if (unreadable_culture_.insert(level.first).second)
     problems_.push_back(culture.error().message() + "; the cell has no materials other than land and sea");

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -164,13 +165,67 @@ TEST_F(TerrainBatch, CultureIsWrittenBesideItsCell) {
   }
 }
 
-TEST_F(TerrainBatch, UnreadableCultureIsReportedAndTheCellIsWritten) {
-  std::filesystem::create_directories(in() / "w122");
-  std::ofstream(in() / "w122/n36.smc.png") << "no picture";
-  for (const std::string command : {"convert", "pack"}) {
-    expect_refused(run(command, in(), out() / command), 1, {"problem: ", "n36.smc.png", "1 of 2"});
-    EXPECT_TRUE(std::filesystem::exists(out() / command / "w122"));
+TEST_F(TerrainBatch, CultureWithANameInUpperCaseStaysWithItsCell) {
+  std::filesystem::create_directories(folder_.path() / "upper/W122");
+  std::filesystem::copy(in() / "w122/n36.dt0", folder_.path() / "upper/W122/N36.DT0");
+  ASSERT_TRUE(terrain::write_culture(folder_.path() / "upper/W122/N36.SMC.PNG", culture_at(kWest, 121)));
+  for (const char* input : {"upper", "upper/W122/N36.DT0"}) {
+    const auto converted = run("convert", folder_.path() / input, out());
+    ASSERT_EQ(converted.code, 0) << converted.errors;
+    EXPECT_TRUE(terrain::read_culture(out() / "w122/n36.smc.png", kWest).has_value()) << input;
+    std::filesystem::remove_all(out());
   }
+}
+
+// Faults of a culture file: damaged, a link without a target, a folder.
+TEST_F(TerrainBatch, ACellWithUnreadableCultureIsReportedAndNotWritten) {
+  const std::filesystem::path culture = in() / "w122/n36.smc.png";
+  const std::vector<std::function<void()>> faults = {[&] { std::ofstream(culture) << "no picture"; },
+                                                     [&] { std::filesystem::create_symlink("nowhere", culture); },
+                                                     [&] { std::filesystem::create_directory(culture); }};
+  for (const auto& make_fault : faults) {
+    make_fault();
+    for (const std::string command : {"convert", "pack"}) {
+      expect_refused(run(command, in(), out() / command), 1, {"problem: ", "n36.smc.png", "1 of 2"});
+      EXPECT_FALSE(std::filesystem::exists(out() / command / "w122"));
+      EXPECT_TRUE(std::filesystem::exists(out() / command / "w121"));
+    }
+    const auto info = endtoend::run_program({"yars", "terrain", "info", in().string()});
+    EXPECT_EQ(info.code, 1);
+    EXPECT_THAT(info.output, HasSubstr("n36.smc.png"));
+    std::filesystem::remove(culture);
+  }
+}
+
+TEST_F(TerrainBatch, AnOlderCultureOfACellWithoutCultureIsRemoved) {
+  for (const std::vector<std::string>& command :
+       {std::vector<std::string>{"convert"}, {"pack"}, {"reduce", "--reduction", "1"}}) {
+    ASSERT_TRUE(terrain::write_culture(out() / "w122/n36.smc.png", culture_at(kWest, 121)));
+    ASSERT_TRUE(terrain::write_culture(out() / "w122/N36.SMC.PNG", culture_at(kWest, 121)));
+    ASSERT_TRUE(terrain::write_culture(out() / "w122/n35.smc.png", culture_at(kWest, 121)));
+    const auto done = run(command[0], in(), out(), {command.begin() + 1, command.end()});
+    ASSERT_EQ(done.code, 0) << done.errors;
+    EXPECT_FALSE(terrain::find_culture(out() / "w122/n36.dt0").has_value()) << command[0];
+    EXPECT_TRUE(std::filesystem::exists(out() / "w122/n35.smc.png")) << "culture of a cell that is not written";
+  }
+}
+
+TEST_F(TerrainBatch, GenerationWithoutCultureRemovesAnOlderCulture) {
+  const auto generate = [&](const char* culture) {
+    return endtoend::run_program({"yars", "terrain", "generate", "--out", out(), "--level", "0", "--south", "36",
+                                  "--west", "-122", "--cells-lat", "1", "--cells-lon", "1", "--sea", culture});
+  };
+  ASSERT_EQ(generate("--culture").code, 0);
+  ASSERT_TRUE(std::filesystem::exists(out() / "w122/n36.smc.png"));
+  ASSERT_EQ(generate("--no-culture").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(out() / "w122/n36.smc.png"));
+}
+
+TEST_F(TerrainBatch, CultureOfAnInputInTheOutputFolderIsKept) {
+  ASSERT_TRUE(terrain::write_culture(in() / "w122/N36.SMC.PNG", culture_at(kWest, 121)));
+  const auto packed = run("pack", in() / "w122/n36.dt0", in());
+  ASSERT_EQ(packed.code, 0) << packed.errors;
+  EXPECT_TRUE(terrain::read_culture(in() / "w122/N36.SMC.PNG", kWest).has_value());
 }
 
 TEST_F(TerrainBatch, AnOutputThatEndsLikeAFileIsRefused) {

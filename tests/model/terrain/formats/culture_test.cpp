@@ -62,6 +62,43 @@ TEST(CultureTile, IsBesideTheElevationCell) {
   EXPECT_EQ(find_culture(elevation), culture_path(elevation));
 }
 
+TEST(CultureTile, IsFoundUnderANameOfEitherCase) {
+  EXPECT_EQ(culture_path("db/N36W122.HGT.ZIP"), "db/N36W122.smc.png");
+  const test::TemporaryFolder folder;
+  const auto upper = folder.path() / "W122" / "N36.SMC.PNG";
+  ASSERT_TRUE(write_culture(upper, small_culture()).has_value());
+  for (const char* name : {"N36.DT1", "n36.dt1", "N36.dt1"})
+    EXPECT_EQ(find_culture(folder.path() / "W122" / name), upper);
+  EXPECT_FALSE(find_culture(folder.path() / "W122" / "N37.DT1").has_value());
+  const auto lower = folder.path() / "W122" / "n36.smc.png";
+  ASSERT_TRUE(write_culture(lower, small_culture()).has_value());
+  EXPECT_EQ(find_culture(folder.path() / "W122" / "n36.dt1"), lower) << "the name with the same case comes first";
+}
+
+TEST(CultureTile, ADanglingLinkOrAFolderIsFoundAndCannotBeRead) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_symlink("nowhere", folder.path() / "n36.smc.png");
+  std::filesystem::create_directory(folder.path() / "n37.smc.png");
+  for (const char* name : {"n36.dt1", "n37.dt1"}) {
+    const auto path = find_culture(folder.path() / name);
+    ASSERT_TRUE(path.has_value()) << name;
+    EXPECT_FALSE(read_culture(*path, kCorner).has_value()) << name;
+  }
+}
+
+TEST(CultureTile, IsRemovedUnderEveryCase) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"n36.smc.png", "N36.SMC.PNG", "n37.smc.png"})
+    ASSERT_TRUE(write_culture(folder.path() / name, small_culture()).has_value());
+  ASSERT_TRUE(remove_culture(folder.path() / "n36.dt1").has_value());
+  EXPECT_FALSE(find_culture(folder.path() / "n36.dt1").has_value());
+  EXPECT_TRUE(find_culture(folder.path() / "n37.dt1").has_value());
+  std::filesystem::create_directory(folder.path() / "n36.smc.png");
+  const auto removed = remove_culture(folder.path() / "n36.dt1");
+  ASSERT_FALSE(removed.has_value());
+  EXPECT_NE(removed.error().message().find("n36.smc.png"), std::string::npos);
+}
+
 TEST(CultureReader, ACodeBeyondDfadIsRefusedWithItsPosition) {
   const test::TemporaryFolder folder;
   const auto path = folder.path() / "n36.smc.png";

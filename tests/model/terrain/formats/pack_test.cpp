@@ -174,6 +174,19 @@ TEST(Pack, IsIndexedByItsHeaderAndReadFromADirectory) {
   EXPECT_THAT(read_cell(file, kCorner).error().message(), HasSubstr("n36.side"));
 }
 
+TEST(Pack, IsReadUnderNamesInUpperCase) {
+  const test::TemporaryFolder folder;
+  const Cell cell = smooth_cell(33, 33);
+  ASSERT_TRUE(write_pack(folder.path(), cell).has_value());
+  const auto lower = folder.path() / "w122", upper = folder.path() / "W122";
+  std::filesystem::create_directory(upper);
+  std::filesystem::rename(lower / "n36.jp2", upper / "N36.JP2");
+  std::filesystem::rename(lower / "n36.side", upper / "N36.SIDE");
+  const auto reading = read_pack(upper / "N36.JP2", kCorner, 0);
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  EXPECT_TRUE(same_posts(reading->cell, cell));
+}
+
 TEST(Pack, LeavesNoTemporaryFilesAfterWriting) {
   const test::TemporaryFolder folder;
   ASSERT_TRUE(write_pack(folder.path(), smooth_cell(33, 33)).has_value());

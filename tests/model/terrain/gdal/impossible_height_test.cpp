@@ -106,7 +106,81 @@ TEST(RasterVoids, TheLimitsOfHeightsApplyAfterScaleAndOffsetOfTheBand) {
   EXPECT_EQ(reading->impossible, 120U);
 }
 
-TEST(RasterVoids, ARasterOfTwoCellsGivesOneWarningWithTheCountOfOneCell) {
+struct VoidMark {
+  double number;
+  GDALDataType type;
+  const char* unit = nullptr;
+  double scale = 1.0;
+  const char* system = nullptr;
+};
+
+class UndeclaredVoid : public ::testing::TestWithParam<VoidMark> {};
+
+// In feet or with a scale, the number alone would be a possible height.
+TEST_P(UndeclaredVoid, IsComparedBeforeScaleAndUnit) {
+  const auto& [number, type, unit, scale, system] = GetParam();
+  const test::TemporaryFolder folder;
+  RasterFields fields = shifted_fields(type);
+  fields.unit = unit;
+  fields.scale = scale;
+  fields.system = system;
+  write_raster(folder.path() / "a.tif", fields,
+               [&](int row, int column) { return row == kBadRow ? number : hilly(row, column); });
+  const auto reading = read_cell({folder.path() / "a.tif", CellFormat::raster}, {10, 20});
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  EXPECT_EQ(reading->impossible, 120U);
+  EXPECT_GT(reading->cell.lowest_m(), 0);
+  EXPECT_LE(reading->cell.highest_m(), 1000);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Marks, UndeclaredVoid,
+    ::testing::Values(VoidMark{32767, GDT_Int16, "ft"}, VoidMark{32767, GDT_Int16, nullptr, 1.0, "EPSG:4326+6360"},
+                      VoidMark{32767, GDT_Int16, nullptr, 0.1}, VoidMark{-32767, GDT_Int16, nullptr, 0.1},
+                      VoidMark{-32768, GDT_Int16, "ft"}, VoidMark{-9999, GDT_Int16, "ft"},
+                      VoidMark{-9999, GDT_Int16, nullptr, 0.1}, VoidMark{32767, GDT_Int32, "ft"},
+                      VoidMark{32767, GDT_UInt16, "ft"}, VoidMark{65535, GDT_UInt16, nullptr, 0.1},
+                      VoidMark{32767, GDT_Float32, "ft"}, VoidMark{-32767, GDT_Float32, nullptr, 0.1},
+                      VoidMark{-9999, GDT_Float32, nullptr, 0.1}, VoidMark{-9999, GDT_Float64, "ft"}));
+
+TEST(RasterVoids, TheMiddleOfAnUnsignedBandWithAScaleIsGround) {
+  const test::TemporaryFolder folder;
+  RasterFields fields = shifted_fields(GDT_UInt16);
+  fields.scale = 0.1;
+  write_raster(folder.path() / "a.tif", fields, [](int, int) { return 32767; });
+  const auto reading = read_cell({folder.path() / "a.tif", CellFormat::raster}, {10, 20});
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  EXPECT_EQ(reading->impossible, 0U);
+  EXPECT_NEAR(reading->cell.highest_m(), 3276.7, 0.2);
+}
+
+TEST(RasterVoids, EachImpossibleHeightOfAProjectedRasterIsCountedOnce) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "utm.tif";
+  // Zone 31, about 46 degrees north, 4 to 6 degrees east: rows are oblique, and pixels are finer than posts.
+  RasterFields fields{1500, 900, {540'000, 100, 0, 5'140'000, 0, -100}};
+  fields.epsg = 32631;
+  std::size_t expected = 0;
+  write_raster(path, fields, [&](int row, int column) {
+    const bool bad = row % 9 == 0 || column % 50 < 5;
+    expected += bad ? 1 : 0;
+    return bad ? -9999.0 : hilly(row, column);
+  });
+  for (const int reduction : {0, 2}) {
+    const auto index = index_directory(folder.path());
+    ASSERT_TRUE(index.has_value()) << index.error().message();
+    EXPECT_GE(index->size(), 4U);
+    std::size_t found = 0;
+    for (const auto& [slot, file] : *index) {
+      const auto reading = read_cell(file, corner_of_slot(slot), reduction);
+      ASSERT_TRUE(reading.has_value()) << reading.error().message();
+      found += reading->impossible;
+    }
+    EXPECT_EQ(found, expected) << reduction;
+  }
+}
+
+TEST(RasterVoids, ImpossibleHeightsOfAllCellsAreCountedInOneWarning) {
   const test::TemporaryFolder folder;
   RasterFields fields{240, 120, {20, 1.0 / 120, 0, 11, 0, -1.0 / 120}};
   write_raster(folder.path() / "wide.tif", fields,

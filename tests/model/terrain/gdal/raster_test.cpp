@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "model/terrain/formats/cell.hpp"
+#include "model/terrain/formats/dted.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
@@ -207,6 +208,36 @@ TEST(Raster, FilesOtherThanRastersOfHeightsAreRefusedWithTheReason) {
   EXPECT_THAT(refusal(folder.path() / "text.tif"), HasSubstr("GDAL"));
   EXPECT_THAT(refusal(folder.path() / "gone.tif"), HasSubstr("gone.tif"));
   EXPECT_THAT(refusal("/vsicurl/http://localhost/a.tif"), HasSubstr("plain file"));
+}
+
+// GDAL itself reads these files as WGS84 and mean sea level.
+TEST(Raster, ADtedFileOfAnotherDatumIsRefusedUnderAnyName) {
+  struct Datums {
+    std::string vertical, horizontal, found;
+  };
+  for (const Datums& each :
+       {Datums{"ELL", "WGS84", "'ELL'"}, Datums{"W84", "WGS84", "'W84'"}, Datums{"MSL", "NAD27", "'NAD27'"},
+        Datums{"MSL", "WGS72", "'WGS72'"}, Datums{"E96", "WGS84", ""}, Datums{"   ", "     ", ""}}) {
+    const test::TemporaryFolder folder;
+    const Cell flat({10, 20}, 121, 121, std::vector<std::int16_t>(121 * 121, 700));
+    std::vector<std::byte> bytes = dted_bytes(flat, 0);
+    const std::string text = each.vertical + each.horizontal;
+    for (std::size_t i = 0; i < text.size(); ++i)
+      bytes[dted::kUserHeaderBytes + dted::kVerticalDatumAt + i] = static_cast<std::byte>(text[i]);
+    const auto named = parse_dted(bytes, "n10.dt0", {10, 20});
+    for (const std::string name : {"mytile.dt0", "mytile.bin", "mytile.img"}) {
+      folder.write(name, bytes);
+      const auto index = index_file(folder.path() / name);
+      ASSERT_EQ(index.has_value(), each.found.empty()) << text << " " << name;
+      EXPECT_EQ(read_cell({folder.path() / name, CellFormat::raster}, {10, 20}).has_value(), each.found.empty());
+      if (index) continue;
+      EXPECT_THAT(index.error().message(), HasSubstr("found " + each.found));
+      const auto after_name = [](const error::Error& error) {
+        return error.message().substr(error.message().find(':'));
+      };
+      EXPECT_EQ(after_name(index.error()), after_name(named.error()));
+    }
+  }
 }
 
 TEST(Raster, AVirtualRasterIsRefusedWhateverItsExtension) {

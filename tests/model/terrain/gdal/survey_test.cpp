@@ -80,5 +80,15 @@ TEST(RasterSurvey, AProjectedRasterHasNoSurvey) {
   EXPECT_FALSE(facts->has_value());
 }
 
+TEST(RasterSurvey, ARasterWithHeightsAboveTheEllipsoidHasNoSurvey) {
+  const test::TemporaryFolder folder;
+  RasterFields fields = degree_raster(10, 20, 31);
+  fields.system = "EPSG:4979";
+  fields.type = GDT_Float32;
+  write_raster(folder.path() / "a.tif", fields, [](int, int) { return 7; });
+  const auto facts = gdal::survey_raster(folder.path() / "a.tif", {});
+  EXPECT_TRUE(!facts || !facts->has_value());  // without proj-data, an error
+}
+
 }  // namespace
 }  // namespace yars::model::terrain

@@ -57,6 +57,17 @@ TEST(DirectoryIndex, CellsAreFoundAtAnyDepth) {
   EXPECT_EQ(chosen(folder, {1, 2}), "N01E002.hgt");
 }
 
+TEST(DirectoryIndex, ACellHasItsCultureUnderANameOfEitherCase) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"W122/N36.DT1", "W122/N36.SMC.PNG", "W122/N37.DT1", "N38W122.hgt", "n38w122.smc.png"})
+    folder.write(name, std::vector<std::byte>(3));
+  const auto index = index_directory(folder.path());
+  ASSERT_TRUE(index.has_value()) << index.error().message();
+  EXPECT_EQ(index->at(slot_of({36, -122})).culture, folder.path() / "W122/N36.SMC.PNG");
+  EXPECT_EQ(index->at(slot_of({37, -122})).culture, std::nullopt);
+  EXPECT_EQ(index->at(slot_of({38, -122})).culture, folder.path() / "n38w122.smc.png");
+}
+
 TEST(DirectoryIndex, TheFinestSpacingWins) {
   const test::TemporaryFolder folder;
   folder.write("w122/n36.dt0", kAnything);
