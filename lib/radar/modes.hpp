@@ -1,5 +1,5 @@
 // Modes and switch positions with their numbers in records, sizes of arrays in records, names of sequence points.
-// Abbreviations: docs/spec/pilots_interface.md.
+// Abbreviations: docs/spec/pilots_interface.md#controls.
 // Inputs: a number from a record, or the name of a sequence point.
 // Outputs: texts for legends; the number and offset in a sequence point's name; the order of the names.
 // Errors: "?" for a number outside its enumeration; std::nullopt for a text that is no name of a sequence point.

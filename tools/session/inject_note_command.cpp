@@ -182,7 +182,7 @@ void add_inject_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command command =
       app.subcommand("inject", "send events, e.g. yars inject 'power opr' 'pb 13' 'elevation -5'");
   auto arguments = std::make_shared<std::vector<std::string>>();
-  command.option("EVENT", *arguments, "event, written as in docs/spec/pilots_interface.md").required();
+  command.option("EVENT", *arguments, "event, written as in docs/spec/pilots_interface.md#controls").required();
   command.callback([&common, arguments] { inject(common, *arguments); });
 }
 

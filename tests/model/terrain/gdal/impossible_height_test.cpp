@@ -180,7 +180,7 @@ TEST(RasterVoids, EachImpossibleHeightOfAProjectedRasterIsCountedOnce) {
   }
 }
 
-TEST(RasterVoids, ImpossibleHeightsOfAllCellsAreCountedInOneWarning) {
+TEST(RasterVoids, ARasterOfTwoCellsGivesOneWarningWithTheCountOfOneCell) {
   const test::TemporaryFolder folder;
   RasterFields fields{240, 120, {20, 1.0 / 120, 0, 11, 0, -1.0 / 120}};
   write_raster(folder.path() / "wide.tif", fields,
