@@ -25,7 +25,7 @@ struct LoadedConfiguration {
 // The configuration of a file. An empty path gives the built-in defaults.
 error::Expected<LoadedConfiguration> load_configuration(const std::filesystem::path& path);
 
-// Like load_configuration(), but from a text in memory. Errors and warnings name the text `name`.
+// Like load_configuration(), but from a text in memory. Errors and warnings use `name` as the name of the file.
 error::Expected<LoadedConfiguration> load_configuration_text(std::string_view text, const std::string& name);
 
 // Like load_configuration(), but writes the warnings to the log.

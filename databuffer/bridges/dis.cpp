@@ -85,7 +85,7 @@ std::optional<error::Error> fault_of(memory::Bytes packet) {
   if (type != kEntityStateType) return error("PDU type 1, entity state", std::to_string(type));
   const std::size_t bytes = kStateBytes + kParameterBytes * memory::big_endian<std::uint8_t>(packet, kParameters);
   if (packet.size() != bytes || memory::big_endian<std::uint16_t>(packet, kLength) != bytes)
-    return error(std::to_string(bytes) + " bytes, stated and received, for its articulation parameters",
+    return error("a PDU of " + std::to_string(bytes) + " bytes, which its number of articulation parameters gives",
                  std::to_string(memory::big_endian<std::uint16_t>(packet, kLength)) + " stated, " +
                      std::to_string(packet.size()) + " received");
   return std::nullopt;

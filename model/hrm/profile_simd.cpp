@@ -200,7 +200,8 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   // visible, its visible part has far.gamma.
   const auto half_area_m2 = hn::Mul(half, area_m2);
   const auto open = hn::Mul(hn::IfThenElse(halves, half_area_m2, area_m2), far.gamma);
-  // A wall stands within half a row of the farther point, so its foot appears one row beyond the nearer point.
+  // A wall belongs to the farther point, one row beyond the nearer point. Its foot has the nearer point's height and
+  // thus appears at the nearer point's row plus 1.
   const auto foot_row = hn::IfThenElse(hn::And(walls.present, fully_visible), hn::Add(begin, one), begin);
   const auto start = hn::IfThenElse(halves, middle, foot_row);
   const auto extent = hn::Max(hn::Abs(hn::Sub(far.row, start)), hn::Set(d, kMinExtent));

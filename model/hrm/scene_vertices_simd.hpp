@@ -19,7 +19,7 @@ struct VertexMap {
   float lift_m;                                      // height of the tile's vertical zero above the map plane
   float toward_east, toward_north, toward_up;        // unit vector from the tile to the radar
   float centre_m;                                    // distance over ground from the aircraft to the centre
-  float columns_per_tangent, middle_column;          // middle_column: column of the centre (tangent 0)
+  float columns_per_tangent, middle_column;          // middle_column: column of the centre, bearing 0
   float rows_per_metre, middle_row;                  // middle_row: row of the centre's distance
 };
 // Vertices of a tile. Element 0 of the normals belongs to the first vertex that has a normal.

@@ -39,9 +39,9 @@ class RecordingReader {
   std::size_t block_of(std::int64_t tick) const;
   // Items of one block; nullopt if the block is damaged. Does not change the position of next().
   std::optional<BlockItems> items_of(std::size_t block);
-  // Last item of type T in the undamaged blocks before the current block, such as the radar state with which the
-  // current block begins. The current block is the block that next() reads, or will read after a seek. nullopt if there
-  // is no such item.
+  // Last item of type T in the undamaged blocks before the current block, such as the radar state that is in force
+  // when the current block begins. The current block is the block that next() reads, or will read after a seek. nullopt
+  // if there is no such item.
   template <class T>
   std::optional<T> last_before() {
     const auto item = last_before(kKindOf<T>.number);

@@ -214,7 +214,8 @@ std::shared_ptr<const Drainage> LandscapeTiles::drainage(CellCorner corner) {
           entries.push_back({gate, above->exits_km2[exit]});
     }
     Drainage drained = drain(*relief(corner), basins_.exits(corner), std::move(entries));
-    // The area that leaves an inland tile must equal the area that its neighbour uses for the entry (`entries` above).
+    // The drained area of a river that leaves an inland tile must equal the drained area that the neighbouring tile
+    // uses for its entry (`entries` above).
     if (!basins_.coastal(corner))
       std::fill(drained.exits_km2.begin(), drained.exits_km2.end(), basins_.drained_km2(corner));
     return drained;

@@ -24,8 +24,9 @@ namespace yars::model::scene {
 // is not a position, or there is no text before the '@'.
 error::Expected<radar::Scene> parse_scene(const std::string& text);
 
-// Parses `texts` by parse_scene() and adds the scenes. Then adds each of `names`, which are names of parts to leave
-// out, to every folder and to every file that has a matching part. Files of a folder apply names when they are loaded.
+// Parses `texts` by parse_scene() and adds the scenes. Then adds each of `names` (parts to leave out) to Scene::without
+// of every scene that is a folder, and of every scene that is a file with a matching part. In the files of a folder the
+// names are looked for when a file is loaded.
 // Errors: a text that is not a scene argument, an unreadable file, names but no scene, an empty name. A name that
 // matches nothing in any file is an error if no scene is a folder.
 error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::vector<std::string>& texts,

@@ -16,12 +16,12 @@
 
 namespace yars::model::scene {
 
-// Vertex palette (records 67 to 71). A vertex is identified by the offset of its record from the start of record 67, in
-// bytes.
+// Vertex palette (records with opcodes 67 to 71). A vertex is identified by the offset of its record from the start of
+// the record with opcode 67, in bytes.
 class VertexPalette {
  public:
   void begin(const Record& palette);
-  // Appends one vertex of records 68 to 71.
+  // Appends the vertex of a record with opcode 68 to 71.
   void add(const Record& record, double metres_per_unit, std::vector<TreeVertex>& vertices);
   // Appends the vertex indices of a vertex list (record 72) to `corners`. Returns the first offset in the list at which
   // the palette has no vertex, or nullopt if all vertices exist.

@@ -214,9 +214,10 @@ error::Expected<void> check_dted_datums(std::string_view vertical_field, std::st
   const std::string vertical = stripped(vertical_field);
   const std::string horizontal = stripped(horizontal_field);
   if (!horizontal.empty() && horizontal != "WGS84")
-    return error::fail(subject, "horizontal datum WGS84", "'" + horizontal + "'",
-                       "convert it to WGS84 with gdalwarp -s_srs DATUM -t_srs EPSG:4326 into a .tif; DATUM is EPSG:4322 "
-                       "for WGS72, EPSG:4267 for NAD27");
+    return error::fail(
+        subject, "horizontal datum WGS84", "'" + horizontal + "'",
+        "convert it to WGS84 with gdalwarp -s_srs DATUM -t_srs EPSG:4326 into a .tif; DATUM is EPSG:4322 "
+        "for WGS72, EPSG:4267 for NAD27");
   if (std::find(std::begin(kSeaLevels), std::end(kSeaLevels), vertical) == std::end(kSeaLevels))
     return error::fail(subject, "heights above mean sea level (vertical datum MSL, E84, E96, E08 or none)",
                        "'" + vertical + "'", "convert the heights to mean sea level");

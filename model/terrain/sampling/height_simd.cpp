@@ -131,7 +131,8 @@ HWY_INLINE bool none_at_sea([[maybe_unused]] Words words, [[maybe_unused]] const
 #endif
 }
 
-// Bilinear mean over the posts that are not void, with their weights scaled to a sum of 1. NaN if all are void.
+// Bilinear mean over the posts that are not void, with their weights scaled to a sum of 1. If these
+// posts have no weight, the height is NaN and the water 0.
 struct WeightedMean {
   Floats height, water;
 };
