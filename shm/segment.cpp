@@ -101,9 +101,10 @@ Expected<void> check_layout(const SegmentFile& file, const std::string& file_nam
 
 tl::unexpected<error::Error> system_failure(const std::string& file_name, std::string expected, int error) {
   const bool full = error == ENOSPC || error == ENOMEM;
-  return fail(path_of(file_name), std::move(expected), std::strerror(error),
-              full ? "free space in /dev/shm (df /dev/shm), or enlarge it (mount -o remount,size=256M /dev/shm)"
-                   : "check the permissions of /dev/shm");
+  return fail(
+      path_of(file_name), std::move(expected), std::strerror(error),
+      full ? "delete files in /dev/shm (df /dev/shm shows its use), or enlarge it (mount -o remount,size=256M /dev/shm)"
+           : "check the permissions of /dev/shm");
 }
 
 void write_header(void* memory, const LayoutIdentity& layout) {

@@ -41,7 +41,8 @@ enum class Key : std::uint8_t {
 
 // Key of a printable ASCII character. `A` and `a` give the same key. Key::none for any other character.
 Key key_of_character(char character);
-// Key of a GLFW key code, which is a position on a US keyboard. Key::none for a key without function.
+// Key of a GLFW key code, which is a position on a US keyboard. Key::none for a key that is neither
+// printable nor named in Key.
 Key key_of_glfw(int code);
 
 // Converts presses and releases of keys to events. Stores the set of held keys.

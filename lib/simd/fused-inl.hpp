@@ -2,7 +2,7 @@
 // Inputs: three vectors of the same type.
 // Outputs: a * b + c, c - a * b or a * b - c, rounded once. All targets, with or without FMA, give equal bits.
 // Reason: Highway's MulAdd rounds twice on targets without FMA, so sweeps would differ between targets.
-// Use: include this file once for each target, inside Highway's foreach_target.h.
+// Use: include this file after highway.h, in a source that foreach_target.h compiles once for each target.
 // Source: docs/decisions/0009-vectors-by-highway.md; Boldo and Melquiond 2008, "Emulation of a FMA and correctly
 // rounded sums", IEEE Trans. Computers 57.
 #if defined(YARS_LIB_SIMD_FUSED_INL) == defined(HWY_TARGET_TOGGLE)

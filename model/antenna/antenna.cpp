@@ -50,7 +50,7 @@ namespace {
 // at 110 deg/s.
 constexpr double kTurnFraction = 0.1;
 constexpr double kMinWidth_deg = 1.0;  // a narrower sector would have one or two sweeps a pass at 110 deg/s
-constexpr double kMinRate_dps = 1.0;   // at a lower rate, a configuration mistake, a scan would take minutes
+constexpr double kMinRate_dps = 1.0;   // a lower rate is taken for a mistake: a scan would take minutes
 constexpr int kMaxBars = 4;
 // [ticks] Subtracted from a quotient before ceil(). Without it, a quotient that rounding leaves just above a whole
 // number would add a tick.

@@ -18,7 +18,8 @@ using Tag = hn::CappedTag<float, 16>;
 using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 
-// Coordinates of the second sample: rotated by 70 degrees, scaled by the golden ratio. The periods of both samples have
+// modulate() multiplies two samples of the texture. The coordinates of the second are those of the first, rotated by 70
+// degrees and scaled by the golden ratio. The periods of both samples have
 // no common multiple.
 constexpr float kTurnCosine = 0.3420201F;
 constexpr float kTurnSine = 0.9396926F;
@@ -45,7 +46,7 @@ HWY_INLINE TexelCoordinate split(Floats coordinate) {
   return {hn::BitCast(SignedTag(), sum), hn::Sub(coordinate, hn::Sub(sum, hn::Set(d, kOnes)))};
 }
 
-// Bilinear sample of the texture, in byte steps. `x`, `y`: east and north [texels].
+// Bilinear sample of the texture, 0 to 255. `x`, `y`: east and north [texels].
 HWY_INLINE Floats sample(const DetailTable& table, Floats x, Floats y) {
   const SignedTag di;
   const auto mask = hn::Set(di, table.edge - 1);

@@ -76,8 +76,8 @@ class ElevationGain {
         below_, ahead());
   }
 
-  // sin^2 b / sin^2(b + angle below the axis), where b is the depression of the pattern's centre (SweepConstants). Both
-  // sines are multiplied by the slant range.
+  // sin^2 b / sin^2(b + angle below the axis), where b is the depression of the antenna axis, but at least half a
+  // beamwidth (SweepConstants). Both sines are multiplied by the slant range.
   HWY_INLINE Gain<Group> cosecant_squared() const {
     const auto rise = mul(constant<Group>(c_.cos_centre_tilt), up_m_);
     const auto spread = max(mul_sub(constant<Group>(c_.sin_centre_tilt), out_m_, rise), zero());

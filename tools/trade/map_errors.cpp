@@ -68,7 +68,7 @@ namespace hrm = model::hrm;
 using radar::RadarConfiguration;
 
 constexpr double kDarkFraction = 0.05;    // fraction of level ground's power; pixels with less power are dark
-constexpr double kMinPower = 1e-8;        // as gamma of level ground; lower limit of powers, avoids log10(0)
+constexpr double kMinPower = 1e-8;        // lower limit of powers, avoids log10(0); unit as MapImage::power
 constexpr double kVisibleFraction = 0.2;  // fraction of the brightest mark's power; darker marks count as hidden
 
 RadarConfiguration without_noise(RadarConfiguration configuration) {

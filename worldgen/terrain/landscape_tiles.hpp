@@ -28,7 +28,8 @@ struct Airfield {
   double elevation_m = 0.0;  // [m MSL] elevation of the level ground, whole metres
 };
 
-inline constexpr double kRunwayHalfWidth_m = 70.0;  // with shoulders; wider than the 93 m between posts of DTED level 1
+inline constexpr double kRunwayHalfWidth_m =
+    70.0;  // with shoulders; the full width exceeds the 93 m between posts of DTED 1
 inline constexpr double kPadBeyond_m = 250.0;       // level ground beyond the runway's ends
 inline constexpr double kPadHalfWidth_m = 500.0;    // level ground on either side of the runway's centre line
 inline constexpr double kPadBlend_m = 500.0;        // transition from level ground to the land

@@ -115,18 +115,18 @@ NameFilter::NameFilter(std::string_view names) {
     const std::size_t first = name.find_first_not_of(" \t");
     if (first == std::string_view::npos) continue;
     name = name.substr(first, name.find_last_not_of(" \t") - first + 1);
-    wanted_.push_back({std::string(name)});
+    excluded_.push_back({std::string(name)});
   }
 }
 
 bool NameFilter::leaves_out(const std::string& name) {
-  if (wanted_.empty() || name.empty()) return false;
+  if (excluded_.empty() || name.empty()) return false;
   if (seen_.size() < kMaxSeen) seen_.insert(name);
   bool out = false;
   const std::string lower_case = lower(name);
-  for (Wanted& wanted : wanted_) {
+  for (Excluded& wanted : excluded_) {
     if (!matches(lower(wanted.name), lower_case)) continue;
-    wanted.met = true;
+    wanted.matched = true;
     out = true;
   }
   return out;
@@ -134,8 +134,8 @@ bool NameFilter::leaves_out(const std::string& name) {
 
 std::vector<std::string> NameFilter::unmatched_names() const {
   std::vector<std::string> names;
-  for (const Wanted& wanted : wanted_)
-    if (!wanted.met) names.push_back(wanted.name);
+  for (const Excluded& wanted : excluded_)
+    if (!wanted.matched) names.push_back(wanted.name);
   return names;
 }
 

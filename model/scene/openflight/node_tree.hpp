@@ -163,28 +163,28 @@ class WarningList {
 // left out with everything below it. `*` matches any characters, `?` one character. Case is ignored.
 class NameFilter {
  public:
-  // `names`: the names to leave out (wanted names), separated by commas. Blanks around a name are ignored. Empty:
+  // `names`: the names to leave out (excluded names), separated by commas. Blanks around a name are ignored. Empty:
   // nothing is left out.
   explicit NameFilter(std::string_view names);
 
-  // True if `name` matches a wanted name. Records `name` as seen, and marks the wanted names that it matches.
+  // True if `name` matches an excluded name. Records `name` as seen, and marks the excluded names that it matches.
   bool leaves_out(const std::string& name);
 
   // Adds the names that `other` recorded as seen.
   void add_seen(const NameFilter& other) { seen_.insert(other.seen_.begin(), other.seen_.end()); }
 
-  // Wanted names that matched nothing so far.
+  // Excluded names that matched nothing so far.
   std::vector<std::string> unmatched_names() const;
   // Error for the first unmatched name, with a list of similar names; nullopt if all matched. `subject`: the file or
   // option that the error names.
   std::optional<error::Error> unmatched_error(const std::string& subject) const;
 
  private:
-  struct Wanted {
+  struct Excluded {
     std::string name;
-    bool met = false;  // true: a name matched
+    bool matched = false;  // true: a name matched
   };
-  std::vector<Wanted> wanted_;
+  std::vector<Excluded> excluded_;
   std::set<std::string> seen_;  // names of nodes, for suggestions in errors
 };
 

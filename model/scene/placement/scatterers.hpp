@@ -70,8 +70,8 @@ struct Scatterers {
 
   geo::GeoPoint position;
   geo::LocalTangentFrame frame;  // east, north, up at `position`, on the ellipsoid
-  // [m] Radius of a circle about `position`. The circle contains all squares with cover. It also contains a smaller
-  // circle about each scatterer, with the side of a square as radius.
+  // [m] Radius of a circle about `position` that contains every square with cover, and every scatterer with a margin of
+  // one side of a square.
   double reach_m = 0.0;
   std::array<ScattererLevel, kScattererSides_m.size()> levels;
   std::size_t finest = 0;  // index of the finest level in use; in large scenes the levels before `finest` are empty
@@ -107,7 +107,8 @@ class ScatterBuilder {
     geo::Vector3 area_m2;
   };
   struct Square {
-    geo::Vector3 middle;  // sum of area times centre: of a standing face; for lying faces, of a square
+    // Sum of area times centre. The centre is that of the face if the face stands, and that of the square if it lies.
+    geo::Vector3 middle;
     double spread = 0.0;  // sum of area times squared distance from the plane's origin
     double area_m2 = 0.0;
     double min_m = 0.0, max_m = 0.0;  // lowest and highest altitude MSL

@@ -122,9 +122,9 @@ std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
   return {};
 }
 
-// Text that names the missing grid file of the most accurate operation that cannot be used because of it. Empty if no
-// such operation is more than 1 m more accurate than the chosen operation. `accuracy_m`: accuracy of the chosen
-// operation; negative: not known, so that any such operation counts as more accurate.
+// Some operations cannot be used because a grid file is missing. Returns a text that names the file of the most
+// accurate of them. Empty if none of them is more than 1 m more accurate than the chosen operation. `accuracy_m`:
+// accuracy of the chosen operation; negative: not known, so that any such operation counts as more accurate.
 std::string better_operation_lacking_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double accuracy_m) {
   std::string best;
   double best_m = accuracy_m < 0.0 ? 1e9 : accuracy_m - 1.0;

@@ -165,7 +165,7 @@ std::map<std::pair<int, int>, double> cells_of_pixels(const Raster& raster) {
   return cells;
 }
 
-// [deg^2] Area of a raster. Its use: a raster so small that no sample point of fraction_inside() lies on it.
+// [deg^2] Area of a raster, for rasters so small that fraction_inside() gives 0: no sample point lies on them.
 double area_of(const Raster& raster, const Rates& rates) {
   return static_cast<double>(raster.columns) * raster.rows / std::max(1.0, rates.north * rates.east);
 }
