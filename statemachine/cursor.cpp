@@ -16,6 +16,7 @@
 #include "lib/text/plain_text.hpp"
 #include "statemachine/designation.hpp"
 #include "statemachine/maps.hpp"
+#include "statemachine/picture_plane.hpp"
 
 namespace yars::statemachine {
 
@@ -23,42 +24,10 @@ namespace {
 
 using databuffer::PatchMap;
 using databuffer::RadarState;
-using geo::Bearing;
 using geo::GeoPoint;
-using geo::Length;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kCrossing_s = 2.0;  // edge-to-edge time at full TDC deflection; docs/spec/pilots_interface.md#tdc
-constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // a map fills the display; its centre is 0, 0
-
-// Position on the display: x right, y up. Plane defines the origin and the unit.
-struct DisplayPoint {
-  double x = 0.0;
-  double y = 0.0;
-};
-
-// Projection of the display: geodesic distance and azimuth from an apex, plotted on a plane (azimuthal equidistant).
-struct Plane {
-  GeoPoint apex;
-  Bearing up;    // direction at the apex that is upward on the display
-  Length unit;   // ground distance of 1 on the display: the selected range, or the window of the map
-  Length ahead;  // distance of the origin from the apex, upward
-  // Edges of the display, in multiples of `unit`.
-  radar::ViewConfiguration view;
-
-  DisplayPoint display_from_ground(GeoPoint position) const {
-    const geo::PlanePoint point = geo::AzimuthalEquidistant(apex, up).plane_from_geodetic(position);
-    return {Length::metres(point.x_m) / unit, (Length::metres(point.y_m) - ahead) / unit};
-  }
-  GeoPoint ground_from_display(DisplayPoint point) const {
-    return geo::AzimuthalEquidistant(apex, up).geodetic_from_plane(
-        {(point.x * unit).metres(), (point.y * unit + ahead).metres()});
-  }
-  bool shows(DisplayPoint point) const {
-    return point.x >= view.width_min && point.x <= view.width_max && point.y >= view.height_min &&
-           point.y <= view.height_max;
-  }
-};
 
 GeoPoint aircraft_of(const Inputs& inputs) {
   return {inputs.ownship.latitude_deg, inputs.ownship.longitude_deg};
@@ -71,22 +40,6 @@ void put_cursor(RadarState& state, GeoPoint position, std::int64_t tick) {
   state.cursor_longitude_deg = position.longitude_deg;
   state.cursor_moved_tick = tick;
   set_flag(state, databuffer::kCursorValid, true);
-}
-
-// Projection of the present picture. nullopt: the shown map has no record, so its position is unknown.
-std::optional<Plane> plane_of(const RadarState& state, const Inputs& inputs, const radar::ViewConfiguration& view) {
-  Plane plane{{state.frame_latitude_deg, state.frame_longitude_deg},
-              Bearing::degrees(state.frame_track_deg),
-              Length::nautical_miles(state.range_nm),
-              Length(),
-              view};
-  if (state.map_shown == 0) return plane;
-  const PatchMap* map = map_of(inputs, state.map_shown);
-  if (map == nullptr) return std::nullopt;
-  plane.unit = Length::nautical_miles(map->window_nm);
-  plane.ahead = Length::metres(map->distance_m);
-  plane.view = kMapView;
-  return plane;
 }
 
 void update_frame_from_aircraft(RadarState& state, const Inputs& inputs) {
@@ -108,7 +61,7 @@ void update_frame(RadarState& state, const Inputs& inputs) {
   state.frame_track_deg = map->up_deg;
 }
 
-void place_cursor(RadarState& state, const Plane& plane, const Inputs& inputs, const Parameters& parameters) {
+void place_cursor(RadarState& state, const PicturePlane& plane, const Inputs& inputs, const Parameters& parameters) {
   const DisplayPoint middle{0.0, state.map_shown == 0 ? 0.5 : 0.0};
   GeoPoint position = plane.ground_from_display(middle);
   if (const auto point = selected_point(state, parameters)) {
@@ -119,7 +72,7 @@ void place_cursor(RadarState& state, const Plane& plane, const Inputs& inputs, c
   put_cursor(state, position, inputs.tick);
 }
 
-void slew(RadarState& state, const Plane& plane, std::int64_t tick) {
+void slew(RadarState& state, const PicturePlane& plane, std::int64_t tick) {
   // The cursor stands still while the TDC turns the pattern steering line.
   if (!shows_cursor(state) || slews_steering_line(state)) return;
   if (state.tdc_x == 0.0 && state.tdc_y == 0.0) return;
@@ -259,10 +212,14 @@ void next_sequence_point(Step& step) {
   select(step, find_point(text_of(next.name), step.state, step.parameters));
 }
 
+std::string no_such_point(std::string_view name) {
+  return "NO POINT " + std::string(name);
+}
+
 void select_sequence_point(Step& step) {
   const std::string_view name = text_of(step.event.text);
   const auto point = find_point(name, step.state, step.parameters);
-  if (!point) return refuse(step, "NO POINT " + std::string(name));
+  if (!point) return refuse(step, no_such_point(name));
   select(step, point);
 }
 

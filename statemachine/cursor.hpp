@@ -5,6 +5,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "statemachine/step.hpp"
 
@@ -35,6 +37,8 @@ void advance_cursor(databuffer::RadarState& state, const Inputs& inputs, const P
 
 // Selects the drawn point with the next higher number; after the highest, the lowest. The cursor jumps to that point.
 void next_sequence_point(Step& step);
+// Reason why an unknown name is refused: NO POINT and the name.
+std::string no_such_point(std::string_view name);
 // Selects the point of the route, or the designated target, by the name in the event. An unknown name is refused.
 void select_sequence_point(Step& step);
 

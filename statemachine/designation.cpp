@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,7 @@
 #include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
+#include "statemachine/picture_plane.hpp"
 
 namespace yars::statemachine {
 
@@ -212,14 +214,33 @@ void cue(RadarState& state, geo::GeoPoint known) {
   ++state.cue_count;
 }
 
-// The point of the route within 1 m of a position; nullptr if there is none. The tolerance of 1 m covers the rounding
-// errors of the conversion from video to navigator coordinates.
-const radar::RoutePoint* route_point_at(geo::GeoPoint known, const Parameters& parameters) {
-  const geo::Length same = geo::Length::metres(1.0);
-  const auto found = std::ranges::find_if(parameters.route, [&](const radar::RoutePoint& point) {
-    return geo::geodesic_inverse(known, point.position).distance <= same;
-  });
-  return found == parameters.route.end() ? nullptr : &*found;
+// [display units] Maximum distance at which a symbol counts as under the cursor. It is about the width of a drawn line:
+// the display does not show a shorter distance. The cursor stays on its ground while the navigator's error displaces
+// the symbols, so after a jump to a point the symbol soon is some metres off the cursor.
+constexpr double kUnderCursor = 2.0;
+
+// The point of the route with its symbol under the cursor; nullptr if there is none. Of several, the selected point is
+// preferred, then the nearest.
+const radar::RoutePoint* route_point_under_cursor(const Step& step) {
+  const RadarState& state = step.state;
+  const auto plane = plane_of(state, step.inputs, step.parameters.view);
+  if (!plane) return nullptr;
+  const auto navigator = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);
+  const DisplayPoint cursor = plane->display_from_ground(cursor_of(state));
+  const radar::RoutePoint* nearest = nullptr;
+  double least = kUnderCursor;
+  for (const databuffer::DrawnPoint& drawn : std::span(state.points, state.points_drawn)) {
+    const auto point = std::ranges::find(step.parameters.route, text_of(drawn.name), &radar::RoutePoint::name);
+    if (point == step.parameters.route.end()) continue;
+    const DisplayPoint symbol = plane->display_from_ground(navigator.on_video(point->position));
+    const double off = plane->units_between(symbol, cursor);
+    if (off > kUnderCursor) continue;
+    if (drawn.selected != 0) return &*point;
+    if (off > least) continue;
+    nearest = &*point;
+    least = off;
+  }
+  return nearest;
 }
 
 bool is_of_route(std::string_view name, const Parameters& parameters) {
@@ -261,11 +282,11 @@ std::string text_of(PointName name) {
 }
 
 // Stores target and cue. `adopted`: point of the route that becomes the target, with its own position and elevation;
-// nullptr: the target is at `known`.
-void put_target(Step& step, geo::GeoPoint known, const radar::RoutePoint* adopted) {
+// nullptr: the target is at the cursor.
+void put_target(Step& step, const radar::RoutePoint* adopted) {
   constexpr std::uint32_t both = databuffer::kAskedForTarget | databuffer::kAskedForCue;
   RadarState& state = step.state;
-  const geo::GeoPoint position = adopted ? adopted->position : known;
+  const geo::GeoPoint position = adopted ? adopted->position : known_cursor(step);
   state.target_latitude_deg = position.latitude_deg;
   state.target_longitude_deg = position.longitude_deg;
   cue(state, position);
@@ -288,8 +309,7 @@ void cue_sensor(Step& step) {
 void designate_target(Step& step) {
   RadarState& state = step.state;
   if (!has_cursor(step)) return;
-  const geo::GeoPoint known = known_cursor(step);
-  const radar::RoutePoint* const adopted = route_point_at(known, step.parameters);
+  const radar::RoutePoint* const adopted = route_point_under_cursor(step);
   const auto free = adopted ? std::nullopt : next_free(state, step.parameters);
   if (!adopted && !free) return refuse(step, "NO FREE NUMBER");
   // If the old target is the selected sequence point, the new target is selected. A point of the route stays selected.
@@ -298,7 +318,7 @@ void designate_target(Step& step) {
                                !is_of_route(old_name, step.parameters);
   put_text(state.target_name, adopted ? adopted->name : text_of(*free));
   if (moves_selection) std::ranges::copy(state.target_name, state.sequence_point);
-  put_target(step, known, adopted);
+  put_target(step, adopted);
   ++state.target_count;
   set_flag(state, databuffer::kTargetDesignated, true);
   steer_line_of_sight(state, step.inputs);

@@ -58,8 +58,10 @@ void put_steering(databuffer::Outputs& outputs, const databuffer::RadarState& st
 // CUE, TGT and MARK at the cursor, in coordinates of the selected navigator.
 // Source: docs/spec/pilots_interface.md#rule-14.
 void cue_sensor(Step& step);
-void designate_target(Step& step);  // also cues; a route point within 1 m of the cursor becomes the target
-void store_mark(Step& step);        // keeps the last ten marks
+// Also cues. A point of the route whose symbol is under the cursor becomes the target.
+void designate_target(Step& step);
+// Keeps the last ten marks.
+void store_mark(Step& step);
 
 // The designated target as a sequence point; nullopt if there is no target.
 std::optional<radar::RoutePoint> designated_point(const databuffer::RadarState& state);

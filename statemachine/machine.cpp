@@ -112,6 +112,7 @@ Effect apply(RadarState& state, const databuffer::InputEvent& event, const Input
              const Parameters& parameters) {
   const Action action = action_for(state, event);
   if (!action) return Effect::none;
+  if (is_press(event)) return Effect::done;
   const RadarState before = state;
   Step step{state, event, inputs, parameters};
   action(step);

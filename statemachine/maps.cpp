@@ -1,6 +1,7 @@
 #include "statemachine/maps.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -150,17 +151,21 @@ double window_to_map_nm(const Step& step) {
 }
 
 // Reason why no map can be made at the cursor; nullopt: a map can be made. Computed here, because the model's status is
-// from the last tick and the cursor may have jumped since.
+// from the last tick and the cursor may have jumped since. While the elevation of the ground at the cursor is unknown,
+// the elevation angle is not checked here. The model checks it when the map starts.
 std::optional<std::string_view> unmappable_reason(const Step& step) {
   const databuffer::Ownship& ownship = step.inputs.ownship;
   const radar::MapViewpoint from{{ownship.latitude_deg, ownship.longitude_deg},
-                                 geo::Bearing::degrees(ownship.heading_deg),
-                                 databuffer::ground_track_of(ownship)};
-  return radar::map_rejection(from, {step.state.cursor_latitude_deg, step.state.cursor_longitude_deg},
-                              {geo::Length::nautical_miles(step.state.window_nm)}, step.parameters.map_limits);
+                                 geo::AltitudeMsl::metres(ownship.altitude_msl_m),
+                                 databuffer::platform_of(ownship)};
+  radar::MapCentre centre{cursor_of(step.state), std::nullopt};
+  if (std::isfinite(step.state.cursor_elevation_m)) centre.ground_m = step.state.cursor_elevation_m;
+  return radar::map_rejection(from, centre, {geo::Length::nautical_miles(step.state.window_nm)},
+                              step.parameters.map_limits);
 }
 
-// Reason that the model gives for stopping re-maps. Trust boundary: a text with non-printable characters is ignored.
+// Reason that the model gives for not making a commanded map, or for stopping re-maps. Trust boundary: a text with
+// non-printable characters is ignored.
 std::string_view stop_reason(const ModelStatus& model) {
   const std::string_view reason = text::text_of(model.map_stopped);
   return std::ranges::all_of(reason, [](char letter) { return letter >= ' ' && letter <= '~'; }) ? reason
@@ -213,10 +218,11 @@ bool take_map(RadarState& state, const Inputs& inputs) {
   // Any id that differs from the newest map's counts as new. If it had to be greater, one erroneous large id would hide
   // all later maps.
   const bool is_new = model.map_newest != 0 && model.map_newest != state.map_newest;
-  // The model answered without a map: the aircraft came too near, or was repositioned, after the command.
+  // The model answered without a map. Its reason is a limit; without a reason the map is impossible for another cause.
   if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request && !is_new) {
     cancel_map(state, inputs);
-    show_message(state, inputs, "NO MAP");
+    const std::string_view reason = stop_reason(model);
+    show_message(state, inputs, reason.empty() ? "NO MAP" : reason);
     return false;
   }
   if (!is_new || model.map_done_request != state.map_request) return false;

@@ -141,7 +141,6 @@ constexpr int kMaxLevel = 15;  // maximum of brightness and contrast; the displa
 constexpr std::uint8_t kMaxGain = 3;
 constexpr std::uint8_t kChannels = 8;
 constexpr std::uint8_t kBands = 5;
-constexpr std::string_view kRecorderFull = "VTR FULL";
 
 void toggle(Step& step, std::uint32_t flag) {
   step.state.flags ^= flag;
@@ -181,21 +180,22 @@ void step_contrast(Step& step) {
   step_level(step.state.contrast, std::clamp<int>(step.event.argument, -1, 1));
 }
 
+std::string_view recorder_problem(bool recorder_present) {
+  return recorder_present ? "VTR FULL" : "NO RECORDER";
+}
+
 void toggle_recorder(Step& step) {
-  if (!step.inputs.recorder_present) {
-    refuse(step, "NO RECORDER");
-  } else if (step.inputs.recorder_failed) {
-    refuse(step, kRecorderFull);
-  } else {
-    ++step.state.vtr_request;
-  }
+  if (!step.inputs.recorder_present || step.inputs.recorder_failed)
+    return refuse(step, recorder_problem(step.inputs.recorder_present));
+  ++step.state.vtr_request;
 }
 
 // The VTR box shows the status of the recorder, not the request.
 void advance_recorder(databuffer::RadarState& state, const Inputs& inputs) {
   const bool was_writing = has(state, databuffer::kVtr);
   set_flag(state, databuffer::kVtr, inputs.recorder_present && inputs.recorder_writing);
-  if (was_writing && inputs.recorder_present && inputs.recorder_failed) show_message(state, inputs, kRecorderFull);
+  if (was_writing && inputs.recorder_present && inputs.recorder_failed)
+    show_message(state, inputs, recorder_problem(true));
 }
 
 void toggle_sniff(Step& step) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 #include "lib/geo/quantity.hpp"
 #include "statemachine/step.hpp"
@@ -24,6 +25,9 @@ void select_window(databuffer::RadarState& state, geo::Length window, const Para
 
 // Sets the range by height (rule 1). No change without a valid ownship.
 void set_range_by_height(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
+
+// Reason why the recorder cannot be switched on: none is present, or the present one has stopped at a problem.
+std::string_view recorder_problem(bool recorder_present);
 
 // Switches and levels. Cyclic settings wrap around; levels stop at their ends.
 // Source: docs/spec/pilots_interface.md#buttons, #controls, #rule-9, #rule-19, #rule-22.

@@ -273,17 +273,25 @@ bool hold(Conditions conditions, const databuffer::RadarState& state) {
   return (conditions & ~present_conditions(state)) == 0;
 }
 
+bool is_press(const databuffer::InputEvent& event) {
+  return event.kind == static_cast<std::uint16_t>(EventKind::tdc_press);
+}
+
+namespace {
+bool is_row_of(const ControlRow& row, const databuffer::InputEvent& event) {
+  return row.kind == (is_press(event) ? EventKind::tdc_release : static_cast<EventKind>(event.kind));
+}
+}  // namespace
+
 std::string reason_without_effect(const databuffer::RadarState& state, const databuffer::InputEvent& event) {
   if (action_for(state, event)) return "changed nothing: already at this value or at its limit";
   if (power_of(state) == radar::Power::off) return "dead while the power is OFF";
   const Conditions present = present_conditions(state);
   const bool button = event.kind == static_cast<std::uint16_t>(EventKind::push_button);
-  const auto missing = button
-                           ? fewest_missing(kButtons, button_column(state), present,
-                                            [&event](const ButtonRow& row) { return row.button == event.argument; })
-                           : fewest_missing(kControls, control_column(state), present, [&event](const ControlRow& row) {
-                               return static_cast<std::uint16_t>(row.kind) == event.kind;
-                             });
+  const auto missing = button ? fewest_missing(kButtons, button_column(state), present,
+                                               [&event](const ButtonRow& row) { return row.button == event.argument; })
+                              : fewest_missing(kControls, control_column(state), present,
+                                               [&event](const ControlRow& row) { return is_row_of(row, event); });
   const auto mode = button ? static_cast<radar::Mode>(state.mode) : running_mode(state);
   std::string in_mode = "dead in " + std::string(name_of(mode));
   if (!missing) return in_mode;
@@ -305,7 +313,7 @@ Action action_for(const databuffer::RadarState& state, const databuffer::InputEv
   }
   const auto live = live_in(control_column(state));
   const auto row = std::find_if(kControls.begin(), kControls.end(), [&](const ControlRow& candidate) {
-    return static_cast<std::uint16_t>(candidate.kind) == event.kind && live(candidate);
+    return is_row_of(candidate, event) && live(candidate);
   });
   return row == kControls.end() ? nullptr : row->action;
 }

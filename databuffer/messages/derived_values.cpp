@@ -52,6 +52,11 @@ geo::Bearing ground_track_of(const Ownship& ownship) {
                              geo::Bearing::degrees(ownship.heading_deg));
 }
 
+radar::Platform platform_of(const Ownship& ownship) {
+  return {geo::Bearing::degrees(ownship.heading_deg), geo::Angle::degrees(ownship.pitch_deg),
+          geo::Angle::degrees(ownship.roll_deg), ground_track_of(ownship)};
+}
+
 GeoPoint NavigatorPosition::on_video(GeoPoint known) const {
   return transferred(estimated, truth, known);
 }

@@ -11,6 +11,7 @@
 #include "databuffer/messages/world_state.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
+#include "lib/radar/gimbal.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::radar {
@@ -26,7 +27,10 @@ namespace yars::databuffer {
 // ground_track() of an ownship record.
 geo::Bearing ground_track_of(const Ownship& ownship);
 
-// The aircraft's true position (`truth`), and the position that a navigator estimates (`estimated`). radar-model forms
+// Attitude and ground track of an ownship record.
+radar::Platform platform_of(const Ownship& ownship);
+
+// The aircraft's true position (`truth`), and the position that a navigator estimates (`estimated`). The model forms
 // video as seen from `truth`. Sequence points and all positions reported to other systems are in the navigator's
 // coordinates. `estimated` is the navigator's position in Nav plus the navigator's error in the radar state.
 struct NavigatorPosition {

@@ -6,6 +6,7 @@
 
 #include "lib/error/error.hpp"
 #include "lib/radar/mission.hpp"
+#include "lib/radar/sensor.hpp"
 
 namespace yars::radar {
 
@@ -113,21 +114,42 @@ bool blank_allows(geo::Length range, geo::Length size, const WindowLimits& table
   return window && (size == geo::Length() || std::abs((*window - size).nautical_miles()) < kSameWindow_nm);
 }
 
+// Limit of the window's ranges that `range` exceeds; nullopt: none.
+std::optional<std::string_view> range_rejection(geo::Length range, const MapWindow& window, const WindowLimits& table) {
+  const bool blank = window.blank || window.size == geo::Length();
+  if (blank && blank_allows(range, window.size, table)) return std::nullopt;
+  const auto ranges = cursor_limits(window.size, table);
+  if (!ranges) return "NO WINDOW";
+  if (range < ranges->min) return "MIN RANGE";
+  if (range > ranges->max) return "MAX RANGE";
+  return std::nullopt;
+}
+
+// The servo limits the elevation against the horizon, the gimbal both angles in airframe axes.
+bool antenna_reaches(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation,
+                     const AntennaConfiguration& antenna) {
+  return std::abs(elevation.degrees()) <= antenna.elevation_limit_deg + antenna.tolerance_deg &&
+         within_gimbal(platform, antenna, azimuth, elevation);
+}
+
 }  // namespace
 
-std::optional<std::string_view> map_rejection(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
-                                              const MapLimits& limits) {
-  if (!is_finite(from.aircraft) || !is_finite(centre)) return "NO CURSOR";
-  const geo::GeodesicInverse geodesic = geo::geodesic_inverse(from.aircraft, centre);
-  if (in_blind_zone(geodesic.azimuth_at_start - from.ground_track, limits.blind_zone_deg)) return "BLIND ZONE";
-  const geo::Angle off_nose = geodesic.azimuth_at_start - from.heading;
-  if (std::abs(off_nose.degrees()) > limits.azimuth_limit_deg) return "GIMBAL";
-  const bool blank = window.blank || window.size == geo::Length();
-  if (blank && blank_allows(geodesic.distance, window.size, limits.windows)) return std::nullopt;
-  const auto ranges = cursor_limits(window.size, limits.windows);
-  if (!ranges) return "NO WINDOW";
-  if (geodesic.distance < ranges->min) return "MIN RANGE";
-  if (geodesic.distance > ranges->max) return "MAX RANGE";
+geo::Angle elevation_to_ground(geo::AltitudeMsl altitude, geo::Length distance, double ground_m) {
+  const double height_m = altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
+  return geo::Angle::radians(-std::atan2(height_m, std::max(distance.metres(), 1.0)));
+}
+
+std::optional<std::string_view> map_rejection(const MapViewpoint& from, const MapCentre& centre,
+                                              const MapWindow& window, const MapLimits& limits) {
+  if (!is_finite(from.aircraft) || !is_finite(centre.position)) return "NO CURSOR";
+  const geo::GeodesicInverse path = geo::geodesic_inverse(from.aircraft, centre.position);
+  if (in_blind_zone(path.azimuth_at_start - from.platform.ground_track, limits.blind_zone_deg)) return "BLIND ZONE";
+  const geo::Angle off_nose = path.azimuth_at_start - from.platform.heading;
+  if (std::abs(off_nose.degrees()) > limits.antenna.azimuth_limit_deg) return "GIMBAL";
+  if (const auto reason = range_rejection(path.distance, window, limits.windows)) return reason;
+  if (!centre.ground_m) return std::nullopt;
+  const geo::Angle elevation = elevation_to_ground(from.altitude, path.distance, *centre.ground_m);
+  if (!antenna_reaches(from.platform, path.azimuth_at_start, elevation, limits.antenna)) return "GIMBAL";
   return std::nullopt;
 }
 

@@ -12,6 +12,7 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
+#include "lib/radar/gimbal.hpp"
 
 namespace yars::radar {
 
@@ -94,11 +95,22 @@ bool in_blind_zone(geo::Angle squint, double blind_zone_deg);
 // lambda: wavelength; V: ground speed; T: dwell. If the result is the real beam width, the scan is not sharpened.
 geo::Angle dbs_beamwidth(geo::Angle squint, geo::Speed ground_speed, const SyntheticArray& array);
 
-// Position, heading and ground track of the aircraft. Bearings are true.
+// Elevation angle from an altitude to the ground at a distance, positive above the horizon, on a flat earth. `ground_m`
+// is MSL; NaN counts as sea level.
+geo::Angle elevation_to_ground(geo::AltitudeMsl altitude, geo::Length distance, double ground_m);
+
+// Position and attitude of the aircraft.
 struct MapViewpoint {
   geo::GeoPoint aircraft;
-  geo::Bearing heading;
-  geo::Bearing ground_track;
+  geo::AltitudeMsl altitude;
+  Platform platform;
+};
+
+// Centre of a patch map. `ground_m`: terrain elevation [m MSL]; NaN: void, counts as sea level; nullopt: not known yet,
+// so the elevation angle is not checked.
+struct MapCentre {
+  geo::GeoPoint position;
+  std::optional<double> ground_m;
 };
 
 struct MapWindow {
@@ -108,26 +120,25 @@ struct MapWindow {
   bool blank = false;
 };
 
-// Limits of the position of a patch map. The table of windows must outlive this object.
+// Limits of the position of a patch map. Antenna and table of windows must outlive this object.
 struct MapLimits {
   // Converts from a configuration with the sections antenna, high_resolution and window_limits, such as
   // RadarConfiguration.
   template <class Configuration>
   requires requires(const Configuration& whole) { whole.window_limits; }
   MapLimits(const Configuration& whole)
-      : azimuth_limit_deg(whole.antenna.azimuth_limit_deg),
-        blind_zone_deg(whole.high_resolution.blind_zone_deg),
-        windows(whole.window_limits) {}
+      : antenna(whole.antenna), blind_zone_deg(whole.high_resolution.blind_zone_deg), windows(whole.window_limits) {}
 
-  double azimuth_limit_deg;  // [deg] gimbal limit, either side of the nose
-  double blind_zone_deg;     // [deg] either side of the ground track
+  const AntennaConfiguration& antenna;
+  double blind_zone_deg;  // [deg] either side of the ground track
   const WindowLimits& windows;
 };
 
-// Message of the display if a patch map about `centre` is not possible; nullopt if the map is possible. A re-map
-// has the same limits. A position that is not finite gives "NO CURSOR".
+// Message of the display if a patch map about `centre` is not possible; nullopt if the map is possible. The limits of a
+// re-map are the same. A position that is not finite gives "NO CURSOR". The gimbal limits azimuth and elevation twice:
+// against nose and horizon, and in airframe axes.
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the 1996 report.
-std::optional<std::string_view> map_rejection(const MapViewpoint& from, geo::GeoPoint centre, const MapWindow& window,
-                                              const MapLimits& limits);
+std::optional<std::string_view> map_rejection(const MapViewpoint& from, const MapCentre& centre,
+                                              const MapWindow& window, const MapLimits& limits);
 
 }  // namespace yars::radar

@@ -11,38 +11,10 @@ namespace yars::model::antenna {
 using geo::Angle;
 using geo::Bearing;
 
-Bearing scan_centre(const Platform& platform, const radar::AntennaConfiguration& antenna) {
+Bearing scan_centre(const radar::Platform& platform, const radar::AntennaConfiguration& antenna) {
   const double drift_deg = (platform.ground_track - platform.heading).degrees();
   const double followed_deg = std::clamp(drift_deg, -antenna.drift_limit_deg, antenna.drift_limit_deg);
   return platform.heading + Angle::degrees(followed_deg);
-}
-
-GimbalAngles gimbal_from_space(const Platform& platform, Bearing azimuth, Angle elevation) {
-  const double relative_rad = (azimuth - platform.heading).radians();
-  const double sin_elevation = std::sin(elevation.radians());
-  const double cos_elevation = std::cos(elevation.radians());
-  // Heading axes: forward, right, down.
-  const double forward = cos_elevation * std::cos(relative_rad);
-  const double right = cos_elevation * std::sin(relative_rad);
-  const double down = -sin_elevation;
-  const double sin_pitch = std::sin(platform.pitch.radians());
-  const double cos_pitch = std::cos(platform.pitch.radians());
-  const double sin_roll = std::sin(platform.roll.radians());
-  const double cos_roll = std::cos(platform.roll.radians());
-  // Rotation by pitch about the right axis, then by roll about the nose axis.
-  const double nose = cos_pitch * forward - sin_pitch * down;
-  const double pitched_down = sin_pitch * forward + cos_pitch * down;
-  const double wing = cos_roll * right + sin_roll * pitched_down;
-  const double belly = -sin_roll * right + cos_roll * pitched_down;
-  return {Angle::radians(std::atan2(wing, nose)), Angle::radians(std::asin(std::clamp(-belly, -1.0, 1.0)))};
-}
-
-bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& antenna, Bearing azimuth,
-                   Angle elevation) {
-  const GimbalAngles gimbal = gimbal_from_space(platform, azimuth, elevation);
-  const bool azimuth_reached =
-      antenna.circular_scan || std::abs(gimbal.azimuth.degrees()) <= antenna.azimuth_limit_deg + antenna.tolerance_deg;
-  return azimuth_reached && std::abs(gimbal.elevation.degrees()) <= antenna.elevation_limit_deg + antenna.tolerance_deg;
 }
 
 namespace {
@@ -188,7 +160,7 @@ void Antenna::park() {
   elevation_.freeze();
 }
 
-bool Antenna::point(const Platform& platform, Bearing azimuth, Angle elevation) {
+bool Antenna::point(const radar::Platform& platform, Bearing azimuth, Angle elevation) {
   phase_ = Phase::pointing;
   tick_ = 0;
   azimuth_.command_position((azimuth - platform.heading).degrees());
@@ -198,7 +170,7 @@ bool Antenna::point(const Platform& platform, Bearing azimuth, Angle elevation) 
   return azimuth_.reached() && elevation_.reached();
 }
 
-AntennaStep Antenna::step(const Platform& platform, Angle commanded_elevation) {
+AntennaStep Antenna::step(const radar::Platform& platform, Angle commanded_elevation) {
   AntennaStep step;
   step.phase = phase_;
   step.bar = tick_ / pattern_.pass_ticks();
@@ -218,11 +190,11 @@ AntennaStep Antenna::step(const Platform& platform, Angle commanded_elevation) {
   return step;
 }
 
-Bearing Antenna::target_centre(const Platform& platform) const {
+Bearing Antenna::target_centre(const radar::Platform& platform) const {
   return scan_centre(platform, *configuration_) + Angle::degrees(offset_deg_);
 }
 
-void Antenna::slew(const Platform& platform) {
+void Antenna::slew(const radar::Platform& platform) {
   const double centre_deg = (target_centre(platform) - platform.heading).degrees();
   if (!direction_known_) direction_ = azimuth_.position_deg() > centre_deg && !pattern_.circular ? -1 : 1;
   direction_known_ = true;
@@ -236,7 +208,7 @@ void Antenna::slew(const Platform& platform) {
   centre_ = target_centre(platform);
 }
 
-void Antenna::scan(const Platform& platform, AntennaStep& step) {
+void Antenna::scan(const radar::Platform& platform, AntennaStep& step) {
   const Bearing centre_before = centre_;
   const double lag_deg = (target_centre(platform) - centre_).degrees();
   const double max_step_deg = kMaxCentreRate_dps * radar::kTickSeconds;
@@ -252,8 +224,8 @@ void Antenna::scan(const Platform& platform, AntennaStep& step) {
     pointing = centre_ + Angle::degrees(pattern_.edge_deg(next, direction_));
     step.left = direction_ > 0 ? from : pointing;
     step.right = direction_ > 0 ? pointing : from;
-    step.reachable = within_gimbal(platform, *configuration_, from, step.elevation) &&
-                     within_gimbal(platform, *configuration_, pointing, step.elevation);
+    step.reachable = radar::within_gimbal(platform, *configuration_, from, step.elevation) &&
+                     radar::within_gimbal(platform, *configuration_, pointing, step.elevation);
     step.scan_start = tick_ == 0;
     step.scan_end = pass_tick == pattern_.sweep_ticks - 1 && step.bar == pattern_.bars - 1;
   } else {

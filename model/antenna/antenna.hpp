@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "lib/geo/quantity.hpp"
+#include "lib/radar/gimbal.hpp"
 
 namespace yars::radar {
 struct AntennaConfiguration;
@@ -17,28 +18,8 @@ struct AntennaConfiguration;
 
 namespace yars::model::antenna {
 
-// Attitude and ground track of the aircraft. Heading and track are true. Pitch is positive with the nose up, roll with
-// the right wing down.
-struct Platform {
-  geo::Bearing heading;
-  geo::Angle pitch;
-  geo::Angle roll;
-  geo::Bearing ground_track;  // equals the heading at ground speeds below 1 m/s
-};
-
 // Centre of the scan: the ground track, limited to `drift_limit_deg` either side of the nose.
-geo::Bearing scan_centre(const Platform& platform, const radar::AntennaConfiguration& antenna);
-
-struct GimbalAngles {
-  geo::Angle azimuth;    // positive right of the nose
-  geo::Angle elevation;  // positive above the wing plane
-};
-// Rotates a direction (true azimuth, elevation above the horizon) into airframe axes.
-GimbalAngles gimbal_from_space(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
-
-// True if the direction is within the gimbal limits plus the servo's tolerance. A circular scan has no azimuth limit.
-bool within_gimbal(const Platform& platform, const radar::AntennaConfiguration& antenna, geo::Bearing azimuth,
-                   geo::Angle elevation);
+geo::Bearing scan_centre(const radar::Platform& platform, const radar::AntennaConfiguration& antenna);
 
 // Beam azimuth and bar (elevation of one pass) as functions of the tick within the scan. Rounding errors do not
 // accumulate. A pass crosses the sector once: `sweep_ticks` ticks with one sweep each, then a turn-around of
@@ -155,10 +136,10 @@ class Antenna {
   void park();
   // One tick that slews to a direction or holds it; called instead of step(). The direction is clamped to the servo's
   // limits. Returns true if both axes are within tolerance of the clamped direction. Afterwards a scan needs restart().
-  bool point(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
+  bool point(const radar::Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
   // One tick of slewing or scanning. While parked the antenna does not move.
-  AntennaStep step(const Platform& platform, geo::Angle commanded_elevation);
+  AntennaStep step(const radar::Platform& platform, geo::Angle commanded_elevation);
 
   bool between_scans() const { return tick_ == 0; }                   // parked, slewing, pointing, or after a scan
   double azimuth_deg() const { return azimuth_.position_deg(); }      // right of the nose
@@ -166,9 +147,9 @@ class Antenna {
   const ScanPattern& pattern() const { return pattern_; }
 
  private:
-  geo::Bearing target_centre(const Platform& platform) const;
-  void slew(const Platform& platform);
-  void scan(const Platform& platform, AntennaStep& step);
+  geo::Bearing target_centre(const radar::Platform& platform) const;
+  void slew(const radar::Platform& platform);
+  void scan(const radar::Platform& platform, AntennaStep& step);
 
   std::shared_ptr<const radar::AntennaConfiguration> configuration_;
   ScanPattern pattern_;

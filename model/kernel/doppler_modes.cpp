@@ -64,9 +64,8 @@ DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose, const 
 }
 
 geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m) {
-  const double distance_m = geo::geodesic_inverse(pose.position, target).distance.metres();
-  const double height_m = pose.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
-  return geo::Angle::radians(-std::atan2(height_m, std::max(distance_m, 1.0)));
+  const geo::Length distance = geo::geodesic_inverse(pose.position, target).distance;
+  return radar::elevation_to_ground(pose.altitude, distance, ground_m);
 }
 
 using databuffer::ModelStatus;
@@ -152,7 +151,7 @@ std::size_t DopplerVelocityUpdate::beams() const {
 }
 
 DopplerVelocityUpdate::Direction DopplerVelocityUpdate::direction_of(std::size_t beam,
-                                                                     const antenna::Platform& platform) const {
+                                                                     const radar::Platform& platform) const {
   const radar::NavigationConfiguration& navigation = parameters_.navigation;
   return {antenna::scan_centre(platform, parameters_.antenna) + geo::Angle::degrees(navigation.beam_azimuths_deg[beam]),
           geo::Angle::degrees(-navigation.beam_depressions_deg[beam])};

@@ -63,8 +63,7 @@ struct DbsCell {
 };
 DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose, const DopplerParameters& parameters);
 
-// Elevation angle from the aircraft to a point on the ground, positive above the horizon, on a flat earth. `ground_m`:
-// elevation of the point [m MSL]; NaN counts as sea level.
+// radar::elevation_to_ground() from the aircraft to a point on the ground.
 geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m);
 
 // Doppler velocity update (PVU, IPVU): a round of beams, and the velocity over ground from a complete round.
@@ -92,7 +91,7 @@ class DopplerVelocityUpdate {
     geo::Angle elevation;
   };
   // Direction of the current beam. Between rounds: direction of the first beam.
-  Direction direction(const antenna::Platform& platform) const {
+  Direction direction(const radar::Platform& platform) const {
     return direction_of(beam_ > 0 ? beam_ - 1U : 0U, platform);
   }
   // Advances the round by one tick. `arrived`: the dish points along the beam. `within_gimbal`: the gimbal reaches the
@@ -101,7 +100,7 @@ class DopplerVelocityUpdate {
 
  private:
   std::size_t beams() const;
-  Direction direction_of(std::size_t beam, const antenna::Platform& platform) const;
+  Direction direction_of(std::size_t beam, const radar::Platform& platform) const;
   void measure(const Pose& pose);
   void end(const databuffer::ModelTick& tick);
 

@@ -71,9 +71,10 @@ bool MapSchedule::blocks_scanning(const RadarCommand& command) const {
 
 // Centre of a commanded map or of a re-map. With STAB (stabilized) a re-map keeps the commanded position on the ground.
 // With PROG (progressive) it keeps the last map's angle off the ground track and its distance over ground.
-geo::GeoPoint MapSchedule::centre_of(const RadarCommand& command, const Pose& pose, bool commanded) const {
+geo::GeoPoint MapSchedule::next_centre(const RadarCommand& command, const Pose& pose) const {
   const bool progressive = (command.flags & databuffer::kProgressive) != 0U;
-  if (!progressive || commanded || !has_last_map_) return {command.map_latitude_deg, command.map_longitude_deg};
+  if (!progressive || is_commanded(command) || !has_last_map_)
+    return {command.map_latitude_deg, command.map_longitude_deg};
   return geo::geodesic_direct(pose.position, pose.platform.ground_track + geo::Angle::degrees(off_track_deg_),
                               geo::Length::metres(distance_m_));
 }
@@ -81,11 +82,11 @@ geo::GeoPoint MapSchedule::centre_of(const RadarCommand& command, const Pose& po
 std::optional<geo::GeoPoint> MapSchedule::pointing_target(const ModelTick& tick, const Pose& pose) const {
   if (map_) return map_->order.centre;
   if (!shows_map(tick.command) || is_frozen_or_silent(tick.command) || stopped_) return std::nullopt;
-  const geo::GeoPoint centre = centre_of(tick.command, pose, false);
+  const geo::GeoPoint centre = next_centre(tick.command, pose);
   return is_position(centre) ? std::optional(centre) : std::nullopt;
 }
 
-std::optional<hrm::PatchOrder> MapSchedule::order_of(const ModelTick& tick, const Pose& pose, bool commanded) const {
+std::optional<hrm::PatchOrder> MapSchedule::order_of(const ModelTick& tick, const Pose& pose) const {
   const RadarCommand& command = tick.command;
   hrm::PatchOrder order;
   order.apex = pose.position;
@@ -98,7 +99,7 @@ std::optional<hrm::PatchOrder> MapSchedule::order_of(const ModelTick& tick, cons
   order.map = static_cast<std::uint32_t>(newest_ + 1);
   order.band = command.band;
   order.channel = command.channel;
-  order.centre = centre_of(command, pose, commanded);
+  order.centre = next_centre(command, pose);
   if (!is_position(order.centre) || !std::isfinite(order.window.metres()) || !(order.window.metres() > 0.0))
     return std::nullopt;
   const double distance_m = geo::geodesic_inverse(order.apex, order.centre).distance.metres();
@@ -106,12 +107,13 @@ std::optional<hrm::PatchOrder> MapSchedule::order_of(const ModelTick& tick, cons
   return order;
 }
 
-void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m, bool commanded) {
+void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m) {
+  map_.reset();
   request_ = tick.command.map_request;
-  const auto order = order_of(tick, pose, commanded);
-  if (!order) {
-    // No map is possible with this position and window. The command is completed without a map; a shown map stays.
-    if (commanded) done_request_ = request_;
+  const auto order = order_of(tick, pose);
+  if (stopped_ || !order) {
+    // No map is possible at this position. The command is completed without a map, and a shown map stays.
+    if (is_commanded(tick.command)) done_request_ = request_;
     return;
   }
   PendingMap map;
@@ -135,25 +137,29 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   has_last_map_ = true;
 }
 
-// Limit that a re-map would exceed. Re-maps have the limits of commanded maps.
-std::optional<std::string_view> MapSchedule::remap_limit(const RadarCommand& command, const Pose& pose) const {
-  const geo::GeoPoint centre = centre_of(command, pose, false);
-  if (!is_position(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // no map is shown
+// Limit that the next map would exceed. Re-maps have the limits of commanded maps.
+std::optional<std::string_view> MapSchedule::exceeded_limit(const RadarCommand& command, const Pose& pose,
+                                                            double ground_m) const {
+  const geo::GeoPoint centre = next_centre(command, pose);
+  if (!is_position(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // no map is commanded or shown
   const radar::MapWindow window{geo::Length::nautical_miles(static_cast<double>(command.map_window_nm)),
                                 (command.flags & databuffer::kMapWindowBlank) != 0U};
-  return radar::map_rejection(viewpoint_of(pose), centre, window, parameters_.limits);
+  return radar::map_rejection(viewpoint_of(pose), {centre, ground_m}, window, parameters_.limits);
 }
 
 void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m, bool dish_free) {
   const RadarCommand& command = tick.command;
   const bool jumped = tick.epoch != epoch_;
   epoch_ = tick.epoch;
-  stopped_.reset();
   if (is_commanded(command)) {
-    if (command.map_request == done_request_) return;  // completed; the state machine has not yet received the status
-    if (!map_ || map_->request != command.map_request || jumped) start(tick, pose, ground_m, true);
+    // Completed, but the state machine has not yet received the status. `stopped_` remains until then.
+    if (command.map_request == done_request_) return;
+    if (map_ && map_->request == command.map_request && !jumped) return;
+    stopped_ = exceeded_limit(command, pose, ground_m);
+    start(tick, pose, ground_m);
     return;
   }
+  stopped_.reset();
   if (!shows_map(command)) {
     map_.reset();
     return;
@@ -162,8 +168,8 @@ void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m,
   const bool silent = (command.flags & databuffer::kSniff) != 0U;
   if (map_ && (map_->request != command.map_request || jumped || silent)) map_.reset();
   if (map_ || is_frozen_or_silent(command)) return;
-  stopped_ = remap_limit(command, pose);
-  if (!stopped_ && dish_free) start(tick, pose, ground_m, false);
+  stopped_ = exceeded_limit(command, pose, ground_m);
+  if (!stopped_ && dish_free) start(tick, pose, ground_m);
 }
 
 void MapSchedule::complete() {

@@ -1,7 +1,7 @@
 // Schedule of patch maps (which map forms when), and the hash of a map's record.
 // Inputs: one ModelTick per step (radar command, sim time), pose, elevation of the ground.
 // Outputs: the pending map with its parameters, start and end tick; fields of ModelStatus.
-// Errors: a command for a map that cannot be made is completed without a map.
+// Errors: a command for a map that cannot be made is completed without a map; ModelStatus::map_stopped has the limit.
 // Threads: one at a time. The schedule makes no picture; hrm::PatchFormation does.
 // Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7, #rule-8; docs/spec/physics.md#formation-time.
 #pragma once
@@ -56,8 +56,10 @@ class MapSchedule {
   explicit MapSchedule(const MapParameters& parameters);
 
   void resume(const databuffer::ModelStatus& status);
-  // Starts or cancels maps. `ground_m`: elevation [m MSL] at the commanded position; NaN: unknown. `dish_free`: true if
-  // re-maps (repetitions of the shown map) may start. Commanded maps start in any case.
+  // Centre of the map that the command starts next: the commanded map, or a re-map (repetition of the shown map).
+  geo::GeoPoint next_centre(const databuffer::RadarCommand& command, const Pose& pose) const;
+  // Starts or cancels maps. `ground_m`: elevation [m MSL] at next_centre(); NaN: unknown. `dish_free`: true if re-maps
+  // may start. A commanded map does not need the dish to be free. Both obey the limits of radar::map_rejection().
   void step(const databuffer::ModelTick& tick, const Pose& pose, double ground_m, bool dish_free = true);
   // Completes the pending map, which becomes the newest map. Precondition: forming().
   void complete();
@@ -78,10 +80,11 @@ class MapSchedule {
   std::uint64_t newest() const { return newest_; }  // id of the newest complete map, 0: none
 
  private:
-  geo::GeoPoint centre_of(const databuffer::RadarCommand& command, const Pose& pose, bool commanded) const;
-  std::optional<hrm::PatchOrder> order_of(const databuffer::ModelTick& tick, const Pose& pose, bool commanded) const;
-  void start(const databuffer::ModelTick& tick, const Pose& pose, double ground_m, bool commanded);
-  std::optional<std::string_view> remap_limit(const databuffer::RadarCommand& command, const Pose& pose) const;
+  std::optional<hrm::PatchOrder> order_of(const databuffer::ModelTick& tick, const Pose& pose) const;
+  // Starts the next map unless `stopped_` has a limit.
+  void start(const databuffer::ModelTick& tick, const Pose& pose, double ground_m);
+  std::optional<std::string_view> exceeded_limit(const databuffer::RadarCommand& command, const Pose& pose,
+                                                 double ground_m) const;
   int looks_of(const databuffer::RadarCommand& command) const;
 
   MapParameters parameters_;
@@ -95,7 +98,7 @@ class MapSchedule {
   double off_track_deg_ = 0.0;
   double distance_m_ = 0.0;
   bool has_last_map_ = false;
-  std::optional<std::string_view> stopped_;  // limit that prevents the re-map of the shown patch
+  std::optional<std::string_view> stopped_;  // limit that prevents the commanded map, or the re-map of the shown patch
 };
 
 }  // namespace yars::model::kernel

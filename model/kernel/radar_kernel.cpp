@@ -130,7 +130,7 @@ void RadarKernel::describe(const terrain::TerrainView& terrain, ModelStatus& sta
   std::fill(std::begin(status.why_not), std::end(status.why_not), '\0');
   const auto reason =
       !state.pose ? std::optional<std::string_view>("NO POSITION")
-                  : radar::map_rejection(viewpoint_of(*state.pose), cursor,
+                  : radar::map_rejection(viewpoint_of(*state.pose), {cursor, status.cursor_ground_elevation_m},
                                          {geo::Length::nautical_miles(state.command.window_nm)}, state.configuration);
   status.mappable = reason ? 0 : 1;
   // Without a forming map the timer shows the formation time of a map at the cursor.

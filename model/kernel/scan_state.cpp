@@ -37,7 +37,7 @@ void ScanState::clear_chains() {
 
 void ScanState::step_maps(const ModelTick& input, const terrain::TerrainView& terrain) {
   if ((input.flags & databuffer::kTickMapComplete) != 0U && maps.forming()) maps.complete();
-  const geo::GeoPoint position{input.command.map_latitude_deg, input.command.map_longitude_deg};
+  const geo::GeoPoint position = maps.next_centre(input.command, *pose);
   const bool known = std::isfinite(position.latitude_deg) && std::isfinite(position.longitude_deg);
   maps.step(input, *pose, known ? terrain.elevation_m(position) : kUnknown, !velocity.needs_dish());
 }
@@ -50,13 +50,13 @@ void ScanState::stop_scanning() {
 // Points the dish while it does not scan. A forming map has priority over a Doppler velocity update.
 void ScanState::point_unless_scanning(const ModelTick& input, const terrain::TerrainView& terrain) {
   if (scanning) return;
-  const antenna::Platform& platform = pose->platform;
+  const radar::Platform& platform = pose->platform;
   const bool measures = velocity.needs_dish() && !maps.forming();
   if (!measures) velocity.cancel();
   if (measures) {
     const DopplerVelocityUpdate::Direction beam = velocity.direction(platform);
     const bool arrived = antenna.point(platform, beam.azimuth, beam.elevation);
-    const bool within = antenna::within_gimbal(platform, configuration.antenna, beam.azimuth, beam.elevation);
+    const bool within = radar::within_gimbal(platform, configuration.antenna, beam.azimuth, beam.elevation);
     velocity.step(input, *pose, arrived, within);
   } else if (const auto target = maps.pointing_target(input, *pose)) {
     const geo::Bearing azimuth = geo::geodesic_inverse(pose->position, *target).azimuth_at_start;

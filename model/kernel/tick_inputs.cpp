@@ -31,17 +31,14 @@ std::optional<Pose> pose_of(const databuffer::Ownship& ownship) {
   Pose pose;
   pose.position = {ownship.latitude_deg, ownship.longitude_deg};
   pose.altitude = geo::AltitudeMsl::metres(ownship.altitude_msl_m);
-  pose.platform.heading = geo::Bearing::degrees(ownship.heading_deg);
-  pose.platform.pitch = geo::Angle::degrees(ownship.pitch_deg);
-  pose.platform.roll = geo::Angle::degrees(ownship.roll_deg);
-  pose.platform.ground_track = databuffer::ground_track_of(ownship);
+  pose.platform = databuffer::platform_of(ownship);
   pose.ground_speed = geo::Speed::metres_per_second(std::hypot(ownship.velocity_north_mps, ownship.velocity_east_mps));
   pose.velocity_mps = {ownship.velocity_north_mps, ownship.velocity_east_mps, ownship.velocity_down_mps};
   return pose;
 }
 
 radar::MapViewpoint viewpoint_of(const Pose& pose) {
-  return {pose.position, pose.platform.heading, pose.platform.ground_track};
+  return {pose.position, pose.altitude, pose.platform};
 }
 
 bool requests_scan(const databuffer::RadarCommand& command) {

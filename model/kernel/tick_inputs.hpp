@@ -27,7 +27,7 @@ namespace yars::model::kernel {
 struct Pose {
   geo::GeoPoint position;
   geo::AltitudeMsl altitude;
-  antenna::Platform platform;
+  radar::Platform platform;
   geo::Speed ground_speed{};
   geo::Vector3 velocity_mps{};  // north, east, down
 };

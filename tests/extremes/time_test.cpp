@@ -122,7 +122,7 @@ TEST(ExtremeTimes, TwoScansReturnTheAntennaToTheSameBits) {
   for (const double width_deg : {100.0, 50.0, 25.0}) {
     for (const double heading_deg : {0.0, 33.3, 359.9}) {
       for (const double drift_deg : {0.0, 4.1, -10.0}) {
-        const model::antenna::Platform platform{
+        const radar::Platform platform{
             geo::Bearing::degrees(heading_deg), {}, {}, geo::Bearing::degrees(heading_deg + drift_deg)};
         model::antenna::Antenna antenna({});
         antenna.restart(width_deg);

@@ -117,6 +117,86 @@ TEST_F(Designating, ARoutePointUnderTheCursorBecomesTheTargetAndIsDrawnOnce) {
   }
 }
 
+// The cursor stays on its ground while drift moves the symbols.
+TEST_F(Designating, APointIsTheTargetAlthoughItsSymbolHasDriftedOffTheCursor) {
+  pilot.press("nav drift mn 3 0");
+  select_function(radar::CursorFunction::target);
+  pilot.press("sp 1");
+  for (const int seconds : {3, 20}) {
+    pilot.wait(200 * seconds);
+    ASSERT_TRUE(pilot.press("tdc release"));
+    EXPECT_STREQ(pilot.state.target_name, "1") << seconds;
+    EXPECT_EQ(outputs().target_latitude_deg, pilot.configuration.route[0].position.latitude_deg);
+    EXPECT_EQ(outputs().target_elevation_m, 100.0) << "the elevation of the route";
+    EXPECT_EQ(outputs().cue_longitude_deg, pilot.configuration.route[0].position.longitude_deg);
+  }
+}
+
+TEST_F(Designating, CueAndMarkTakeTheGroundUnderTheCursorInTheNavigatorsCoordinates) {
+  pilot.press("nav drift mn 3 0");
+  pilot.press("sp 1");
+  pilot.wait(2000);
+  const auto off_m = [&](double latitude_deg, double longitude_deg) {
+    return geo::geodesic_inverse(pilot.configuration.route[0].position, {latitude_deg, longitude_deg})
+        .distance.metres();
+  };
+  for (const auto function : {radar::CursorFunction::cue, radar::CursorFunction::mark}) {
+    select_function(function);
+    ASSERT_TRUE(pilot.send("tdc release"));
+  }
+  EXPECT_NEAR(off_m(outputs().cue_latitude_deg, outputs().cue_longitude_deg), 9.1, 0.5);
+  EXPECT_NEAR(off_m(outputs().marks[0].latitude_deg, outputs().marks[0].longitude_deg), 9.1, 0.5);
+}
+
+// At a range of 20 NM, two display units are 0.1 NM.
+TEST_F(Designating, ASymbolIsUnderTheCursorWithinTwoDisplayUnits) {
+  ASSERT_EQ(pilot.state.range_nm, 20.0);
+  const geo::GeoPoint point = pilot.configuration.route[0].position;
+  const auto beside = [&](double distance_nm) {
+    return geo::geodesic_direct(point, geo::Bearing::degrees(200.0), geo::Length::nautical_miles(distance_nm));
+  };
+  designate(beside(0.099));
+  EXPECT_STREQ(pilot.state.target_name, "1");
+  designate(beside(0.101));
+  EXPECT_STREQ(pilot.state.target_name, "4.");
+  pilot.press("nav error mn -304 0");  // displaces the symbol to the north by 0.05 NM
+  designate(geo::geodesic_direct(point, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(0.14)));
+  EXPECT_STREQ(pilot.state.target_name, "1");
+}
+
+TEST_F(Designating, OfTwoSymbolsUnderTheCursorTheSelectedPointElseTheNearestIsTheTarget) {
+  const geo::GeoPoint near = geo::geodesic_direct(pilot.configuration.route[0].position, geo::Bearing::degrees(90.0),
+                                                  geo::Length::nautical_miles(0.05));
+  pilot.configuration.route.push_back(route_point("7", radar::PointKind::steer, near));
+  pilot.press("sp 1");
+  designate(near);
+  EXPECT_STREQ(pilot.state.target_name, "1");
+  pilot.press("sp 3.");
+  designate(near);
+  EXPECT_STREQ(pilot.state.target_name, "7");
+}
+
+TEST_F(Designating, AHiddenPointIsNotTheTarget) {
+  pilot.press("sp 3.");
+  pilot.press("pb 2");
+  designate(pilot.configuration.route[0].position);
+  EXPECT_STREQ(pilot.state.target_name, "3.01");
+}
+
+TEST_F(Designating, OnAMapTheWindowSetsTheDistanceThatTheDisplayShows) {
+  const geo::GeoPoint point = pilot.configuration.route[0].position;
+  while (pilot.state.window_nm > 0.7) pilot.press("acq aft");
+  put_cursor_on(point);
+  pilot.make_map();
+  const auto beside = [&](double distance_m) {
+    return geo::geodesic_direct(point, geo::Bearing::degrees(45.0), geo::Length::metres(distance_m));
+  };
+  designate(beside(5.0));  // two display units are 5.2 m
+  EXPECT_STREQ(pilot.state.target_name, "1");
+  designate(beside(5.4));
+  EXPECT_STREQ(pilot.state.target_name, "4.");
+}
+
 TEST_F(Designating, ARoutePointIsATriangleOnlyWhileItIsTheTarget) {
   select_function(radar::CursorFunction::target);
   pilot.press("sp 1");

@@ -67,6 +67,36 @@ TEST_F(Maps, ARejectedCommandShowsTheReasonAndChangesNothingElse) {
   }
 }
 
+// The target is 10 NM away.
+TEST_F(Maps, ATargetBelowTheAntennasLimitIsRejectedOnceItsElevationIsKnown) {
+  const auto effect_at = [&](double altitude_ft, double ground_m, double pitch_deg) {
+    pilot.around.ownship.altitude_msl_m = geo::Length::feet(altitude_ft).metres();
+    pilot.around.ownship.pitch_deg = pitch_deg;
+    pilot.ground = [ground_m](geo::GeoPoint) { return ground_m; };
+    put_cursor_on(position(30.0 + 1e-3 * ground_m, 10.0));
+    pilot.wait(2);
+    return effect_of("tdc release");
+  };
+  // From 105,000 ft the target is 59.9 degrees below the horizon, from 107,000 ft 60.4.
+  EXPECT_EQ(effect_at(105'000.0, 0.0, 0.0), Effect::done);
+  EXPECT_EQ(effect_at(107'000.0, 0.0, 0.0), Effect::refused);
+  EXPECT_STREQ(pilot.state.message, "GIMBAL");
+  EXPECT_EQ(effect_at(107'000.0, 1000.0, 0.0), Effect::done) << "high ground lies less far below";
+  EXPECT_EQ(effect_at(105'000.0, 0.0, 20.0), Effect::refused) << "80 degrees below the wing plane";
+  EXPECT_STREQ(pilot.state.message, "GIMBAL");
+}
+
+TEST_F(Maps, TheModelsReasonForMakingNoCommandedMapIsShown) {
+  ASSERT_TRUE(pilot.press("tdc release"));
+  put_text(pilot.around.model.map_stopped, "GIMBAL");
+  pilot.around.model.map_done_request = pilot.state.map_request;
+  pilot.wait();
+  EXPECT_STREQ(pilot.state.message, "GIMBAL");
+  EXPECT_FALSE(pilot.is(kMapping));
+  pilot.wait(600);
+  EXPECT_STREQ(pilot.state.message, "") << "in RBM nothing is mapped again";
+}
+
 // ModelStatus::mappable belongs to the cursor of the previous tick.
 TEST_F(Maps, AfterAJumpInTheSameTickACommandIsCheckedAtTheNewCursor) {
   pilot.configuration.high_resolution.blind_zone_deg = 8.0;

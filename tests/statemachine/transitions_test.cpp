@@ -183,7 +183,7 @@ TEST(Transitions, TheTableOfCursorFunctionsHasEveryModeForEveryEventOnce) {
   std::map<std::string, std::multiset<std::string>> named;
   for (const auto& [one, function] : function_cases())
     named[one.event + " " + std::string(name_of(function))].insert(one.mode + (one.frozen ? " frozen" : ""));
-  EXPECT_EQ(named.size(), 6U * 4U);
+  EXPECT_EQ(named.size(), 7U * 4U);
   for (const auto& [event, modes] : named) {
     for (const std::string& mode : kModes) {
       if (mode == "OFF") continue;

@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "lib/radar/gimbal.hpp"
 #include "lib/radar/mission.hpp"
 #include "lib/radar/sensor.hpp"
-#include "model/antenna/antenna.hpp"
 #include "model/terrain/store/directory_store.hpp"
 
 namespace yars::tools {
@@ -45,7 +45,7 @@ std::string list_of(const std::vector<double>& values) {
 }
 
 // Platform in level flight along the ground track.
-model::antenna::Platform level_flight(const model::hrm::PatchOrder& order) {
+radar::Platform level_flight(const model::hrm::PatchOrder& order) {
   return {order.ground_track, {}, {}, order.ground_track};
 }
 
@@ -53,7 +53,7 @@ model::antenna::Platform level_flight(const model::hrm::PatchOrder& order) {
 std::string proposed_heading(const geo::GeodesicInverse& to_target, double off_track_deg,
                              const radar::MapLimits& limits) {
   const double min_deg = limits.blind_zone_deg + kHeadingMargin_deg;
-  const double max_deg = std::min(limits.azimuth_limit_deg, 180.0 - limits.blind_zone_deg) - kHeadingMargin_deg;
+  const double max_deg = std::min(limits.antenna.azimuth_limit_deg, 180.0 - limits.blind_zone_deg) - kHeadingMargin_deg;
   if (min_deg > max_deg) return "no heading is possible: the configured gimbal limits lie within the blind zone";
   const double side = off_track_deg < 0.0 ? 1.0 : -1.0;
   const double off_deg = std::clamp(kProposedOffTrack_deg, min_deg, max_deg);
@@ -69,9 +69,15 @@ error::Error blind_zone_error(const geo::GeodesicInverse& to_target, double off_
 }
 
 error::Error gimbal_error(const geo::GeodesicInverse& to_target, double off_deg, const radar::MapLimits& limits) {
-  return {"GIMBAL", "a target within " + short_number(limits.azimuth_limit_deg) + " deg of the nose",
+  return {"GIMBAL", "a target within " + short_number(limits.antenna.azimuth_limit_deg) + " deg of the nose",
           "one " + number(std::abs(off_deg), 1) + " deg " + (off_deg < 0.0 ? "left" : "right") + " of it",
           proposed_heading(to_target, off_deg, limits) + ", " + kForce};
+}
+
+error::Error depression_error(geo::Angle elevation, const radar::MapLimits& limits) {
+  return {"GIMBAL", "a target at most " + short_number(limits.antenna.elevation_limit_deg) + " deg below the horizon",
+          "one " + number(-elevation.degrees(), 1) + " deg below it",
+          std::string("fly lower or farther away, ") + kForce};
 }
 
 error::Error window_error(std::string_view reason, const geo::GeodesicInverse& to_target, geo::Length window,
@@ -90,28 +96,18 @@ error::Error window_error(std::string_view reason, const geo::GeodesicInverse& t
 
 }  // namespace
 
-std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order, const radar::MapLimits& limits) {
-  const auto reason =
-      radar::map_rejection({order.apex, order.ground_track, order.ground_track}, order.centre, {order.window}, limits);
+std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order, const radar::MapLimits& limits,
+                                          std::optional<double> target_ground_m) {
+  const auto reason = radar::map_rejection({order.apex, order.altitude, level_flight(order)},
+                                           {order.centre, target_ground_m}, {order.window}, limits);
   if (!reason) return std::nullopt;
   const geo::GeodesicInverse to_target = geo::geodesic_inverse(order.apex, order.centre);
   const double off_deg = (to_target.azimuth_at_start - order.ground_track).degrees();
   if (*reason == "BLIND ZONE") return blind_zone_error(to_target, off_deg, limits);
-  if (*reason == "GIMBAL") return gimbal_error(to_target, off_deg, limits);
-  return window_error(*reason, to_target, order.window, limits.windows);
-}
-
-std::optional<error::Error> beyond_depression(const model::hrm::PatchOrder& order, double target_ground_m,
-                                              const radar::AntennaConfiguration& antenna) {
-  if (std::isnan(target_ground_m)) return std::nullopt;
-  const geo::GeodesicInverse to_target = geo::geodesic_inverse(order.apex, order.centre);
-  const geo::Angle down =
-      geo::Angle::radians(std::atan2(order.altitude.metres() - target_ground_m, to_target.distance.metres()));
-  // The azimuth passed is the ground track, so only the elevation is checked. beyond_limits() checks the azimuth.
-  if (model::antenna::within_gimbal(level_flight(order), antenna, order.ground_track, -down)) return std::nullopt;
-  return error::Error{
-      "GIMBAL", "a target at most " + short_number(antenna.elevation_limit_deg) + " deg below the horizon",
-      "one " + number(down.degrees(), 1) + " deg below it", std::string("fly lower or farther away, ") + kForce};
+  if (*reason != "GIMBAL") return window_error(*reason, to_target, order.window, limits.windows);
+  if (!target_ground_m || std::abs(off_deg) > limits.antenna.azimuth_limit_deg)
+    return gimbal_error(to_target, off_deg, limits);
+  return depression_error(radar::elevation_to_ground(order.altitude, to_target.distance, *target_ground_m), limits);
 }
 
 std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,

@@ -1,7 +1,7 @@
 // Input checks of `yars scan` and `yars patch`: limits of the radar, and input files that could not be read.
 // Errors: the beyond_... and beneath_... functions return an Error if the input exceeds a limit, else nullopt.
 //   The message names the limit, the value found and an option to change. check_..._read throw CommandFailed.
-// Source: lib/radar/mapping.hpp (limits of maps), model/antenna/antenna.hpp (limits of the gimbal).
+// Source: lib/radar/mapping.hpp (limits of maps).
 #pragma once
 
 #include <optional>
@@ -19,12 +19,10 @@ struct AntennaConfiguration;
 
 namespace yars::tools {
 
-// Limits of a patch map that need no terrain: blind zone, gimbal azimuth, window sizes and the ranges of each window.
-std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order, const radar::MapLimits& limits);
-
-// Gimbal limit in elevation. `target_ground_m` [m] MSL: terrain elevation at the map's centre; NaN: unknown, no check.
-std::optional<error::Error> beyond_depression(const model::hrm::PatchOrder& order, double target_ground_m,
-                                              const radar::AntennaConfiguration& antenna);
+// Limits of a patch map in level flight along the ground track, by radar::map_rejection(). `target_ground_m` [m] MSL:
+// terrain elevation at the map's centre; NaN: void; nullopt: not known yet, so the elevation angle is not checked.
+std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order, const radar::MapLimits& limits,
+                                          std::optional<double> target_ground_m = std::nullopt);
 
 // Gimbal limits of a scan centred on the nose: antenna elevation, and scan width from edge to edge.
 std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,

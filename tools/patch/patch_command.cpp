@@ -185,7 +185,7 @@ void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& en
   if (const auto problem = beneath_ground(order.altitude, environment.path->elevation_m(order.apex)))
     throw_failure(*problem);
   const double target_ground_m = environment.window->elevation_m(order.centre);
-  if (const auto problem = beyond_depression(order, target_ground_m, configuration.antenna)) throw_failure(*problem);
+  if (const auto problem = beyond_limits(order, configuration, target_ground_m)) throw_failure(*problem);
 }
 
 // Names the cause of black pixels on standard error: blind zone, or shadow and horizon. The picture shows no cause.

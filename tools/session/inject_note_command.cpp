@@ -13,8 +13,7 @@
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
-#include "lib/text/plain_text.hpp"
-#include "statemachine/transition_table.hpp"
+#include "statemachine/reasons.hpp"
 #include "tools/command/command.hpp"
 
 namespace yars::tools {
@@ -106,40 +105,47 @@ std::string events_text(std::size_t count) {
   return std::to_string(count) + (count == 1 ? " event" : " events");
 }
 
-// The radar state after the events. Waits 20 ms, because the state machine publishes it after the applied events.
-databuffer::RadarState state_after_events(Session& session) {
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+databuffer::RadarState published_state(Session& session) {
   return databuffer::read_valid(session.layout().radar_state).value_or(databuffer::RadarState{});
 }
 
+// The radar state after the events. The state machine publishes this state a little later than the applied events.
+databuffer::RadarState state_after_events(Session& session) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  return published_state(session);
+}
+
 // Prints "3 events: 1 done, 1 without effect, 1 refused", and a line for each event without effect.
-void report(const std::vector<InputEvent>& events, const Outcome& outcome, const databuffer::RadarState& state) {
-  const auto count = [&outcome](std::uint32_t of) {
-    return static_cast<std::size_t>(std::count(outcome.begin(), outcome.end(), of));
+void report(const statemachine::AppliedSequence& applied) {
+  const auto count = [&applied](std::uint32_t of) {
+    return static_cast<std::size_t>(std::ranges::count(applied.effects, of));
   };
-  std::printf("%s: %zu done", events_text(events.size()).c_str(), count(databuffer::kEventDone));
+  std::printf("%s: %zu done", events_text(applied.events.size()).c_str(), count(databuffer::kEventDone));
   if (const auto dead = count(databuffer::kEventDead)) std::printf(", %zu without effect", dead);
   if (const auto refused = count(databuffer::kEventRefused)) std::printf(", %zu refused", refused);
   std::printf("\n");
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    if (outcome[i] == databuffer::kEventDead)
-      std::printf("  %s: %s\n", databuffer::text_of(events[i]).c_str(),
-                  statemachine::reason_without_effect(state, events[i]).c_str());
+  for (std::size_t i = 0; i < applied.events.size(); ++i) {
+    if (applied.effects[i] != databuffer::kEventDead) continue;
+    const auto reason = statemachine::certain_reason(applied, i);
+    std::printf("  %s: %s\n", databuffer::text_of(applied.events[i]).c_str(),
+                reason ? reason->c_str() : "without effect; send it alone for the reason");
   }
 }
 
-[[noreturn]] void give_up_refused(const std::vector<InputEvent>& events, const Outcome& outcome,
-                                  const databuffer::RadarState& state) {
+[[noreturn]] void give_up_refused(const statemachine::AppliedSequence& applied) {
   std::string refused;
-  for (std::size_t i = 0; i < events.size(); ++i) {
-    if (outcome[i] != databuffer::kEventRefused) continue;
+  bool all_certain = true;
+  for (std::size_t i = 0; i < applied.events.size(); ++i) {
+    if (applied.effects[i] != databuffer::kEventRefused) continue;
+    const auto reason = statemachine::certain_reason(applied, i);
+    all_certain = all_certain && reason;
     if (!refused.empty()) refused += ", ";
-    refused += "'" + databuffer::text_of(events[i]) + "'";
+    refused += "'" + databuffer::text_of(applied.events[i]) + "' refused" + (reason ? ": " + *reason : "");
   }
-  const std::string message(text::text_of(state.message));
-  throw_failure({"inject", "events that can be carried out",
-                 refused + " refused" + (message.empty() ? "" : ": " + message),
-                 "see points, cursor and limits in `yars watch --json`", false});
+  throw_failure(
+      {"inject", "events that can be carried out", refused,
+       all_certain ? "see points, cursor and limits in `yars watch --json`" : "send an event alone for its reason",
+       false});
 }
 
 void inject(const CommonOptions& common, const std::vector<std::string>& arguments) {
@@ -149,6 +155,7 @@ void inject(const CommonOptions& common, const std::vector<std::string>& argumen
   if (!session) throw_failure(session.error());
   auto lane = session->claim_input_lane("inject");
   if (!lane) throw_failure(lane.error());
+  const databuffer::RadarState before = published_state(*session);
   const std::uint64_t cursor = session->layout().applied_events.next();
   std::uint32_t number = 0;
   for (auto& event : events) {
@@ -171,9 +178,11 @@ void inject(const CommonOptions& common, const std::vector<std::string>& argumen
     throw_failure({"inject", events_text(events.size()) + " applied within 2 s", std::to_string(outcome.size()),
                    "check with `yars status` that state-machine and the clock run", false});
   const bool all_done = std::ranges::count(outcome, databuffer::kEventDone) == std::ssize(outcome);
-  const databuffer::RadarState state = all_done ? databuffer::RadarState{} : state_after_events(*session);
-  report(events, outcome, state);
-  if (std::ranges::find(outcome, databuffer::kEventRefused) != outcome.end()) give_up_refused(events, outcome, state);
+  const databuffer::RadarState after = all_done ? databuffer::RadarState{} : state_after_events(*session);
+  const statemachine::AppliedSequence applied{events, outcome, before, after,
+                                              session->role_is_held(databuffer::Role::recorder)};
+  report(applied);
+  if (std::ranges::find(outcome, databuffer::kEventRefused) != outcome.end()) give_up_refused(applied);
 }
 
 }  // namespace

@@ -17,12 +17,12 @@ namespace {
 using geo::Angle;
 using geo::Bearing;
 
-Platform flying(double heading_deg, double drift_deg = 0.0) {
+radar::Platform flying(double heading_deg, double drift_deg = 0.0) {
   return {Bearing::degrees(heading_deg), Angle(), Angle(), Bearing::degrees(heading_deg + drift_deg)};
 }
 
 // Steps until the first sweep begins. Returns that step.
-AntennaStep until_sweeping(Antenna& antenna, const Platform& platform) {
+AntennaStep until_sweeping(Antenna& antenna, const radar::Platform& platform) {
   for (int tick = 0; tick < 2000; ++tick) {
     const AntennaStep step = antenna.step(platform, Angle());
     if (step.phase == Phase::sweeping) return step;
@@ -103,7 +103,7 @@ TEST(ScanPattern, HasATurnAroundThatEndsWhereTheNextPassBegins) {
 TEST(Antenna, RepeatsBitIdenticallyEveryTwoPassesOf200Ticks) {
   Antenna antenna({});
   antenna.restart(100.0);
-  const Platform platform = flying(33.0, 4.0);
+  const radar::Platform platform = flying(33.0, 4.0);
   until_sweeping(antenna, platform);
   std::vector<std::uint64_t> first;
   for (int tick = 0; tick < 400; ++tick) {
@@ -163,7 +163,7 @@ TEST(Antenna, FollowsTheGroundTrackUpToTenDegreesOfDrift) {
 }
 
 TEST(Antenna, ReachesTheEntireSectorAtTheDriftLimitInABank) {
-  Platform platform = flying(0.0, 10.0);
+  radar::Platform platform = flying(0.0, 10.0);
   platform.roll = Angle::degrees(60.0);
   Antenna antenna({});
   antenna.restart(100.0);
@@ -172,24 +172,24 @@ TEST(Antenna, ReachesTheEntireSectorAtTheDriftLimitInABank) {
 }
 
 TEST(Gimbal, RotatesADirectionIntoAirframeAxes) {
-  Platform platform = flying(90.0);
+  radar::Platform platform = flying(90.0);
   platform.pitch = Angle::degrees(20.0);
   // With the nose up 20 degrees, the horizon ahead is 20 degrees below the wing plane.
-  GimbalAngles gimbal = gimbal_from_space(platform, Bearing::degrees(90.0), Angle());
+  radar::GimbalAngles gimbal = radar::gimbal_from_space(platform, Bearing::degrees(90.0), Angle());
   EXPECT_NEAR(gimbal.elevation.degrees(), -20.0, 1e-9);
   EXPECT_NEAR(gimbal.azimuth.degrees(), 0.0, 1e-9);
   // In a right bank of 30 degrees, the horizon to the right is 30 degrees above the wing plane.
   platform.pitch = Angle();
   platform.roll = Angle::degrees(30.0);
-  gimbal = gimbal_from_space(platform, Bearing::degrees(180.0), Angle());
+  gimbal = radar::gimbal_from_space(platform, Bearing::degrees(180.0), Angle());
   EXPECT_NEAR(gimbal.elevation.degrees(), 30.0, 1e-9);
 }
 
 TEST(Gimbal, EndsAt60Degrees) {
   const radar::AntennaConfiguration configuration;
-  EXPECT_TRUE(within_gimbal(flying(0.0), configuration, Bearing::degrees(60.0), Angle()));
-  EXPECT_FALSE(within_gimbal(flying(0.0), configuration, Bearing::degrees(61.0), Angle()));
-  EXPECT_FALSE(within_gimbal(flying(0.0), configuration, Bearing::degrees(180.0), Angle()));
+  EXPECT_TRUE(radar::within_gimbal(flying(0.0), configuration, Bearing::degrees(60.0), Angle()));
+  EXPECT_FALSE(radar::within_gimbal(flying(0.0), configuration, Bearing::degrees(61.0), Angle()));
+  EXPECT_FALSE(radar::within_gimbal(flying(0.0), configuration, Bearing::degrees(180.0), Angle()));
 }
 
 TEST(Antenna, StepsFourBarsFromTheHighestToTheLowest) {
@@ -197,7 +197,7 @@ TEST(Antenna, StepsFourBarsFromTheHighestToTheLowest) {
   configuration.scan_bars = 4;
   Antenna antenna(configuration);
   antenna.restart(50.0);
-  const Platform platform = flying(0.0);
+  const radar::Platform platform = flying(0.0);
   AntennaStep step = until_sweeping(antenna, platform);
   std::vector<double> elevations;
   for (int tick = 0; tick < 400; ++tick) {
@@ -213,7 +213,7 @@ TEST(Antenna, StepsToTheNextBarDuringTheTurnAround) {
   configuration.scan_bars = 2;
   Antenna antenna(configuration);
   antenna.restart(100.0);
-  const Platform platform = flying(0.0);
+  const radar::Platform platform = flying(0.0);
   AntennaStep step = until_sweeping(antenna, platform);
   for (int tick = 0; tick < 1000; ++tick) {
     if (tick > 100 && step.phase == Phase::sweeping) {
@@ -270,7 +270,7 @@ TEST(Antenna, HoldsADirectionInSpaceWhileTheAircraftTurns) {
 TEST(Antenna, ResumesInTheMiddleOfAScan) {
   Antenna first({});
   first.restart(100.0);
-  const Platform platform = flying(45.0);
+  const radar::Platform platform = flying(45.0);
   for (int tick = 0; tick < 333; ++tick) first.step(platform, Angle::degrees(-3.0));
   Antenna second({});
   second.resume(first.state());

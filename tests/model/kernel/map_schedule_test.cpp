@@ -1,91 +1,15 @@
-// MapSchedule: which patch map forms when. Formation time, progress, re-maps in STAB and PROG, limits, cancellation.
+// MapSchedule: which patch map forms when. Formation time, progress, re-maps in STAB and PROG, cancellation.
 // Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7; docs/spec/physics.md#formation-time.
 #include "model/kernel/map_schedule.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <optional>
 
-#include "lib/radar/configuration.hpp"
-#include "lib/radar/mapping.hpp"
-#include "lib/radar/modes.hpp"
+#include "tests/model/kernel/map_schedule_fixture.hpp"
 
 namespace yars::model::kernel {
 namespace {
-
-constexpr double kGround_m = 0.0;
-
-// The aircraft flies north at 480 kt and 15,000 ft. The commanded map of 4.7 NM is 15 NM away at a squint of 30
-// degrees.
-class MapScheduleTest : public testing::Test {
- protected:
-  MapScheduleTest() {
-    pose_.position = {37.0, -122.0};
-    pose_.altitude = geo::AltitudeMsl::feet(15000.0);
-    pose_.platform.heading = pose_.platform.ground_track = geo::Bearing::degrees(0.0);
-    pose_.ground_speed = geo::Speed::knots(480.0);
-    const geo::GeoPoint target = position_at(30.0, 15.0);
-    tick_.command.power = static_cast<std::uint8_t>(radar::Power::operate);
-    tick_.command.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
-    tick_.command.range_nm = 20.0;
-    tick_.command.map_latitude_deg = target.latitude_deg;
-    tick_.command.map_longitude_deg = target.longitude_deg;
-    tick_.command.map_window_nm = 4.7F;
-    tick_.epoch = 1;
-    schedule_->step(tick_, pose_, kGround_m);
-  }
-
-  geo::GeoPoint position_at(double bearing_deg, double range_nm) const {
-    return geo::geodesic_direct(pose_.position, geo::Bearing::degrees(bearing_deg),
-                                geo::Length::nautical_miles(range_nm));
-  }
-  void command_at(double bearing_deg, double range_nm) {
-    const geo::GeoPoint target = position_at(bearing_deg, range_nm);
-    tick_.command.map_latitude_deg = target.latitude_deg;
-    tick_.command.map_longitude_deg = target.longitude_deg;
-  }
-  void restart() {
-    schedule_.emplace(configuration_);
-    tick_.command.flags = 0;
-    tick_.command.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
-    tick_.command.map_request = 0;
-    schedule_->step(tick_, pose_, kGround_m);
-  }
-  databuffer::ModelStatus status() const {
-    databuffer::ModelStatus status{};
-    schedule_->describe(tick_.tick, status);
-    return status;
-  }
-  void command_map() {
-    ++tick_.command.map_request;
-    tick_.command.flags |= databuffer::kMapping;
-    step();
-  }
-  void step() {
-    ++tick_.tick;
-    schedule_->step(tick_, pose_, kGround_m);
-  }
-  // Steps until the map is due, then completes it. Returns the number of ticks.
-  int ticks_until_done() {
-    int ticks = 0;
-    while (schedule_->forming() && !schedule_->due(tick_.tick) && ticks < 100'000) {
-      step();
-      ++ticks;
-    }
-    if (schedule_->forming()) schedule_->complete();
-    return ticks;
-  }
-  void show_patch() {
-    tick_.command.flags &= ~databuffer::kMapping;
-    tick_.command.mode = static_cast<std::uint8_t>(radar::Mode::patch);
-  }
-
-  radar::RadarConfiguration configuration_;
-  Pose pose_;
-  databuffer::ModelTick tick_{};
-  std::optional<MapSchedule> schedule_{configuration_};
-};
 
 TEST_F(MapScheduleTest, NothingFormsUntilAMapIsCommanded) {
   step();
@@ -153,93 +77,6 @@ TEST_F(MapScheduleTest, StabMapsTheSameGroundAgainAndProgTheSameBearingAndRange)
       geo::geodesic_inverse(pose_.position, {tick_.command.map_latitude_deg, tick_.command.map_longitude_deg});
   EXPECT_NEAR(to_centre.azimuth_at_start.degrees(), before.azimuth_at_start.degrees(), 1e-6);
   EXPECT_NEAR(to_centre.distance.metres(), before.distance.metres(), 1e-3);
-}
-
-// Range limits of a 4.7 NM window, blind zone and gimbal limit.
-TEST_F(MapScheduleTest, ReMappingStopsOutsideTheLimitsOfAFirstMapAndResumesWithinThem) {
-  struct Case {
-    double right_deg, range_nm;
-    const char* why;
-  };
-  for (const std::uint32_t mode : {0U, databuffer::kProgressive}) {
-    for (const Case& limit_case :
-         {Case{7.9, 15.0, "BLIND ZONE"}, Case{-60.1, 15.0, "GIMBAL"}, Case{122.0, 15.0, "GIMBAL"},
-          Case{30.0, 4.6, "MIN RANGE"}, Case{30.0, 80.1, "MAX RANGE"}}) {
-      restart();
-      tick_.command.flags |= mode;
-      command_at(limit_case.right_deg, limit_case.range_nm);
-      command_map();
-      ticks_until_done();
-      const std::uint64_t newest = schedule_->newest();
-      show_patch();
-      step();
-      EXPECT_FALSE(schedule_->forming()) << limit_case.why;
-      EXPECT_STREQ(status().map_stopped, limit_case.why);
-      EXPECT_FALSE(schedule_->pointing_target(tick_, pose_)) << "the antenna is not driven against its stop";
-      EXPECT_EQ(schedule_->newest(), newest) << "the completed map remains the newest";
-      command_at(30.0, 15.0);
-      if (mode == 0U) {
-        step();
-        EXPECT_TRUE(schedule_->forming()) << limit_case.why;
-        EXPECT_STREQ(status().map_stopped, "");
-      }
-    }
-  }
-}
-
-TEST_F(MapScheduleTest, ATargetPassedAbeamIsMappedUpToTheGimbalLimit) {
-  command_map();
-  ticks_until_done();
-  show_patch();
-  double last_formed_deg = 0.0;
-  const geo::GeoPoint target{tick_.command.map_latitude_deg, tick_.command.map_longitude_deg};
-  for (int leg = 0; leg < 120; ++leg) {  // 30 NM to the north, past the target
-    pose_.position =
-        geo::geodesic_direct(pose_.position, geo::Bearing::degrees(0.0), geo::Length::nautical_miles(0.25));
-    step();
-    const double off_deg = geo::geodesic_inverse(pose_.position, target).azimuth_at_start.degrees();
-    EXPECT_EQ(schedule_->forming(), off_deg <= 60.0) << off_deg;
-    EXPECT_STREQ(status().map_stopped, off_deg <= 60.0 ? "" : "GIMBAL") << off_deg;
-    if (schedule_->forming()) last_formed_deg = off_deg;
-    if (schedule_->forming()) schedule_->complete();
-  }
-  EXPECT_GT(last_formed_deg, 55.0);
-  // A turn to 140 degrees brings the target within the gimbal limit again.
-  pose_.platform.heading = pose_.platform.ground_track = geo::Bearing::degrees(140.0);
-  step();
-  EXPECT_TRUE(schedule_->forming());
-  EXPECT_STREQ(status().map_stopped, "");
-}
-
-TEST_F(MapScheduleTest, AReMapOfABlankSelectionHasTheLimitsOfTheBlankSelection) {
-  for (const std::uint32_t blank : {0U, databuffer::kMapWindowBlank}) {
-    restart();
-    tick_.command.flags |= blank;
-    tick_.command.map_window_nm = 3.3F;
-    command_at(30.0, 3.0);
-    command_map();
-    ticks_until_done();
-    show_patch();
-    step();
-    EXPECT_EQ(schedule_->forming(), blank != 0U);
-    EXPECT_STREQ(status().map_stopped, blank != 0U ? "" : "MIN RANGE");
-  }
-}
-
-TEST_F(MapScheduleTest, NoReasonIsReportedWhileFrozenAndOutsideOfPatch) {
-  command_at(122.0, 15.0);
-  command_map();
-  ticks_until_done();
-  show_patch();
-  step();
-  ASSERT_STREQ(status().map_stopped, "GIMBAL");
-  tick_.command.flags |= databuffer::kFreeze;
-  step();
-  EXPECT_STREQ(status().map_stopped, "");
-  tick_.command.flags &= ~databuffer::kFreeze;
-  tick_.command.mode = static_cast<std::uint8_t>(radar::Mode::rbm);
-  step();
-  EXPECT_STREQ(status().map_stopped, "");
 }
 
 TEST_F(MapScheduleTest, AFrozenMapIsNotReMapped) {
