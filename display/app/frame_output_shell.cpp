@@ -57,6 +57,15 @@ error::Expected<FrameWriter> FrameWriter::create(const std::filesystem::path& fo
   return FrameWriter(std::make_shared<const file::Folder>(std::move(*opened)), keep);
 }
 
+// Opens the folder again if its path no longer leads to it.
+error::Expected<void> FrameWriter::return_to_path() {
+  if (folder_->is_at_path()) return {};
+  auto reopened = create(folder_->path(), keep_);
+  if (!reopened) return tl::unexpected(reopened.error());
+  *this = std::move(*reopened);
+  return {};
+}
+
 error::Expected<void> FrameWriter::write_file(const std::string& name, const imageio::Image& image) const {
   auto frame = file::NewFile::create(folder_, name, file::Rights::user_alone);
   if (!frame) return tl::unexpected(frame.error());
@@ -64,6 +73,7 @@ error::Expected<void> FrameWriter::write_file(const std::string& name, const ima
 }
 
 error::Expected<void> FrameWriter::write(const imageio::Image& image, std::int64_t number) {
+  if (auto returned = return_to_path(); !returned) return returned;
   std::array<char, 40> name{};
   std::snprintf(name.data(), name.size(), "frame_%06" PRId64 ".png", number);
   auto written = write_file(name.data(), image);

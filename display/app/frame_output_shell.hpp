@@ -49,12 +49,14 @@ class FrameWriter {
  public:
   // Makes the folder, mode 0700. `keep`: number of newest frames that stay in the folder, frames of earlier runs
   // included; 0: all. Error: the folder cannot be made or used.
+  // When its path no longer leads to the folder, the next write makes or opens the folder there, with the same checks.
   static error::Expected<FrameWriter> create(const std::filesystem::path& folder, std::size_t keep = 0);
 
   error::Expected<void> write(const imageio::Image& image, std::int64_t number);
 
  private:
   FrameWriter(std::shared_ptr<const file::Folder> folder, std::size_t keep);
+  error::Expected<void> return_to_path();
   error::Expected<void> write_file(const std::string& name, const imageio::Image& image) const;
   // False if the free space of the disk is unknown.
   bool disk_is_full(std::size_t needed_bytes) const;

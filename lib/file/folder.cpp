@@ -153,6 +153,14 @@ Expected<Folder> Folder::make_private(const std::filesystem::path& path) {
   return folder;
 }
 
+bool Folder::is_at_path() const {
+  struct stat here {};
+  struct stat there {};
+  const char* path = path_.empty() ? "." : path_.c_str();
+  return ::fstat(descriptor(), &here) == 0 && ::stat(path, &there) == 0 && here.st_dev == there.st_dev &&
+         here.st_ino == there.st_ino;
+}
+
 std::optional<struct stat> Folder::status_of(const std::string& name) const {
   struct stat status {};
   if (::fstatat(descriptor(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) return std::nullopt;

@@ -49,6 +49,8 @@ class Folder {
 
   int descriptor() const { return descriptor_.number(); }
   const std::filesystem::path& path() const { return path_; }
+  // True if the path still leads to this folder. False if it was removed, renamed or replaced.
+  bool is_at_path() const;
   // Status of the file at `name`. A symbolic link is not followed. nullopt if the call fails; errno has the reason.
   std::optional<struct stat> status_of(const std::string& name) const;
   // Removes a file. A symbolic link is not followed. False if the call fails; errno has the reason.

@@ -16,6 +16,12 @@ namespace {
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // [m] Margin of the terrain region beyond the range, for the movement of the aircraft while terrain loads.
 constexpr double kRegionMargin_m = 2000.0;
+
+// Pose of a tick; nullopt without a valid ownship. The ownship of a tick before the first valid one is all zero.
+std::optional<Pose> valid_pose_of(const ModelTick& tick) {
+  if ((tick.flags & databuffer::kTickOwnshipValid) == 0U) return std::nullopt;
+  return pose_of(tick.ownship);
+}
 }  // namespace
 
 struct RadarKernel::State : ScanState {
@@ -59,7 +65,7 @@ RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   // A scan that began before SNIFF (receive only) transmits until its end.
   const bool silent = sniffs(tick.command) && (state_->noise_only || !state_->scanning);
   if (!needs_ground(tick.command.mode, silent, state_->configuration)) return need;
-  const std::optional<Pose> pose = pose_of(tick.ownship);
+  const std::optional<Pose> pose = valid_pose_of(tick);
   if (!pose && !state_->pose) return need;
   need.ground = true;
   need.region.centre = pose ? pose->position : state_->pose->position;
@@ -76,11 +82,9 @@ bool RadarKernel::step(const ModelTick& tick, const physics::Environment& enviro
   state.tick = tick.tick;
   state.sim_time_ns = tick.sim_time_ns;
   state.pose_fresh = false;
-  if ((tick.flags & databuffer::kTickOwnshipValid) != 0U) {
-    if (const auto pose = pose_of(tick.ownship)) {
-      state.pose = pose;
-      state.pose_fresh = true;
-    }
+  if (const auto pose = valid_pose_of(tick)) {
+    state.pose = pose;
+    state.pose_fresh = true;
   }
   if (!state.configuration.fidelity.automatic) state.use_samples(tick.samples);
   if (!state.pose) {

@@ -105,6 +105,36 @@ TEST_F(PrivateFiles, AFrameThatCannotBeWrittenRemovesNoOlderFrame) {
   EXPECT_EQ(frames(), "346");
 }
 
+TEST_F(PrivateFiles, FramesReturnToAFolderThatWasReplaced) {
+  const auto folder = folder_ / "frames";
+  const imageio::Image image{2, 2, 4, std::vector<std::uint8_t>(16)};
+  auto writer = display::FrameWriter::create(folder, 2);
+  ASSERT_TRUE(writer) << writer.error().message();
+  ASSERT_TRUE(writer->write(image, 1));
+  std::filesystem::remove_all(folder);
+  ASSERT_EQ(mkdir(folder.c_str(), 0700), 0);
+  for (int number = 2; number <= 4; ++number) ASSERT_TRUE(writer->write(image, number));
+  EXPECT_FALSE(std::filesystem::exists(folder / "frame_000002.png")) << "of the newest 2 frames";
+  EXPECT_TRUE(std::filesystem::exists(folder / "frame_000004.png"));
+  std::filesystem::remove_all(folder);
+  ASSERT_TRUE(writer->write(image, 5)) << "a folder that is missing is made again";
+  EXPECT_EQ(mode_of(folder), 0700U);
+  EXPECT_TRUE(std::filesystem::exists(folder / "frame_000005.png"));
+}
+
+TEST_F(PrivateFiles, FramesDoNotReturnToAFolderThatOthersMayWrite) {
+  const auto folder = folder_ / "frames";
+  const imageio::Image image{2, 2, 4, std::vector<std::uint8_t>(16)};
+  auto writer = display::FrameWriter::create(folder);
+  ASSERT_TRUE(writer) << writer.error().message();
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directory(folder);
+  ASSERT_EQ(chmod(folder.c_str(), 01777), 0);
+  EXPECT_THAT(refusal_of(writer->write(image, 1)), HasSubstr("no other user may write"));
+  ASSERT_EQ(chmod(folder.c_str(), 0700), 0);
+  EXPECT_TRUE(writer->write(image, 2)) << "each frame tries again";
+}
+
 constexpr int kNotPermitted = 77;
 
 // Exit code of a process with a disk of its own of 256 KiB, where two of three frames of 100,000 bytes fit. 0: the

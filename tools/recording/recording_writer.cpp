@@ -69,11 +69,40 @@ error::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem::
   auto folder = file::Folder::open(path.parent_path());
   if (!folder) return tl::unexpected(folder.error());
   RecordingWriter writer(std::make_shared<const file::Folder>(std::move(*folder)), path.filename().string(), header);
-  auto file = create_file(writer.folder_, writer.name_, existing);
-  if (!file) return tl::unexpected(file.error());
-  writer.file_ = std::move(*file);
+  if (auto begun = writer.begin_file(existing); !begun) return tl::unexpected(begun.error());
   writer.write_header();
   return writer;
+}
+
+// Creates the file at the path, without its header.
+error::Expected<void> RecordingWriter::begin_file(Existing existing) {
+  if (!folder_->is_at_path()) {
+    auto folder = file::Folder::open(folder_->path());
+    if (!folder) return tl::unexpected(*(error_ = folder.error()));
+    folder_ = std::make_shared<const file::Folder>(std::move(*folder));
+  }
+  auto file = create_file(folder_, name_, existing);
+  if (!file) return tl::unexpected(*(error_ = file.error()));
+  file_ = std::move(*file);
+  blocks_.clear();
+  bytes_ = 0;
+  ++files_;
+  return {};
+}
+
+bool RecordingWriter::is_at_path() const {
+  struct stat open_file {};
+  if (!file_ || fstat(descriptor(), &open_file) != 0 || !folder_->is_at_path()) return false;
+  const auto named = folder_->status_of(name_);
+  return named && named->st_dev == open_file.st_dev && named->st_ino == open_file.st_ino;
+}
+
+error::Expected<void> RecordingWriter::check_place() {
+  if (error_) return tl::unexpected(*error_);
+  if (is_at_path()) return {};
+  error_ = error::Error{(folder_->path() / name_).string(), "the recording under its name",
+                        "that it was removed or renamed", "leave it in place until the recorder has ended", false};
+  return tl::unexpected(*error_);
 }
 
 // Returns false and sets error_ when the header cannot be written.
@@ -107,6 +136,10 @@ error::Expected<void> RecordingWriter::flush() {
 
 error::Expected<void> RecordingWriter::resume() {
   if (!error_) return {};
+  if (set_aside_due_)
+    if (auto moved = set_aside(); !moved) return moved;
+  if (!is_at_path())
+    if (auto begun = begin_file(Existing::refused); !begun) return begun;
   if (const int problem = check_free_space(descriptor(), bytes_); problem != 0) return write_failed(problem);
   block_.take(compressor_);
   error_.reset();
@@ -116,6 +149,7 @@ error::Expected<void> RecordingWriter::resume() {
 
 error::Expected<void> RecordingWriter::close() {
   if (auto written = flush(); !written) return written;
+  if (auto placed = check_place(); !placed) return placed;
   auto written = write(bytes_of(blocks_, bytes_, compressor_));
   if (written) file_.reset();  // after an error, resume() may still continue the file
   return written;
@@ -123,13 +157,21 @@ error::Expected<void> RecordingWriter::close() {
 
 error::Expected<void> RecordingWriter::begin_next() {
   if (auto closed = close(); !closed) return closed;
-  if (!folder_->rename_file(name_, name_ + ".before")) return write_failed(errno);
-  auto file = create_file(folder_, name_, file::Existing::refused);
-  if (!file) return tl::unexpected(*(error_ = file.error()));
-  file_ = std::move(*file);
-  blocks_.clear();
-  bytes_ = 0;
+  set_aside_due_ = true;
+  if (auto moved = set_aside(); !moved) return moved;
+  if (auto begun = begin_file(Existing::refused); !begun) return begun;
   if (!write_header()) return tl::unexpected(*error_);
+  return {};
+}
+
+// Renames the closed file to FILE.before. A file that was removed meanwhile needs no other name.
+error::Expected<void> RecordingWriter::set_aside() {
+  if (!folder_->rename_file(name_, name_ + ".before") && errno != ENOENT) {
+    error_ = error::Error{(folder_->path() / (name_ + ".before")).string(), "a name for the recording that is full",
+                          std::strerror(errno), "remove what is there", false};
+    return tl::unexpected(*error_);
+  }
+  set_aside_due_ = false;
   return {};
 }
 

@@ -2,7 +2,7 @@
 // The writer collects items in memory until one second of sim time has passed or the block is full. It then compresses
 // the block and writes it at once, which takes some milliseconds.
 // Errors: a write that fails loses its block, and no part of that block stays in the file. A file that was not closed
-// can be read up to its last complete block.
+// can be read up to its last complete block. A file that was removed or renamed is no longer written to.
 #pragma once
 
 #include <cstdint>
@@ -39,21 +39,28 @@ class RecordingWriter {
   }
   // Writes the collected items as a block.
   error::Expected<void> flush();
-  // After an error: drops the collected items and continues after the last complete block. Fails if the disk
-  // has less than 1 MiB free.
+  // After an error: drops the collected items and continues after the last complete block. Begins a new file if the
+  // present one was removed, renamed or set aside. Fails if the disk is full, or if begin_next() would fail again.
   error::Expected<void> resume();
+  // Error: the file was removed or renamed, or its folder was.
+  error::Expected<void> check_place();
+  // True if the file is open, and its path leads to it.
+  bool is_at_path() const;
   // Writes the collected items and the index, and closes the file.
   error::Expected<void> close();
   // Closes the file, renames it to FILE.before, replacing an older FILE.before, and creates FILE again.
   error::Expected<void> begin_next();
 
   std::uint64_t bytes() const { return bytes_; }  // size of the file
+  std::uint64_t files() const { return files_; }  // number of files begun
 
  private:
   RecordingWriter(std::shared_ptr<const file::Folder> folder, std::string name, RecordingHeader header)
       : folder_(std::move(folder)), name_(std::move(name)), header_(std::move(header)) {}
   error::Expected<void> append(const RecordedKind& kind, const RecordParts& parts, std::optional<std::int64_t> tick);
   error::Expected<void> write(const std::vector<std::byte>& bytes);
+  error::Expected<void> begin_file(Existing existing);
+  error::Expected<void> set_aside();
   bool write_header();
   tl::unexpected<error::Error> write_failed(int error_number);
 
@@ -67,6 +74,8 @@ class RecordingWriter {
   Compressor compressor_;
   std::vector<IndexEntry> blocks_;
   std::uint64_t bytes_ = 0;
+  std::uint64_t files_ = 0;
+  bool set_aside_due_ = false;  // the file is closed and still has to be renamed to FILE.before
   std::optional<error::Error> error_;
 };
 

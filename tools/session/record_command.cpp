@@ -99,10 +99,12 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   else
     record_in_lockstep(*session, recorder, options.lockstep);
   error::Expected<void> outcome = recorder.outcome();
+  const bool is_there = writer->is_at_path();
   if (outcome) outcome = writer->close();
-  std::printf("%llu ticks, %llu sweeps, %llu bytes in %s\n", static_cast<unsigned long long>(recorder.ticks()),
-              static_cast<unsigned long long>(recorder.sweeps()), static_cast<unsigned long long>(writer->bytes()),
-              options.file.c_str());
+  if (is_there)
+    std::printf("%llu ticks, %llu sweeps, %llu bytes in %s\n", static_cast<unsigned long long>(recorder.ticks()),
+                static_cast<unsigned long long>(recorder.sweeps()), static_cast<unsigned long long>(writer->bytes()),
+                options.file.c_str());
   if (recorder.refused() > 0)
     log::warning(std::to_string(recorder.refused()) + " records failed validation and were not recorded");
   if (!outcome) throw_failure(outcome.error());

@@ -19,6 +19,7 @@ namespace {
 
 constexpr std::int64_t kTicksBetweenStatus = 200;          // 1 s of sim time
 constexpr std::int64_t kRetryInterval_ns = 5'000'000'000;  // 5 s between attempts to write after a write error
+constexpr std::int64_t kCheckInterval_ns = 2'000'000'000;  // 2 s between checks that the file is still at its path
 
 // Reads the next record of a ring and advances `cursor`. Adds the number of overwritten, unread records to `lost`.
 // False: the ring has no new record.
@@ -27,6 +28,10 @@ bool take(const Ring& ring, std::uint64_t& cursor, Record& record, std::uint64_t
   const auto outcome = ring.read(cursor, record);
   lost += outcome.lost;
   return outcome.delivered;
+}
+
+void log_problem(const error::Error& problem) {
+  log::warning(problem.message() + "; the recorder tries again every 5 s");
 }
 
 }  // namespace
@@ -48,6 +53,7 @@ void Recorder::begin_here() {
   // Resets the rate limits, so that each start writes the radar state even if it has not changed.
   state_pace_ = {};
   status_pace_ = outputs_pace_ = {};
+  if (std::exchange(file_number_, writer_->files()) != writer_->files()) patches_seen_.clear();
   tick_cursor_ = layout.model_ticks.next();
   event_cursor_ = layout.applied_events.next();
   sweep_cursor_ = layout.sweeps.next();
@@ -72,7 +78,7 @@ void Recorder::handle_result(error::Expected<void> written) {
   outcome_ = std::move(written);
   resumes_writing_ = std::exchange(writing_, false);
   next_retry_ns_ = databuffer::monotonic_ns() + kRetryInterval_ns;
-  log::warning(outcome_.error().message() + "; the recorder tries again every 5 s");
+  log_problem(outcome_.error());
   session_->note(databuffer::NoteKind::loss, "recorder stopped: " + outcome_.error().found);
 }
 
@@ -80,7 +86,11 @@ void Recorder::retry_after_error() {
   const std::int64_t now_ns = databuffer::monotonic_ns();
   if (outcome_ || now_ns < next_retry_ns_) return;
   next_retry_ns_ = now_ns + kRetryInterval_ns;
-  if (!writer_->resume()) return;
+  if (auto resumed = writer_->resume(); !resumed) {
+    if (resumed.error().found != outcome_.error().found) log_problem(resumed.error());
+    outcome_ = std::move(resumed);
+    return;
+  }
   outcome_ = {};
   writing_ = resumes_writing_;
   log::info("the recording can be written again");
@@ -92,9 +102,16 @@ void Recorder::retry_after_error() {
 void Recorder::begin_next_file() {
   if (extras_.keep_bytes == 0 || !outcome_ || writer_->bytes() < extras_.keep_bytes / 2) return;
   handle_result(writer_->begin_next());
-  if (!outcome_) return;
-  patches_seen_.clear();
-  begin_here();
+  if (outcome_) begin_here();
+}
+
+// Stops writing to a file that was removed or renamed. The next drain() begins a new one.
+void Recorder::check_place() {
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  if (!outcome_ || now_ns < next_check_ns_) return;
+  next_check_ns_ = now_ns + kCheckInterval_ns;
+  handle_result(writer_->check_place());
+  if (!outcome_) next_retry_ns_ = now_ns;
 }
 
 template <class T>
@@ -113,6 +130,7 @@ void Recorder::flush() {
 void Recorder::drain(std::int64_t tick) {
   state_.refresh();
   retry_after_error();
+  check_place();
   if (writing_) take_all(tick);
   if (writing_) begin_next_file();
   if (state_.has_value()) apply_vtr_request(state_.value().vtr_request);

@@ -1,10 +1,10 @@
 // Recorder of a session: reads the records that the session's processes publish and appends them to a recording.
 // Inputs: rings and latest values of the segment. A press of push button 12 (counted in RadarState::vtr_request) stops
 // or starts writing. Each start writes a new StartingPoint into the same file.
-// Outputs: the recording; RecorderStatus about once per second of sim time and on each change.
-// Errors: a write error, such as a full disk, stops writing. Every 5 s the recorder tries to start again. A record that
-// fails validation is left out and noted in the flight recorder.
-// Threads: one. No call waits for another process.
+// Outputs: the recording; RecorderStatus about once a second and on each change.
+// Errors: a write error, such as a full disk, stops writing. Every 5 s the recorder tries to start again. A file that
+// was removed or renamed is noticed within 2 s, and a new one begins. A record that fails validation is left out and
+// noted in the flight recorder. Threads: one. No call waits for another process.
 #pragma once
 
 #include <cstdint>
@@ -49,6 +49,7 @@ class Recorder {
   void handle_result(error::Expected<void> written);
   void retry_after_error();
   void begin_next_file();
+  void check_place();
   template <class T>
   bool is_valid(const T& record);
   void publish(std::int64_t tick);
@@ -79,6 +80,8 @@ class Recorder {
   std::uint32_t vtr_request_ = 0;  // RadarState::vtr_request that was last applied
   databuffer::RecorderStatus published_{};
   bool has_published_ = false;
+  std::uint64_t file_number_ = 0;   // RecordingWriter::files() when writing last began
+  std::int64_t next_check_ns_ = 0;  // next check_place(), CLOCK_MONOTONIC
   error::Expected<void> outcome_;   // the write error that has stopped writing
   std::int64_t next_retry_ns_ = 0;  // earliest next attempt, CLOCK_MONOTONIC
   bool resumes_writing_ = false;    // whether writing starts again when the error is over

@@ -292,6 +292,24 @@ TEST(RadarKernel, NeedsTerrainAsFarAsItsRange) {
   EXPECT_GE(need.region.radius_m, 40.0 * geo::kMetresPerNauticalMile);
 }
 
+// Without a valid ownship the record of a tick is all zero, a position in the Gulf of Guinea.
+TEST(RadarKernel, NeedsNoTerrainBeforeTheFirstOwnship) {
+  Cockpit cockpit;
+  const databuffer::Ownship flown = cockpit.tick.ownship;
+  cockpit.tick.ownship = {};
+  cockpit.tick.flags = 0;
+  EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).ground);
+  cockpit.run(10);
+  EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).ground);
+  cockpit.tick.ownship = flown;
+  cockpit.tick.flags = databuffer::kTickOwnshipValid;
+  EXPECT_TRUE(cockpit.kernel.need(cockpit.tick).ground);
+  cockpit.run(10);
+  cockpit.tick.flags = 0;
+  ASSERT_TRUE(cockpit.kernel.need(cockpit.tick).ground) << "the last position stays in use";
+  EXPECT_EQ(cockpit.kernel.need(cockpit.tick).region.centre.latitude_deg, 37.0);
+}
+
 TEST(RadarKernel, SaysWhyNothingCanBeMappedAtTheCursor) {
   struct Row {
     double bearing_deg, range_nm, window_nm;

@@ -77,6 +77,76 @@ TEST(Recording, ReportsAnErrorOtherThanAFullDiskByItsCause) {
   std::filesystem::remove_all(before);
 }
 
+void append_all(RecordingWriter& writer, const std::vector<RecordingItem>& items) {
+  for (const auto& item : items)
+    ASSERT_TRUE(std::visit([&](const auto& record) { return writer.append(record); }, item));
+}
+
+void expect_whole(const std::filesystem::path& path, const std::vector<RecordingItem>& items) {
+  auto reader = RecordingReader::open(path);
+  ASSERT_TRUE(reader) << reader.error().message();
+  expect_same(rest_of(*reader), items);
+  EXPECT_FALSE(reader->cut_short());
+}
+
+TEST(Recording, AFileThatCannotBeSetAsideIsSetAsideWhenItCan) {
+  const test::TemporaryFile file;
+  const std::filesystem::path before = file.path().string() + ".before";
+  std::filesystem::create_directory(before);
+  auto writer = RecordingWriter::create(file.path(), {});
+  const auto items = items_of_every_kind(600);
+  append_all(*writer, items);
+  ASSERT_FALSE(writer->begin_next());
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    const auto resumed = writer->resume();
+    ASSERT_FALSE(resumed) << "the folder is still in the way";
+    EXPECT_NE(resumed.error().message().find(before.string() + ": "), std::string::npos) << resumed.error().message();
+    EXPECT_NE(resumed.error().message().find("Is a directory"), std::string::npos) << resumed.error().message();
+  }
+  std::filesystem::remove(before);
+  ASSERT_TRUE(writer->resume());
+  EXPECT_EQ(writer->files(), 2U);
+  append_all(*writer, items);
+  ASSERT_TRUE(writer->close());
+  expect_whole(before, items);
+  expect_whole(file.path(), items);
+  std::filesystem::remove(before);
+}
+
+TEST(Recording, AFileThatWasRemovedOrRenamedIsBegunAgain) {
+  const test::TemporaryFile file;
+  const std::filesystem::path elsewhere = file.path().string() + ".elsewhere";
+  auto writer = RecordingWriter::create(file.path(), {});
+  const auto items = items_of_every_kind(600);
+  append_all(*writer, items);
+  ASSERT_TRUE(writer->flush());
+  EXPECT_TRUE(writer->check_place());
+  std::filesystem::rename(file.path(), elsewhere);
+  std::ofstream(file.path()) << "somebody's flight";
+  ASSERT_FALSE(writer->check_place());
+  EXPECT_FALSE(writer->is_at_path());
+  EXPECT_FALSE(writer->append(Gap{}));
+  EXPECT_FALSE(writer->resume()) << "another file of this name is never replaced";
+  EXPECT_EQ(file.bytes(), "somebody's flight");
+  std::filesystem::remove(file.path());
+  ASSERT_TRUE(writer->resume());
+  append_all(*writer, items);
+  ASSERT_TRUE(writer->close());
+  expect_whole(file.path(), items);
+  EXPECT_TRUE(RecordingReader::open(elsewhere));
+  std::filesystem::remove(elsewhere);
+}
+
+TEST(Recording, AFileThatWasRemovedIsNotClosedAsIfItWereThere) {
+  const test::TemporaryFile file;
+  auto writer = RecordingWriter::create(file.path(), {});
+  append_all(*writer, items_of_every_kind(600));
+  std::filesystem::remove(file.path());
+  const auto closed = writer->close();
+  ASSERT_FALSE(closed);
+  EXPECT_NE(closed.error().message().find("removed or renamed"), std::string::npos) << closed.error().message();
+}
+
 // Simulates a full disk: while the object exists, the process can write files of at most 40,000 bytes.
 class SmallDisk {
  public:
