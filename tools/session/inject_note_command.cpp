@@ -133,8 +133,9 @@ void report(const std::vector<InputEvent>& events, const Outcome& outcome, const
   std::string refused;
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (outcome[i] != databuffer::kEventRefused) continue;
-    if (!refused.empty()) refused += ", ";
-    refused += "'" + databuffer::text_of(events[i]) + "'";
+    refused += refused.empty() ? "'" : ", '";
+    refused += databuffer::text_of(events[i]);
+    refused += "'";
   }
   const std::string message(text::text_of(state.message));
   throw_failure({"inject", "events that can be carried out",
