@@ -25,10 +25,7 @@ void add_commands(databuffer::Command app, const tools::CommonOptions& common) {
   tools::add_replay_command(app, common);
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
-  databuffer::sanitize_terminal_output();
+int run(int argc, char** argv) {
   databuffer::CommandLine app("YARS: an open air-to-ground radar simulation", "yars");
   app.require_subcommand();
   app.accept_behind_subcommands();
@@ -53,4 +50,11 @@ int main(int argc, char** argv) {
     databuffer::print_failure("yars", std::string("stopped by ") + problem.what());
     return databuffer::kExitFailure;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  databuffer::sanitize_terminal_output();
+  return databuffer::exit_code_after_output("yars", run(argc, argv));
 }

@@ -20,6 +20,7 @@
 #include <utility>
 
 #include "lib/error/error.hpp"
+#include "lib/file/output_file.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
@@ -29,26 +30,29 @@ namespace {
 // Output stream of sanitize_terminal_output().
 struct PrintableOutput {
   int descriptor;
-  std::string unfinished;  // first bytes of a UTF-8 character; the next write has its other bytes
+  std::string unfinished;  // first bytes of a UTF-8 character; the next write has the others
+  int problem;             // errno of the first failed write; 0: none. Nothing is written after a failed write.
 };
 
-bool write_all(int descriptor, std::string_view text) {
+// Returns errno of the failed write; 0: all was written.
+int write_all(int descriptor, std::string_view text) {
   while (!text.empty()) {
     const ssize_t count = ::write(descriptor, text.data(), text.size());
     if (count < 0 && errno == EINTR) continue;
-    if (count <= 0) return false;
+    if (count <= 0) return count == 0 ? ENOSPC : errno;
     text.remove_prefix(static_cast<std::size_t>(count));
   }
-  return true;
+  return 0;
 }
 
 ssize_t write_printable(void* cookie, const char* bytes, std::size_t size) {
   auto& output = *static_cast<PrintableOutput*>(cookie);
-  std::string text = std::exchange(output.unfinished, {}) + std::string(bytes, size);
-  const std::size_t held = text::unfinished_bytes(text);
-  output.unfinished = text.substr(text.size() - held);
-  text.resize(text.size() - held);
-  return write_all(output.descriptor, text::printable_lines(text)) ? static_cast<ssize_t>(size) : 0;
+  const std::string text = std::exchange(output.unfinished, {}) + std::string(bytes, size);
+  std::string_view whole = text;
+  whole.remove_suffix(text::unfinished_bytes(text));
+  output.unfinished = text.substr(whole.size());
+  if (output.problem == 0) output.problem = write_all(output.descriptor, text::printable_lines(whole));
+  return output.problem == 0 ? static_cast<ssize_t>(size) : 0;
 }
 
 // Opens a stream that writes to `output` through write_printable(). nullptr: out of memory; the caller then keeps the
@@ -61,14 +65,22 @@ std::FILE* open_printable(PrintableOutput& output, int buffering) {
   return stream;
 }
 
+// Both are never deleted, because output may follow while the process ends.
+PrintableOutput& standard_output() {
+  static auto* const output = new PrintableOutput{STDOUT_FILENO, {}, 0};
+  return *output;
+}
+PrintableOutput& standard_error() {
+  static auto* const output = new PrintableOutput{STDERR_FILENO, {}, 0};
+  return *output;
+}
+
 }  // namespace
 
 void sanitize_terminal_output() {
-  // Never deleted, because output may follow while the process ends.
-  static auto* const outputs = new PrintableOutput[]{{STDOUT_FILENO, {}}, {STDERR_FILENO, {}}};
   static const bool done = [] {
-    std::FILE* out = open_printable(outputs[0], ::isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF);
-    std::FILE* error = open_printable(outputs[1], _IONBF);
+    std::FILE* out = open_printable(standard_output(), ::isatty(STDOUT_FILENO) != 0 ? _IOLBF : _IOFBF);
+    std::FILE* error = open_printable(standard_error(), _IONBF);
     if (out == nullptr || error == nullptr) return false;
     stdout = out;
     stderr = error;
@@ -80,6 +92,21 @@ void sanitize_terminal_output() {
     return true;
   }();
   (void)done;
+}
+
+error::Expected<void> close_standard_output() {
+  errno = 0;
+  int problem = 0;
+  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {
+    const int write_problem = standard_output().problem;
+    problem = write_problem != 0 ? write_problem : errno;
+    if (problem == 0) problem = EIO;
+  } else if (::close(STDOUT_FILENO) != 0 && errno != EBADF) {
+    problem = errno;
+  }
+  if (problem == 0 || problem == EPIPE) return {};
+  return error::fail("standard output", "a file that can be written", std::strerror(problem),
+                     file::write_advice(problem));
 }
 
 void set_private_umask() {

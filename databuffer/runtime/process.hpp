@@ -18,6 +18,10 @@ namespace yars::databuffer {
 // main; a second call does nothing.
 void sanitize_terminal_output();
 
+// Flushes and closes standard output. Error: this write or an earlier write has failed. A closed pipe is no error, nor
+// is a descriptor that was closed before the start if nothing was written. Call it once, at the end of main.
+error::Expected<void> close_standard_output();
+
 // Sets the umask so that new files have mode 0600 and new folders 0700. Other users cannot read logs, frames and
 // recordings.
 void set_private_umask();

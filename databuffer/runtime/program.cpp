@@ -80,9 +80,16 @@ std::optional<error::Error> begin_program(const std::string& name, const Program
   return std::nullopt;
 }
 
-int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body) {
-  sanitize_terminal_output();
-  if (const auto exit_code = app.parse(argc, argv)) return *exit_code;
+int exit_code_after_output(const std::string& program, int exit_code) {
+  const auto closed = close_standard_output();
+  if (closed) return exit_code;
+  print_failure(program, closed.error().message());
+  return exit_code == 0 ? kExitFailure : exit_code;
+}
+
+namespace {
+
+int run_body(CommandLine& app, const ProgramOptions& options, const ProgramBody& body) {
   try {
     set_private_umask();
     auto error = begin_program(app.name(), options);
@@ -99,6 +106,15 @@ int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& o
     print_failure(app.name(), std::string("stopped by ") + problem.what());
     return kExitFailure;
   }
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body) {
+  sanitize_terminal_output();
+  auto exit_code = app.parse(argc, argv);
+  if (!exit_code) exit_code = run_body(app, options, body);
+  return exit_code_after_output(app.name(), *exit_code);
 }
 
 }  // namespace yars::databuffer

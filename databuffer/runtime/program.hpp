@@ -43,6 +43,10 @@ void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role)
 using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body);
 
+// Closes standard output at the end of main and returns the exit code of the program. If a write to standard output has
+// failed, prints one line on standard error and returns kExitFailure in place of 0.
+int exit_code_after_output(const std::string& program, int exit_code);
+
 // Starts the log, applies CPU affinity and priority, and installs signal handlers. run_program() calls begin_program().
 // A program with subcommands that run during the parse of the command line calls begin_program() directly.
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options);

@@ -139,8 +139,9 @@ void report(const statemachine::AppliedSequence& applied) {
     if (applied.effects[i] != databuffer::kEventRefused) continue;
     const auto reason = statemachine::certain_reason(applied, i);
     all_certain = all_certain && reason;
-    if (!refused.empty()) refused += ", ";
-    refused += "'" + databuffer::text_of(applied.events[i]) + "' refused" + (reason ? ": " + *reason : "");
+    refused += refused.empty() ? "'" : ", '";
+    refused += databuffer::text_of(applied.events[i]);
+    refused += reason ? "' refused: " + *reason : "' refused";
   }
   throw_failure(
       {"inject", "events that can be carried out", refused,
