@@ -62,8 +62,9 @@ std::string proposed_heading(const geo::GeodesicInverse& to_target, double off_t
 }
 
 error::Error blind_zone_error(const geo::GeodesicInverse& to_target, double off_deg, const radar::MapLimits& limits) {
-  const std::string zone = short_number(limits.blind_zone_deg);
-  return {"BLIND ZONE", "a target at least " + zone + " deg off the ground track, ahead and astern",
+  return {"BLIND ZONE",
+          "a target " + short_number(limits.blind_zone_deg) + " to " + short_number(180.0 - limits.blind_zone_deg) +
+              " deg off the ground track",
           "one " + number(std::abs(off_deg), 1) + " deg off it",
           proposed_heading(to_target, off_deg, limits) + ", " + kForce};
 }
@@ -112,14 +113,15 @@ std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order, c
 
 std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,
                                           const radar::AntennaConfiguration& antenna) {
-  const auto broken = [](const char* option, double limit_deg, geo::Angle found) {
-    return error::Error{option, "at most " + short_number(limit_deg) + " deg within the configured gimbal limits",
-                        short_number(found.degrees()) + " deg", std::string("give a smaller angle, ") + kForce};
+  const auto broken = [](const char* option, double min_deg, double max_deg, geo::Angle found) {
+    return error::Error{option,
+                        short_number(min_deg) + " to " + short_number(max_deg) + " deg, the configured gimbal limits",
+                        short_number(found.degrees()) + " deg", std::string("give an angle within them, ") + kForce};
   };
-  if (std::abs(elevation.degrees()) > antenna.elevation_limit_deg)
-    return broken("--elevation", antenna.elevation_limit_deg, elevation);
-  const double widest_deg = 2.0 * antenna.azimuth_limit_deg;
-  if (width.degrees() > widest_deg) return broken("--scan-width", widest_deg, width);
+  const double steepest_deg = antenna.elevation_limit_deg, widest_deg = 2.0 * antenna.azimuth_limit_deg;
+  if (std::abs(elevation.degrees()) > steepest_deg)
+    return broken("--elevation", -steepest_deg, steepest_deg, elevation);
+  if (width.degrees() > widest_deg) return broken("--scan-width", 0.0, widest_deg, width);
   return std::nullopt;
 }
 

@@ -53,7 +53,7 @@ TEST(PatchLimits, EachErrorHasTheLimitTheValueAndForceAsTheRemedy) {
   const Row rows[] = {
       {2.0, 20.0, {}, "BLIND ZONE", "at least 8 deg off the ground track", "found one 2."},
       {-7.0, 20.0, {}, "BLIND ZONE", "at least 8 deg", "found one 7."},
-      {178.0, 20.0, {}, "BLIND ZONE", "ahead and astern", "found one 178"},
+      {178.0, 20.0, {}, "BLIND ZONE", "8 to 172 deg off the ground track", "found one 178"},
       {75.0, 20.0, {}, "GIMBAL", "within 60 deg of the nose", "deg right of it"},
       {-120.0, 20.0, {}, "GIMBAL", "within 60 deg of the nose", "deg left of it"},
       {30.0, 4.0, {}, "MIN RANGE", "4.7 to 80 NM away", "found 4.00 NM"},
@@ -157,9 +157,8 @@ TEST(ScanLimits, AreTheGimbalOfTheConfigurationAndTheGround) {
   };
   const Row rows[] = {
       {{"--scan-width", "50", "--elevation", "-31"},
-       "--elevation: expected at most 30 deg within the configured gimbal limits, found -31 deg"},
-      {{"--scan-width", "100"},
-       "--scan-width: expected at most 80 deg within the configured gimbal limits, found 100 deg"},
+       "--elevation: expected -30 to 30 deg, the configured gimbal limits, found -31 deg"},
+      {{"--scan-width", "100"}, "--scan-width: expected 0 to 80 deg, the configured gimbal limits, found 100 deg"},
       {{"--scan-width", "50", "--alt-ft", "-2000"}, "--alt-ft: expected an aircraft above the ground, which is at "}};
   for (const Row& row : rows) {
     std::vector<std::string> command{"yars", "scan", "--config", file, "--samples", "60", "--range-nm", "10"};
