@@ -35,6 +35,7 @@ class LatestValue {
 
  private:
   static constexpr Word kPresent = 1;
+  static constexpr Word kLastVersion = ~Word{0} >> 1;
   static constexpr int kRetries = 8;
 
   struct alignas(kCacheLine) Slot {
@@ -43,13 +44,19 @@ class LatestValue {
     std::array<AtomicWord, kWordsOf<T>> words;
   };
 
+  // Version of the next value. After the last one comes 1, because 0 means never written.
+  Word next_version() const {
+    const Word version = Access::load(state_, std::memory_order_relaxed) >> 1;
+    return version == kLastVersion ? 1 : version + 1;
+  }
+
   alignas(kCacheLine) AtomicWord state_;  // 2 * version + (1 if a value is present); value in slots_[version % kSlots]
   std::array<Slot, kSlots> slots_;
 };
 
 template <Record T, class Access>
 void LatestValue<T, Access>::publish(const T& value) {
-  const Word version = (Access::load(state_, std::memory_order_relaxed) >> 1) + 1;
+  const Word version = next_version();
   Slot& slot = slots_[version % kSlots];
   const Word odd = next_odd(Access::load(slot.sequence, std::memory_order_relaxed));
   Access::store(slot.sequence, odd, std::memory_order_relaxed);
@@ -61,7 +68,7 @@ void LatestValue<T, Access>::publish(const T& value) {
 
 template <Record T, class Access>
 void LatestValue<T, Access>::clear() {
-  const Word version = (Access::load(state_, std::memory_order_relaxed) >> 1) + 1;
+  const Word version = next_version();
   Access::store(state_, version << 1, std::memory_order_release);
 }
 

@@ -88,10 +88,16 @@ static inline uint64_t* yars_slot(const yars_session* s, size_t value_at, uint64
   return yars_word(s, value_at + YARS_LINE + (size_t)(version % YARS_SLOTS) * YARS_SLOT_STRIDE(bytes));
 }
 
+/* Version of the next value. After the last one comes 1, because 0 means never written. */
+static inline uint64_t yars_next_version(const uint64_t* state) {
+  const uint64_t version = yars_load(state) >> 1;
+  return version == UINT64_MAX >> 1 ? 1 : version + 1;
+}
+
 /* Writes a new value. One writer at a time. */
 static inline void yars_publish(const yars_session* s, size_t value_at, const void* record, size_t bytes) {
   uint64_t* state = yars_word(s, value_at);
-  const uint64_t version = (yars_load(state) >> 1) + 1;
+  const uint64_t version = yars_next_version(state);
   uint64_t* slot = yars_slot(s, value_at, version, bytes);
   const uint64_t odd = (yars_load(slot) + 1) | 1;
   yars_store(slot, odd);
@@ -104,7 +110,7 @@ static inline void yars_publish(const yars_session* s, size_t value_at, const vo
 /* Removes the value: readers find none until the next yars_publish(). */
 static inline void yars_withdraw(const yars_session* s, size_t value_at) {
   uint64_t* state = yars_word(s, value_at);
-  yars_store(state, ((yars_load(state) >> 1) + 1) << 1);
+  yars_store(state, yars_next_version(state) << 1);
 }
 
 /* Returns 1 if `record` is the last value. Returns 0 if there is no value, or if the writer changed it during each of 9

@@ -196,7 +196,7 @@ Expected<void> Session::change_clock(const std::function<ClockState(const ClockS
   for (int attempt = 0; attempt < attempts; ++attempt) {
     if (const auto claim = state_->take(kByte, -1)) {
       const ClockState next = change(state_->clock_now());
-      if (auto refusal = validate(next))
+      if (auto refusal = state_->inspect_clock(next))
         return fail("session clock", "a change that leaves the clock in range", std::move(*refusal),
                     "set another time, as with `yars sim reset 0`");
       layout().clock.publish(next);
@@ -206,6 +206,10 @@ Expected<void> Session::change_clock(const std::function<ClockState(const ClockS
   }
   return fail("clock", "to change it within " + std::to_string(attempts) + " ms",
               "held by " + state_->describe_holder(kByte), "let that process continue, or end it");
+}
+
+bool Session::has_foreign_clock() const {
+  return state_->has_foreign_clock();
 }
 
 std::optional<std::string> Session::clock_problem() const {

@@ -88,7 +88,7 @@ ClockState first_clock() {
 // its name. state-machine replaces an invalid clock within a tick.
 bool SessionState::await_clock() {
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
-    if (clock.refresh() && !validate(clock.value())) {
+    if (clock.refresh() && !inspect_clock(clock.value())) {
       good_clock = clock.value();
       return true;
     }
@@ -102,7 +102,46 @@ bool SessionState::await_clock() {
 std::optional<std::string> SessionState::clock_problem() const {
   ClockState present{};
   if (!read().clock.read(present)) return "expected a readable clock, found none";
-  return validate(present);
+  return inspect_clock(present);
+}
+
+// A process in another time namespace takes the time from the heartbeat of a process that leads the session.
+std::optional<std::string> SessionState::inspect_clock(const ClockState& state) const {
+  if (auto refusal = validate(state)) return refusal;
+  const std::int64_t base_ns = state.base_monotonic_ns;
+  std::int64_t now_ns = monotonic_ns();
+  if (base_ns <= now_ns + kClockTolerance_ns) return std::nullopt;
+  if (const ProcessEntry* leader = leading_entry()) now_ns = std::max(now_ns, leader->heartbeat_ns.load());
+  if (base_ns - kClockTolerance_ns <= now_ns) return std::nullopt;
+  return "base_monotonic_ns: expected a time that has passed, found " + std::to_string(base_ns) + ", " +
+         std::to_string((base_ns - now_ns) / 1'000'000'000) + " s in the future";
+}
+
+const ProcessEntry* SessionState::leading_entry() const {
+  for (const Role role : {Role::state_machine, Role::radar_model}) {
+    const auto byte = static_cast<std::size_t>(role);
+    const std::int32_t pid = segment->holder_pid(byte);
+    if (pid == 0 || pid == getpid() || !segment->is_locked(byte)) continue;
+    for (const ProcessEntry& entry : read().processes)
+      if (entry.pid == pid) return &entry;
+  }
+  return nullptr;
+}
+
+// True if the leading process beats, and beats at a time other than this process's.
+bool SessionState::has_foreign_clock() const {
+  constexpr int kAttempts = 200;  // 1 ms apart; a role beats every 5 ms
+  const ProcessEntry* leader = leading_entry();
+  if (leader == nullptr) return false;
+  const std::int64_t first_beat_ns = leader->heartbeat_ns;
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    const std::int64_t now_ns = monotonic_ns();
+    const std::int64_t beat_ns = leader->heartbeat_ns;
+    if (beat_ns >= now_ns - kClockTolerance_ns && beat_ns <= now_ns + kClockTolerance_ns) return false;
+    if (beat_ns != first_beat_ns) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  return false;
 }
 
 // Locks a free entry of the process table and fills it in. A full table is no error: the table only informs the user.
@@ -154,7 +193,7 @@ std::optional<Claim> SessionState::take(std::size_t byte, int lane) {
 ClockState SessionState::clock_now() {
   std::unique_lock guard(clock_mutex);
   if (!clock.refresh()) return good_clock;
-  const auto refusal = validate(clock.value());
+  const auto refusal = inspect_clock(clock.value());
   if (!refusal) good_clock = clock.value();
   const ClockState now = good_clock;
   guard.unlock();

@@ -64,6 +64,8 @@ class Claim {
 
 // Maximum number of attempts to read or lock the clock, 1 ms apart. `yars sim` holds the lock for much less than 0.2 s.
 inline constexpr int kClockAttempts = 200;
+// [ns] Time by which two readings of CLOCK_MONOTONIC may differ. Readings of two time namespaces differ by more.
+inline constexpr std::int64_t kClockTolerance_ns = 1'000'000'000;
 
 // [ns] Interval of the checks in Session::heartbeat(): name of the segment file, entry in the process table.
 inline constexpr std::int64_t kUpkeepInterval_ns = 500'000'000;
@@ -119,6 +121,11 @@ struct SessionState {
 
   bool await_clock();  // sets good_clock. False: no valid clock found; good_clock then has sim time 0 in a new epoch
   std::optional<std::string> clock_problem() const;
+  // Reason why a clock is refused: validate(), or a base time in the future.
+  std::optional<std::string> inspect_clock(const ClockState& state) const;
+  // Entry of state-machine, else of radar-model, in the process table. nullptr: no other process has these roles.
+  const ProcessEntry* leading_entry() const;
+  bool has_foreign_clock() const;
   void enter_table();
   void leave_table();
   std::string describe_holder(std::size_t byte) const;

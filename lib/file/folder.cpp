@@ -153,12 +153,24 @@ Expected<Folder> Folder::make_private(const std::filesystem::path& path) {
   return folder;
 }
 
-bool Folder::is_at_path() const {
+namespace {
+
+// True if the descriptor has the file of this status open.
+bool is_open_file(int descriptor, const struct stat& there) {
   struct stat here {};
+  return ::fstat(descriptor, &here) == 0 && here.st_dev == there.st_dev && here.st_ino == there.st_ino;
+}
+
+}  // namespace
+
+bool Folder::is_at_path() const {
   struct stat there {};
-  const char* path = path_.empty() ? "." : path_.c_str();
-  return ::fstat(descriptor(), &here) == 0 && ::stat(path, &there) == 0 && here.st_dev == there.st_dev &&
-         here.st_ino == there.st_ino;
+  return ::stat(path_.empty() ? "." : path_.c_str(), &there) == 0 && is_open_file(descriptor(), there);
+}
+
+bool Folder::has_at_path(const std::string& name, int open_file) const {
+  const auto there = status_of(name);
+  return there && is_open_file(open_file, *there) && is_at_path();
 }
 
 std::optional<struct stat> Folder::status_of(const std::string& name) const {

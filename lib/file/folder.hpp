@@ -51,6 +51,8 @@ class Folder {
   const std::filesystem::path& path() const { return path_; }
   // True if the path still leads to this folder. False if it was removed, renamed or replaced.
   bool is_at_path() const;
+  // True if the folder is at its path, and `name` in it is the open file. False if the file was removed or renamed.
+  bool has_at_path(const std::string& name, int open_file) const;
   // Status of the file at `name`. A symbolic link is not followed. nullopt if the call fails; errno has the reason.
   std::optional<struct stat> status_of(const std::string& name) const;
   // Removes a file. A symbolic link is not followed. False if the call fails; errno has the reason.

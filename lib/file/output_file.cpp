@@ -283,7 +283,16 @@ Expected<void> LogFile::rotate() {
   return open_newest();
 }
 
+Expected<void> LogFile::return_to_path() {
+  if (folder_.has_at_path(name_of(0), newest_.number())) return {};
+  auto reopened = Folder::make_private(folder_.path());
+  if (!reopened) return tl::unexpected(reopened.error());
+  folder_ = std::move(*reopened);
+  return open_newest();
+}
+
 Expected<void> LogFile::append(std::string_view text) {
+  if (auto returned = return_to_path(); !returned) return returned;
   if (bytes_ > 0 && bytes_ + text.size() > limits_.bytes)
     if (auto rotated = rotate(); !rotated) return rotated;
   while (!text.empty()) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <limits>
@@ -16,9 +17,14 @@
 #include "databuffer/session/session.hpp"
 #include "tests/databuffer/session/session_name.hpp"
 #include "tests/databuffer/session/set_clock.hpp"
+#include "tests/shm/child_process.hpp"
 
 namespace yars::databuffer {
 namespace {
+
+using shm::testing::ChildProcess;
+using shm::testing::SharedMemory;
+using shm::testing::wait_until;
 
 constexpr std::int64_t kLowest = std::numeric_limits<std::int64_t>::min();
 constexpr std::int64_t kHighest = std::numeric_limits<std::int64_t>::max();
@@ -66,6 +72,58 @@ TEST_F(HostileSegment, AJoiningProgramRepairsAClockOutOfRangeInANewEpoch) {
   for (const std::int64_t base_ns : {kLowest, std::int64_t{-1}, kLatestClockBase_ns + 1, kHighest}) {
     spoil([base_ns](ClockState& clock) { clock.base_sim_ns = base_ns; });
     spoil([base_ns](ClockState& clock) { clock.base_monotonic_ns = base_ns; });
+  }
+}
+
+TEST_F(HostileSegment, AJoiningProgramRepairsAClockWhoseVersionIsTheLastOne) {
+  for (const std::uint64_t state : {~std::uint64_t{0}, ~std::uint64_t{0} - 1}) {
+    reinterpret_cast<std::atomic<std::uint64_t>*>(&layout().clock)->store(state);
+    const auto joined = Session::open(name_, "another");
+    ASSERT_TRUE(joined) << joined.error().message();
+    EXPECT_FALSE(joined->clock_problem()) << *joined->clock_problem();
+  }
+}
+
+TEST_F(HostileSegment, AClockThatBeginsInTheFutureIsDamaged) {
+  const ClockState good = owner_.clock();
+  for (const std::int64_t ahead_ns : {std::int64_t{3'000'000'000}, kLatestClockBase_ns / 2}) {
+    ClockState bad = good;
+    bad.base_monotonic_ns = monotonic_ns() + ahead_ns;
+    EXPECT_FALSE(test::set_clock(owner_, bad));
+    layout().clock.publish(bad);
+    ASSERT_TRUE(owner_.clock_problem());
+    EXPECT_NE(owner_.clock_problem()->find("s in the future"), std::string::npos) << *owner_.clock_problem();
+    EXPECT_EQ(owner_.clock().base_monotonic_ns, good.base_monotonic_ns) << "the last valid clock stays in use";
+    owner_.restore_clock();
+    EXPECT_FALSE(owner_.clock_problem());
+    EXPECT_EQ(owner_.clock().epoch, good.epoch);
+  }
+}
+
+// Here the heartbeat of a state-machine stands for another CLOCK_MONOTONIC, 100 s ahead or behind.
+TEST_F(HostileSegment, AProgramWithAnotherMonotonicClockIsToldByTheHeartbeatsOfTheStateMachine) {
+  for (const std::int64_t offset_ns : {std::int64_t{100'000'000'000}, std::int64_t{-100'000'000'000}}) {
+    SharedMemory<std::atomic<int>> phase;
+    ChildProcess leader([&] {
+      Session own = *Session::open(name_, "state-machine");
+      const auto claim = own.claim(Role::state_machine);
+      for (*phase = 1;; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+        for (ProcessEntry& entry : own.layout().processes)
+          if (entry.pid == getpid()) entry.heartbeat_ns = monotonic_ns() + (*phase == 2 ? offset_ns : 0);
+    });
+    ASSERT_TRUE(wait_until([&] { return *phase == 1; }));
+    EXPECT_FALSE(owner_.has_foreign_clock());
+    *phase = 2;
+    EXPECT_TRUE(wait_until([&] { return owner_.has_foreign_clock(); }));
+    if (offset_ns < 0) continue;
+    // The session's clock was set by that state-machine. This program must not take it for damaged.
+    ClockState theirs = owner_.clock();
+    theirs.base_monotonic_ns = monotonic_ns() + offset_ns / 2;
+    EXPECT_TRUE(test::set_clock(owner_, theirs));
+    EXPECT_FALSE(owner_.clock_problem());
+    leader.kill_now();
+    EXPECT_TRUE(owner_.clock_problem());
+    owner_.restore_clock();
   }
 }
 
@@ -169,10 +227,10 @@ TEST_F(HostileSegment, AParticipantUsesTheLastValidClockAndNotesTheInvalidOneOnc
   EXPECT_EQ(layout().note_counts[static_cast<std::size_t>(NoteKind::refusal)].load(), 1U) << "noted once";
 }
 
-TEST_F(HostileSegment, AClockWhoseBaseLiesInTheFutureStands) {
+TEST_F(HostileSegment, AClockThatBeginsWithinASecondStandsUntilThen) {
   ClockState clock = owner_.clock();
   clock.base_sim_ns = 7;
-  clock.base_monotonic_ns = monotonic_ns() + 1'000'000'000'000;
+  clock.base_monotonic_ns = monotonic_ns() + 900'000'000;
   layout().clock.publish(clock);
   EXPECT_EQ(owner_.sim_time_ns(), 7);
 }

@@ -57,6 +57,21 @@ TEST(LatestValue, AfterClearThereIsNoValueAndTheVersionHasIncreased) {
   EXPECT_EQ(out.number, 2u);
 }
 
+TEST(LatestValue, AfterTheLastVersionComesTheFirst) {
+  for (const std::uint64_t last : {~std::uint64_t{0}, ~std::uint64_t{0} - 1}) {
+    SharedMemory<Value> value;
+    auto* state = reinterpret_cast<std::atomic<std::uint64_t>*>(value.operator->());
+    state->store(last);
+    value->publish(Record::make(7));
+    EXPECT_EQ(value->version(), 1U);
+    EXPECT_EQ(number_in(*value), 7U);
+    state->store(last);
+    value->clear();
+    EXPECT_EQ(value->version(), 1U);
+    EXPECT_FALSE(value->has_value());
+  }
+}
+
 TEST(LatestValue, AWriterKilledAtAnyStoreLeavesThePreviousValueWhole) {
   long stores = 0;
   for (bool alive = false; !alive; ++stores) {

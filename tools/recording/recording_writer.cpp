@@ -91,10 +91,7 @@ error::Expected<void> RecordingWriter::begin_file(Existing existing) {
 }
 
 bool RecordingWriter::is_at_path() const {
-  struct stat open_file {};
-  if (!file_ || fstat(descriptor(), &open_file) != 0 || !folder_->is_at_path()) return false;
-  const auto named = folder_->status_of(name_);
-  return named && named->st_dev == open_file.st_dev && named->st_ino == open_file.st_ino;
+  return file_ && folder_->has_at_path(name_, descriptor());
 }
 
 error::Expected<void> RecordingWriter::check_place() {

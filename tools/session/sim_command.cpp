@@ -35,6 +35,9 @@ Session open_session(const CommonOptions& common) {
                    "use yars sim on a live session", false});
   auto session = Session::open(common.session, "yars sim");
   if (!session) throw_failure(session.error());
+  if (session->has_foreign_clock())
+    throw_failure({"yars sim", "the CLOCK_MONOTONIC of the session's programs", "another one, as in a time namespace",
+                   "run yars sim in the namespace of the session's programs", false});
   return std::move(*session);
 }
 

@@ -37,6 +37,20 @@ TEST_F(LogFileTest, ALogIsContinuedAndRotatedWhenItIsFull) {
   EXPECT_EQ(mode_of(folder_ / "logs/role.log"), 0600U);
 }
 
+TEST_F(LogFileTest, ALogThatWasRemovedOrRenamedIsBegunAgain) {
+  auto log = open();
+  ASSERT_TRUE(log);
+  ASSERT_TRUE(log->append("one\n"));
+  std::filesystem::rename(folder_ / "logs/role.log", folder_ / "logs/kept.log");
+  ASSERT_TRUE(log->append("two\n"));
+  EXPECT_EQ(content_of(folder_ / "logs/kept.log"), "one\n");
+  EXPECT_EQ(content_of(folder_ / "logs/role.log"), "two\n");
+  std::filesystem::remove_all(folder_ / "logs");
+  ASSERT_TRUE(log->append("three\n"));
+  EXPECT_EQ(content_of(folder_ / "logs/role.log"), "three\n");
+  EXPECT_EQ(mode_of(folder_ / "logs"), 0700U);
+}
+
 TEST_F(LogFileTest, APlantedLinkPipeOrFolderAtItsNameIsRefused) {
   const auto victim = write("victim", "keep this");
   const auto name = link("logs/role.log", victim);
