@@ -237,7 +237,7 @@ TEST_F(Fifo, AGroupReadsAllItsSources) {
   group.wait({now_ns_, 0}, 20'000);  // returns when the descriptor is readable
   EXPECT_THAT(take_after(group, 20), ElementsAre("pb 13"));
   EXPECT_FALSE(group.ended());
-  EXPECT_THAT(report(group), HasSubstr("absent is not there"));
+  EXPECT_THAT(report(group), HasSubstr("absent is missing"));
 }
 
 // The names are those of devices in /dev/input. With several maps a FIFO has no fitting map and is not opened.

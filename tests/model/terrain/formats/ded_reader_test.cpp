@@ -87,7 +87,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"NoCells", [](test::DedFile& file) { file.cell_count = 0; }, "1 to 64800 cells"},
         Broken{"HugeCount", [](test::DedFile& file) { file.cell_count = 0xFFFFFFFF; }, "1 to 64800 cells"},
         Broken{"CountBeyondTheFile", [](test::DedFile& file) { file.cell_count = 60000; }, "truncated"},
-        Broken{"HalfADegree", [](test::DedFile& file) { file.cells[1].north = 36.5F; }, "cell 2 of one degree"},
+        Broken{"HalfADegree", [](test::DedFile& file) { file.cells[1].north = 36.5F; }, "cell 2 from one whole degree to the next"},
         Broken{"OffTheGrid", [](test::DedFile& file) { file.cells[0].west = -121.9F, file.cells[0].east = -120.9F; },
                "whole degrees"},
         Broken{"NanCorner", [](test::DedFile& file) { file.cells[0].south = kNan; }, "whole degrees"},
