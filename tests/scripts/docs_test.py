@@ -57,7 +57,7 @@ class Pages(unittest.TestCase):
         self.assertIn(f"tick__inputs_8cpp_source.html#l{line:05d}", page)
 
     def test_plain_comments_are_documentation(self):
-        comment = "nullopt if a value is not finite"
+        comment = "nullopt if a value of the record is not finite or out of range"
         self.assertTrue(any(comment in p.read_text() for p in self.pages.glob("namespaceyars*.html")), comment)
 
     def test_the_filter_keeps_the_number_of_every_line(self):

@@ -94,9 +94,11 @@ TEST(Messages, CommentsCommasAndSpacesDoNotMatter) {
 }
 
 TEST(Messages, UnknownKeywordsAreIgnoredWithAWarning) {
-  EXPECT_THAT(loaded("Radar: { warp: { speed: 9 } ragnes: { 1 } }").warnings,
-              AllOf(Contains(HasSubstr("text.guf:1:10: the form System has no slot :warp; the slot is ignored")),
-                    Contains(HasSubstr("text.guf:1:29: the form System has no slot :ragnes; the slot is ignored; nearest name: :ranges"))));
+  EXPECT_THAT(
+      loaded("Radar: { warp: { speed: 9 } ragnes: { 1 } }").warnings,
+      AllOf(Contains(HasSubstr("text.guf:1:10: the form System has no slot :warp; the slot is ignored")),
+            Contains(HasSubstr(
+                "text.guf:1:29: the form System has no slot :ragnes; the slot is ignored; nearest name: :ranges"))));
   EXPECT_THAT(loaded("Warp: { speed: { 1 } }").warnings, Contains(HasSubstr("the form Warp is unknown and ignored")));
 }
 

@@ -197,7 +197,9 @@ TEST(Standard, AShipNearerThanTheFirstGroundSampleLeavesTheAltitudeHoleDark) {
   EXPECT_NE(fast, without) << "the ship returns";
   ASSERT_EQ(exact[100], 0.0F) << "a sample in the altitude hole";
   for (std::size_t i = 0; i < count; ++i) {
-    if (exact[i] == 0.0F) ASSERT_EQ(fast[i], 0.0F) << i;
+    if (exact[i] == 0.0F) {
+      ASSERT_EQ(fast[i], 0.0F) << i;
+    }
   }
 }
 

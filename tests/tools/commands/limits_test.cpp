@@ -51,8 +51,8 @@ TEST(PatchLimits, EachErrorHasTheLimitTheValueAndForceAsTheRemedy) {
   };
   // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4.
   const Row rows[] = {
-      {2.0, 20.0, {}, "BLIND ZONE", "at least 8 deg off the ground track", "found one 2."},
-      {-7.0, 20.0, {}, "BLIND ZONE", "at least 8 deg", "found one 7."},
+      {2.0, 20.0, {}, "BLIND ZONE", "8 to 172 deg off the ground track", "found one 2."},
+      {-7.0, 20.0, {}, "BLIND ZONE", "8 to 172 deg", "found one 7."},
       {178.0, 20.0, {}, "BLIND ZONE", "8 to 172 deg off the ground track", "found one 178"},
       {75.0, 20.0, {}, "GIMBAL", "within 60 deg of the nose", "deg right of it"},
       {-120.0, 20.0, {}, "GIMBAL", "within 60 deg of the nose", "deg left of it"},
