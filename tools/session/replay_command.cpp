@@ -170,8 +170,9 @@ class KernelRerun {
     pending_.clear();
   }
   void resume(const databuffer::ModelStatus& status) {
+    const auto buffered = std::exchange(pending_, {});
     begin({status});
-    for (const auto& item : std::exchange(pending_, {})) {
+    for (const auto& item : buffered) {
       const auto tick = std::visit([](const auto& record) { return recording::tick_of(record); }, item);
       const bool done = tick && *tick <= status.tick;
       if (!done || std::holds_alternative<databuffer::Traffic>(item)) run(item);
