@@ -77,9 +77,15 @@ def document(path):
         anchor = slug(match[1])
         return match[0] if anchor in anchors else f"{match[0]} {{#{label(path, anchor)}}}"
 
-    def link(match):
-        target = pathlib.Path(posixpath.normpath(path.parent / match[1])) if match[1] else path
-        return f"](#{label(target, match[2])})"
+    def target_of(link):
+        return pathlib.Path(posixpath.normpath(path.parent / link))
+
+    def anchor_link(match):
+        return f"](#{label(target_of(match[1]) if match[1] else path, match[2])})"
+
+    def page_link(match):
+        # From the top: Doxygen looks for a relative path in its working folder first, and may find another file there.
+        return f"]({target_of(match[1])})"
 
     def code(match):
         return "<code>" + match[1].replace("\\", "\\\\") + "</code>" if "\\" in match[1] else match[0]
@@ -96,7 +102,8 @@ def document(path):
         parts = re.split(r"(`[^`\n]*`)", block)
         parts[::2] = [re.sub(ANCHOR, lambda match: f"\\anchor {label(path, match[1])} ", part) for part in parts[::2]]
         block = re.sub(r"`([^`\n]*)`", code, "".join(parts))
-        blocks[i] = re.sub(r"\]\(([\w./-]+\.md)?#([\w-]+)\)", link, block)
+        block = re.sub(r"\]\(([\w./-]+\.md)\)", page_link, block)
+        blocks[i] = re.sub(r"\]\(([\w./-]+\.md)?#([\w-]+)\)", anchor_link, block)
     return "".join(blocks)
 
 

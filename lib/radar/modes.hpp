@@ -62,8 +62,9 @@ std::string_view name_of(ScanWidth scan);
 std::string_view name_of(CursorFunction function);
 std::string_view name_of(Navigator navigator);
 
-// Number and offset in the name of a sequence point: `n` steer or initial point, `n.` target, `n.1` to `n.9` offset,
-// `n.01` to `n.99` target offset; n is 1 to 100. Source: docs/spec/pilots_interface.md#rule-11.
+// Number and offset in the name of a sequence point, for example `7`. A dot after the number makes it a target. Else it
+// is a steer or initial point. `7.1` to `7.9` are offsets, `7.01` to `7.99` target offsets. Numbers are 1 to 100.
+// Source: docs/spec/pilots_interface.md#rule-11.
 struct PointName {
   int number = 0;       // 1 to 100
   int offset = 0;       // 1 to 99; 0 = the point itself

@@ -90,6 +90,28 @@ def check_session_names(folder):
                 faults.append(f"{words}: expected exit code 2 and the names that are possible, found {done}")
 
 
+def check_scripts(evil):
+    """Messages of the scripts. Each of these runs ends at its arguments."""
+    top = pathlib.Path(__file__).resolve().parents[2]
+    recording = evil / f"{EVIL}.yars"
+    recording.write_text("")
+    start, supervise = str(top / "scripts/start"), str(top / "scripts/supervise")
+    words = [[start, "--record", str(recording)], [start, "--headless", EVIL], [start, "--bin", str(evil)], [start, EVIL],
+             [start, "--frames", EVIL, "--bin", "none"],
+             [supervise, "--name", "n", "--bin", str(BIN), "--session", "escapes", "--log-dir", f"{recording}/x", "--role",
+              "a", str(evil / "none")],
+             [supervise, "--name", "n", "--bin", str(BIN), "--session", "escapes", EVIL, "--role", "a", "none"]]
+    words += [[str(top / "scripts" / script), EVIL] for script in ("test", "setup")]
+    words += [[str(top / "scripts/lint"), "-" + EVIL], [str(top / "scripts/check_fresh"), "-" + EVIL],
+              [str(top / "scripts/fuzz"), EVIL]]
+    for command in words:
+        done = subprocess.run(command, capture_output=True, timeout=120, stdin=subprocess.DEVNULL,
+                              env={**os.environ, "DISPLAY": "", "WAYLAND_DISPLAY": ""})
+        text = (done.stdout + done.stderr).decode("utf-8", "surrogateescape")
+        if (found := RAW.search(text)) or done.returncode == 0:
+            faults.append(f"{command}: expected a failure without control characters, found {found} in {text!r}")
+
+
 def main():
     with tempfile.TemporaryDirectory() as folder:
         evil = files(folder)
@@ -99,6 +121,7 @@ def main():
             faults.append(f"expected most of {len(escaped)} commands to show what is escaped, found {sum(escaped)}")
         check_log(folder)
         check_session_names(folder)
+        check_scripts(evil)
     print("\n".join(faults) or f"{len(escaped)} commands print no control characters")
     return 1 if faults else 0
 

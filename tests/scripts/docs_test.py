@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Doxygen with docs/Doxyfile: pages of a header and its source, and pages of all documents, without diagrams."""
 import html
+import os
 import pathlib
 import re
 import shutil
@@ -14,6 +15,21 @@ FILTER = ROOT / "scripts" / "doxygen_source.py"
 FILES = ["model/kernel/tick_inputs.hpp", "model/kernel/tick_inputs.cpp"]
 
 
+DOXYGEN = shutil.which("doxygen")
+sys.path.insert(0, str(ROOT / "scripts"))
+import doxygen_source  # noqa: E402  a script beside this folder
+
+
+def source_files(suffix):
+    """Paths of the files that scripts/docs reads, from the top."""
+    for root in doxygen_source.ROOTS:
+        folder = ROOT / root
+        for path in sorted(folder.rglob("*" + suffix)) if folder.is_dir() else [folder]:
+            if path.suffix == suffix:
+                yield path.relative_to(ROOT)
+
+
+@unittest.skipUnless(DOXYGEN, "no doxygen")
 class Pages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -69,6 +85,36 @@ class Pages(unittest.TestCase):
             self.assertEqual([before[i] for i in same], [after[i] for i in same], file)
 
 
+class Sources(unittest.TestCase):
+    """What Doxygen refuses in the whole tree. These tests need no Doxygen."""
+
+    def setUp(self):
+        os.chdir(ROOT)  # the paths of doxygen_source are relative to it
+
+    def test_links_between_documents_lead_to_a_file_from_the_top(self):
+        links = 0
+        for path in source_files(".md"):
+            for link in re.findall(r"\]\(([\w./-]+\.md)\)", doxygen_source.document(path)):
+                links += 1
+                self.assertTrue((ROOT / link).is_file(), f"{path}: expected the path of a document, found {link}")
+        self.assertGreater(links, 50)
+
+    def test_code_spans_in_comments_end_on_their_line_and_not_with_a_dot(self):
+        """A dot before the closing quote ends the brief description for Doxygen, within the span."""
+        for path in source_files(".hpp"):
+            lines = (ROOT / path).read_text(encoding="utf-8").splitlines(keepends=True)
+            for number, line in enumerate(lines, 1):
+                comment = re.search(r"(?:^\s*|[;,{}] +)// ?([^\"]*)$", line)
+                if not comment:
+                    continue
+                place = f"{path}:{number}: {line.strip()}"
+                spans = comment[1].split("`")
+                self.assertEqual(len(spans) % 2, 1, f"{place}: expected code spans that end on their line")
+                ends = [span for span in spans[1::2] if re.search(r"[^.]\.$", span)]
+                self.assertEqual(ends, [], f"{place}: expected code spans without a dot at the end")
+
+
+@unittest.skipUnless(DOXYGEN, "no doxygen")
 class Documents(unittest.TestCase):
     def test_links_to_headings_and_anchors_lead_there_and_one_page_is_the_first(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -89,6 +135,4 @@ class Documents(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    if shutil.which("doxygen") is None:
-        sys.exit(77)
     unittest.main()
