@@ -30,7 +30,7 @@ namespace {
 // Output stream of sanitize_terminal_output().
 struct PrintableOutput {
   int descriptor;
-  std::string unfinished;  // first bytes of a UTF-8 character; the next write has the others
+  std::string unfinished;  // first bytes of a UTF-8 character; the next write has its other bytes
   int problem;             // errno of the first failed write; 0: none. Nothing is written after a failed write.
 };
 
