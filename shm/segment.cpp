@@ -27,7 +27,6 @@ namespace {
 using error::Expected;
 using error::fail;
 
-constexpr std::string_view kFolder = "/dev/shm/";  // glibc's shm_open and Boost keep their objects here
 // Maximum number of attempts to attach or create. An attempt that meets a leaving process pauses 1 ms. Leaving takes
 // far less than the resulting 2 s.
 constexpr int kAttempts = 2000;
@@ -47,13 +46,10 @@ void sleep_1ms() {
 std::string file_name_of(const std::string& name) {
   return "yars." + std::to_string(geteuid()) + "." + name;
 }
-std::string path_of(const std::string& file_name) {
-  return std::string(kFolder) + file_name;
-}
 
 // Removes temporary files of dead creators. Such a file has no lock, or is a second name of the segment's file.
 void remove_dead_temporaries(const std::string& file_name) {
-  DIR* folder = opendir(std::string(kFolder).c_str());
+  DIR* folder = opendir(kSegmentFolder);
   if (folder == nullptr) return;
   const std::string prefix = file_name + ".";
   while (const dirent* entry = readdir(folder)) {

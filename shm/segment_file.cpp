@@ -72,12 +72,7 @@ namespace bi = boost::interprocess;
 
 namespace {
 
-constexpr const char* kFolder = "/dev/shm";  // glibc's shm_open and Boost keep their objects here
-constexpr int kAttempts = 20;                // maximum number of random temporary names that create() tries
-
-std::string path_of(const std::string& file_name) {
-  return std::string(kFolder) + "/" + file_name;
-}
+constexpr int kNameAttempts = 20;  // maximum number of random temporary names that create() tries
 
 struct flock byte_lock(std::size_t byte, LockKind kind) {
   struct flock lock {};
@@ -108,8 +103,8 @@ std::optional<SegmentFile> SegmentFile::open(const std::string& file_name, Acces
 }
 
 std::optional<SegmentFile> SegmentFile::create(const std::string& file_name) {
-  SegmentFile file(file::Descriptor(::open(kFolder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600)), Access::read_write);
-  for (int attempt = 0; !file.descriptor_ && errno != ENOSPC && errno != ENOMEM && attempt < kAttempts; ++attempt) {
+  SegmentFile file(file::Descriptor(::open(kSegmentFolder, O_TMPFILE | O_RDWR | O_CLOEXEC, 0600)), Access::read_write);
+  for (int attempt = 0; !file.descriptor_ && errno != ENOSPC && errno != ENOMEM && attempt < kNameAttempts; ++attempt) {
     file.temporary_ = file_name + "." + std::to_string(std::random_device{}()) + ".tmp";
     file.descriptor_ = file::Descriptor(
         ::open(path_of(file.temporary_).c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));

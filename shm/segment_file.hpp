@@ -18,6 +18,12 @@
 
 namespace yars::shm {
 
+inline constexpr const char* kSegmentFolder = "/dev/shm";  // glibc's shm_open and Boost keep their objects here
+
+inline std::string path_of(const std::string& file_name) {
+  return std::string(kSegmentFolder) + "/" + file_name;
+}
+
 // Finds open files that have lost their name, and returns their paths /proc/PID/fd/N. The lost name is `path`, or a
 // creator's temporary name path.NUMBER.tmp. Names are lost when another program unlinks them, as systemd-logind does at
 // logout with RemoveIPC=yes. Only regular files of this user are returned. The search covers all processes that this

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -26,7 +25,6 @@ using databuffer::PatchMap;
 using databuffer::RadarState;
 using geo::GeoPoint;
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kCrossing_s = 2.0;  // edge-to-edge time at full TDC deflection; docs/spec/pilots_interface.md#tdc
 
 GeoPoint aircraft_of(const Inputs& inputs) {

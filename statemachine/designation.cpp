@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,7 +22,6 @@ namespace {
 using databuffer::RadarState;
 using geo::GeoPoint;
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::int64_t kAnswerTicks = 20;   // 0.1 s; a running model answers within this time
 constexpr std::int64_t kGiveUpTicks = 400;  // 2 s; terrain still unknown by then is void or not loaded
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <limits>
 #include <span>
 
 #include "databuffer/messages/derived_values.hpp"
@@ -23,8 +22,6 @@ namespace {
 
 using databuffer::Outputs;
 using databuffer::RadarState;
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Slant range, true bearing and depression of the target. They are measured from the true position of the aircraft to
 // the ground position at which the video shows the target. A target whose elevation stayed unknown is taken to be at
@@ -58,8 +55,8 @@ Outputs outputs_of(const RadarState& state, const Inputs& inputs) {
   outputs.target_count = state.target_count;
   outputs.mark_count = state.mark_count;
   std::ranges::copy(state.marks, outputs.marks);
-  outputs.slant_range_m = outputs.bearing_deg = outputs.depression_deg = kNone;
-  outputs.steering_deg = outputs.approach_deg = kNone;
+  outputs.slant_range_m = outputs.bearing_deg = outputs.depression_deg = kUnknown;
+  outputs.steering_deg = outputs.approach_deg = kUnknown;
   if (!has(state, databuffer::kTargetDesignated)) return outputs;
   outputs.target_latitude_deg = state.target_latitude_deg;
   outputs.target_longitude_deg = state.target_longitude_deg;

@@ -1,7 +1,6 @@
 #include "statemachine/modes.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 #include "lib/radar/mapping.hpp"
@@ -17,7 +16,7 @@ namespace {
 using databuffer::RadarState;
 using radar::Mode;
 
-const geo::Length kUnknownHeight = geo::Length::feet(std::numeric_limits<double>::quiet_NaN());
+const geo::Length kUnknownHeight = geo::Length::feet(kUnknown);
 
 // Starts a mode. An open main menu stays on the display.
 void run(RadarState& state, Mode mode) {

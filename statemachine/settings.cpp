@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -55,8 +54,7 @@ std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownsh
 // Reading of a radar altimeter, from the radar model's height above ground; NaN above the altimeter's limit.
 double terrain_clearance_m(const Inputs& inputs) {
   constexpr double kAltimeterLimit_m = 1524.0;  // 5,000 ft: docs/spec/pilots_interface.md#rule-1
-  return inputs.height_above_ground_m <= kAltimeterLimit_m ? inputs.height_above_ground_m
-                                                           : std::numeric_limits<double>::quiet_NaN();
+  return inputs.height_above_ground_m <= kAltimeterLimit_m ? inputs.height_above_ground_m : kUnknown;
 }
 
 // Height that selects the range: the first known height of docs/spec/pilots_interface.md#rule-1.

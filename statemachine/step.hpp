@@ -30,6 +30,8 @@ struct WindowLimits;
 
 namespace yars::statemachine {
 
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  // an unknown number of a record
+
 // Number of map records in Inputs: the pilot's maps NEW, OLD and STORE, and the newest map of the radar model.
 inline constexpr std::size_t kMaxMaps = 4;
 
@@ -44,9 +46,9 @@ struct Inputs {
   bool recorder_failed = false;   // a recorder is present and has stopped at a problem such as a full disk
   databuffer::Ownship ownship{};
   databuffer::Nav nav{};
-  double field_variation_deg = std::numeric_limits<double>::quiet_NaN();  // east positive; NaN = no geomagnetic model
+  double field_variation_deg = kUnknown;  // east positive; NaN = no geomagnetic model
   // Ownship's height above the terrain, by the radar model. Used if ownship has no radar altimeter. NaN = unknown.
-  double height_above_ground_m = std::numeric_limits<double>::quiet_NaN();
+  double height_above_ground_m = kUnknown;
   databuffer::ModelStatus model{};
   // Records of the maps named by the state, and of the model's newest map, in any order; id 0 = empty slot.
   std::array<databuffer::PatchMap, kMaxMaps> maps{};

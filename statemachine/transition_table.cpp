@@ -24,14 +24,14 @@ std::string_view nth(const std::array<std::string_view, N>& words, std::size_t i
   return index < N ? words[index] : std::string_view();
 }
 
-constexpr std::array<std::string_view, 4> kGains{"GAIN 0", "GAIN 1", "GAIN 2", "GAIN 3"};
-constexpr std::array<std::string_view, 9> kChannels{"", "1", "2", "3", "4", "5", "6", "7", "8"};
-constexpr std::array<std::string_view, 5> kBands{"A", "B", "C", "D", "E"};
+constexpr std::array<std::string_view, 4> kGainLegends{"GAIN 0", "GAIN 1", "GAIN 2", "GAIN 3"};
+constexpr std::array<std::string_view, 9> kChannelLegends{"", "1", "2", "3", "4", "5", "6", "7", "8"};
+constexpr std::array<std::string_view, 5> kBandLegends{"A", "B", "C", "D", "E"};
 
 }  // namespace
 
 std::string_view gain_legend(const databuffer::RadarState& state) {
-  return nth(kGains, state.gain);
+  return nth(kGainLegends, state.gain);
 }
 
 std::string_view looks_legend(const databuffer::RadarState& state) {
@@ -71,10 +71,10 @@ std::string_view sequence_point_legend(const databuffer::RadarState& state) {
   return state.sequence_point;
 }
 std::string_view channel_legend(const databuffer::RadarState& state) {
-  return nth(kChannels, state.channel);
+  return nth(kChannelLegends, state.channel);
 }
 std::string_view band_legend(const databuffer::RadarState& state) {
-  return nth(kBands, state.band);
+  return nth(kBandLegends, state.band);
 }
 
 namespace {

@@ -14,15 +14,15 @@ constexpr std::string_view kBlank = " \t";
 constexpr std::string_view kSpace = " \t\r\n\f";
 
 // Owner of the flex scanner and its copy of the text.
-class Scanner {
+class MessageScanner {
  public:
-  Scanner(std::string_view text, ScanState& state) {
+  MessageScanner(std::string_view text, ScanState& state) {
     if (message_lex_init_extra(&state, &handle_) != 0) throw std::bad_alloc();
     message__scan_bytes(text.data(), static_cast<int>(text.size()), handle_);
   }
-  ~Scanner() { message_lex_destroy(handle_); }
-  Scanner(const Scanner&) = delete;
-  Scanner& operator=(const Scanner&) = delete;
+  ~MessageScanner() { message_lex_destroy(handle_); }
+  MessageScanner(const MessageScanner&) = delete;
+  MessageScanner& operator=(const MessageScanner&) = delete;
   void* handle() const { return handle_; }
 
  private:
@@ -63,7 +63,7 @@ error::Expected<ParsedText> parse_messages(std::string_view text, const std::str
   ScanState state;
   state.next.file = std::make_shared<const std::string>(name);
   try {
-    const Scanner scanner(without_byte_order_mark(text), state);
+    const MessageScanner scanner(without_byte_order_mark(text), state);
     MessageParser parser(scanner.handle(), state);
     parser.parse();
   } catch (const ParseError& parse_error) {

@@ -12,15 +12,15 @@ namespace yars::config {
 namespace {
 
 // Owner of the flex scanner and its copy of the text.
-class Scanner {
+class GufScanner {
  public:
-  Scanner(std::string_view text, ScanState& state) {
+  GufScanner(std::string_view text, ScanState& state) {
     if (guf_lex_init_extra(&state, &handle_) != 0) throw std::bad_alloc();
     guf__scan_bytes(text.data(), static_cast<int>(text.size()), handle_);
   }
-  ~Scanner() { guf_lex_destroy(handle_); }
-  Scanner(const Scanner&) = delete;
-  Scanner& operator=(const Scanner&) = delete;
+  ~GufScanner() { guf_lex_destroy(handle_); }
+  GufScanner(const GufScanner&) = delete;
+  GufScanner& operator=(const GufScanner&) = delete;
   void* handle() const { return handle_; }
 
  private:
@@ -34,7 +34,7 @@ error::Expected<ParsedText> parse_text(std::string_view text, const std::string&
   ScanState state;
   state.next.file = std::make_shared<const std::string>(name);
   try {
-    const Scanner scanner(without_byte_order_mark(text), state);
+    const GufScanner scanner(without_byte_order_mark(text), state);
     GufParser parser(scanner.handle(), state);
     parser.parse();
   } catch (const ParseError& parse_error) {

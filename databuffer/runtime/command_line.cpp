@@ -104,9 +104,11 @@ Option Command::find(const std::string& name) const {
 }
 
 namespace {
-// Makes all floating-point options, also those of subcommands, refuse NaN and infinity. CLI11's range check accepts
-// NaN.
-void require_finite_numbers(CLI::App& app) {
+// Makes all options and arguments, also those of subcommands, refuse values that CLI11 accepts and no command can use:
+// NaN and infinity for a floating-point number, and an empty text.
+void refuse_unusable_values(CLI::App& app) {
+  const CLI::Validator not_empty(
+      [](std::string& text) { return text.empty() ? "expected a text, found an empty one" : std::string(); }, "");
   const CLI::Validator finite(
       [](std::string& text) {
         char* end = nullptr;
@@ -116,11 +118,13 @@ void require_finite_numbers(CLI::App& app) {
       },
       "");
   // transform() runs before the range check.
-  for (CLI::Option* option :
-       app.get_options([](const CLI::Option* any) { return any->get_type_name().starts_with("FLOAT"); }))
-    option->transform(finite);
+  for (CLI::Option* option : app.get_options()) {
+    const std::string type = option->get_type_name();
+    if (type.starts_with("FLOAT")) option->transform(finite);
+    if (type.starts_with("TEXT")) option->transform(not_empty);
+  }
   for (CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
-    require_finite_numbers(*subcommand);
+    refuse_unusable_values(*subcommand);
 }
 }  // namespace
 
@@ -142,7 +146,7 @@ void CommandLine::before_callbacks(const std::function<void()>& call) {
 
 std::optional<int> CommandLine::parse(int argc, char** argv) {
   try {
-    require_finite_numbers(*app_);
+    refuse_unusable_values(*app_);
     app_->parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::ParseError& outcome) {

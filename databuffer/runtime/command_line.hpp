@@ -85,7 +85,8 @@ class CommandLine : public Command {
   // Sets a function that parse() calls after parsing and before the callbacks of subcommands.
   void before_callbacks(const std::function<void()>& call);
   // Parses the arguments and runs the callbacks. Returns the exit code if the program is to end: after a usage error,
-  // --help or --version. A number that is NaN or infinite is a usage error. Exceptions of callbacks are not caught.
+  // --help or --version. A number that is NaN or infinite and an empty text are usage errors. Exceptions of callbacks
+  // are not caught.
   std::optional<int> parse(int argc, char** argv);
 
  private:

@@ -9,9 +9,9 @@ namespace yars::display {
 
 namespace {
 
-constexpr float kTextHeight = 9.0F;    // [units] cap height
-constexpr float kSymbolRadius = 8.0F;  // [units] distance from a symbol's centre to the start of a leader line
-constexpr float kLineGap = 2.5F;       // [units] distance from the end of the leader line to the text
+constexpr float kLabelHeight = 9.0F;  // [units] cap height
+constexpr float kLeaderStart = 8.0F;  // [units] distance from a symbol's centre to the start of a leader line
+constexpr float kLineGap = 2.5F;      // [units] distance from the end of the leader line to the text
 
 // Clearance that a position must have [units]. The ink of a text reaches 0.7 units and half a pixel beyond its box.
 struct Clearance {
@@ -71,7 +71,7 @@ Position position_on_ring(std::size_t ring, float direction_deg) {
   constexpr float slanted = 0.3F;  // sine of the angle from up or down; steeper lines end above or below the text
   position.align = out.x > slanted ? Align::left : out.x < -slanted ? Align::right : Align::center;
   const float distance = length + kLineGap;
-  position.offset = {out.x * distance, out.y * (distance + kTextHeight / 2.0F)};
+  position.offset = {out.x * distance, out.y * (distance + kLabelHeight / 2.0F)};
   return position;
 }
 
@@ -103,7 +103,7 @@ class Search {
   bool is_free(std::size_t index, const Clearance& clearance) const {
     const Position position = position_of(label_.role, index);
     const Rect box =
-        text_box(words_of(label_.words), moved(label_.anchor, position.offset), {kTextHeight, position.align});
+        text_box(words_of(label_.words), moved(label_.anchor, position.offset), {kLabelHeight, position.align});
     // The clearance from the display's edge, too, is smaller for a kept position. Otherwise a label there could blink.
     return on_display(grown(box, clearance.around - kEdgeAllowance)) && is_clear(grown(box, clearance.around)) &&
            (position.ring == 0 || line_is_clear(position, clearance));
@@ -128,7 +128,7 @@ class Search {
 
   // Leader line of a position, from the edge of the symbol to the label.
   Segment line(const Position& position) const {
-    const float fraction = kSymbolRadius / std::hypot(position.line_end.x, position.line_end.y);
+    const float fraction = kLeaderStart / std::hypot(position.line_end.x, position.line_end.y);
     return {moved(label_.anchor, {position.line_end.x * fraction, position.line_end.y * fraction}),
             moved(label_.anchor, position.line_end), 0.0F, 0.0F, Ink::bright};
   }
@@ -241,7 +241,7 @@ void place_labels(std::span<const Label> labels, LabelMemory& memory, DrawList& 
       list.leader(line.from, line.to);
       list.draw_on(Layer::symbols);
     }
-    list.text(words_of(label.words), moved(label.anchor, position.offset), {kTextHeight, position.align},
+    list.text(words_of(label.words), moved(label.anchor, position.offset), {kLabelHeight, position.align},
               BoxKind::label);
     placed.keep({label.role, label.words, *index});
   }

@@ -88,6 +88,7 @@ NewFile& NewFile::operator=(NewFile&& other) noexcept {
   std::swap(temporary_name_, other.temporary_name_);
   std::swap(stream_, other.stream_);
   std::swap(existing_, other.existing_);
+  std::swap(write_problem_, other.write_problem_);
   std::swap(placed_, other.placed_);
   std::swap(device_, other.device_);
   return *this;
@@ -164,7 +165,10 @@ Expected<void> NewFile::link_temporary_name() {
 }
 
 void NewFile::write(std::span<const std::byte> bytes) {
-  if (!bytes.empty()) std::fwrite(bytes.data(), 1, bytes.size(), stream_.get());
+  if (write_problem_ != 0) return;
+  errno = 0;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), stream_.get()) < bytes.size())
+    write_problem_ = errno != 0 ? errno : EIO;
 }
 
 void NewFile::write(std::string_view text) {
@@ -173,8 +177,9 @@ void NewFile::write(std::string_view text) {
 
 Expected<void> NewFile::flush() {
   errno = 0;
-  if (std::fflush(stream_.get()) == 0 && std::ferror(stream_.get()) == 0) return {};
-  return system_failure(shown(), errno != 0 ? errno : EIO);
+  if (write_problem_ == 0 && std::fflush(stream_.get()) != 0) write_problem_ = errno != 0 ? errno : EIO;
+  if (write_problem_ == 0) return {};
+  return system_failure(shown(), write_problem_);
 }
 
 Expected<void> NewFile::place() {

@@ -46,9 +46,8 @@ class NewFile {
   ~NewFile();  // discards a file that has not been placed
 
   std::string shown() const { return (folder_->path() / name_).string(); }  // target path, for messages
-  // Stream for libraries that write to a FILE. flush(), place() and finish() report its write errors.
-  std::FILE* stream() { return stream_.get(); }
-  int descriptor() const;  // -1 after finish()
+  int descriptor() const;                                                   // -1 after finish()
+  // flush(), place() and finish() report the first failed write.
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text);
 
@@ -77,6 +76,7 @@ class NewFile {
   std::string temporary_name_;  // empty: the file is still unnamed
   std::unique_ptr<std::FILE, Close> stream_;
   Existing existing_ = Existing::overwritten;
+  int write_problem_ = 0;  // errno of the first failed write; 0: none has failed
   bool placed_ = false;
   bool device_ = false;
 };

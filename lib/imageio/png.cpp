@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -37,9 +38,11 @@ error::Expected<void> write_png(file::NewFile file, const Image& image) {
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = format_of(image.channels);
-  if (png_image_write_to_stdio(&png, file.stream(), 0, image.pixels.data(), 0, nullptr) == 0)
-    return error::fail(file.shown(), "a PNG file that can be written", png.message,
-                       "check the folder and the space on the disk");
+  std::vector<std::byte> bytes(PNG_IMAGE_PNG_SIZE_MAX(png));
+  png_alloc_size_t size = bytes.size();
+  if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.pixels.data(), 0, nullptr) == 0)
+    return error::fail(file.shown(), "an image that can be compressed", png.message);
+  file.write(std::span(bytes).first(size));
   return file.finish();
 }
 
@@ -51,11 +54,16 @@ void store_message(png_structp png, png_const_charp message) {
 }
 void ignore_warning(png_structp /*png*/, png_const_charp /*message*/) {}
 
+void write_bytes(png_structp png, png_bytep bytes, std::size_t count) {
+  static_cast<file::NewFile*>(png_get_io_ptr(png))->write(std::as_bytes(std::span(bytes, count)));
+}
+void leave_buffered(png_structp /*png*/) {}  // NewFile::finish() writes the buffer
+
 // Returns false after an error of libpng. On an error libpng returns to setjmp() by longjmp(), which calls no
 // destructors. So no local variable may have a destructor.
-bool write_indexed(png_structp png, png_infop info, std::FILE* file, const IndexedImage& image) {
+bool write_indexed(png_structp png, png_infop info, file::NewFile& file, const IndexedImage& image) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
-  png_init_io(png, file);
+  png_set_write_fn(png, &file, write_bytes, leave_buffered);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                PNG_COLOR_TYPE_PALETTE, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_color colours[PNG_MAX_PALETTE_LENGTH] = {};
@@ -81,14 +89,12 @@ error::Expected<void> write_indexed_png(const std::filesystem::path& path, const
   YARS_REQUIRE(image.palette.size(), <=, 256U);
   auto file = file::NewFile::create(path);
   if (!file) return tl::unexpected(file.error());
-  std::string message = "a failed write";
+  std::string message = "too little memory";
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, store_message, ignore_warning);
   png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-  const bool written = info != nullptr && write_indexed(png, info, file->stream(), image);
+  const bool written = info != nullptr && write_indexed(png, info, *file, image);
   png_destroy_write_struct(&png, &info);
-  if (!written)
-    return error::fail(path.string(), "a PNG file that can be written", message,
-                       "check the folder and the space on the disk");
+  if (!written) return error::fail(path.string(), "an image that can be compressed", message);
   return file->finish();
 }
 

@@ -14,12 +14,12 @@ namespace yars::model::hrm {
 
 namespace {
 // Lower bound of the sine of the grazing angle in unit_return_m2(). Without it the result, a divisor, could be 0.
-constexpr double kMinSine = 1.0e-3;
+constexpr double kMinGrazingSine = 1.0e-3;
 }  // namespace
 
 double unit_return_m2(const PatchGeometry& geometry, int pixels) {
   const double pixel_m = geometry.window_m() / pixels;
-  return pixel_m * pixel_m * std::max(geometry.sin_grazing(), kMinSine);
+  return pixel_m * pixel_m * std::max(geometry.sin_grazing(), kMinGrazingSine);
 }
 
 void draw_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const float* cross_section_m2, int first,

@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "databuffer/messages/pictures.hpp"
 #include "lib/radar/modes.hpp"
+#include "model/kernel/tick_inputs.hpp"
 
 namespace yars::model::kernel {
 
@@ -26,7 +26,6 @@ using databuffer::ModelTick;
 using databuffer::RadarCommand;
 
 namespace {
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // Minimum ratio of a map's distance to its window. At 0.5 the near edge of the window is below the aircraft. PatchOrder
 // requires more than 0.71, half the window's diagonal.
 constexpr double kMinDistanceInWindows = 0.75;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string_view>
 
@@ -13,7 +12,6 @@
 namespace yars::model::kernel {
 
 namespace {
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 // [m] Margin of the terrain region beyond the range, for the movement of the aircraft while terrain loads.
 constexpr double kRegionMargin_m = 2000.0;
 

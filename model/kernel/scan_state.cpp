@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string_view>
 
 #include "lib/radar/mapping.hpp"
@@ -24,10 +23,6 @@ radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& con
   }
   return dbs_settings;
 }
-
-namespace {
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-}  // namespace
 
 void ScanState::clear_chains() {
   beam_chain.clear();

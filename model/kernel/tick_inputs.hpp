@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -22,6 +23,8 @@ struct Fidelity;
 }  // namespace yars::radar
 
 namespace yars::model::kernel {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  // an unknown number of a status record
 
 // Position, attitude and velocity of the aircraft. All values are finite and within the ranges of a valid record.
 struct Pose {

@@ -17,6 +17,10 @@
 
 namespace yars::model::rbm {
 
+// [azimuth beamwidths] Azimuth offset of the two side rays that give the cross-track slope. They must lie within the
+// beam, and must be far enough apart to measure the slope over the beam's width.
+inline constexpr double kSideRayBeamwidths = 0.25;
+
 class Algorithm {
  public:
   Algorithm() = default;

@@ -9,10 +9,6 @@
 namespace yars::model::rbm {
 
 namespace {
-// [azimuth beamwidths] Azimuth offset of the two side rays that give the cross-track slope. They must lie within the
-// beam, and must be far enough apart to measure the slope over the beam's width.
-constexpr double kSideRayBeamwidths = 0.25;
-
 // Speckle of mean 1 and variance 1/looks: the mean of `looks` exponential variates of 16 random bits each.
 double speckle(physics::NoiseState state, std::uint32_t cell, int looks) {
   double sum = 0.0;

@@ -14,8 +14,6 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
-// [azimuth beamwidths] Azimuth offset of the two side rays that give the cross-track slope, as in reference.cpp.
-constexpr double kSideRayBeamwidths = 0.25;
 }  // namespace
 
 Standard::Standard(const physics::RadarParameters& parameters)

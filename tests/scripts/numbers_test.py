@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Every number that a program takes refuses NaN and infinity.
+"""Every number that a program takes refuses NaN and infinity; every text refuses an empty one.
 
 usage: numbers_test.py BIN
 Walks all programs and commands by their --help and gives each option and argument of a number `nan`, `inf`, `-inf`
 and `1e999`: exit code 2 and one line that names the option and the value. Then the texts that have numbers in them.
+Each option and argument of a text gets an empty one: exit code 2 and a message that names the option.
 """
 import concurrent.futures
 import os
@@ -51,13 +52,16 @@ def run(arguments):
     return subprocess.run(command, capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)
 
 
-def number_entries(command):
-    """(command, option, how many numbers) for each option of a number; the arguments of a command are one entry without
-    an option; then those of the commands below."""
+NUMBERS = "FLOAT|INT|UINT"
+
+
+def entries_of(command, types):
+    """(command, option, how many values) for each option of these types; the arguments of a command are one entry
+    without an option; then those of the commands below."""
     text = run(command + ["--help"]).stdout
     arguments = 0
     for line in text.splitlines():
-        found = re.match(r"  (?:(-\S+)|(\S+)) (?:FLOAT|INT|UINT)\b\S*(?: in \[[^]]*\])?(?: x (\d+))?", line)
+        found = re.match(r"  (?:(-\S+)|(\S+)) (?:%s)\b\S*(?: in \[[^]]*\])?(?: x (\d+))?" % types, line)
         if found and found[1]:
             yield command, [name for name in found[1].split(",") if name.startswith("--")][0], int(found[3] or 1)
         elif found:
@@ -66,7 +70,7 @@ def number_entries(command):
         yield command, None, arguments
     below = re.search(r"^Subcommands:\n((?:  .*\n?)*)", text, re.M)
     for name in re.findall(r"^  (\S+)", below[1] if below else "", re.M):
-        yield from number_entries(command + [name])
+        yield from entries_of(command + [name], types)
 
 
 def problem_of(done, named, value):
@@ -84,6 +88,14 @@ def try_option(case):
     if option and value.startswith("-"):
         words = [f"{option}={value}"] + words[1:]
     return " ".join(command + words), problem_of(run(command + words), option, value)
+
+
+def try_empty_text(case):
+    command, option, count = case
+    words = ([option] if option else []) + [""] * count
+    done = run(command + words)
+    fine = done.returncode == 2 and "found an empty one" in done.stderr and (option or "") in done.stderr
+    return " ".join(command + words), None if fine else f"found {done.returncode}: {done.stderr.strip()[-300:]}"
 
 
 def try_text(case):
@@ -106,13 +118,16 @@ def try_file(case):
 
 
 def main():
-    entries = [entry for program in PROGRAMS for entry in number_entries([program])]
-    print(f"{len(entries)} options and arguments of numbers, {len(TEXTS)} texts, {len(FILES)} files")
-    if len(entries) < 60:
+    entries = [entry for program in PROGRAMS for entry in entries_of([program], NUMBERS)]
+    texts = [entry for program in PROGRAMS for entry in entries_of([program], "TEXT")]
+    print(f"{len(entries)} options and arguments of numbers, {len(texts)} of texts, {len(TEXTS)} texts of numbers, "
+          f"{len(FILES)} files")
+    if len(entries) < 60 or len(texts) < 60:
         print("expected at least 60 of them: are the help texts read rightly?")
         return 1
     tries = [(try_option, (entry, value)) for entry in entries for value in VALUES]
     tries += [(try_text, (text, value)) for text in TEXTS for value in VALUES]
+    tries += [(try_empty_text, entry) for entry in texts]
     tries += [(try_file, (file, value)) for file in FILES for value in VALUES]
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
         problems = [(what, problem) for what, problem in pool.map(lambda one: one[0](one[1]), tries) if problem]

@@ -9,7 +9,7 @@ namespace yars::tools::recording {
 
 namespace {
 
-constexpr std::array<char, 4> kMagic{'Y', 'B', 'L', 'K'};
+constexpr std::array<char, 4> kBlockMagic{'Y', 'B', 'L', 'K'};
 
 std::uint32_t checksum_of_head(const BlockHead& head) {
   return checksum_of(std::as_bytes(std::span(&head, 1)).first(offsetof(BlockHead, head_checksum)));
@@ -18,11 +18,11 @@ std::uint32_t checksum_of_head(const BlockHead& head) {
 }  // namespace
 
 std::string_view magic_of_blocks() {
-  return {kMagic.data(), kMagic.size()};
+  return {kBlockMagic.data(), kBlockMagic.size()};
 }
 
 std::vector<std::byte> block_bytes(BlockHead head, std::span<const std::byte> body) {
-  head.magic = kMagic;
+  head.magic = kBlockMagic;
   head.body_bytes = static_cast<std::uint32_t>(body.size());
   head.body_checksum = checksum_of(body);
   head.reserved = 0;
@@ -34,7 +34,7 @@ std::vector<std::byte> block_bytes(BlockHead head, std::span<const std::byte> bo
 }
 
 bool is_sound(const BlockHead& head) {
-  if (head.magic != kMagic || head.head_checksum != checksum_of_head(head)) return false;
+  if (head.magic != kBlockMagic || head.head_checksum != checksum_of_head(head)) return false;
   if (head.content == BlockContent::index) return true;
   return head.content == BlockContent::items && head.raw_bytes <= kMaxBlockBytes && head.body_bytes <= kMaxBlockBytes &&
          head.items <= kMaxBlockItems;

@@ -18,7 +18,7 @@ namespace yars::tools::recording {
 
 namespace {
 
-constexpr std::array<char, 8> kMagic{'Y', 'A', 'R', 'S', 'T', 'L', 'O', 'G'};
+constexpr std::array<char, 8> kFileMagic{'Y', 'A', 'R', 'S', 'T', 'L', 'O', 'G'};
 constexpr std::uint32_t kVersion = 3;
 constexpr std::uint32_t kMaxKinds = 63;  // numbers 1 to 63
 
@@ -78,7 +78,7 @@ error::Expected<void> check_kinds(std::span<const std::byte> entries, const std:
 
 std::vector<std::byte> bytes_of(const RecordingHeader& header) {
   std::vector<std::byte> bytes;
-  append(bytes, Preamble{kMagic, kVersion, static_cast<std::uint32_t>(recorded_kinds().size()),
+  append(bytes, Preamble{kFileMagic, kVersion, static_cast<std::uint32_t>(recorded_kinds().size()),
                          static_cast<std::uint32_t>(header.configuration.size()),
                          static_cast<std::uint32_t>(header.terrain.size())});
   for (const RecordedKind& kind : recorded_kinds()) append(bytes, KindEntry{kind.number, 0, kind.version, kind.bytes});
@@ -96,7 +96,7 @@ error::Expected<RecordingHeader> read_header(std::istream& file, const std::stri
   Preamble preamble{};
   const bool complete = read_more(file, sizeof preamble, bytes);
   std::memcpy(&preamble, bytes.data(), sizeof preamble);
-  if (!complete || preamble.magic != kMagic)
+  if (!complete || preamble.magic != kFileMagic)
     return error::fail(file_name, "a recording made by yars record", "another kind of file");
   if (preamble.version != kVersion)
     return error::fail(file_name, "version " + std::to_string(kVersion) + " of the recording format",

@@ -179,7 +179,7 @@ imageio::Image draw_plan(const Model& model, const PlanFrame& frame, PlanColors 
 
 namespace {
 
-struct Options {
+struct SceneImageOptions {
   std::string file;
   std::string out;
   std::vector<std::string> without;
@@ -206,7 +206,7 @@ std::optional<error::Error> window_problem(const std::vector<double>& window) {
   return std::nullopt;
 }
 
-void draw(const Options& options) {
+void draw(const SceneImageOptions& options) {
   check_file_name("--out", options.out, {".png"});
   if (!options.window.empty())
     if (const auto problem = window_problem(options.window)) throw_failure(*problem);
@@ -226,7 +226,7 @@ void draw(const Options& options) {
 }  // namespace
 
 void add_scene_image(databuffer::Command scene) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SceneImageOptions>();
   databuffer::Command command = scene.subcommand("image", "draw a plan view as PNG, north up, shaded by normals");
   command.option("file", options->file, "OpenFlight file").required();
   command.option("--out", options->out, "PNG file").required();

@@ -199,7 +199,7 @@ void ReplaySession::drop_events() {
 
 namespace {
 
-constexpr long kPollInterval_ns = 5'000'000;  // 5 ms, one tick at rate 1
+constexpr long kPlayInterval_ns = 5'000'000;  // 5 ms, one tick at rate 1
 
 double seconds_of(std::int64_t tick) {
   return static_cast<double>(tick) * radar::kTickSeconds;
@@ -272,7 +272,7 @@ error::Expected<void> play_recording(recording::RecordingReader& reader, std::op
     const auto more = poll(*session, player, reader.blocks().front().first_tick);
     if (!more) return tl::unexpected(more.error());
     if (!*more) break;
-    const timespec pause{0, kPollInterval_ns};
+    const timespec pause{0, kPlayInterval_ns};
     nanosleep(&pause, nullptr);
   }
   std::printf("%s: played from %s to %s s of sim time\n", options.file.c_str(), text_of_seconds(*begin).c_str(),

@@ -19,7 +19,7 @@ namespace {
 
 using databuffer::Session;
 
-constexpr std::int64_t kPollInterval_ns = 50'000'000;  // [ns] 50 ms; the ring of ticks holds 5 s of sim time
+constexpr std::int64_t kRecordInterval_ns = 50'000'000;  // [ns] 50 ms; the ring of ticks holds 5 s of sim time
 // After this number of polls (2 s) without a written block, the incomplete block is written. With a frozen clock a
 // block does not become full.
 constexpr int kQuietPolls = 40;
@@ -53,7 +53,7 @@ void record_live(Session& session, Recorder& recorder, const recording::Recordin
     quiet_polls = writer.bytes() == bytes_before ? quiet_polls + 1 : 0;
     if (quiet_polls >= kQuietPolls) recorder.flush();
     session.heartbeat();
-    const timespec pause{0, kPollInterval_ns};
+    const timespec pause{0, kRecordInterval_ns};
     nanosleep(&pause, nullptr);
   }
   drain_remaining(session, recorder);

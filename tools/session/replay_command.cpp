@@ -217,6 +217,12 @@ nlohmann::ordered_json KernelRerun::result(const recording::RecordingReader& rea
           {"missing_ticks", missing}};
 }
 
+std::string cause_of_difference(const KernelRerun& run, const recording::RecordingReader& reader) {
+  if (run.lost() > 0) return std::to_string(run.lost()) + " ticks are missing in the recording";
+  if (reader.cut_short()) return "the file has no valid index, so parts of it may be missing";
+  return "replay with the same terrain and configuration";
+}
+
 void compare(const CommonOptions& common, recording::RecordingReader& reader, const ReplayOptions& options) {
   World world = open_world(common, reader.header(), options);
   KernelRerun run(world);
@@ -235,9 +241,7 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
   const auto& comparison = run.replay().comparison();
   if (comparison.different() > 0)
     throw_failure({options.file, "the sweeps of the recording",
-                   std::to_string(comparison.different()) + " different sweeps",
-                   run.lost() > 0 ? std::to_string(run.lost()) + " ticks are missing in the recording"
-                                  : "replay with the same terrain and configuration",
+                   std::to_string(comparison.different()) + " different sweeps", cause_of_difference(run, reader),
                    false});
   if (comparison.equal() == 0 && comparison.missing() > 0)
     throw_failure({options.file, "the sweeps of the recording", "none of these sweeps",

@@ -123,7 +123,7 @@ void add_status_command(databuffer::Command app, const CommonOptions& common) {
 
 namespace {
 
-constexpr std::int64_t kPollInterval_ns = 20'000'000;  // 20 ms: maximum delay of a printed change
+constexpr std::int64_t kWatchInterval_ns = 20'000'000;  // 20 ms: maximum delay of a printed change
 constexpr std::int64_t kMaxInterval_ns =
     1'000'000'000;  // 1 s: maximum time between lines; position and sweeps change without a new radar state
 
@@ -190,7 +190,7 @@ void watch(const CommonOptions& common, const WatchOptions& options) {
       log::info("session " + common.session + " has ended");
       return;
     }
-    const timespec pause{0, kPollInterval_ns};
+    const timespec pause{0, kWatchInterval_ns};
     nanosleep(&pause, nullptr);
   }
 }

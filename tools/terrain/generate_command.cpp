@@ -26,7 +26,7 @@ namespace {
 
 using namespace model::terrain;
 
-struct Options {
+struct GenerateOptions {
   using Default = worldgen::DefaultLandscape;
   std::string out;
   int south_deg = Default::kSouth_deg;
@@ -42,7 +42,7 @@ struct Options {
 };
 
 // Cells of the area in blocks of 8 x 8: consecutive cells are neighbours and share cached features and relief.
-std::vector<CellCorner> corners_of(const Options& options) {
+std::vector<CellCorner> corners_of(const GenerateOptions& options) {
   constexpr int kBlock = 8;
   std::vector<CellCorner> corners;
   for (int south = 0; south < options.cells_latitude; south += kBlock)
@@ -57,7 +57,7 @@ std::vector<CellCorner> corners_of(const Options& options) {
 // threads work on one cell.
 class Generation {
  public:
-  explicit Generation(const Options& options)
+  explicit Generation(const GenerateOptions& options)
       : options_(options),
         landscape_(options.seed, island_of(options)),
         corners_(corners_of(options)),
@@ -81,7 +81,7 @@ class Generation {
   }
 
  private:
-  static std::optional<worldgen::LandscapeBox> island_of(const Options& options) {
+  static std::optional<worldgen::LandscapeBox> island_of(const GenerateOptions& options) {
     if (options.edge == "cut") return std::nullopt;
     return worldgen::LandscapeBox{options.south_deg, options.west_deg, options.cells_latitude, options.cells_longitude};
   }
@@ -124,7 +124,7 @@ class Generation {
     if (!failed_) failed_ = error;
   }
 
-  Options options_;
+  GenerateOptions options_;
   worldgen::Landscape landscape_;
   std::vector<CellCorner> corners_;
   int workers_ = 1;
@@ -137,7 +137,7 @@ class Generation {
   std::optional<error::Error> failed_;
 };
 
-void add_area(databuffer::Command command, Options& options) {
+void add_area(databuffer::Command command, GenerateOptions& options) {
   command.option("--south", options.south_deg, "[deg] south edge").range(-90, 89).show_default();
   command.option("--west", options.west_deg, "[deg] west edge").range(-180, 179).show_default();
   command.option("--cells-lat", options.cells_latitude, "cells northward").range(1, 180).show_default();
@@ -147,7 +147,7 @@ void add_area(databuffer::Command command, Options& options) {
 }  // namespace
 
 void add_terrain_generate(databuffer::Command terrain) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<GenerateOptions>();
   databuffer::Command command =
       terrain.subcommand("generate", "a made-up landscape with rivers and towns, as DTED cells");
   command.option("--out", options->out, "folder for the cells").required();

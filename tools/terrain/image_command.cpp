@@ -181,7 +181,7 @@ namespace {
 
 using namespace model::terrain;
 
-struct Options {
+struct TerrainImageOptions {
   std::string directory;
   std::string out;
   std::optional<double> south_deg, north_deg, west_deg, east_deg;  // nullopt: edge of the directory's coverage
@@ -189,7 +189,7 @@ struct Options {
   bool culture = false;
 };
 
-MapFrame frame_of(const Options& options, const DirectoryIndex& index) {
+MapFrame frame_of(const TerrainImageOptions& options, const DirectoryIndex& index) {
   const Coverage all = coverage_of(index);
   const double south_deg = options.south_deg.value_or(all.south_deg);
   const double north_deg = options.north_deg.value_or(all.north_deg);
@@ -210,7 +210,7 @@ void print_problem(const error::Error& error) {
 }
 
 // Culture of a cell; nullopt if the option is not set, or the file is absent or unreadable.
-std::optional<Culture> culture_of(const Options& options, const CellFile& file, CellCorner corner,
+std::optional<Culture> culture_of(const TerrainImageOptions& options, const CellFile& file, CellCorner corner,
                                   std::size_t& failed) {
   if (!options.culture || !file.culture) return std::nullopt;
   auto culture = read_culture(*file.culture, corner);
@@ -221,7 +221,7 @@ std::optional<Culture> culture_of(const Options& options, const CellFile& file, 
 }
 
 // Reads and paints the cells one by one, so that only one cell is in memory.
-void draw(const Options& options) {
+void draw(const TerrainImageOptions& options) {
   check_file_name("--out", options.out, {".png"});
   std::vector<std::string> unusable;
   const auto index = index_directory(options.directory, &unusable);
@@ -256,7 +256,7 @@ void draw(const Options& options) {
 }  // namespace
 
 void add_terrain_image(databuffer::Command terrain) {
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TerrainImageOptions>();
   databuffer::Command command = terrain.subcommand("image", "hill-shaded map as PNG; sea blue, voids magenta");
   command.option("--terrain", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
       .required();

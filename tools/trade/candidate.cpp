@@ -154,4 +154,10 @@ Expected<std::vector<Candidate>> knob_candidates(std::string_view sweep, const F
   return found;
 }
 
+radar::Fidelity without_noise(radar::Fidelity fidelity) {
+  fidelity.noise = false;
+  fidelity.map_noise = 0.0;
+  return fidelity;
+}
+
 }  // namespace yars::tools::trade

@@ -24,6 +24,8 @@ struct Candidate {
 // Errors: an unknown preset.
 error::Expected<std::vector<Candidate>> preset_candidates(std::string_view list);
 
+radar::Fidelity without_noise(radar::Fidelity fidelity);
+
 // Kind of picture that a trade compares. knob_candidates() accepts only knobs that affect this kind.
 enum class Subject : std::uint8_t { scan, map };
 

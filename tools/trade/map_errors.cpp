@@ -8,6 +8,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/physics/reflectivity.hpp"
+#include "tools/trade/candidate.hpp"
 #include "tools/trade/trade_table.hpp"
 
 namespace yars::tools::trade {
@@ -71,12 +72,6 @@ constexpr double kDarkFraction = 0.05;    // fraction of level ground's power; p
 constexpr double kMinPower = 1e-8;        // lower limit of powers, avoids log10(0); unit as MapImage::power
 constexpr double kVisibleFraction = 0.2;  // fraction of the brightest mark's power; darker marks count as hidden
 
-RadarConfiguration without_noise(RadarConfiguration configuration) {
-  configuration.fidelity.noise = false;
-  configuration.fidelity.map_noise = 0.0;
-  return configuration;
-}
-
 // Apparent position of each mark: centroid of the power in the mark's part of the window (one of 3 x 3 equal parts).
 // nullopt: the mark is hidden.
 std::vector<std::optional<hrm::MapPoint>> marks_of(const hrm::MapImage& image, double window_m) {
@@ -117,7 +112,8 @@ double time_map(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
 
 MapObservation observe_map(const RadarConfiguration& configuration, const hrm::PatchOrder& order,
                            const hrm::PatchEnvironment& environment, Clock clock) {
-  const RadarConfiguration noiseless = without_noise(configuration);
+  RadarConfiguration noiseless = configuration;
+  noiseless.fidelity = without_noise(noiseless.fidelity);
   hrm::PatchFormation patch_formation(noiseless, {});
   MapObservation observation;
   observation.took_ms = time_map(patch_formation, order, environment, clock);

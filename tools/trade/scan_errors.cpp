@@ -12,6 +12,7 @@
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/sub_beams.hpp"
+#include "tools/trade/candidate.hpp"
 #include "tools/trade/trade_table.hpp"
 
 namespace yars::tools::trade {
@@ -21,7 +22,8 @@ namespace {
 using model::physics::SweepGeometry;
 using radar::RadarConfiguration;
 
-constexpr float kMinPower = 1e-8F;  // fraction of full scale, far below noise; lower limit of powers, avoids log10(0)
+constexpr float kMinScanPower =
+    1e-8F;  // fraction of full scale, far below noise; lower limit of powers, avoids log10(0)
 
 // The configuration with one ray per sweep, no pulse smear and a hard-edged beam of nearly 180 deg. A narrower beam
 // would remove the power of samples outside the beam. The 1996 algorithm would also report these samples as not lit.
@@ -69,7 +71,7 @@ std::vector<RaySample> ray_samples(const RadarConfiguration& given,
     for (std::size_t i = 0; i < count; ++i) {
       samples.push_back(sample_at(configuration, ray, distance_m[i], terrain));
       samples.back().lit = lit[i] != 0;
-      samples.back().returns = power[i] > kMinPower;
+      samples.back().returns = power[i] > kMinScanPower;
     }
   }
   return samples;
@@ -136,23 +138,20 @@ ScanObservation observe_scan(const RadarConfiguration& configuration, const mode
   return observation;
 }
 
-RadarConfiguration without_noise(RadarConfiguration configuration) {
-  configuration.fidelity.noise = false;
-  return configuration;
-}
-
 }  // namespace
 
 ScanObservation observe(const RadarConfiguration& configuration, const ScanRequest& request,
                         const model::terrain::TerrainView& terrain) {
-  const RadarConfiguration noiseless = without_noise(configuration);
+  RadarConfiguration noiseless = configuration;
+  noiseless.fidelity = without_noise(noiseless.fidelity);
   OfflineScan scan(noiseless, request, 1);
   return observe_scan(noiseless, terrain, scan, ray_samples(noiseless, scan.headers(), terrain));
 }
 
 Ruler make_ruler(const RadarConfiguration& configuration, const ScanRequest& request,
                  const model::terrain::TerrainView& terrain) {
-  const RadarConfiguration noiseless = without_noise(configuration);
+  RadarConfiguration noiseless = configuration;
+  noiseless.fidelity = without_noise(noiseless.fidelity);
   OfflineScan scan(noiseless, request, 1);
   const std::vector<RaySample> ray = ray_samples(noiseless, scan.headers(), terrain);
   Ruler ruler;
@@ -179,7 +178,7 @@ Errors errors_against(const Ruler& ruler, const ScanObservation& found) {
       const bool both = exact.returns[here] != 0 && found.returns[there] != 0;
       if (!both || !found.power_is_radar || static_cast<double>(exact.power[here]) <= ruler.noise) continue;
       const double ratio =
-          static_cast<double>(std::max(found.power[there], kMinPower)) / static_cast<double>(exact.power[here]);
+          static_cast<double>(std::max(found.power[there], kMinScanPower)) / static_cast<double>(exact.power[here]);
       decibels.add(10.0 * std::log10(ratio));
     }
   }

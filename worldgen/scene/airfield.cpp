@@ -10,14 +10,12 @@ namespace {
 
 // Airfield scene. The runway lies along x, centred on the origin. The flight line (apron, hangars, parked aircraft) is
 // south of the runway. MeshBuilder::map rotates all faces about the vertical axis through the origin by a random angle.
-// Paved surfaces lie kPaved_m above the ground.
-constexpr double kRunway_m = 2500, kRunwayWidth_m = 45, kTaxiway_m = 23, kTaxiwayY_m = -220, kPaved_m = 0.05;
+constexpr double kRunway_m = 2500, kRunwayWidth_m = 45, kTaxiway_m = 23, kTaxiwayY_m = -220;
 constexpr double kApronSouth_m = -430, kFenceX_m = 1400, kFenceY_m = 620;
-enum Definition : std::uint16_t { kFighter = 1, kTransport, kTruck, kTanker, kConifer, kLeafy, kHouse };
 
-class Airfield {
+class AirfieldScene {
  public:
-  explicit Airfield(SceneBuilder& builder) : builder_(builder), mesh_(builder.mesh) {}
+  explicit AirfieldScene(SceneBuilder& builder) : builder_(builder), mesh_(builder.mesh) {}
 
   void make() {
     builder_.half_side_m = 3200;
@@ -42,6 +40,8 @@ class Airfield {
   }
 
  private:
+  enum Definition : std::uint16_t { kFighter = 1, kTransport, kTruck, kTanker, kConifer, kLeafy, kHouse };
+
   void define() {
     const int sides = builder_.sides(8, 40);
     builder_.out.begin_group("definitions");
@@ -257,7 +257,7 @@ class Airfield {
 }  // namespace
 
 void generate_airfield(SceneBuilder& builder) {
-  Airfield(builder).make();
+  AirfieldScene(builder).make();
 }
 
 }  // namespace yars::worldgen

@@ -12,11 +12,10 @@ namespace {
 constexpr double kSpan_m = 80, kDeck_m = 14, kDeckWidth_m = 13, kTruss_m = 10, kRamp_m = 260;
 constexpr int kSpans = 5;
 constexpr double kHalf_m = kSpan_m * kSpans / 2;
-enum Definition : std::uint16_t { kTree = 1, kHouse };
 
-class Bridge {
+class BridgeScene {
  public:
-  explicit Bridge(SceneBuilder& builder) : builder_(builder), mesh_(builder.mesh) {}
+  explicit BridgeScene(SceneBuilder& builder) : builder_(builder), mesh_(builder.mesh) {}
 
   void make() {
     builder_.half_side_m = 3000;
@@ -35,6 +34,8 @@ class Bridge {
   }
 
  private:
+  enum Definition : std::uint16_t { kTree = 1, kHouse };
+
   void define() {
     builder_.out.begin_group("definitions");
     tree_ =
@@ -184,7 +185,7 @@ class Bridge {
 }  // namespace
 
 void generate_bridge(SceneBuilder& builder) {
-  Bridge(builder).make();
+  BridgeScene(builder).make();
 }
 
 }  // namespace yars::worldgen

@@ -8,14 +8,13 @@ namespace yars::worldgen {
 namespace {
 
 // Harbour scene. The edge of the quay is at y = 0. The water lies north of the quay, with its surface at z = 0. Two
-// piers extend 100 m into the water. The container yard south of the quay lies kPaved_m above the ground.
-constexpr double kQuay_m = 900, kQuayDepth_m = 36, kQuayTop_m = 3.0, kPaved_m = 0.05, kYardSouth_m = -420;
+// piers extend 100 m into the water. The paved container yard lies south of the quay.
+constexpr double kQuay_m = 900, kQuayDepth_m = 36, kQuayTop_m = 3.0, kYardSouth_m = -420;
 constexpr SurfaceKind kRock{8, 130, 0x77716A};  // DFAD material code, feature id, display colour
-enum Definition : std::uint16_t { kRedBox = 1, kBlueBox, kGreenBox, kTruck, kCrane, kTree };
 
-class Harbour {
+class HarbourScene {
  public:
-  explicit Harbour(SceneBuilder& builder) : builder_(builder), mesh_(builder.mesh) {}
+  explicit HarbourScene(SceneBuilder& builder) : builder_(builder), mesh_(builder.mesh) {}
 
   void make() {
     builder_.half_side_m = 3000;
@@ -39,6 +38,8 @@ class Harbour {
   }
 
  private:
+  enum Definition : std::uint16_t { kRedBox = 1, kBlueBox, kGreenBox, kTruck, kCrane, kTree };
+
   void define() {
     builder_.out.begin_group("definitions");
     static constexpr std::array<SurfaceKind, 3> kPaints{surface::kRed, surface::kBlue, surface::kGreen};
@@ -203,7 +204,7 @@ class Harbour {
 }  // namespace
 
 void generate_harbour(SceneBuilder& builder) {
-  Harbour(builder).make();
+  HarbourScene(builder).make();
 }
 
 }  // namespace yars::worldgen

@@ -98,6 +98,8 @@ inline constexpr SurfaceKind kRed{1, 117, 0xA03A2E}, kBlue{1, 118, 0x2F5A8C}, kG
 inline constexpr SurfaceKind kWhite{1, 120, 0xE4E6E6}, kOlive{1, 121, 0x5E6144};
 }  // namespace surface
 
+inline constexpr double kPaved_m = 0.05;  // height of paved surfaces above the ground
+
 // State of a scene under construction: the file, a mesh, random numbers and the number of triangles so far.
 class SceneBuilder {
  public:

@@ -9,7 +9,7 @@ namespace yars::worldgen {
 namespace {
 
 // Town scene, made of quarters. A quarter is the rectangle between the centre lines of four streets.
-constexpr double kQuarterX_m = 120, kQuarterY_m = 76, kStreet_m = 11, kPaved_m = 0.05;
+constexpr double kQuarterX_m = 120, kQuarterY_m = 76, kStreet_m = 11;
 // Number of different definitions of each kind of object, and the number of the first definition of each kind.
 constexpr int kHouses = 24, kBlocks = 8, kTowers = 4, kTrees = 4, kCars = 4;
 constexpr std::uint16_t kFirstHouse = 1, kFirstBlock = 101, kFirstTower = 201, kFirstTree = 301, kFirstCar = 401;

@@ -11,7 +11,6 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kDeepSea_m = -10.0;  // [m MSL] rivers end in deeper sea and continue across shallower water
 constexpr double kWinding_m = 4.0;  // maximum random part of the flood level; without it, rivers on plains run straight
 // Maximum penalty on the flood level near the tile's edge. It keeps rivers from running along the edge, which they may
 // cross only at gates.
@@ -76,10 +75,10 @@ Flood::Flood(const ReliefTile& relief, const std::vector<RiverGate>& gates)
 
 // True for a node on the tile's edge with deep sea on the other side.
 bool Flood::beside_sea(int row, int column) const {
-  return (row == 0 && relief_.height_m(-1, column) < kDeepSea_m) ||
-         (row == kTileNodes - 1 && relief_.height_m(kTileNodes, column) < kDeepSea_m) ||
-         (column == 0 && relief_.height_m(row, -1) < kDeepSea_m) ||
-         (column == kTileNodes - 1 && relief_.height_m(row, kTileNodes) < kDeepSea_m);
+  return (row == 0 && relief_.height_m(-1, column) < kRiverEnd_m) ||
+         (row == kTileNodes - 1 && relief_.height_m(kTileNodes, column) < kRiverEnd_m) ||
+         (column == 0 && relief_.height_m(row, -1) < kRiverEnd_m) ||
+         (column == kTileNodes - 1 && relief_.height_m(row, kTileNodes) < kRiverEnd_m);
 }
 
 void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
@@ -88,7 +87,7 @@ void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
     const int row = node / kTileNodes;
     const int column = node % kTileNodes;
     const double height_m = relief_.height_m(row, column);
-    if (height_m < kDeepSea_m || beside_sea(row, column)) seed(node, height_m);
+    if (height_m < kRiverEnd_m || beside_sea(row, column)) seed(node, height_m);
     if (height_m < relief_.height_m(lowest / kTileNodes, lowest % kTileNodes)) lowest = node;
   }
   for (std::size_t gate = 0; gate < gates.size(); ++gate) {

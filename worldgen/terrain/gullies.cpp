@@ -15,7 +15,7 @@ constexpr double kMetresPerDegree = 111195.0;  // on a sphere of 6371 km
 
 constexpr double kLevel = 1e-3;   // [m/m] flatter ground has no defined downhill direction, so it has no gullies
 constexpr double kGentle = 0.02;  // [m/m] below this slope gullies become shallow, so that plains stay flat
-constexpr double kRock = 0.45;    // [m/m] above this slope the depth of gullies saturates
+constexpr double kSteep = 0.45;   // [m/m] above this slope the depth of gullies saturates
 
 struct CosineSine {
   double cosine;
@@ -106,7 +106,7 @@ GullyRow::Relief GullyRow::at(double longitude_deg, Slope base) {
     if (steepness < kLevel) break;
     const Slope across{-slope.north / steepness, slope.east / steepness};
     const Wave wave = packets(octave, turn, across);
-    const double cut = steepness * steepness / (steepness + kGentle) / (1.0 + steepness / kRock);
+    const double cut = steepness * steepness / (steepness + kGentle) / (1.0 + steepness / kSteep);
     const double depth_m = octave.shape.depth * octave.shape.wavelength_m * cut;
     // The offset makes gullies deeper than spurs are high.
     relief.height_m += depth_m * (wave.cosine - 0.25);

@@ -107,7 +107,7 @@ Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Materi
 
 namespace {
 
-constexpr double kDeepSea_m = -100.0;  // [m MSL] gullies do not raise ground below this height above the sea
+constexpr double kLowestRelief_m = -100.0;  // [m MSL] gullies do not raise ground below this height above the sea
 constexpr GullyOctave kGullies[] = {{2000, 0.17}, {980, 0.12}, {500, 0.08}, {240, 0.06}, {115, 0.05}};
 constexpr double kRough_m = 2.5;             // amplitude of stones and ledges on steep ground
 constexpr double kRoughWavelength_m = 75.0;  // wavelength of stones and ledges
@@ -170,7 +170,7 @@ void LandscapeRows::add_ground(Row& row, const LandscapeLattice::Row& lattice) c
     const LandscapeLattice::Ground ground = lattice.at(static_cast<int>(column));
     row.heights_m[column] = ground.height_m;
     // Gullies in the deep sea are never visible.
-    if (ground.height_m < kDeepSea_m) continue;
+    if (ground.height_m < kLowestRelief_m) continue;
     const GullyRow::Relief relief = gullies.at(longitudes_deg_[column], ground.slope);
     row.heights_m[column] += relief.height_m;
     const double steepness = std::sqrt(relief.slope.east * relief.slope.east + relief.slope.north * relief.slope.north);

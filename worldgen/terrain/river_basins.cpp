@@ -14,7 +14,6 @@ namespace yars::worldgen {
 namespace {
 
 constexpr int kFrozen_deg = 72;      // tiles poleward of this latitude have no rivers
-constexpr double kDeep_m = -10.0;    // [m MSL] lower ground is sea, as with kDeepSea_m in drainage.cpp
 constexpr int kSamplesPerSide = 8;   // samples per side of a tile
 constexpr int kMaxPathCost = 25000;  // cost of about 20 tiles; a tile with a costlier path has no gate
 constexpr int kNoPath = std::numeric_limits<int>::max() / 4;
@@ -82,7 +81,7 @@ const RiverBasins::Outline& RiverBasins::outline(CellCorner corner) {
       const double height_m =
           broad_.height_m(lattice_node((corner.south_deg + 90) * kTileNodes + row * kStride + kStride / 2,
                                        (corner.west_deg + 180) * kTileNodes + column * kStride + kStride / 2));
-      found->second.sea_samples += static_cast<int>(height_m < kDeep_m);
+      found->second.sea_samples += static_cast<int>(height_m < kRiverEnd_m);
       sum_m += std::max(0.0, height_m);
     }
   found->second.mean_m = static_cast<int>(sum_m / (kSamplesPerSide * kSamplesPerSide));

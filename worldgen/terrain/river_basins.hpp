@@ -18,6 +18,8 @@
 
 namespace yars::worldgen {
 
+inline constexpr double kRiverEnd_m = -10.0;  // [m MSL] rivers end in deeper sea and continue across shallower water
+
 // Passage of a river through the edge between two tiles.
 struct RiverGate {
   CellCorner from;

@@ -192,8 +192,8 @@ def checks_source(chapters):
 def field_row(one, field):
     least, greatest = schema.limits(field)
     return (f'    {{"{field.name}", offsetof({one.name}, {field.name}), sizeof({one.name}::{field.name}),\n'
-            f'     "{schema.type_text(field)}", "{field.unit}", {"-kInfinity" if least is None else float(least)}, '
-            f'{"kInfinity" if greatest is None else float(greatest)}}},\n')
+            f'     "{schema.type_text(field)}", "{field.unit}", {"-kNoLimit" if least is None else float(least)}, '
+            f'{"kNoLimit" if greatest is None else float(greatest)}}},\n')
 
 
 def table_source(chapters):
@@ -201,7 +201,7 @@ def table_source(chapters):
     text = MADE.format("records.idl") + '\n#include "databuffer/messages/record_fields.hpp"\n\n#include <array>\n#include <limits>\n\n'
     text += "".join(f'#include "databuffer/messages/{one.name}.hpp"\n' for one in chapters if one.name not in (MIRRORED, "records"))
     text += '#include "lib/radar/modes.hpp"\n\nnamespace yars::databuffer {\n\nnamespace {\n\n'
-    text += "constexpr double kInfinity = std::numeric_limits<double>::infinity();\n\n"
+    text += "constexpr double kNoLimit = std::numeric_limits<double>::infinity();\n\n"
     for one in records:
         rows = "".join(field_row(one, field) for field in one.fields if not field.reserved)
         text += f"constexpr RecordField k{one.name}Fields[] = {{\n{rows}}};\n\n"

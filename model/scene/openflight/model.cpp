@@ -146,10 +146,6 @@ constexpr double kMinDoubleArea_m2 = 1e-10;
 std::array<float, 3> floats(Vector3 v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
-Vector3 vector(const std::array<float, 3>& v) {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
-
 bool is_valid_position(Vector3 position) {
   return std::abs(position.x) < kMaxCoordinate_m && std::abs(position.y) < kMaxCoordinate_m &&
          std::abs(position.z) < kMaxCoordinate_m;
@@ -278,11 +274,11 @@ class Flattener {
     if (auto done = check_objects(other.objects.size() - 1); !done) return done;
     const auto first_vertex = static_cast<std::uint32_t>(model_.vertices.size());
     for (const ModelVertex& vertex : other.vertices) {
-      const Vector3 at = transformed_point(transform, vector(vertex.position_m) + other.base);
+      const Vector3 at = transformed_point(transform, vector_of(vertex.position_m) + other.base);
       if (!is_valid_position(at))
         return error::fail(subject_, "an external file within 10,000 km of the origin", node.name + " farther away",
                            "correct the matrix of the reference");
-      append(at, transformed_normal(transform, vector(vertex.normal)));
+      append(at, transformed_normal(transform, vector_of(vertex.normal)));
     }
     // Objects of the external file stay separate objects. Faces of that file outside any object become part of the
     // object that contains the reference.
@@ -311,7 +307,7 @@ class Flattener {
       const Vector3 at = transformed_point(transform, vertex.position);
       if (!is_valid_position(at)) return false;
       positions_.push_back(at);
-      normals_.push_back(transformed_normal(transform, vector(vertex.normal)));
+      normals_.push_back(transformed_normal(transform, vector_of(vertex.normal)));
     }
     if (mirrors(transform)) {
       std::reverse(positions_.begin(), positions_.end());

@@ -30,6 +30,10 @@ Vector3 newell_normal(std::span<const Vector3> corners);
 // Triangulates a polygon. Sets `found` to the triangles; each has three indices into `corners`.
 void triangulate(std::span<const Vector3> corners, std::vector<std::array<std::uint32_t, 3>>& found);
 
+inline Vector3 vector_of(const std::array<float, 3>& v) {
+  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
 // Vertex of a flattened scene. Normals are unit vectors on the side from which the corners run counter-clockwise. The
 // facet's normal replaces a missing normal, or a normal on the other side.
 struct ModelVertex {

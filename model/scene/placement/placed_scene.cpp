@@ -22,10 +22,6 @@ constexpr double kTileCell_deg = 1.0 / 64.0;  // [deg] side of a square of the i
 // edges.
 constexpr double kMaxPieces = 1'000'000;
 
-Vector3 vector(const std::array<float, 3>& v) {
-  return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
-}
-
 // Extent of one object of the model: bounding rectangle seen from above, range of heights, area by surface kind.
 struct Outline {
   Footprint box;
@@ -80,7 +76,7 @@ class ScenePlacer {
   }
 
   Vector3 model_position(std::uint32_t vertex) const {
-    return vector(model_.vertices[vertex].position_m) + model_.base;
+    return vector_of(model_.vertices[vertex].position_m) + model_.base;
   }
   Vector3 rotated(Vector3 v) const { return {v.x * cosine_ + v.y * sine_, v.y * cosine_ - v.x * sine_, v.z}; }
 
@@ -182,7 +178,7 @@ class ScenePlacer {
     if (use_ == SceneUse::scatterers) return scatter(corners_m, model_.kinds[triangle.kind].material, on_ground);
     std::array<PlacedCorner, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)
-      corners[i] = {corners_m[i], rotated(vector(model_.vertices[triangle.corners[i]].normal)), triangle.corners[i]};
+      corners[i] = {corners_m[i], rotated(vector_of(model_.vertices[triangle.corners[i]].normal)), triangle.corners[i]};
     builders_.add(corners, tag_of(triangle, object, on_ground));
   }
 

@@ -118,12 +118,12 @@ std::int16_t mean_of(const Sums& sums) {
 }
 
 // Numbers of posts of a coarser grid, and the numbers of fine intervals in one of its intervals.
-struct Grid {
+struct CoarseGrid {
   int rows, columns;
   int row_factor, column_factor;
 };
 
-void append_mean_row(const Cell& cell, const Grid& grid, int coarse_row, std::vector<Sums>& column_sums,
+void append_mean_row(const Cell& cell, const CoarseGrid& grid, int coarse_row, std::vector<Sums>& column_sums,
                      std::vector<std::int16_t>& means) {
   const Window rows = mean_window(coarse_row, cell.rows(), grid.row_factor);
   std::fill(column_sums.begin(), column_sums.end(), Sums{});
@@ -152,7 +152,7 @@ void append_mean_row(const Cell& cell, const Grid& grid, int coarse_row, std::ve
   }
 }
 
-void append_peak_row(const Cell& cell, const Grid& grid, int coarse_row, std::vector<std::int16_t>& column_peaks,
+void append_peak_row(const Cell& cell, const CoarseGrid& grid, int coarse_row, std::vector<std::int16_t>& column_peaks,
                      std::vector<std::int16_t>& peaks) {
   static_assert(kVoidPost == INT16_MIN, "a void is below every height");
   const Window rows = peak_window(coarse_row, cell.rows(), grid.row_factor);
@@ -186,8 +186,8 @@ ReducedCell reduce_by(const Cell& cell, int row_factor, int column_factor) {
   YARS_REQUIRE(column_factor, >=, 1);
   YARS_REQUIRE((cell.rows() - 1) % row_factor, ==, 0);
   YARS_REQUIRE((cell.columns() - 1) % column_factor, ==, 0);
-  const Grid grid{(cell.rows() - 1) / row_factor + 1, (cell.columns() - 1) / column_factor + 1, row_factor,
-                  column_factor};
+  const CoarseGrid grid{(cell.rows() - 1) / row_factor + 1, (cell.columns() - 1) / column_factor + 1, row_factor,
+                        column_factor};
   const std::size_t posts = static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.columns);
   std::vector<std::int16_t> means;
   std::vector<std::int16_t> peaks;

@@ -81,6 +81,7 @@ class PostBlocks {
 
 // Value of a void: a post without a height. Neither DTED nor HGT can store this value as a height.
 inline constexpr std::int16_t kVoidPost = -32768;
+inline constexpr int kMaxEdgePosts = 7201;  // maximum number of posts along an edge of a cell: 0.5 arc seconds apart
 
 // Elevation posts of one degree by one degree, immutable.
 // Posts are whole multiples of `unit_m` above mean sea level, or kVoidPost. The posts of an edge are in both cells that

@@ -1,5 +1,7 @@
 #include "model/terrain/formats/cell_reading.hpp"
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <system_error>
 
@@ -43,12 +45,15 @@ error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::pa
   if (offset > *length || bytes > *length - offset)
     return error::fail(path.string(), "at least " + std::to_string(offset + bytes) + " bytes",
                        std::to_string(*length) + " bytes", "the file is truncated; fetch it again");
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
   file.seekg(static_cast<std::streamoff>(offset));
   std::vector<std::byte> part(bytes);
   file.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(bytes));
   if (!file)
-    return error::fail(path.string(), "a readable file of " + std::to_string(*length) + " bytes", "a failed read");
+    return error::fail(path.string(), "a readable file of " + std::to_string(*length) + " bytes",
+                       errno != 0 ? std::strerror(errno) : "a failed read",
+                       "check the rights of the file and the disk");
   return part;
 }
 

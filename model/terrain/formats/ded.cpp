@@ -17,8 +17,7 @@ constexpr std::size_t kHeaderBytes = 128;
 constexpr std::size_t kStatisticsBytes = 32;
 constexpr std::size_t kFrontBytes = kHeaderBytes + kStatisticsBytes;  // before the table of cells
 constexpr std::size_t kCellHeaderBytes = 40;
-constexpr std::uint32_t kMaxCells = kCellRows * kCellColumns;
-constexpr int kMaxPosts = 7201;              // maximum number of posts along an edge: 0.5 arc seconds apart
+constexpr std::uint32_t kCellsOfEarth = kCellRows * kCellColumns;
 constexpr double kTenthsPerDegree = 36000;   // tenths of an arc second, the unit of the spacings in the file
 constexpr double kEdgeTolerance_deg = 1e-4;  // [deg] tolerance of an edge; a float resolves 180 degrees to 1.5e-5 deg
 constexpr double kSpanTolerance = 1e-3;      // [deg] tolerance of (posts - 1) * spacing; the file rounds spacings
@@ -48,8 +47,8 @@ error::Expected<std::size_t> cells_announced(std::span<const std::byte> front, s
       (kind != "DMA1" && kind != "DED1"))
     return error::fail(subject, "a MultiGen DED file (SSYS, DMA1 or DED1)", "other bytes");
   const std::uint32_t cells = memory::big_endian<std::uint32_t>(front.data() + kHeaderBytes);
-  if (cells == 0 || cells > kMaxCells)
-    return error::fail(subject, "1 to " + std::to_string(kMaxCells) + " cells", std::to_string(cells));
+  if (cells == 0 || cells > kCellsOfEarth)
+    return error::fail(subject, "1 to " + std::to_string(kCellsOfEarth) + " cells", std::to_string(cells));
   if (kFrontBytes + cells * kCellHeaderBytes > file_bytes)
     return error::fail(subject, "headers of " + std::to_string(cells) + " cells",
                        std::to_string(file_bytes) + " bytes in all", "the file is truncated; fetch it again");
@@ -72,14 +71,14 @@ error::Expected<DedCell> parse_cell(const std::byte* header, std::size_t number,
                        "latitude " + as_text(south) + " to " + as_text(north) + ", longitude " + as_text(west) +
                            " to " + as_text(east),
                        "export the file again, with cells cut at whole degrees");
-  const auto rows = whole(real_at(header + 24), 0.0, 2, kMaxPosts);
-  const auto columns = whole(real_at(header + 28), 0.0, 2, kMaxPosts);
+  const auto rows = whole(real_at(header + 24), 0.0, 2, kMaxEdgePosts);
+  const auto columns = whole(real_at(header + 28), 0.0, 2, kMaxEdgePosts);
   const auto fits = [](int posts, double spacing) {
     return std::abs((posts - 1) * spacing / kTenthsPerDegree - 1.0) < kSpanTolerance;
   };
   if (!rows || !columns || !fits(*rows, real_at(header + 16)) || !fits(*columns, real_at(header + 20)))
     return error::fail(
-        subject, which + " with posts that span one degree, 2 to " + std::to_string(kMaxPosts) + " a side",
+        subject, which + " with posts that span one degree, 2 to " + std::to_string(kMaxEdgePosts) + " a side",
         as_text(real_at(header + 24)) + " x " + as_text(real_at(header + 28)) + " posts at " +
             as_text(real_at(header + 16)) + " x " + as_text(real_at(header + 20)) + " tenths of a second");
   return DedCell{{*south_deg, *west_deg}, *rows, *columns, 0};

@@ -17,7 +17,6 @@ namespace yars::model::terrain {
 
 namespace {
 
-using dted::kHeaderBytes;
 using dted::kRecordHeadBytes;
 using dted::kRecordSumBytes;
 
@@ -79,8 +78,8 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
     if (label != "VOL" && label != "HDR") break;
     start += dted::kLabelBytes;
   }
-  if (bytes.size() < start + kHeaderBytes)
-    return error::fail(subject, "a DTED header of " + std::to_string(kHeaderBytes) + " bytes",
+  if (bytes.size() < start + dted::kHeaderBytes)
+    return error::fail(subject, "a DTED header of " + std::to_string(dted::kHeaderBytes) + " bytes",
                        std::to_string(bytes.size() - start) + " bytes", "the file is truncated; fetch it again");
   const std::string_view user_header = text_of(bytes.subspan(start, dted::kUserHeaderBytes));
   if (user_header.substr(0, 4) != "UHL1")
@@ -111,7 +110,7 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
                        std::to_string(*columns) + " x " + std::to_string(*rows) + " posts at " +
                            std::to_string(*interval) + " x " + std::to_string(*latitude_interval) +
                            " tenths of a second");
-  return Header{corner, *columns, *rows, start + kHeaderBytes};
+  return Header{corner, *columns, *rows, start + dted::kHeaderBytes};
 }
 
 bool sum_matches(std::span<const std::byte> record) {
@@ -247,7 +246,7 @@ error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const 
 
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner) {
   // The size of a level 2 file with eight labels in front. No file of level 0, 1 or 2 is larger.
-  constexpr std::size_t kMaxFile_bytes = kHeaderBytes + 3601 * dted::record_bytes(3601) + 8 * dted::kLabelBytes;
+  constexpr std::size_t kMaxFile_bytes = dted::kHeaderBytes + 3601 * dted::record_bytes(3601) + 8 * dted::kLabelBytes;
   const auto bytes = read_file(path, kMaxFile_bytes);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_dted(*bytes, path.string(), corner);

@@ -18,14 +18,13 @@ namespace yars::model::terrain {
 namespace {
 
 constexpr std::string_view kMagic = "YARSSIDE";
-constexpr std::uint32_t kVersion = 1;          // posts in metres
-constexpr std::uint32_t kVersionWithUnit = 2;  // the last four bytes give the unit of the posts
-constexpr std::size_t kHeadBytes = 36;         // length of the header, up to and including the number of levels
-constexpr std::size_t kChecksumAt = 28;        // offset of the checksum over all following bytes
-constexpr std::size_t kLevelBytes = 12;        // length of an entry in the table of levels
-constexpr double kUnitsPerMetre = 100.0;       // the file gives the unit of the posts in centimetres
-constexpr std::uint32_t kMaxReductions = 16;
-constexpr std::uint32_t kMaxPosts = 7201;  // maximum number of posts along an edge: 0.5 arc seconds apart
+constexpr std::uint32_t kVersion = 1;           // posts in metres
+constexpr std::uint32_t kVersionWithUnit = 2;   // the last four bytes give the unit of the posts
+constexpr std::size_t kHeadBytes = 36;          // length of the header, up to and including the number of levels
+constexpr std::size_t kChecksumAt = 28;         // offset of the checksum over all following bytes
+constexpr std::size_t kLevelBytes = 12;         // length of an entry in the table of levels
+constexpr double kUnitsPerMetre = 100.0;        // the file gives the unit of the posts in centimetres
+constexpr std::uint32_t kMaxStoredLevels = 17;  // the full grid and at most 16 reductions
 
 // Numbers of posts along the sides of a grid.
 struct Sides {
@@ -231,8 +230,8 @@ error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::
     return invalid("the side file of the .jp2 beside it", "the side file of another .jp2, or a damaged .jp2");
   if (words.next() != checksum(side.subspan(kChecksumAt + 4))) return invalid("a whole side file", "a wrong checksum");
   const std::uint32_t levels = words.next();
-  if (rows < 2 || columns < 2 || rows > kMaxPosts || columns > kMaxPosts || levels == 0 ||
-      levels > kMaxReductions + 1 || kHeadBytes + levels * kLevelBytes > side.size())
+  if (rows < 2 || columns < 2 || rows > kMaxEdgePosts || columns > kMaxEdgePosts || levels == 0 ||
+      levels > kMaxStoredLevels || kHeadBytes + levels * kLevelBytes > side.size())
     return invalid("sizes of a cell", std::to_string(columns) + " x " + std::to_string(rows) + " posts, " +
                                           std::to_string(levels) + " levels");
   const double unit_m = unit_of(side);

@@ -131,7 +131,6 @@ namespace {
 // [m] MSL. Bounds of possible heights, as in cell_reading.cpp.
 constexpr double kLowest_m = -12'000.0;
 constexpr double kHighest_m = 10'000.0;
-constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 constexpr float kImpossible = std::numeric_limits<float>::infinity();
 
 // Band values that producers write where they have no data, often without declaring them. They are compared before

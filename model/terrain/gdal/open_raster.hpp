@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,6 +20,8 @@
 #include "model/terrain/gdal/georeference.hpp"
 
 namespace yars::model::terrain::gdal {
+
+inline constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();  // a pixel or block without a height
 
 struct CloseDataset {
   void operator()(GDALDatasetH dataset) const { GDALClose(dataset); }

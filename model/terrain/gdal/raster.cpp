@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -72,8 +71,6 @@ void CellPosts::coarsen(double height_m) {
 }
 
 namespace {
-
-constexpr float kMissing = std::numeric_limits<float>::quiet_NaN();
 
 // The block of pixels nearest to a post, and the offset of the post from the block's centre.
 struct NearestBlock {

@@ -125,7 +125,7 @@ namespace {
 
 constexpr Surface kVoidSurface{std::numeric_limits<double>::quiet_NaN(), 0.0};
 // Limit of PositionRun's cell counts. Positions beyond the limit are void, because a large count would overflow an int.
-constexpr float kMaxCells = 1.0e6F;
+constexpr float kMaxCellSteps = 1.0e6F;
 
 // [m] The smaller of the row spacing and the column spacing along the edge nearer to a pole.
 double spacing_m(const Cell& cell) {
@@ -230,7 +230,7 @@ CellView::Run CellView::run_at(const PositionRun& positions, std::size_t first) 
   run.first = first;
   const float cells_north = positions.cells_north[first];
   const float cells_east = positions.cells_east[first];
-  if (!(std::abs(cells_north) <= kMaxCells) || !(std::abs(cells_east) <= kMaxCells)) return run;
+  if (!(std::abs(cells_north) <= kMaxCellSteps) || !(std::abs(cells_east) <= kMaxCellSteps)) return run;
   const int south = positions.corner.south_deg + static_cast<int>(cells_north);
   const int west = positions.corner.west_deg + 180 + static_cast<int>(cells_east);
   run.beyond_pole = south < -90 || south > 89;

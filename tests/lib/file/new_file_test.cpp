@@ -132,6 +132,7 @@ TEST_F(NewFileTest, APipeFolderSocketOrLinkToADeviceIsRefused) {
 
 TEST_F(NewFileTest, AFullDeviceIsAnErrorAndStaysADevice) {
   EXPECT_THAT(refusal_of(write_file("/dev/full", "x")), HasSubstr("No space left"));
+  EXPECT_THAT(refusal_of(write_file("/dev/full", std::string(1'000'000, 'x'))), HasSubstr("No space left"));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/full"));
   EXPECT_TRUE(write_file("/dev/null", "x"));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
