@@ -24,7 +24,7 @@ constexpr std::size_t kHeadBytes = 36;         // length of the header, up to an
 constexpr std::size_t kChecksumAt = 28;        // offset of the checksum over all following bytes
 constexpr std::size_t kLevelBytes = 12;        // length of an entry in the table of levels
 constexpr double kUnitsPerMetre = 100.0;       // the file gives the unit of the posts in centimetres
-constexpr std::uint32_t kMaxReductions = 16;
+constexpr std::uint32_t kMaxReductions = 16;  // a file that states more is damaged; pack_cell() writes at most 5
 constexpr std::uint32_t kMaxPosts = 7201;  // maximum number of posts along an edge: 0.5 arc seconds apart
 
 // Numbers of posts along the sides of a grid.
