@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Example of a flight model in Python. It attaches to a running set and publishes an aircraft that flies circles off
-the Californian coast, or about LAT LON [deg], until the set ends or Ctrl-C. Start the set with scripts/start
---no-flight. With the set's own flight model running, this one takes precedence by its priority.
+"""Example of a flight model in Python. It attaches to a running set and publishes an aircraft until the set ends or
+Ctrl-C. The aircraft flies circles about LAT LON [deg], by default off the Californian coast. The set needs no flight
+model of its own (scripts/start --no-flight). If it has one, this program prevails: its priority is 50, the set's 10.
 
 usage: examples/fly.py [SESSION [LAT LON]]"""
 import math
@@ -18,9 +18,9 @@ def fly(session, latitude_deg, longitude_deg, radius_m=8000.0, speed_mps=200.0):
     while session.set_runs():
         angle = speed_mps / radius_m * (time.monotonic() - begin_s)  # [rad] on the circle, clockwise from north
         session.publish_ownship(
-            latitude_deg=latitude_deg + radius_m * math.cos(angle) / 111000.0,
+            latitude_deg=latitude_deg + radius_m * math.cos(angle) / 111000.0,  # 111,000 m: one degree of latitude
             longitude_deg=longitude_deg + radius_m * math.sin(angle) / (111000.0 * math.cos(math.radians(latitude_deg))),
-            altitude_msl_m=4500.0, heading_deg=(math.degrees(angle) + 90.0) % 360.0, roll_deg=27.0,
+            altitude_msl_m=4500.0, heading_deg=(math.degrees(angle) + 90.0) % 360.0, roll_deg=27.0,  # bank: atan(v^2/(g r))
             velocity_north_mps=-speed_mps * math.sin(angle), velocity_east_mps=speed_mps * math.cos(angle),
             source="fly.py")
         session.heartbeat()

@@ -1,6 +1,7 @@
 // Example of a host program that draws the radar display into a viewport of its own OpenGL scene.
-// Scene: 1280 x 800 pixels; viewport: 600 x 600 pixels. The example uses an EGL context without a surface, so it needs
-// no window. It draws 30 x SECONDS pictures (default 5 s), at most 30 per second, and writes the last scene as PNG.
+// Scene: 1280 x 800 pixels; viewport: 600 x 600 pixels. EGL, which connects OpenGL to a window system, gives a context
+// without a surface, so the example needs no window. It draws 30 x SECONDS pictures (default 5 s), at most 30 per
+// second, and writes the last scene as PNG.
 //   host_display [SESSION [FILE.png [SECONDS]]]
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -71,8 +72,8 @@ void fill(const Box& box) {
   glClear(GL_COLOR_BUFFER_BIT);
 }
 
-// Draws the scene: sky, panel, and a bezel with 20 buttons. glScissor and glClear draw the rectangles. They would
-// be wrong if the radar display did not restore the OpenGL state.
+// Draws the scene: sky, panel, and a bezel with 20 buttons. glScissor and glClear draw the rectangles, which
+// would be wrong if the radar display did not restore the OpenGL state.
 void draw_cockpit() {
   glEnable(GL_SCISSOR_TEST);
   for (int row = 0; row < 20; ++row)

@@ -84,7 +84,7 @@ RADAR_STATE_SIZE, LEGENDS_AT, LEGENDS = 1392, 504, 21
 # Expected values by struct code, for messages.
 EXPECTED = {"d": "a number", "q": "a whole number of 64 bits", "Q": "a whole number of 64 bits, 0 or more",
             "I": "a whole number 0 to 4294967295", "H": "a whole number 0 to 65535", "B": "a whole number 0 to 255",
-            "h": "a whole number -32768 to 32767"}  # of the codes that records to feed have
+            "h": "a whole number -32768 to 32767"}  # covers the codes of OWNSHIP, NAV and INPUT_EVENT
 
 
 class YarsError(Exception):
@@ -105,7 +105,7 @@ def text_bytes(what, text, size):
 
 
 def text_of(field):
-    """The text in a field of bytes: up to its zero."""
+    """The text in a field of bytes, which ends before the first zero byte."""
     return field.split(b"\0")[0].decode("ascii", "replace")
 
 
@@ -227,7 +227,7 @@ class Session:
         if self.process is not None:
             self.words[(AT_PROCESSES + PROCESS_STRIDE * self.process) // 8] = time.monotonic_ns()
 
-    # ---- feeding
+    # ---- writing
     def claim_ownship_lane(self, priority):
         """Claims a lane. The radar uses the lane with the highest priority among those with fresh records. The flight
         models of YARS have priority 10."""
@@ -242,8 +242,8 @@ class Session:
         self.memory[at:at + 4] = struct.pack("<I", priority)
 
     def publish_ownship(self, **values):
-        """Fields of the record Ownship (databuffer/messages/world_state.idl), 20 to 100 times a second. What is not named
-        is 0, but radar_altitude_m NaN (no radar altimeter); the epoch is filled in."""
+        """Publishes the record Ownship (databuffer/messages/world_state.idl). Call it 20 to 100 times a second.
+        Defaults: radar_altitude_m NaN (no radar altimeter), epoch of the session, other fields 0."""
         self._needs(self.lane, "publish_ownship", "an ownship lane", "claim_ownship_lane(priority)")
         self._publish("publish_ownship", self._ownship_at(), OWNSHIP,
                       {"epoch": self.epoch(), "radar_altitude_m": math.nan, **values})
@@ -270,7 +270,8 @@ class Session:
         raise YarsError("input lane: all are taken; `yars status` names the sources")
 
     def push_event(self, kind, argument=0, x=0.0, y=0.0, text=""):
-        """Kinds and arguments: databuffer/messages/input_event_record.idl; push_button is 1, with the button as argument."""
+        """Sends an input event. Kinds and arguments: databuffer/messages/input_event_record.idl. Example: kind 1 is
+        push_button, with the number of the button as argument."""
         self._needs(self.input_lane, "push_event", "an input lane", "claim_input_lane(source)")
         record = pack("push_event", INPUT_EVENT, {
             "session_time_ns": self.sim_time_ns(), "monotonic_ns": time.monotonic_ns(), "x": x, "y": y, "kind": kind,
@@ -286,8 +287,8 @@ class Session:
 
     # ---- reading
     def radar_state(self):
-        """What a panel shows: mode, range, the legends of buttons 1 to 20 and which are boxed, and all other numbers and
-        texts of the record RadarState (databuffer/messages/radar_state.idl); None before there is one."""
+        """Dict of the numbers and texts of the record RadarState (databuffer/messages/radar_state.idl), such as mode and
+        range. `legends`: list of the legends, with that of button n at index n. None before the first record."""
         record = self._read_bytes(AT_RADAR_STATE, RADAR_STATE_SIZE)
         if record is None:
             return None
@@ -297,9 +298,9 @@ class Session:
         return state
 
     def outputs(self):
-        """What the radar tells the rest of the aircraft: the cue, the designated target with its ranging (NaN: none)
-        and steering, and `marks`, a list of dicts, oldest first; a point's elevation is NaN where it is not known, or not
-        yet. Fields of the record Outputs (databuffer/messages/radar_state.idl); None before there is one."""
+        """Dict of the record Outputs (databuffer/messages/radar_state.idl): what the radar reports to the rest of the
+        aircraft. Cue; designated target with ranging and steering (NaN: no target); `marks`, a list of dicts, oldest
+        first. The elevation of a point is NaN while it is unknown. None before the first record."""
         outputs = self._read(AT_OUTPUTS, OUTPUTS)
         if outputs is None:
             return None
@@ -337,8 +338,9 @@ class Session:
         return found
 
     def newest_frame(self, after=0):
-        """(frame, pixels) of a display started with --publish; None if its id is `after`. `frame`: dict of the record
-        GlassFrame; pass its "id" as `after` of the next call. `pixels`: rows from the top, red, green, blue, 255."""
+        """(frame, pixels) of a display started with --publish. None if there is no frame, or if the id of the newest
+        frame is `after`. `frame`: dict of the record GlassFrame; pass its "id" as `after` of the next call. `pixels`:
+        rows from the top; 4 bytes per pixel: red, green, blue, 255."""
         for _ in range(8):
             offsets = [AT_FRAMES + i * FRAME_STRIDE for i in range(FRAMES)]
             ids = [self.words[offset // 8] for offset in offsets]
@@ -407,7 +409,7 @@ class Session:
             return False
 
     def _is_held(self, byte):
-        """Whether another open file description holds the lock of this byte."""
+        """True if another open file description holds the lock of this byte."""
         query = struct.pack("@hhqqi0q", fcntl.F_WRLCK, os.SEEK_SET, byte, 1, 0)
         return struct.unpack_from("@h", fcntl.fcntl(self.descriptor, fcntl.F_OFD_GETLK, query))[0] != fcntl.F_UNLCK
 

@@ -90,8 +90,8 @@ std::optional<DeviceState> DeviceReader::state() const {
 DeviceReader::Outcome DeviceReader::read(std::span<std::byte> bytes, std::size_t& count) {
   count = 0;
   pollfd wanted{descriptor_, POLLIN, 0};
-  // poll() tells a FIFO that has had no writer yet from a closed FIFO; read() returns 0 for both. Without POLLIN the
-  // event is POLLHUP or POLLERR: the writer has closed the FIFO, or the device is unplugged.
+  // poll() distinguishes a FIFO that has had no writer yet from a closed FIFO; read() returns 0 for both. Without
+  // POLLIN the event is POLLHUP or POLLERR: the writer has closed the FIFO, or the device is unplugged.
   if (poll(&wanted, 1, 0) <= 0) return Outcome::nothing;
   if ((wanted.revents & POLLIN) == 0) return Outcome::gone;
   const ssize_t found = ::read(descriptor_, bytes.data(), bytes.size());
@@ -246,7 +246,7 @@ void DeviceSource::read_some(std::int64_t now_ns) {
     ++losses_;
     const auto state = reader_->state();
     decoder_->resync(state, now_ns);
-    // `state` is newer than the remaining events of this read.
+    // The remaining events of this read are ignored, because `state` is newer.
     if (state) break;
   }
   if (outcome == DeviceReader::Outcome::gone)

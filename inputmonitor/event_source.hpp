@@ -42,7 +42,7 @@ class EventSource {
   // Appends the file descriptors that become readable with new input. Returns false if the source has input without a
   // descriptor, so that only its own wait() detects this input.
   virtual bool add_descriptors(std::vector<pollfd>&) const { return true; }
-  // Time [ns, CLOCK_MONOTONIC] of the next event that needs no new input; nullopt if there is none.
+  // Time [ns, CLOCK_MONOTONIC] at which the next event is due without new input; nullopt if no such event is pending.
   virtual std::optional<std::int64_t> deadline_ns() const { return std::nullopt; }
   // Returns all events since the last call, without time stamps and sequence numbers. Never waits.
   virtual std::vector<databuffer::InputEvent> take(const Moment& moment) = 0;

@@ -179,8 +179,8 @@ radar::Device Learning::device(const std::string& name) const {
   return device;
 }
 
-// Adds an axis from the results of its two prompts. If only one direction is known, its end is mirrored about rest.
-// The centre is at least 10 % of the range away from each end.
+// Adds an axis from the results of its two prompts. If only one direction is known, the opposite end is the mirror
+// image of the known end about the rest value. The centre is at least 10 % of the range away from each end.
 void Learning::add_axis(radar::Device& device, std::size_t first) const {
   if (kPrompts[first].is_second) return;
   const Result& positive = results_[first];

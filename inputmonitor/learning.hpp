@@ -54,7 +54,8 @@ class Learning {
     double rest = 0.0;          // [raw units]
     double return_error = 0.0;  // [raw units] hat or axis: distance from rest after the return
   };
-  // Rest value of an axis, and its minimum and maximum since the prompt or the last identified move [raw units].
+  // Rest value, minimum and maximum of an axis [raw units]. Minimum and maximum count from the last identified move of
+  // any axis, skip() or back(). A button does not reset them.
   struct Watched {
     double rest = 0.0;
     double min = 0.0;

@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""Holds citations and links: whatever a source, test, script or document cites is in this repository.
+"""Checks citations and links: whatever a source, test, script or document cites is in this repository.
 
 usage: check_citations.py [--root DIR]
-Prints one line a finding, `file:line: rule: what was found, what is allowed`; exit 1 when there is one. The rules:
-  citation  a citation of a document names a file that is there; of docs/spec an anchor, too, that is there
-  rule      a rule of the pilot's interface that is named by number is one, and its file cites the interface by path
-  outside   nothing that lies outside of the repository is cited: an unnamed specification, a neighbouring folder
-  link      a link of a document leads to a file or folder, and to an anchor or heading, that is there
-  decision  docs/decisions has each number once and no gap; a decision that is named is there
-  anchor    an anchor stands once in its file
-An anchor of docs/spec is explicit, so that a heading may be reworded; headings of other documents are anchors as well.
+Prints one line per finding, `file:line: rule: what was found, what is allowed`. The exit code is 1 if there is any.
+The rules:
+  citation  a cited document exists; a citation of a document in docs/spec also names an anchor, which exists
+  rule      a rule number exists in the pilot's interface, and the file with the number cites that document by path
+  outside   nothing outside of the repository is cited, such as an unnamed specification or a neighbouring folder
+  link      the target of a link exists: a file or folder, and the anchor or heading in it
+  decision  the numbers of docs/decisions have no gap and no duplicate; a cited decision exists
+  anchor    an anchor occurs once in its file
+Anchors in docs/spec are explicit, so that headings can be reworded. In other documents headings are anchors as well.
 """
 import difflib
 import posixpath
@@ -32,7 +33,7 @@ CODE = re.compile(r"^```.*?^```$|`[^`\n]*`", re.M | re.S)
 BLOCK = re.compile(r"^```.*?^```$", re.M | re.S)
 RULE = re.compile(r"\b[Rr]ules? (\d+(?:, \d+)*(?:,? (?:and|to|or) \d+)?)")
 DECISION = re.compile(r"\b[Dd]ecisions? (\d+(?:, \d+)*(?:,? (?:and|to|or) \d+)?)(?!\d|[.,]\d)")
-# A bare name of a page of the specification, or of what those pages are made from.
+# A page of the specification, or of the texts that it was written from, without the path of its folder.
 BARE_PAGE = re.compile(r"(?<![\w/.\[-])(?:pvi|seed-map|seed_map|physics|formats|commands|pilots_interface)\.md\b")
 UNNAMED = re.compile(r"(?<![\w./-])" + "sp" "ec" + r"(?![\w/-])")  # a word that names no page; in parts, as this is a source too
 NEIGHBOUR = re.compile(r"\.\./(?:seed|shared(?!/data\b))[\w./-]*")  # data for tests may lie beside the repository
@@ -43,19 +44,19 @@ def line_of(text, position):
 
 
 def blanked(pattern, text):
-    """The text with what the pattern matches blanked, line numbers kept."""
+    """The text with blanks in place of all matches of the pattern. Line numbers do not change."""
     return pattern.sub(lambda match: re.sub(r"[^\n]", " ", match.group()), text)
 
 
 class Documents:
-    """The Markdown files of a tree, and what may be linked to in each."""
+    """The Markdown files of a tree, and the possible targets of links (anchors) in each."""
 
     def __init__(self, root, names):
         self.texts = {name: (root / name).read_text(encoding="utf-8") for name in names if name.endswith(".md")}
         self.anchors = {name: anchors_of(name, text) for name, text in self.texts.items()}
 
     def why_missing(self, name, anchor):
-        """What is wrong with a citation; nothing when file and anchor are there."""
+        """Reason why a citation is wrong, as text. None if file and anchor exist."""
         if name not in self.texts:
             return f"{name} is not a file of the repository"
         if not anchor or anchor in self.anchors[name]:

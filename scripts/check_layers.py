@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Holds the layers of the design: who includes whom, who sees the world, how files are named.
+"""Checks the layers of the design: which folder includes which; which folders use clocks, files and system headers; how
+files are named.
 
 usage: check_layers.py [--root DIR] [--draw]
-Prints one line a finding, `file:line: rule: what was found, what is allowed`; exit 1 when there is one.
---draw writes the diagram of the folders, docs/layers.dot, and its picture anew. Long files are only warned of. The
-rules are the tables below; a new folder or a new third-party header gets a row.
+Prints one line per finding, `file:line: rule: what was found, what is allowed`. The exit code is 1 if there is any.
+--draw first writes the diagram of the folders, docs/layers.dot, and its picture. A long file gives a warning, which is no
+finding. The tables below are the rules. A new folder or a new third-party header needs a row in them.
 """
 import argparse
 import collections
@@ -22,12 +23,12 @@ SCENE = TERRAIN + ["model/scene/openflight", "model/scene/placement"]
 PHYSICS = SCENE + ["lib/parallel", "model/physics"]
 KERNEL = PHYSICS + ["databuffer/messages", "model/antenna", "model/rbm", "model/hrm", "model/kernel"]
 WORLD = ["model/terrain/gdal", "model/terrain/store", "model/scene/index"]
-# What the programs of roles and tools may see besides: the segment, the log, clocks.
+# Layers that programs of roles and tools may include in addition: those with the segment, the log and clocks.
 SHELL = RECORDS + ["lib/file", "lib/imageio", "lib/log", "config/schema", "databuffer/session", "databuffer/runtime"]
 
-# Folder -> folders whose headers it may include besides its own. Lower layers stand first: a row names only rows above it,
-# so that no cycle of folders can be allowed. model, statemachine, inputmonitor and display never see each other; tools
-# and tests drive everything.
+# Folder -> folders whose headers the folder may include in addition to its own. Lower layers stand first: a row names
+# only rows above itself, so that no cycle of folders can be allowed. model, statemachine, inputmonitor and display never
+# include each other; tools and tests may include all of them.
 LAYERS = {
     "lib/text": [],
     "lib/error": ["lib/text"],
@@ -86,7 +87,7 @@ LAYERS = {
     "tests": None,  # None: everything
 }
 
-# Folders that see the segment, the log and clocks: what runs as a program, and what programs share.
+# Shells: folders that may use the segment, the log and clocks. They have the programs, and code that programs share.
 SHELLS = ["lib/log", "databuffer/session", "databuffer/runtime", "databuffer/app", "databuffer/client", "model/app", "statemachine/app",
           "inputmonitor/app", "display/host", "display/app", "tools", "tests", "examples"]
 
@@ -130,14 +131,14 @@ SYSTEM_HEADERS = {
     "linux/input-event-codes.h": ["config/schema", "inputmonitor", "tests"],
     "iostream": ["shells"],
 }
-# POSIX and Linux headers (with .h): the ways out of the process.
+# Folders that may include POSIX and Linux headers (with .h), by which code reaches outside of its process.
 POSIX_FOLDERS = ["lib/file", "shm", "inputmonitor", "shells"]
 
 CLOCKS = re.compile(r"\b(std::chrono::\w+_clock|clock_gettime|gettimeofday|clock_nanosleep|nanosleep|usleep|sleep_for"
                     r"|sleep_until|std::time\s*\(|monotonic_ns\s*\()")
 CLOCK_FOLDERS = ["shm", "shells"]
 
-# Only readers (and what writes a picture or a terminal) open files.
+# Only readers, and sources that write a picture or to a terminal, open files.
 OPENING = re.compile(r"\bstd::[io]?fstream\b|\bfopen\b|(?<![\w>])::(open|openat|mmap)\b"
                      r"|\bstd::filesystem::(recursive_)?directory_iterator\b")
 READERS = [re.compile(pattern) for pattern in (
@@ -146,22 +147,22 @@ READERS = [re.compile(pattern) for pattern in (
     r"^(lib/file|tools|tests|examples)/",
 )]
 
-# Only lib/file makes files and folders: what others have planted in a folder is met there once.
+# Only lib/file makes files and folders, so that protection against links planted by others is needed only there.
 WRITING = re.compile(r'\bstd::ofstream\b|\bfopen\([^;]*"[wa]|\bO_CREAT\b|\bmkstemp\b|\bmkdir(at)?\s*\(|\brename(at)?\s*\('
                      r"|\bstd::filesystem::(create_director\w+|rename|copy\w*)\b|\b\w+_file_sink\w*\b")
 WRITERS = ("lib/file/", "shm/segment_file.cpp", "tests/", "examples/", "config/schema/load.cpp")
 
 HEAVY_IN_HEADERS = ("iostream", "boost/", "spdlog/")
 HEAVY_HEADERS = {"shm/segment_file.hpp"}  # seen by shm/segment.cpp alone
-# by flex and bison, in the build folder
+# made by flex and bison in the build folder
 GENERATED_HEADERS = {"guf_lexer.hpp", "guf_parser.hpp", "message_lexer.hpp", "message_parser.hpp"}
 
-# by databuffer/messages/generate.py, in the build folder, beside one for each chapter of the records' description
+# made by databuffer/messages/generate.py in the build folder, beside one header for each IDL file of the records
 MADE_HEADERS = {"databuffer/messages/record_checks.hpp", "databuffer/client/yars_records_check.hpp"}
-GENERATED = "Generated by databuffer/messages/generate.py"  # stands in the head of what lies in the tree
-CLIENT = "databuffer/client"  # its headers include one another by bare name: they may be copied and installed anywhere
+GENERATED = "Generated by databuffer/messages/generate.py"  # in the head of each generated file that is in the tree
+CLIENT = "databuffer/client"  # its headers include one another without a path, because users copy them anywhere
 
-# Sources without a header of their own: one header declares what all of a family give.
+# Sources without a header of their own: one header declares the functions of all sources of a family.
 FAMILIES = ("config/schema/forms_",  # schema.hpp
             "worldgen/scene/",  # scene_builder.hpp
             "model/terrain/gdal/gdal_absent.cpp",  # raster.hpp and map_writer.hpp
@@ -179,7 +180,7 @@ REGISTRIES = re.compile(r"\b(" + "|".join(
 
 
 def tracked_files(root):
-    """Every file of the project: what git knows or would add; without git, all but build/."""
+    """All files of the project: those that git tracks or would add. Without git: all files outside of build/."""
     try:
         names = subprocess.run(["git", "-C", str(root), "ls-files", "-co", "--exclude-standard"], capture_output=True,
                                text=True, check=True).stdout.splitlines()
@@ -192,25 +193,25 @@ def tracked_files(root):
 
 
 def folder_of(name):
-    """The layer that a file belongs to: the longest row of LAYERS that its path begins with."""
+    """The layer of a file: the longest row of LAYERS with which its path begins; None if there is no such row."""
     rows = [row for row in LAYERS if name.startswith(row + "/")]
     return max(rows, key=len) if rows else None
 
 
 def is_among(name, places):
-    """Whether a file lies in one of the folders, is one of the files, or is a shell where "shells" are named."""
+    """True if a file lies in one of the folders, is one of the files, or is in SHELLS and `places` has "shells"."""
     wanted = [place for place in places if place != "shells"] + (SHELLS if "shells" in places else [])
     return any(name == place or name.startswith(place + "/") for place in wanted)
 
 
 def description_of(root, header):
-    """The IDL of which the build makes this header, or None."""
+    """The IDL file from which the build makes this header, or None."""
     name = str(pathlib.PurePath(header).with_suffix(".idl"))
     return name if header.startswith("databuffer/messages/") and (root / name).is_file() else None
 
 
 def without_comments(text):
-    """Comments blanked, line numbers kept. Quoted strings stay: a path in a message counts too."""
+    """The text with blanks in place of comments. Line numbers and quoted strings do not change."""
     blank = lambda match: re.sub(r"[^\n]", " ", match.group())
     return re.sub(r"//[^\n]*|/\*.*?\*/", blank, text, flags=re.S)
 
@@ -248,7 +249,7 @@ def check_source(root, name, text):
         yield 1, "layer", f"no row in LAYERS of check_layers.py fits {name}"
         return
     is_header = name.endswith((".hpp", ".h"))
-    # Highway includes an -inl.hpp once for each set of instructions: a toggle guards it.
+    # Highway (SIMD library) includes an -inl.hpp once for each instruction set, so #pragma once would be wrong there.
     if is_header and not name.endswith("-inl.hpp") and "#pragma once" not in text and not name.endswith(".h"):
         yield 1, "header", "expected #pragma once"
     for number, line in enumerate(without_comments(text).splitlines(), 1):
@@ -291,7 +292,7 @@ def check_names(root, name):
 
 
 def includes(root, names):
-    """For each file the project files that it includes."""
+    """{file: list of the project files that it includes}"""
     known = set(names)
     pattern = re.compile(r'^\s*#\s*include\s*"([^"]+)"', re.M)
     text = {name: (root / name).read_text(errors="replace") for name in names}
@@ -302,7 +303,7 @@ def includes(root, names):
 
 
 def owners_of(graph):
-    """{-inl header: the unit whose chapter it is}: that of its name, else the one that alone includes it."""
+    """{-inl header: the unit that it belongs to}: the unit of the same name, else the only unit that includes it."""
     users = collections.defaultdict(set)
     for name, headers in graph.items():
         for header in headers:
@@ -319,12 +320,12 @@ def owners_of(graph):
 
 
 def unit_of(name, owners):
-    """A header and its source, with the -inl headers that only they include."""
+    """Name of a file's unit: a header and its source, with the -inl headers that only they include."""
     return owners.get(name) or str(pathlib.PurePath(name).with_suffix(""))
 
 
 def groups(graph):
-    """Groups of more than one node that reach one another (Tarjan, without recursion)."""
+    """Groups of two or more nodes that reach one another: strongly connected components by Tarjan's algorithm."""
     index, low, stack, on_stack, found = {}, {}, [], set(), []
     for root in graph:
         if root in index:
@@ -362,7 +363,7 @@ def groups(graph):
 
 
 def joined(graph, name_of):
-    """The graph with nodes put together by `name_of`."""
+    """The graph in which all nodes with the same `name_of` are one node. Arrows within a node are left out."""
     result = collections.defaultdict(set)
     for node, targets in graph.items():
         result[name_of(node)].update(name_of(target) for target in targets)
@@ -384,7 +385,7 @@ def check_cycles(root, names):
 
 
 def diagram(root, names):
-    """The folders and who includes whom, in Graphviz' language; arrows that follow from others are left out."""
+    """The folders and their includes in Graphviz' language. An arrow that follows from other arrows is left out."""
     graph = joined({name: headers for name, headers in includes(root, names).items() if LAYERS[folder_of(name)] is not None},
                    folder_of)
     below = {folder: graph.get(folder, set()) for folder in LAYERS if folder in graph}
@@ -436,7 +437,7 @@ def findings_of(root):
 
 
 def draw(root):
-    """Writes the diagram, and its picture where Graphviz is."""
+    """Writes the diagram and its picture. Without Graphviz the program ends with an error after the diagram."""
     (root / DIAGRAM).write_text(diagram(root, product_sources(root)))
     picture = (root / DIAGRAM).parent / "pictures" / "layers.png"
     try:
@@ -446,9 +447,9 @@ def draw(root):
 
 
 def run(checker, purpose, findings, clean, draw=None):
-    """The program of a checker: its findings over the tree of --root, a line each; 1 when there is one.
+    """Main program of a checker: prints the findings in the tree of --root, one per line. Returns 1 if there is any.
 
-    `draw` is called first where the program is given --draw.
+    `draw`: called first if the command line has --draw.
     """
     parser = argparse.ArgumentParser(description=purpose)
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)

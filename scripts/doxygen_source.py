@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
-"""Sources and documents of YARS as Doxygen reads them: usage: doxygen_source.py FOLDER (scripts/docs runs it), or as
-Doxygen's filter: doxygen_source.py --filter FILE
+"""Prepares sources and documents of YARS for Doxygen.
 
-FOLDER gets a copy of the tree. In its Markdown `<!-- diagram: FILE.dot -->` is the diagram, and links to headings and to
-anchors (`<a id="NAME"></a>`) find them.
-The filter makes plain comments documentation: of headers and sources the first is about the file; of headers one above or
-behind a declaration is about that. It keeps the number of every line but the file's first, so that links into the pages
-of the sources, which show them as they are, hit.
+usage: doxygen_source.py FOLDER         copies the tree to FOLDER; scripts/docs calls it
+       doxygen_source.py --filter FILE  prints one file; Doxygen calls it as a filter
+In the Markdown of the copy, Doxygen's command for a diagram replaces `<!-- diagram: FILE.dot -->`. Links to headings and
+to anchors (`<a id="NAME"></a>`) use Doxygen's labels.
+The filter turns plain comments into documentation. The first comment of a header or source describes the file. In a
+header, a comment above or behind a declaration describes that declaration. Behind the first blank line the filter keeps
+all line numbers, so that links to lines of the unfiltered sources are right.
 """
 import pathlib
 import posixpath
@@ -22,14 +23,14 @@ ANCHOR = r'<a id="([^"]*)"></a>'
 
 
 def escaped(text):
-    """Comment text of which Doxygen takes nothing for a command, a tag or emphasis."""
+    """Comment text with escapes, so that Doxygen finds no command, tag or emphasis in it. Code in `...` is unchanged."""
     kept = re.split(r"(`[^`]*`)", text)
     kept[::2] = [re.sub(r"[\\@<>#$%&*]", r"\\\g<0>", part) for part in kept[::2]]
     return "".join(kept)
 
 
 def file_comment(lines):
-    """The comment that a file begins with, as its documentation, and how many lines that took."""
+    """(the comment at the beginning of a file as its documentation, the number of lines of that comment)"""
     count = next((i for i, line in enumerate(lines) if not line.startswith("//")), len(lines))
     if count == 0:
         return [], 0
@@ -37,7 +38,7 @@ def file_comment(lines):
 
 
 def without_first_blank(lines):
-    """One line less, for the one that the file's documentation has more."""
+    """The lines without the first blank one, because file_comment() adds one line."""
     blank = next((i for i, line in enumerate(lines) if not line.strip()), len(lines))
     return lines[:blank] + lines[blank + 1:]
 
@@ -62,17 +63,17 @@ def filtered(path):
 
 
 def slug(heading):
-    """The anchor that a heading has where Markdown is shown elsewhere."""
+    """The anchor of a heading by the usual rule of Markdown viewers: lower case, hyphens for blanks."""
     return re.sub(r"[^\w-]", "", heading.lower().replace(" ", "-"))
 
 
 def label(path, anchor):
-    """Doxygen's name for an anchor: one of its own over all documents."""
+    """Doxygen's label of an anchor. It contains the path, because labels must be unique over all documents."""
     return "_".join((*path.with_suffix("").parts, anchor))
 
 
 def document(path):
-    """Markdown with diagrams, and with labels where headings and anchors are linked to."""
+    """Text of a Markdown file with Doxygen's commands for diagrams, labels and links."""
     def heading(match):
         anchor = slug(match[1])
         return match[0] if anchor in anchors else f"{match[0]} {{#{label(path, anchor)}}}"
@@ -84,7 +85,7 @@ def document(path):
         return f"](#{label(target_of(match[1]) if match[1] else path, match[2])})"
 
     def page_link(match):
-        # From the top: Doxygen looks for a relative path in its working folder first, and may find another file there.
+        # The path from the top of the tree. Doxygen would look for a relative path in its working folder first.
         return f"]({target_of(match[1])})"
 
     def code(match):

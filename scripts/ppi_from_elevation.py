@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Draws elevation files as a hill shade in the geometry of the radar's glass, to hold beside a radar picture.
+"""Draws elevation files as a shaded relief in the geometry of the radar display, for comparison with a radar picture.
 
 Shares no code with the radar: own DTED and HGT reader, own geodesic (Vincenty's direct formula on WGS84, Survey
-Review 23, 1975). The picture: apex at --lat --lon, up = --track, from -0.6 to 0.6 of the range across and -0.1 to
-1.1 of it up, sector of +-50 degrees; ground range, no curvature, no shadow. Prints the pixel of each --mark.
+Review 23, 1975). The picture has its apex at --lat --lon and --track up. It shows -0.6 to 0.6 of the range across and
+-0.1 to 1.1 of the range up; outside of the sector of +-50 degrees it is dark. Distances are ground range. Curvature of
+the earth and shadows are left out. Prints the pixel of each --mark.
 
   ppi_from_elevation.py --terrain DIR --lat 36.9 --lon -122.6 --track 90 --range-nm 40 --size 480 --out ppi.png \\
       --mark 36.95 -122.06 "Point Santa Cruz"
@@ -17,8 +18,8 @@ import sys
 import numpy as np
 from PIL import Image, ImageDraw
 
-WIDTH = (-0.6, 0.6)       # of the range, left and right edge of the glass
-HEIGHT = (-0.1, 1.1)      # of the range, bottom and top
+WIDTH = (-0.6, 0.6)       # left and right edge of the picture, in fractions of the range
+HEIGHT = (-0.1, 1.1)      # bottom and top, in fractions of the range
 HALF_SECTOR_DEG = 50.0
 METRES_PER_NM = 1852.0
 SEMI_MAJOR_M, FLATTENING = 6378137.0, 1 / 298.257223563
@@ -26,7 +27,7 @@ VOID = np.nan
 
 
 def vincenty_direct(latitude_deg, longitude_deg, azimuth_deg, distance_m):
-    """Where a geodesic of that azimuth and length ends [deg]; azimuth and distance may be arrays."""
+    """Latitude and longitude [deg] of the end of a geodesic. Azimuth and distance may be arrays."""
     minor = SEMI_MAJOR_M * (1 - FLATTENING)
     azimuth, distance_m = np.radians(azimuth_deg), np.asarray(distance_m, float)
     tan_u1 = (1 - FLATTENING) * np.tan(np.radians(latitude_deg))
@@ -71,7 +72,7 @@ def way_to(latitude_deg, longitude_deg, to_latitude_deg, to_longitude_deg):
 
 
 def read_dted(path):
-    """Heights, rows south to north; absent and void posts are NaN."""
+    """Heights [m], rows from south to north; absent and void posts are NaN."""
     data = path.read_bytes()
     columns, rows = int(data[47:51]), int(data[51:55])
     cell = np.full((rows, columns), VOID)
@@ -93,7 +94,7 @@ def read_hgt(path):
 
 
 def find_cells(folder):
-    """(south, west) -> file, finest first."""
+    """{(south, west) [deg]: file}. Of several files of one cell, the finest."""
     found = {}
     for path in sorted(folder.rglob("*")):
         name = f"{path.parent.name}/{path.name}".lower()
@@ -114,7 +115,7 @@ def find_cells(folder):
 
 
 def elevations(files, latitude, longitude):
-    """Bilinear heights; an absent cell is sea at 0 m. Voids are NaN."""
+    """Heights [m] at positions, by bilinear interpolation. An absent cell is sea at 0 m. NaN beside a void post."""
     result = np.zeros(latitude.shape)
     south, west = np.floor(latitude).astype(int), np.floor(longitude).astype(int)
     for place in set(zip(south.ravel().tolist(), west.ravel().tolist())) & set(files):
@@ -131,7 +132,7 @@ def elevations(files, latitude, longitude):
 
 
 def glass_place(options, x, y):
-    """Latitude and longitude of glass positions, fractions of the range right of and ahead of the apex."""
+    """Latitude and longitude [deg] of positions on the picture: x right of and y ahead of the apex, in ranges."""
     azimuth = options.track + np.degrees(np.arctan2(x, y))
     return vincenty_direct(options.lat, options.lon, azimuth, np.hypot(x, y) * options.range_nm * METRES_PER_NM)
 
@@ -154,7 +155,7 @@ def draw(options):
     metres = step * options.range_nm * METRES_PER_NM
     known = np.nan_to_num(height, nan=0.0)
     down_slope, right_slope = np.gradient(known, metres)
-    # Lit as the radar lights it: from the apex, low. A slope toward the apex is bright, its far side dark.
+    # The light comes from the apex, like the radar's beam. A slope that faces the apex is bright, its far side dark.
     distance = np.maximum(np.hypot(x, y), 1e-9)
     rise = (right_slope * x - down_slope * y) / distance
     shade = np.clip(0.42 + 2.2 * rise, 0.06, 1)

@@ -1,4 +1,5 @@
-// Input lanes: wait-free single-producer, single-consumer ring buffers in shared memory. Each event source has a lane.
+// Input lanes: single-producer, single-consumer ring buffers in shared memory. Each event source has a lane. No call
+// waits for another process (wait-free).
 // Inputs: records pushed by the producer of a lane; `lane` in [0, Lanes).
 // Outputs: the records of each lane in FIFO order. Records of different lanes have no common order.
 // Errors: push() to a full lane drops the record and counts the drop.
@@ -21,7 +22,7 @@ class InputLanes {
   // Called by the lane's producer. False: the lane was full, and the drop was counted.
   bool push(std::size_t lane, const T& record);
   // Called by the consumer. Copies the oldest record to `out`. peek() leaves the record in the lane; pop() removes it.
-  // False: the lane is empty, or its damaged cursors were reset.
+  // False: the lane is empty, or its damaged cursors were reset. `out` is then unchanged.
   bool peek(std::size_t lane, T& out);
   bool pop(std::size_t lane, T& out);
 

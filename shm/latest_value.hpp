@@ -1,5 +1,5 @@
 // Latest value of one writer for any number of readers, in shared memory.
-// Outputs: a whole copy of the newest value and its version; a torn value is never returned.
+// Outputs: a whole copy of the newest value and its version. A torn value (part old, part new) is never returned.
 // Version: counts up with each publish and each clear; 0 means never written. Zero-filled memory is the empty state.
 // Errors: read() gives up after 9 attempts during which the writer changed the slot. LatestReader then keeps its last
 // value.
@@ -27,7 +27,7 @@ class LatestValue {
   std::uint64_t version() const { return Access::load(state_, std::memory_order_acquire) >> 1; }
   bool has_value() const { return (Access::load(state_, std::memory_order_acquire) & kPresent) != 0; }
 
-  // Offsets [bytes] for databuffer/client/yars.h and `yars status --layout`.
+  // Number of slots, and offsets [bytes], for databuffer/client/yars.h and `yars status --layout`.
   static constexpr std::size_t kSlots = 4;  // a slot is rewritten 4 versions later at the earliest
   static constexpr std::size_t state_offset() { return offsetof(LatestValue, state_); }
   static constexpr std::size_t slots_offset() { return offsetof(LatestValue, slots_); }

@@ -19,7 +19,8 @@ struct RingRead {
 // History of one producer. Of its N slots, N - 1 hold the readable records, which are the last published. Each reader
 // keeps its own cursor: the number of the record to read next, counted from 0 since the session began. The producer
 // does not know its readers. A producer killed after any store leaves all N - 1 records readable. A restarted producer
-// continues the numbers. If the record type has `used_bytes` (words.hpp), read() changes only those bytes.
+// continues the numbers. If the record type has `used_bytes` (words.hpp), read() changes only that many leading bytes
+// of `out`, rounded up to a multiple of 8.
 template <Record T, std::size_t N, class Access = PlainAccess>
 class BroadcastRing {
   static_assert(N >= 2 && (N & (N - 1)) == 0, "must be a power of two, so that the modulo is a bit mask");
@@ -105,9 +106,9 @@ RingRead BroadcastRing<T, N, Access>::read(std::uint64_t& cursor, T& out) const 
 // Ring of the last N lines from any number of writers. T is the record of one line. No writer waits. Lines are numbered
 // from 0 since the session began. A writer that dies loses only the line that it was writing.
 // A writer that pauses while N newer lines are appended finds one of them in its slot. It then abandons its own line
-// and counts the loss. Each word is stored by compare-exchange against the value that the writer read while it owned
-// the slot. If the newer line has the same value there, the exchange succeeds and corrupts the newer line. The checksum
-// detects this case.
+// and counts the loss. Each word is stored by compare-exchange: only if the word still has the value that the writer
+// read while it owned the slot. If the newer line has the same value there, the exchange succeeds and corrupts the
+// newer line. The checksum detects this case.
 template <Record T, std::size_t N, class Access = PlainAccess>
 class NoteRing {
  public:
@@ -145,7 +146,7 @@ class NoteRing {
   static bool put(Slot& slot, AtomicWord& word, Word value, Word own_sequence);
   bool write(Slot& slot, std::uint64_t number, const Copy& copy);
 
-  // 64-bit FNV-1a over the line's number and words; each step takes a word instead of a byte.
+  // 64-bit hash FNV-1a over the line's number and words. Each step takes a word instead of a byte.
   static Word checksum_of(std::uint64_t number, const Copy& words) {
     Word sum = 0xcbf29ce484222325U;
     const auto mix = [&sum](Word word) { sum = (sum ^ word) * 0x100000001b3U; };
@@ -155,7 +156,7 @@ class NoteRing {
   }
 
   alignas(kCacheLine) AtomicWord total_;
-  AtomicWord lost_;  // in the padding of total_'s cache line, which older builds leave zero
+  AtomicWord lost_;  // in the padding of total_'s cache line, which builds without this counter leave zero
   alignas(kCacheLine) std::array<Slot, N> slots_;
 };
 

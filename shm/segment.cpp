@@ -227,7 +227,7 @@ struct Segment::Core {
   SegmentFile file;
   bool writable;
   bool created;
-  // Bit n: this object holds byte n. Needed, because the kernel grants an object the same lock repeatedly.
+  // Bit n: this object holds byte n. Needed, because the operating system grants an object the same lock repeatedly.
   std::atomic<std::uint64_t> held_bytes{0};
 
   SegmentHeader& header() { return *static_cast<SegmentHeader*>(file.memory()); }

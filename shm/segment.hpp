@@ -3,7 +3,7 @@
 // Inputs: a name ([A-Za-z0-9_-]), the layout identity of this build, a function that initializes new memory.
 // Outputs: the mapped memory of /dev/shm/yars.UID.NAME; claims on its lock bytes.
 // Errors: /dev/shm is full, the file belongs to another user, or another build made it.
-// Threads: locks belong to the Segment object. The kernel releases them when the process ends.
+// Threads: locks belong to the Segment object. The operating system releases them when the process ends.
 // Source: docs/shared_memory.md.
 #pragma once
 
@@ -52,7 +52,7 @@ struct RecordIdentity {
   std::uint64_t size;  // [bytes]
 };
 
-// FNV-1a 64 over the records' names, versions and sizes, in order.
+// 64-bit hash FNV-1a over the records' names, versions and sizes, in order.
 constexpr std::uint64_t layout_hash(std::span<const RecordIdentity> records) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   const auto mix = [&hash](std::uint64_t value, int bytes) {
@@ -74,7 +74,8 @@ extern thread_local CreationStep creation_step;
 
 // Shared memory segment that exists while at least one process participates in it.
 // The creator fills a file without a name and then links the file to the name. No process sees a partial segment.
-// Every participant holds a read lock on byte 0 of the file (F_OFD_SETLK). The kernel releases it at process death.
+// Every participant holds a read lock on byte 0 of the file (F_OFD_SETLK). The operating system releases the lock when
+// the process dies.
 // A process that obtains the write lock on byte 0 is alone. A leaving process then unlinks the file. An arriving
 // process has then found a leftover of dead processes, and replaces it.
 // The other lock bytes are claims on roles and lanes.
@@ -82,12 +83,14 @@ extern thread_local CreationStep creation_step;
 // has_name() then returns false. New participants find the file through /proc.
 class Segment {
  public:
-  // Initializes the zeroed memory behind the header. The creator calls it before any other process can map the memory.
+  // Initializes the zeroed memory behind the header. `memory` is the start of the segment, where the header will be.
+  // The creator calls this function before any other process can map the memory.
   using Initialize = void (*)(void* memory);
 
   // Joins the segment, or creates it. `name`: letters, digits, '-' and '_'.
   static error::Expected<Segment> open(const std::string& name, const LayoutIdentity& layout, Initialize initialize);
-  // Maps the segment read-only, without participating. Errors: no segment, or a leftover without participants.
+  // Maps the segment read-only, without participating. Errors: no segment; a leftover without participants; a segment
+  // of another user or of another build.
   static error::Expected<Segment> open_read_only(const std::string& name, const LayoutIdentity& layout);
 
   Segment(Segment&&) noexcept;

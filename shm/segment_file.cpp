@@ -38,7 +38,7 @@ std::string target_of(const std::string& link) {
   return length > 0 ? std::string(text.data(), static_cast<std::size_t>(length)) : std::string();
 }
 
-// True for "PATH (deleted)" and "PATH.123.tmp (deleted)". The kernel shows the name by which the file was opened.
+// True for "PATH (deleted)" and "PATH.123.tmp (deleted)". /proc shows the name by which the file was opened.
 bool was_opened_as(const std::string& target, const std::string& path) {
   constexpr std::string_view kDeleted = " (deleted)";
   constexpr std::string_view kTemporary = ".tmp";
@@ -83,7 +83,7 @@ struct flock byte_lock(std::size_t byte, LockKind kind) {
   return lock;
 }
 
-// Adapter that passes a file descriptor to Boost's mapped_region, which reads it and does not close it.
+// Adapter that passes a file descriptor to Boost's mapped_region, which does not close the descriptor.
 struct OpenFile {
   int descriptor;
   bi::mapping_handle_t get_mapping_handle() const { return {descriptor, false}; }
@@ -92,7 +92,8 @@ struct OpenFile {
 }  // namespace
 
 std::optional<SegmentFile> SegmentFile::open(const std::string& file_name, Access access) {
-  // O_NONBLOCK: another user may put a pipe at this path. Opening a pipe waits until a process opens its other end.
+  // O_NONBLOCK: another user may put a pipe at this path. Without the flag, opening a pipe waits until a process opens
+  // the pipe's other end.
   const int mode = access == Access::read_only ? O_RDONLY : O_RDWR;
   file::Descriptor opened(::open(path_of(file_name).c_str(), mode | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (!opened) return std::nullopt;

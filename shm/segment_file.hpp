@@ -1,7 +1,8 @@
 // File of a shared memory segment: opens, locks, maps and links the file, and finds it again without its name.
 // Inputs: file names in /dev/shm, or descriptor paths /proc/PID/fd/N.
 // Errors: a function returns std::nullopt, false or an errno value. errno is set where stated.
-// Threads: locks belong to the open file description (F_OFD_SETLK), not to the process.
+// Threads: locks belong to the open file description (F_OFD_SETLK), not to the process. An open file description is the
+// operating system's object behind a descriptor.
 #pragma once
 
 #include <sys/stat.h>

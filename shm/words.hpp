@@ -22,8 +22,8 @@ namespace yars::shm {
 // A wide load is therefore ordered like two acquire loads, a wide store like two release stores. The asm clobber keeps
 // the compiler from reordering them. A reader detects a move torn between its two words by the slot's sequence
 // (publishing order below). Throughput of complete sweep records, relative to a ring that uses memcpy: single words 0.4
-// to 0.75, wide moves at least 0.97. kWideMoves is false on other processors, and under ThreadSanitizer, which models
-// only the atomics of C++.
+// to 0.75, wide moves at least 0.97. kWideMoves is false on other processors. It is also false under ThreadSanitizer (a
+// compiler's check for data races), which models only the atomics of C++.
 inline constexpr std::size_t kWideBytes = 16;
 
 #if defined(__x86_64__) && !defined(__SANITIZE_THREAD__)
@@ -59,11 +59,11 @@ inline void wide_move(void* to, const void* from) {
 // stored (release), the sequence becomes even (release). A reader that acquires a new word also sees the odd sequence.
 // There are no fences, because ThreadSanitizer does not model them.
 // `Access` is the policy class with which a container loads and stores words. Tests substitute a policy that stops the
-// writer after every store and runs the writer before every load.
+// writer after every store and runs the writer before every load of the reader.
 // A record of variable length declares `std::size_t used_bytes(const Record&)` in its own namespace. Only that many
 // leading bytes are copied.
 
-inline constexpr std::size_t kCacheLine = 64;  // [bytes] alignment of counters and slots, against false sharing
+inline constexpr std::size_t kCacheLine = 64;  // [bytes] alignment against false sharing (two writers per cache line)
 
 using Word = std::uint64_t;
 using AtomicWord = std::atomic<Word>;

@@ -21,7 +21,8 @@ namespace yars::statemachine {
 void deflect(Step& step);               // TDC deflection [-1, 1]; stays until the next event
 void next_cursor_function(Step& step);  // cycles MAP, UPDT, CUE, TGT, MARK; MAP is skipped while SET is on
 
-// Moves the cursor to the displayed position of a point with navigator coordinates `known`.
+// Moves the cursor to the displayed position of a point with navigator coordinates `known`. Without a valid ownship the
+// cursor moves to `known` itself.
 void jump_cursor(databuffer::RadarState& state, geo::GeoPoint known, const Inputs& inputs);
 
 // True if the cursor is shown. In PVU it is never shown. In A/A and A/G ranging it is shown only while SET is on.
@@ -39,7 +40,8 @@ void advance_cursor(databuffer::RadarState& state, const Inputs& inputs, const P
 void next_sequence_point(Step& step);
 // Reason why an unknown name is refused: NO POINT and the name.
 std::string no_such_point(std::string_view name);
-// Selects the point of the route, or the designated target, by the name in the event. An unknown name is refused.
+// Selects the point of the route, or the designated target, by the name in the event. The cursor jumps to that point.
+// An unknown name is refused.
 void select_sequence_point(Step& step);
 
 // Selects the point of the route with the lowest number. Clears the selection when there is no route.

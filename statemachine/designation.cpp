@@ -213,8 +213,8 @@ void cue(RadarState& state, geo::GeoPoint known) {
 }
 
 // [display units] Maximum distance at which a symbol counts as under the cursor. It is about the width of a drawn line:
-// the display does not show a shorter distance. The cursor stays on its ground while the navigator's error displaces
-// the symbols, so after a jump to a point the symbol soon is some metres off the cursor.
+// the display does not show a shorter distance. The cursor stays at its ground position, but a navigator error that
+// drifts moves the symbols. So after a jump to a point, the point's symbol is soon some metres off the cursor.
 constexpr double kUnderCursor = 2.0;
 
 // The point of the route with its symbol under the cursor; nullptr if there is none. Of several, the selected point is

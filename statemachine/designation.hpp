@@ -22,7 +22,7 @@ std::optional<double> answered_elevation_m(const Inputs& inputs, geo::GeoPoint g
 
 // Requests the elevation at the cursor. `recipients`: mask of the points that get the elevation (bit n for mark n,
 // kAskedForTarget, kAskedForCue). Their elevation is NaN until take_elevation() has the answer. If the model has
-// already answered for this position, they get the elevation at once.
+// already answered with the elevation of this position, they get it at once.
 void request_elevation(Step& step, std::uint32_t recipients);
 // Removes recipients from the open request, because their elevation is known from another source.
 void cancel_request(databuffer::RadarState& state, std::uint32_t recipients);
@@ -32,7 +32,8 @@ void cancel_request(databuffer::RadarState& state, std::uint32_t recipients);
 bool waits_for_elevation(const databuffer::RadarState& state, const databuffer::InputEvent& event,
                          const Inputs& inputs);
 
-// One tick: stores the elevation of the recipients once the model has answered.
+// One tick: stores the elevation of the recipients once the model has answered with a known elevation. A request
+// without such an answer ends after 2 s, and the elevation stays NaN.
 void take_elevation(databuffer::RadarState& state, const Inputs& inputs);
 // Requests the elevation at the cursor when no other request is open.
 void request_cursor_elevation(databuffer::RadarState& state);
@@ -52,13 +53,16 @@ void steer_line_of_sight(databuffer::RadarState& state, const Inputs& inputs);
 void advance_steering_line(databuffer::RadarState& state, const Inputs& inputs);
 
 // Sets the steering of `outputs`: azimuth [deg] of the target from the ground track, right positive. For a fixed line:
-// bank angle [deg], right wing down positive, that turns the aircraft onto the line.
+// bank angle [deg], right wing down positive, that turns the aircraft onto the line. Requires a designated target and a
+// valid ownship.
 void put_steering(databuffer::Outputs& outputs, const databuffer::RadarState& state, const Inputs& inputs);
 
-// CUE, TGT and MARK at the cursor, in coordinates of the selected navigator.
+// CUE, TGT and MARK at the cursor, in coordinates of the selected navigator. They have no effect without a valid
+// ownship or a cursor position.
 // Source: docs/spec/pilots_interface.md#rule-14.
 void cue_sensor(Step& step);
-// Also cues. A point of the route whose symbol is under the cursor becomes the target.
+// Designates a target and cues the sensor to it. If the symbol of a point of the route is under the cursor, that point
+// becomes the target. Refused if no name is free.
 void designate_target(Step& step);
 // Keeps the last ten marks.
 void store_mark(Step& step);

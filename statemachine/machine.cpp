@@ -25,7 +25,7 @@ using databuffer::RadarState;
 
 // Slant range, true bearing and depression of the target. They are measured from the true position of the aircraft to
 // the ground position at which the video shows the target. A target whose elevation stayed unknown is taken to be at
-// sea level.
+// sea level. Mean sea level counts as the ellipsoid (docs/conventions.md).
 void put_ranging(Outputs& outputs, const RadarState& state, const Inputs& inputs) {
   const databuffer::Ownship& ownship = inputs.ownship;
   const auto navigator = databuffer::selected_navigator_position(ownship, inputs.nav, state);

@@ -23,8 +23,8 @@ databuffer::RadarState initial_state(const Parameters& parameters);
 // Result of an event.
 enum class Effect : std::uint32_t {
   none = databuffer::kEventDead,        // no row of the transition table applies, or the state is unchanged
-  done = databuffer::kEventDone,        // the state has changed, or a press whose release acts
-  refused = databuffer::kEventRefused,  // cannot be carried out; the display shows the reason
+  done = databuffer::kEventDone,        // the state has changed, or the event is a press whose release acts
+  refused = databuffer::kEventRefused,  // the event cannot be carried out; the display shows the reason
 };
 
 // Applies one event to the state.

@@ -152,7 +152,7 @@ double window_to_map_nm(const Step& step) {
 
 // Reason why no map can be made at the cursor; nullopt: a map can be made. Computed here, because the model's status is
 // from the last tick and the cursor may have jumped since. While the elevation of the ground at the cursor is unknown,
-// the elevation angle is not checked here. The model checks it when the map starts.
+// the depression of the line of sight is not checked here. The model checks that angle when the map starts.
 std::optional<std::string_view> unmappable_reason(const Step& step) {
   const databuffer::Ownship& ownship = step.inputs.ownship;
   const radar::MapViewpoint from{{ownship.latitude_deg, ownship.longitude_deg},
@@ -215,10 +215,11 @@ void cancel_map(RadarState& state, const Inputs& inputs) {
 
 bool take_map(RadarState& state, const Inputs& inputs) {
   const ModelStatus& model = inputs.model;
-  // Any id that differs from the newest map's counts as new. If it had to be greater, one erroneous large id would hide
-  // all later maps.
+  // Any id that differs from the newest map's counts as new. If only greater ids counted, one erroneous large id would
+  // hide all later maps.
   const bool is_new = model.map_newest != 0 && model.map_newest != state.map_newest;
-  // The model answered without a map. Its reason is a limit; without a reason the map is impossible for another cause.
+  // The model answered without a map. A reason names the radar limit that forbids the map. Without a reason, the map is
+  // impossible for another cause.
   if (has(state, databuffer::kMapping) && model.map_done_request == state.map_request && !is_new) {
     cancel_map(state, inputs);
     const std::string_view reason = stop_reason(model);

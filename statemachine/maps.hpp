@@ -14,8 +14,8 @@ namespace yars::statemachine {
 // Source: docs/spec/pilots_interface.md#rule-8, #rule-9, #rule-10, #rule-19, #rule-20, #rule-21.
 void toggle_freeze(Step& step);
 void flip_recall(Step& step);   // PB 10: toggles NEW and OLD, or with a stored map NEW and STORE
-void toggle_store(Step& step);  // PB 15: stores the map shown, in place of OLD; a second press releases it
-void toggle_set(Step& step);    // PB 18: cursor functions apply to the frozen map, or no longer
+void toggle_store(Step& step);  // PB 15: stores the map shown, which PB 10 then shows instead of OLD; or releases it
+void toggle_set(Step& step);    // PB 18: switches whether the cursor functions apply to the frozen map
 
 void freeze(databuffer::RadarState& state);
 void thaw(databuffer::RadarState& state);  // ends the freeze and recall, and clears the stored map

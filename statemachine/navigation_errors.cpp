@@ -117,8 +117,9 @@ std::optional<Offset> offset_to_cursor(const RadarState& state, const Inputs& in
 }
 
 // Navigator position for which the point `known` is displayed at the video position `seen`. The geodesic from the
-// result to `known` has the initial azimuth and length of the geodesic from the aircraft (`truth`) to `seen`. It is
-// computed backward from `known`. Its azimuth at `known` is iterated, because meridians converge near a pole.
+// result to `known` has the initial azimuth and length of the geodesic from the aircraft (`truth`) to `seen`. The
+// result is computed backward from `known`. The azimuth of the geodesic at `known` is iterated, because meridians
+// converge near a pole.
 GeoPoint position_for_display_at(GeoPoint known, GeoPoint seen, GeoPoint truth) {
   constexpr int kPasses = 8;
   const auto wanted = geo::geodesic_inverse(truth, seen);
@@ -144,7 +145,7 @@ std::int32_t seconds_left(const RadarState& state, std::int64_t tick, double val
 void accept_update(Step& step) {
   RadarState& state = step.state;
   if (!step.inputs.ownship_valid) return;
-  // The update fields of `state` are from the last tick; the cursor may have jumped since.
+  // The update fields of `state` are from the last tick. The cursor may have jumped since then.
   RadarState present = state;
   advance_update(present, step.inputs, step.parameters);
   if (!has(present, databuffer::kUpdateShown) || has(present, databuffer::kUpdateInvalid)) return;

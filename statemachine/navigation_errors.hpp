@@ -28,11 +28,13 @@ databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
 // UPDT: corrects the selected navigator. The pilot first places the cursor on the sequence point's echo in the video.
 // Source: docs/spec/pilots_interface.md#rule-13.
 
-// TDC release: corrects the position so that the selected point is displayed at the cursor. Takes
-// effect only while an update offset is shown. INV (cursor position too old) replaces this offset.
+// TDC release: corrects the navigator's position so that the selected point is displayed at the cursor. The release has
+// an effect only while the display shows the offset of advance_update(). With INS, INV replaces the offset while the
+// cursor position is too old.
 void accept_update(Step& step);
 
-// One tick: offset from the displayed selected point to the cursor [m], and the seconds left for an INS update.
+// One tick: offset north and east [m] from the displayed selected point to the cursor, and the seconds left for an INS
+// update.
 void advance_update(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 // PVU and IPVU: correct the velocity of the mission navigator by radar measurements.

@@ -25,7 +25,7 @@ struct PicturePlane {
   geo::Bearing up;    // direction at the apex that is upward on the display
   geo::Length unit;   // ground distance of 1 on the display: the selected range, or the window of the map
   geo::Length ahead;  // distance of the origin from the apex, upward
-  // Limits of the display.
+  // Limits of the display, in multiples of `unit`.
   radar::ViewConfiguration view;
 
   DisplayPoint display_from_ground(geo::GeoPoint position) const {
@@ -40,7 +40,8 @@ struct PicturePlane {
     return point.x >= view.width_min && point.x <= view.width_max && point.y >= view.height_min &&
            point.y <= view.height_max;
   }
-  // Distance of two positions on the display, in display units. The edge of the square display has 480 units.
+  // Distance between two positions on the display, in display units. A display unit is 1/480 of the display's edge. It
+  // is not PicturePlane::unit.
   double units_between(DisplayPoint a, DisplayPoint b) const;
 };
 

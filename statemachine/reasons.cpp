@@ -43,7 +43,7 @@ bool message_is_replaced(const AppliedSequence& applied, std::size_t index) {
 
 std::optional<std::string> reason_refused(const AppliedSequence& applied, std::size_t index) {
   const InputEvent& event = applied.events[index];
-  // Points and the recorder do not depend on the other events.
+  // The reasons for an unknown point and for the recorder do not depend on the other events.
   if (is_kind(event, EventKind::sequence_point)) return no_such_point(text::text_of(event.text));
   if (is_kind(event, EventKind::push_button)) return std::string(recorder_problem(applied.recorder_present));
   const std::string message(text::text_of(applied.after.message));

@@ -36,7 +36,7 @@ void put_elevation(Step& step, double elevation_deg) {
   step.state.antenna_elevation_deg = std::clamp(elevation_deg, -limit_deg, limit_deg);
 }
 
-// Elevation of the sequence point nearest to the aircraft; nullopt without a point or with an unknown elevation.
+// Elevation of the route point nearest to the aircraft; nullopt if there is no point or its elevation is unknown.
 std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownship, const Parameters& parameters) {
   const geo::GeoPoint aircraft{ownship.latitude_deg, ownship.longitude_deg};
   const radar::RoutePoint* nearest = nullptr;

@@ -15,7 +15,7 @@ void range_down(Step& step);
 void next_scan_width(Step& step);  // FULL, HALF, QTR, FULL
 void step_window(Step& step);      // next larger (at most the range) or smaller window; below the smallest: blank
 void set_elevation(Step& step);    // absolute [deg], clamped to the limit of the antenna
-void step_elevation(Step& step);   // 0.5 deg up or down
+void step_elevation(Step& step);   // 0.5 deg up or down for each step of the event
 
 // Selects the range with this index. A window larger than the range is replaced by the largest window that fits.
 void set_range_index(databuffer::RadarState& state, std::size_t index, const Parameters& parameters);

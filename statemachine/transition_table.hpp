@@ -92,12 +92,11 @@ Columns control_column(const databuffer::RadarState& state);
 // True if all of the conditions are true in this state.
 bool hold(Conditions conditions, const databuffer::RadarState& state);
 
-// True for the press of the TDC. It changes nothing, because the TDC acts on release. Its rows are those of the
-// release.
+// True for the press of the TDC. The press changes nothing, because the TDC acts on release. It has the table rows of
+// the release.
 bool is_press(const databuffer::InputEvent& event);
 
-// Action of the event in this state, for a press the action of its release; nullptr if the event has no effect (is
-// dead).
+// Action of the event in this state. A press has the action of its release. nullptr: the event has no effect (is dead).
 Action action_for(const databuffer::RadarState& state, const databuffer::InputEvent& event);
 
 // Reason why the event has no effect in this state, as a text: "dead in PVU", "dead while frozen".

@@ -1,5 +1,5 @@
-// `yars config check | print | convert`: validates a configuration, prints it as GUF, converts files of the 1996
-// simulation to GUF.
+// `yars config check | print | convert`: validates a configuration; prints it as GUF (the language of the configuration
+// files); converts files of the 1996 simulation to GUF.
 
 #include <cstdio>
 #include <filesystem>

@@ -34,7 +34,7 @@ int run(int argc, char** argv) {
   tools::CommonOptions common;
   app.before_callbacks([&] {
     if (auto error = databuffer::begin_program("yars", options)) tools::throw_failure(*error);
-    // These subcommands do not poll the stop flag. The default signal action ends them.
+    // These subcommands do not poll the stop flag that the signal handler sets. The default signal action ends them.
     for (const auto* command : {"scan", "patch", "trade", "terrain", "scene", "config"})
       if (app.has_subcommand(command)) databuffer::restore_default_signal_actions();
     common.session = options.session;

@@ -24,7 +24,8 @@ error::Expected<ParsedText> parse_messages(std::string_view text, const std::str
 // the message syntax begins with #, or with a name before : or :=. A GUF text begins with the parenthesis of a form.
 bool is_in_messages(std::string_view text);
 
-// The form ( lat-long N 37 30.5 ) for the text "N37@30.5". Its slots, or an error, have the location `state.token`.
+// The form ( lat-long N 37 30.5 ) for the text "N37@30.5". The form's slots have the location `state.token`. Throws
+// ParseError with this location for an invalid number.
 Form coordinate_of(std::string_view text, const ScanState& state);
 
 // The name in the token "name :=" or "name :".

@@ -154,7 +154,8 @@ FormSchema button() {
                    std::size_t index) { builder.device_button = builder.device.buttons[index]; }};
 }
 
-// Rules: low and high are given together; low < centre < high if they are given; lowest < highest.
+// Rules: low and high are both given or both omitted. If they are given, low < high, and a given centre lies between
+// them. lowest < highest.
 std::optional<ConstraintViolation> check_travel(const radar::DeviceAxis& axis) {
   const bool has_ends = !std::isnan(axis.low) && !std::isnan(axis.high);
   if (std::isnan(axis.low) != std::isnan(axis.high))

@@ -21,7 +21,7 @@ namespace yars::config {
 std::optional<std::uint16_t> button_code(std::string_view text);  // [1, 0x2ff]
 std::optional<std::uint16_t> axis_code(std::string_view text);    // [0, 0x3f]
 
-// The most readable text for a code. It reads back as the same code.
+// The most readable text for a code. button_code() and axis_code() convert this text back to the same code.
 std::string button_name(std::uint16_t code);
 std::string axis_name(std::uint16_t code);
 

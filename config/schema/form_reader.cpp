@@ -151,7 +151,8 @@ std::vector<FormReader::MatchedSlot> FormReader::match_slots(const Form& form, c
   return matched;
 }
 
-// Schema of a slot. `index`: number of the argument in its form, from 1. Null, with a warning: the slot has no schema.
+// Schema of a slot. `index`: number of the argument in its form, from 1. If the slot has no schema, the function warns
+// and returns null. Throws ParseError for a position behind the last slot of the form.
 const SlotSchema* FormReader::row_of(const Slot& slot, int index, const Form& form, const KnownForm& known) {
   const FormSchema& schema = *known.schema;
   if (slot.name.empty()) {

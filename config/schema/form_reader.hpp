@@ -28,7 +28,7 @@ class FormDefinitions {
   // Adds the form that ( def-form name is= base 'slot ... ) defines. A built-in form of this name prevails. Throws
   // ParseError.
   void define(const Form& form, const Location& where);
-  // Meaning of a name. An unknown form has no schema and is not defined in the text.
+  // Meaning of a form's name. For an unknown name `schema` is null and `defined_in_text` is false.
   KnownForm find(const std::string& name) const;
 
  private:

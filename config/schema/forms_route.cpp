@@ -79,8 +79,9 @@ void begin_route(ConfigurationBuilder& builder) {
   builder.points_without_kind.clear();
 }
 
-// Makes the last steer point before each target, by number, an initial point. Exceptions: the file states the kind of
-// that steer point, or states another initial point between the previous target and this target.
+// Sorts the points by number. In this order, the last steer point before each target becomes an initial point.
+// Exceptions: the file states the kind of that steer point, or states another initial point between the previous target
+// and this target. The order of the route itself does not change.
 void derive_initial_points(ConfigurationBuilder& builder) {
   std::vector<radar::RoutePoint*> points;
   for (radar::RoutePoint& point : builder.radar.route) {
@@ -147,7 +148,7 @@ std::vector<FormSchema> route_forms() {
 
 namespace {
 
-// Rules: the numbers of azimuths and depressions are equal, and the beams do not all lie in one plane.
+// Rules: there are as many depressions as azimuths, and the beams do not all lie in one plane.
 std::optional<ConstraintViolation> check_beams(const ConfigurationBuilder& builder) {
   const radar::NavigationConfiguration& navigation = builder.radar.navigation;
   const std::size_t azimuths = navigation.beam_azimuths_deg.size();

@@ -13,7 +13,8 @@ namespace yars::config {
 
 namespace {
 
-// Slots of Database and of the forms that extend it. Only MgDbase uses the position; elevation files contain their own.
+// Slots of Database and of the forms that extend it. Only MgDbase uses the position, because elevation files contain
+// their positions.
 std::vector<SlotSchema> database_slots(AngleSlot latitude = {nullptr, true}, AngleSlot longitude = {nullptr, false}) {
   return {{.name = "latitude",
            .unit = "deg",
@@ -68,7 +69,8 @@ std::optional<ConstraintViolation> check_polygons(const ConfigurationBuilder& bu
   return ConstraintViolation{"latitude", "latitude and longitude together, or neither", "one of them"};
 }
 
-// Adds the polygons as a scene, unless a scene has the same file: a configuration can name a database several times.
+// Adds the polygons as a scene. If there is a scene of the same file, none is added, because a configuration can name a
+// database several times.
 void end_polygons(ConfigurationBuilder& builder) {
   if (builder.scene_folder.empty()) return;
   builder.scene.file = (std::filesystem::path(builder.scene_folder) / builder.scene.file).string();

@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 constexpr int kMaxIncludeDepth = 8;
 constexpr int kMaxIncludes = 64;  // includes of one configuration; a repeated file counts again
 
-// Text of a regular file. Throws ParseError for anything else: reading a pipe or a device could block or never end.
+// Text of a regular file. Throws ParseError if the file cannot be read or is larger than kMaxTextBytes. Also throws if
+// the path leads to anything else: reading a pipe or a device could block or never end. `subject`: subject of errors.
 std::string text_of_file(const fs::path& path, const std::string& subject) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {

@@ -2,7 +2,7 @@
 // 1996 (config/guf/messages.hpp).
 // Inputs: a file with its includes; or a text in memory, whose includes are not read.
 // Outputs: a RadarConfiguration, or the text of one equivalent GUF file; warnings.
-// Errors: file, line and column, what was expected and what was found.
+// Errors: the file, the line and column of a wrong value, what was expected and what was found.
 // Limits: includes nested 8 files deep, the first file counted; 64 includes; 1 MiB per file. Included files must lie in
 // the folder of the first file or below it.
 #pragma once

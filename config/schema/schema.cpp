@@ -198,7 +198,7 @@ Found<SlotSchema> find_slot(const FormSchema& form, std::string_view name) {
 }
 
 std::string_view nearest_slot(const FormSchema& form, std::string_view name) {
-  constexpr std::size_t kMaxDistance = 2;     // [letters] inserted, deleted or replaced; more give unrelated names
+  constexpr std::size_t kMaxDistance = 2;     // [letters] inserted, deleted or replaced; above: unrelated names
   constexpr std::size_t kMaxNameLength = 40;  // bounds the time for a hostile text
   std::string_view nearest;
   std::size_t smallest = kMaxDistance + 1;

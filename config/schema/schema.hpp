@@ -1,7 +1,7 @@
 // Table of the forms and slots of GUF, the language of the configuration files (docs/configuration.md). A form, such as
 // ( Window :width 480 ), is a value of one kind. A slot, such as :width 480, is one named value of a form.
 // Inputs: rows from forms_*.cpp and devices.cpp. A row has name, unit, range, purpose and the field that it writes.
-// Outputs: search by name; the kind of value as text; ConfigurationBuilder, which the slots write into.
+// Outputs: the row of a name; the kind of value of a slot as text; ConfigurationBuilder, which the slots write into.
 // Units: a slot has the unit of its row. The field has the unit that the field's name states (NumberSlot converts).
 // Errors: a violated rule between slots returns a ConstraintViolation.
 // Source: names and positions are from tables 4 to 26 of the 1996 report. Slots added later have later positions.
@@ -97,7 +97,7 @@ struct ConfigurationBuilder {
   radar::RadarConfiguration& whole;
   Sections radar;
   int window_height_pixels;  // equal to the width: the display is square
-  // Values of the slots samples and width of SarMode; 0: not given.
+  // [pixels] Edge of a patch map, as the slots samples and width of SarMode give it; 0: the form omits the slot.
   int map_samples;
   int map_sweeps;
   std::string scene_folder{};  // slot path of MgDbase
@@ -126,8 +126,8 @@ BuilderPointer new_builder();
 // Builder with a finished configuration, for printing.
 BuilderPointer builder_of(const radar::RadarConfiguration& configuration);
 
-// Kinds of slots. The functions `of`, `first`, `second`, `low` and `high` return a field that the slot writes. If they
-// or `set` are null, the value is only validated.
+// Kinds of slots. The functions `of`, `first`, `second`, `low` and `high` return a field that the slot writes. If these
+// functions or `set` are null, the value is validated, but not stored.
 struct NumberSlot {
   double& (*of)(ConfigurationBuilder&) = nullptr;
   double si_per_unit = 1.0;  // field = value * si_per_unit

@@ -188,8 +188,9 @@ void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, con
 
 namespace {
 
-// Converts `si` to the unit of a slot: the number whose product with si_per_unit is exactly `si`. Rounding can make
-// si / si_per_unit one double less or greater than that number. If no candidate fits, the quotient is returned.
+// Converts `si` to the unit of a slot: the number whose product with si_per_unit is exactly `si`. Rounding can make the
+// quotient si / si_per_unit the next smaller or next greater double. The function therefore tries the quotient and both
+// neighbours. If none of them gives `si`, it returns the quotient.
 double in_units(double si, double si_per_unit) {
   const double quotient = si / si_per_unit;
   for (const double candidate : {quotient, std::nextafter(quotient, -1e308), std::nextafter(quotient, 1e308)}) {

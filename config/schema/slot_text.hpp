@@ -14,18 +14,20 @@
 namespace yars::config {
 
 // Validates one value and writes it into the field of its slot. Throws ParseError. Values that are forms are read by
-// FormReader instead. It reads a lat-long form into builder.angle and then calls read_sexagesimal(). A call of
+// FormReader instead. For a lat-long form, FormReader fills builder.angle and then calls read_sexagesimal(). A call of
 // read_simple() for a FormSlot aborts the program.
 void read_simple(ConfigurationBuilder& builder, const SlotSchema& slot, const Value& value);
 
-// Writes the latitude or longitude in builder.angle into the field of its slot. `where` is the location of the form.
+// Writes the latitude or longitude in builder.angle into the field of `slot`. `where` is the location of the form.
+// Throws ParseError for a latitude with E or W, a longitude with N or S, or an angle out of range.
 void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, const Location& where);
 
-// The value of a slot as GUF text. Empty: the slot is unused, contains forms, or its value is unknown (NaN).
+// The value of a slot as GUF text. Empty: the slot is unused or contains forms, or its value is unknown (NaN, or a
+// negative index of a ChoiceSlot).
 std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot);
 
-// A configuration as GUF text, which reads back as an equal configuration. The text omits unused slots, slots whose
-// slot_text() is empty, and slots with the same effect as another slot (SlotSchema::same_as).
+// A configuration as GUF text, which reads back as an equal configuration. The text omits unused slots, slots with an
+// unknown value, and slots with the same effect as another slot (SlotSchema::same_as).
 std::string print_configuration(const radar::RadarConfiguration& configuration);
 
 // Like print_configuration(), with a comment before each slot: position, kind, range, default, purpose. Forms that were

@@ -67,11 +67,11 @@ inline constexpr std::size_t kMaxDatagramsPerTick = 256;
 error::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);
 
 // Publishes the aircraft that an external program flies, and the surface traffic that it reports.
-// The external program has its own clock. The program continues while the session is frozen, and a clock rate other
-// than 1 does not affect it. A position that changed during a freeze counts as a jump, which needs a new epoch. The
-// bridge refuses a repositioning, which only the external program can do. Publishing stops when no packet arrives for
-// the extrapolation limit of the bridge. The lane is then stale, and the radar uses another lane until packets arrive
-// again.
+// The external program has its own clock. The external program continues while the session is frozen, and the rate of
+// the session's clock does not affect it. A position that changed during a freeze counts as a jump, which needs a new
+// epoch. The bridge refuses a repositioning, because only the external program can move its aircraft. Publishing stops
+// when no packet has arrived for longer than the extrapolation limit of the bridge. The lane is then stale, and the
+// radar uses another lane until packets arrive again.
 // Traffic is published unless another program has the traffic role when the bridge starts.
 class BridgeShell {
  public:

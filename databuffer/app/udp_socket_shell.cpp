@@ -22,10 +22,11 @@ namespace {
 using bridges::Sender;
 
 constexpr std::size_t kDatagramsPerCall = 16;
-// [bytes] Size of the kernel's receive queue: 1 s of packets at 400 Hz. A larger queue would deliver older packets.
+// [bytes] Size of the kernel's receive queue: about 1 s of packets of 600 bytes at 400 Hz. After a pause, a larger
+// queue would deliver older packets. The kernel is here that of the operating system.
 constexpr int kQueue_bytes = 256 * 1024;
-// [ns] Maximum age of a packet by its kernel time stamp. A change of the wall clock can cause a greater or negative
-// age, which counts as 0.
+// [ns] Maximum age of a packet by its kernel time stamp. A change of the wall clock can make the age greater than this
+// limit or negative. Such an age counts as 0.
 constexpr std::int64_t kMaxPacketAge_ns = 60'000'000'000;
 
 error::Expected<sockaddr_in> resolve(const std::string& host, std::uint16_t port) {
@@ -114,8 +115,8 @@ struct UdpSocket::State {
     return recvmmsg(descriptor, headers.data(), static_cast<unsigned>(count), MSG_DONTWAIT, nullptr);
   }
 
-  // Returns the age of the datagram [ns] by the kernel's time stamp; 0 without a valid stamp. Adds the kernel's new
-  // drops to `dropped`.
+  // Returns the age of the datagram [ns] by the kernel's time stamp; 0 without a valid stamp. `now_ns`: CLOCK_REALTIME,
+  // the clock of the stamp. Adds the kernel's new drops to `dropped`.
   std::int64_t read_control(msghdr& header, std::int64_t now_ns) {
     std::int64_t age_ns = 0;
     for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr; part = CMSG_NXTHDR(&header, part)) {

@@ -26,7 +26,7 @@ class UdpSocket {
  public:
   // Listens on an address of this machine; port 0 picks any free port. A port in use is an error.
   static error::Expected<UdpSocket> listen(const std::string& host, std::uint16_t port);
-  // Sends to one address, and receives from that host only.
+  // Makes a socket that sends to one address and receives from that host only.
   static error::Expected<UdpSocket> open_to_peer(const std::string& host, std::uint16_t port);
   UdpSocket(UdpSocket&&) noexcept;
   ~UdpSocket();

@@ -75,7 +75,7 @@ struct BridgeSource {
 // True if the text begins with the name of a bridge.
 bool names_bridge(std::string_view text);
 
-// Parses the text and makes its bridge. Each error is a usage error.
+// Parses the text and makes the bridge that it names. Each error is a usage error (Error::bad_usage).
 error::Expected<BridgeSource> open_bridge(std::string_view text);
 
 }  // namespace yars::databuffer::bridges

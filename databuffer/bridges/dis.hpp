@@ -100,7 +100,7 @@ inline constexpr double kVehicleCrossSection_m2 = 200.0, kVehicleHeight_m = 3.0;
 inline constexpr double kShipCrossSection_m2 = 15'000.0, kShipHeight_m = 15.0;
 
 // Surface traffic of an exercise: its platforms on land and on the sea. PDUs contain no cross section; the constants
-// above are used. `near` is the position of the aircraft. If there are more than kMaxTraffic entities, those farthest
+// above are used. `near`: position of the aircraft. If there are more than kMaxTraffic entities, those farthest
 // from the aircraft are left out. The caller sets epoch and source_time_ns.
 Traffic surface_traffic(std::span<const TrackedEntity> entities, geo::GeoPoint near);
 

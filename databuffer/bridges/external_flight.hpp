@@ -53,7 +53,7 @@ struct AttitudeRates {
 
 // One checked report of an external program, in the units of Ownship.
 struct ExternalSample {
-  // Position, attitude, velocity and source. Radar altitude is NaN, all other fields are 0. Passes validate().
+  // Position, attitude, velocity and source. Radar altitude is NaN, all other fields are 0. validate() accepts it.
   Ownship ownship{};
   std::optional<AttitudeRates> rates;
   std::optional<geo::Vector3> acceleration_mps2;  // derivative of the velocity: north, east, down; nullopt: unknown
@@ -74,8 +74,9 @@ inline constexpr double kMaxAttitudeRate_dps = 1'000.0;
 inline constexpr double kMaxAcceleration_mps2 = 1'000.0;
 
 // Checks a reading and converts it to a sample. `source`: name in the record, at most 15 characters. Heading may be
-// -360 to 720 deg and longitude -180 to 360 deg; both are wrapped. All other values must be in the ranges of Ownship.
-// The error names the field.
+// -360 to 720 deg and longitude -180 to 360 deg; both are wrapped. Rates and acceleration must be within
+// kMaxAttitudeRate_dps and kMaxAcceleration_mps2. All other values must be in the ranges of Ownship. The error names
+// the field.
 error::Expected<ExternalSample> checked_sample(std::string_view source, const Reading& reading,
                                                const std::optional<AttitudeRates>& rates = std::nullopt,
                                                const std::optional<geo::Vector3>& acceleration_mps2 = std::nullopt);
@@ -114,7 +115,8 @@ class ExternalFlight {
 
   // `received`: arrival time, which does not go back.
   void receive(const ExternalSample& sample, geo::Duration received);
-  // Output at `moment`, possibly slightly before the last report. nullopt: the last report is older than the limit.
+  // Output at `moment`, which may be slightly before the last report. nullopt: no report has arrived, the last report
+  // is older than the limit, or the output is outside the ranges of Ownship.
   std::optional<flight::FlightSample> at(geo::Duration moment) const;
 
   int jumps() const { return jumps_; }

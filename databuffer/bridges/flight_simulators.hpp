@@ -26,8 +26,9 @@ namespace yars::databuffer::bridges {
 // (tests/databuffer/bridges).
 error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet);
 
-// JSBSim's socket output is comma-separated text. A line that begins with <LABELS> names the columns by the last part
-// of their property names. This line may be repeated. Columns may be in any order, and further columns are ignored.
+// JSBSim's socket output is comma-separated text. A line that begins with <LABELS> names the columns by whole property
+// names or by the last parts of these names. This line may be repeated. Columns may be in any order, and further
+// columns are ignored.
 // Required: position/lat-geod-deg, position/long-gc-deg, position/h-sl-ft, attitude/phi-deg, theta-deg, psi-deg,
 // velocities/v-north-fps, v-east-fps, v-down-fps, and Time, which JSBSim always sends and which orders the lines.
 // JSBSim sends its labels once, at its start. A receiver that starts later needs them in --source. Labels apply to the
@@ -82,7 +83,8 @@ class JsbsimBridge final : public Bridge {
 // number, 400 characters of name. A reply has "RREF", one byte, then pairs of i32 number and f32 value. A state is
 // complete when each dataref has arrived since the last complete state. Numbers that were not requested are ignored.
 // Accuracy: positions are f32, so the rounding error of longitude and of latitude is up to 0.85 m.
-// Frame: velocity is in X-Plane's local axes, level at a reference point, and is rotated to the aircraft's position.
+// Frame: velocity is in X-Plane's local axes, which are level at a reference point. The decoder rotates it to the axes
+// north, east, down at the aircraft.
 // Source: "Exchanging Data with X-Plane.rtfd" in every installation of X-Plane; names from its DataRefs.txt.
 inline constexpr std::size_t kXplaneDatarefs = 14;
 // Names, indexed by their numbers in requests and replies.
@@ -96,7 +98,7 @@ Datagram xplane_request(std::size_t number, int times_a_second);
 class XplaneBridge final : public Bridge {
  public:
   error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) override;
-  // Requests for all datarefs: at the start, and each second without a reply.
+  // Requests for all datarefs: at the start, and once per second while no reply arrives.
   std::vector<Datagram> requests(geo::Duration now) override;
   std::vector<Datagram> closing_datagrams() const override;
 

@@ -2,8 +2,8 @@
  * Inputs: ownship, nav, surface traffic, input events. Outputs: radar state, model status, outputs, sweeps, frames.
  * Use: include this header before any system header, because it defines _GNU_SOURCE. yars_segment.h and yars_records.h
  * (the records) lie beside it. docs/attach.md shows its use. docs/shared_memory.md describes the segment.
- * Errors: a function that attaches, claims, publishes or pushes returns -1 and fills yars_session.error. Success means
- * that the record was sent; `yars status` shows whether the record was accepted.
+ * Errors: on failure, a function that attaches, claims, publishes or pushes returns -1 and fills yars_session.error.
+ * Success of a publish or push means that the record was sent. `yars status` shows whether the record was accepted.
  * Threads: one at a time for each session. No function waits.
  *
  *   yars_session s;
@@ -201,8 +201,8 @@ static inline int yars_publish_nav(yars_session* s, const yars_nav* nav) {
   return 0;
 }
 
-/* Claims the traffic role, which one program has. Each yars_publish_traffic() sends all ships and vehicles. Between two
- * calls the radar extrapolates each of them by its velocity, for at most 12 s. */
+/* Claims the traffic role, which only one program can hold. Each yars_publish_traffic() sends all ships and vehicles.
+ * Between two calls the radar extrapolates each of them by its velocity, for at most 12 s. */
 static inline int yars_claim_traffic(yars_session* s) {
   if (yars_claim(s, YARS_TRAFFIC_BYTE, 1) < 0)
     return yars_fail(s, "traffic", "another program sends it; `yars status` names the holder");
@@ -284,8 +284,8 @@ static inline int yars_read_model_status(const yars_session* s, yars_model_statu
 }
 
 /* Reads the newest frame of a radar-display with --publish. Returns 1 if its id differs from `after`, else 0. If
- * `after` is 0, any frame is read. `pixels`: buffer of YARS_MOST_FRAME_BYTES; rows from the top without padding; red,
- * green, blue, 255. */
+ * `after` is 0, any frame is read. `pixels`: buffer of YARS_MOST_FRAME_BYTES. It gets the rows from the top, without
+ * padding. A pixel has 4 bytes: red, green, blue, 255. */
 static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_glass_frame* frame, void* pixels) {
   for (int attempt = 0; attempt < 8; ++attempt) {
     uint64_t newest = 0;
@@ -307,7 +307,7 @@ static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_gl
 }
 
 /* Reads the next sweep and advances the cursor. Returns 0 if there is no new sweep; `sweep` is then unspecified. The
- * ring has the last 1023 sweeps, some seconds. cursor->lost counts the missed sweeps: overwritten or damaged. */
+ * ring has the last 1023 sweeps, which is some seconds. cursor->lost counts overwritten and damaged sweeps. */
 static inline int yars_read_sweep(const yars_session* s, yars_sweep_cursor* cursor, yars_sweep* sweep) {
   for (int attempt = 0; attempt < 9; ++attempt) {
     const uint64_t end = yars_load(yars_word(s, YARS_AT_SWEEPS));

@@ -88,13 +88,13 @@ static inline uint64_t* yars_slot(const yars_session* s, size_t value_at, uint64
   return yars_word(s, value_at + YARS_LINE + (size_t)(version % YARS_SLOTS) * YARS_SLOT_STRIDE(bytes));
 }
 
-/* Version of the next value. After the last one comes 1, because 0 means never written. */
+/* Version of the next value. After the greatest version comes 1, because 0 means never written. */
 static inline uint64_t yars_next_version(const uint64_t* state) {
   const uint64_t version = yars_load(state) >> 1;
   return version == UINT64_MAX >> 1 ? 1 : version + 1;
 }
 
-/* Writes a new value. One writer at a time. */
+/* Writes a new value. Only one thread at a time may write to a container. */
 static inline void yars_publish(const yars_session* s, size_t value_at, const void* record, size_t bytes) {
   uint64_t* state = yars_word(s, value_at);
   const uint64_t version = yars_next_version(state);
@@ -128,7 +128,7 @@ static inline int yars_read(const yars_session* s, size_t value_at, void* record
   return 0;
 }
 
-/* ---- Locks on bytes of the segment's file ---- */
+/* ---- Locks on bytes of the segment's file. Each open() makes an open file description, which owns its locks. ---- */
 /* `kind`: F_RDLCK, F_WRLCK or F_UNLCK. Returns 0, or -1 if another open file description has the lock. */
 static inline int yars_lock(const yars_session* s, int byte, short kind) {
   struct flock lock;

@@ -6,7 +6,8 @@ usage: generate.py --build FOLDER   the C++ headers and sources, into FOLDER; th
                                     docs/shared_memory.md
        generate.py --check YARS     checks that these files equal what --write would write; exit 1 if not
 YARS is the command `yars` built from the same records, such as build/dev/bin/yars. It prints the offsets of the
-segment's containers (`yars status --layout`). A fault in the IDL is one line, file:line: expected, found, what to do; exit 1.
+segment's containers (`yars status --layout`). A fault in the IDL is reported in one line: file:line, what was expected,
+what was found, what to do. The exit code is then 1.
 """
 import json
 import pathlib
@@ -61,7 +62,7 @@ def layout_of(program, chapters):
 
 
 def with_part(name, text, part):
-    """(text of the file with `part` between its marks, the text that was between them)"""
+    """(text of the file with `part` between its marks, the text between them before). StaleError if a mark is absent."""
     begin, end = MARKS[name]
     before, found, rest = text.partition(begin)
     inside, closed, after = rest.partition(end)

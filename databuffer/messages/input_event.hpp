@@ -25,10 +25,11 @@ Refusal validate(const InputEvent& event);
 //   altimeter ok|fail | contrast up|down
 // Words are separated by blanks; case is ignored.
 
-// Parses an event. The times and the sequence number of the result are zero. An error lists the valid forms.
+// Parses an event. The times and the sequence number of the result are zero. A value out of range is an error, too. The
+// error lists the valid forms of the verb, or all forms if the verb is unknown.
 error::Expected<InputEvent> event_from_text(std::string_view text);
 
-// Shortest text that event_from_text() parses to the same event. An event without a text form
+// Shortest text that event_from_text() parses to an event of the same kind and values. An event without a text form
 // (docs/spec/pilots_interface.md#controls) gives a description that event_from_text() refuses.
 std::string text_of(const InputEvent& event);
 

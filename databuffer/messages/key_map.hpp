@@ -1,7 +1,7 @@
 // Map from keyboard keys to input events, for windows and terminals.
 // Inputs: key presses and releases.
 // Outputs: input events. Their times and sequence number are zero.
-// Threads: one per KeyboardState.
+// Threads: one thread per KeyboardState object.
 // Source: docs/spec/pilots_interface.md#buttons, #controls.
 // Keys and their events, in the text form of input_event.hpp:
 //   2..9 a..k: pb 2..20 | arrows: tdc (full deflection while held) | Enter: tdc press, release | Tab: coolie up |
@@ -41,14 +41,14 @@ enum class Key : std::uint8_t {
 
 // Key of a printable ASCII character. `A` and `a` give the same key. Key::none for any other character.
 Key key_of_character(char character);
-// Key of a GLFW key code, which is a position on a US keyboard. Key::none for a key that is neither
-// printable nor named in Key.
+// Key of a key code of GLFW (window library), which stands for a position on a US keyboard. Key::none for a key that is
+// neither printable nor named in Key.
 Key key_of_glfw(int code);
 
 // Converts presses and releases of keys to events. Stores the set of held keys.
 class KeyboardState {
  public:
-  // Events of one press or release. Empty if the press or release has no event, and for auto-repeat.
+  // Events of one press or release. Empty if it has no event, and for a repeated press (auto-repeat of the keyboard).
   std::vector<InputEvent> change(Key key, bool pressed);
 
   // Events that release all held keys, for loss of focus or the end of the program.

@@ -2,7 +2,8 @@
 // Outputs: the first fault as text (field, expected value, found value); nullopt for a valid record.
 // Use: validate() repairs nothing. The reader keeps its last valid record and counts the refusal.
 // Ranges: as in the IDL files; both ends are valid. Heading 360 and longitude +-180 are valid, because rounding gives
-// them. Every reader wraps these values. Heading 360.0001 is refused.
+// them. Every reader wraps these values. Heading 360.0001 is refused. NaN is valid in fields with the annotation @nan,
+// and in cursor fields of a RadarState without kCursorValid.
 #pragma once
 
 #include "databuffer/messages/input_event.hpp"
@@ -23,7 +24,7 @@ Refusal validate(const Traffic& traffic);
 Refusal validate(const GlassFrame& frame);
 Refusal validate(const Outputs& outputs);
 Refusal validate(const RadarState& state);
-// Records of radar-model. NaN is valid in fields with the annotation @nan in the IDL.
+// Records of radar-model.
 Refusal validate(const ModelStatus& status);
 Refusal validate(const Sweep& sweep);
 Refusal validate(const ModelTick& tick);

@@ -65,7 +65,7 @@ std::FILE* open_printable(PrintableOutput& output, int buffering) {
   return stream;
 }
 
-// Both are never deleted, because output may follow while the process ends.
+// The two PrintableOutput objects are never deleted, because output may follow while the process ends.
 PrintableOutput& standard_output() {
   static auto* const output = new PrintableOutput{STDOUT_FILENO, {}, 0};
   return *output;
@@ -230,7 +230,8 @@ std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus) {
   return std::string("--cpus: refused: ") + std::strerror(errno) + "; all CPUs are used";
 }
 
-// Without CAP_IPC_LOCK and under a finite RLIMIT_MEMLOCK, locks no memory, because a later allocation would fail.
+// Locks no memory under a finite RLIMIT_MEMLOCK (maximum of locked memory) without the privilege CAP_IPC_LOCK, which
+// lifts this limit. With memory locked, a later allocation beyond the limit would fail.
 std::optional<std::string> lock_memory() {
   rlimit limit{};
   getrlimit(RLIMIT_MEMLOCK, &limit);

@@ -48,7 +48,8 @@ int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& o
 int exit_code_after_output(const std::string& program, int exit_code);
 
 // Starts the log, applies CPU affinity and priority, and installs signal handlers. run_program() calls begin_program().
-// A program with subcommands that run during the parse of the command line calls begin_program() directly.
+// A program with subcommands that run during the parse of the command line calls begin_program() directly. Returns a
+// usage error if the log level, the session name or the CPU list is not valid, else nullopt.
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options);
 
 }  // namespace yars::databuffer

@@ -3,7 +3,7 @@
 // Outputs: the selected ownship and nav; the latched traffic.
 // Errors: records that fail validate() are refused and counted; the last good value stays in use.
 // Units: times [ns]. The age of a record is measured in sim time, with and without lockstep.
-// Threads: one per receiver. select_ownship is pure. JumpGuard has a state, but reads no clock.
+// Threads: one thread per receiver object. select_ownship is pure. JumpGuard has a state, but reads no clock.
 #pragma once
 
 #include <array>
@@ -49,9 +49,10 @@ struct OwnshipSelection {
 // A lane is fresh while its version has changed within kStaleAfter_ns by the caller's clock; stamps of sources are not
 // used. The version that the first call finds in a lane does not count as a change, because a dead writer may have left
 // it. A lane of higher priority replaces the selected one after gap-free delivery for kTakeoverAfter_ns. Otherwise the
-// selected lane is kept until it is stale. At equal priority the selected lane stays; if none is selected, the lower
-// index wins. `lanes`: at most kOwnshipLanes entries, always in the same order. `now_ns`: time of any clock;
-// OwnshipReceiver passes sim time. When this clock goes back, later arrival times are set to the new time.
+// selected lane is kept until it is stale. Lanes with such delivery then come before other fresh lanes. At equal
+// priority the selected lane stays; if none is selected, the lower index wins. `lanes`: at most kOwnshipLanes entries,
+// always in the same order. `now_ns`: time of any clock; OwnshipReceiver passes sim time. When this clock goes back,
+// later arrival times are set to the new time.
 OwnshipSelection select_ownship(std::span<const OwnshipLane> lanes, std::int64_t now_ns,
                                 const OwnshipSelection& previous);
 

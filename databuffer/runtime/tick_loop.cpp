@@ -31,7 +31,8 @@ void sleep_until(std::int64_t deadline_ns) {
   clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &deadline, nullptr);
 }
 
-// Sleeps while `word` equals `seen`. Works between processes, unlike std::atomic::wait with its private futex.
+// Sleeps while `word` equals `seen`, for `timeout_ns` at most. A futex is a word in memory on which Linux lets threads
+// wait. This wait works between processes; std::atomic::wait works only within one process.
 void futex_wait(std::atomic<std::uint32_t>& word, std::uint32_t seen, std::int64_t timeout_ns) {
   const timespec timeout{static_cast<time_t>(timeout_ns / 1'000'000'000),
                          static_cast<long>(timeout_ns % 1'000'000'000)};

@@ -23,7 +23,7 @@ namespace yars::databuffer {
 
 // The writer clears a slot's id, writes the picture, and stores the new id last. A reader copies between two loads of
 // the id. Ids count up and are never reused. A slot with an id greater than the id to be written is damaged. The
-// writer fills such a slot first. Readers ignore ids above kLatestPictureId.
+// writer fills such a slot first. Ids above kLatestPictureId (2^53) are invalid.
 
 // Greatest valid id in the pool; 0: the pool is empty. A restarted writer continues with greater ids.
 template <class Access, class Slots>
@@ -151,9 +151,9 @@ void publish_frame(SessionLayout& layout, const GlassFrame& frame, std::span<con
   Access::store(slot->id, frame.id, std::memory_order_release);
 }
 
-// Reads the newest frame if its id differs from `after`. False: there is no such frame, or the writer replaced it
-// during each of 8 attempts. A smaller id than `after` is also new, because `after` may be a damaged id above all valid
-// ids.
+// Reads the newest frame if its id differs from `after`, the id of the last frame that was read. False: there is no
+// such frame, or the writer replaced it during each of 8 attempts. A smaller id than `after` is also new, because
+// `after` may come from a damaged slot and exceed all ids of the writer.
 template <class Access = shm::PlainAccess>
 bool read_newest_frame(const SessionLayout& layout, std::uint64_t after, GlassFrame& frame,
                        std::vector<std::uint8_t>& pixels) {

@@ -97,7 +97,7 @@ Expected<Claim> Session::claim(Role role) {
   if (!claim)
     return fail("role " + std::string(name_of(role)), "one process of this role in a session",
                 "held by " + state_->describe_holder(byte), "end that process, or choose another --session");
-  // A holder that releases its claim resets the pid to 0. Another pid means that the previous holder died.
+  // A holder that releases its claim resets the pid to 0. Any other value means that the previous holder died.
   if (previous != 0)
     note(NoteKind::restart, std::string(name_of(role)) + " pid " + std::to_string(previous) + " died; taken over");
   return std::move(*claim);

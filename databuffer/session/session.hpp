@@ -67,11 +67,12 @@ class Session {
   // stays in use. A process that opens a session without a valid clock sets the clock to 0 in a new epoch.
   ClockState clock() const;
   std::int64_t sim_time_ns() const;
-  // True if CLOCK_MONOTONIC of this process is another one than that of state-machine or radar-model, as in a time
-  // namespace. A clock that this process sets would then be wrong. False if it cannot be told. Waits at most 0.2 s.
+  // True if CLOCK_MONOTONIC of this process differs by more than 1 s from that of state-machine, else of radar-model. A
+  // Linux time namespace, as of a container, has this effect. A clock that this process sets would then be wrong. False
+  // also if the difference is unknown: no such role runs, or its heartbeat stands still. Waits at most 0.2 s.
   bool has_foreign_clock() const;
-  // Reason why the clock in the segment is invalid; nullopt: it is valid. A base more than 1 s in the future is
-  // invalid.
+  // Reason why the clock in the segment is invalid; nullopt: the clock is valid. A clock with a base time more than 1 s
+  // in the future is invalid.
   std::optional<std::string> clock_problem() const;
   // Publishes the last valid clock again if the clock in the segment is invalid. state-machine calls it at each tick.
   void restore_clock(WaitPolicy policy = WaitPolicy::none);

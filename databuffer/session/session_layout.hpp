@@ -53,7 +53,7 @@ struct RecentCount {
   }
 };
 
-// Event counters. A flood of notes displaces older notes in the flight recorder, but not these counters.
+// Event counters. They still count events whose notes a flood of newer notes has displaced from the flight recorder.
 inline constexpr std::size_t kCountedRoles = 8;  // in the order of kLockstepRoleNames; the last two are spare
 struct Counters {
   std::array<RecentCount, kCountedRoles> restarts;  // restarts of each role by the supervisor
@@ -73,7 +73,8 @@ struct ProcessEntry {
   std::array<std::atomic<std::uint64_t>, 3> name;  // 23 characters and a zero byte
 };
 
-// Plan and progress of a lockstep run. Each role waits until its predecessor in the chain has done the tick.
+// Plan and progress of a lockstep run. Each role waits until the preceding role of the run has done the tick. The order
+// of the roles is that of kLockstepRoleNames.
 inline constexpr std::size_t kLockstepRoles = 6;
 inline constexpr std::array<std::string_view, kLockstepRoles> kLockstepRoleNames{
     "flight-model", "input-monitor", "state-machine", "radar-model", "radar-display", "recorder"};
@@ -82,7 +83,7 @@ struct Lockstep {
   std::atomic<std::uint32_t> roles;                                 // bit n: role n takes part
   std::atomic<std::int64_t> end_tick;                               // all roles stop after this tick; -1: none
   std::array<std::atomic<std::int64_t>, kLockstepRoles> done_tick;  // last tick done; -1: none
-  std::array<std::atomic<std::uint32_t>, kLockstepRoles> wake;      // futex words, incremented with done_tick
+  std::array<std::atomic<std::uint32_t>, kLockstepRoles> wake;      // futexes (Linux wait words); +1 with done_tick
 };
 
 // Slot of a patch map. The writer clears the id, writes, and stores the new id last. A reader copies between two loads

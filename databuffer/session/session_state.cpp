@@ -105,7 +105,8 @@ std::optional<std::string> SessionState::clock_problem() const {
   return inspect_clock(present);
 }
 
-// A process in another time namespace takes the time from the heartbeat of a process that leads the session.
+// In a time namespace, CLOCK_MONOTONIC of this process may be behind that of the session's programs. So the present
+// time is the later of this process's clock and the heartbeat of leading_entry().
 std::optional<std::string> SessionState::inspect_clock(const ClockState& state) const {
   if (auto refusal = validate(state)) return refusal;
   const std::int64_t base_ns = state.base_monotonic_ns;
@@ -128,9 +129,10 @@ const ProcessEntry* SessionState::leading_entry() const {
   return nullptr;
 }
 
-// True if the leading process beats, and beats at a time other than this process's.
+// True if the heartbeat of leading_entry() changes, and differs from the CLOCK_MONOTONIC of this process by more than
+// kClockTolerance_ns.
 bool SessionState::has_foreign_clock() const {
-  constexpr int kAttempts = 200;  // 1 ms apart; a role beats every 5 ms
+  constexpr int kAttempts = 200;  // 1 ms apart; a role updates its heartbeat every 5 ms
   const ProcessEntry* leader = leading_entry();
   if (leader == nullptr) return false;
   const std::int64_t first_beat_ns = leader->heartbeat_ns;

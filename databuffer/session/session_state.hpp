@@ -30,7 +30,7 @@ enum class Role : std::uint8_t {
 };
 std::string_view name_of(Role role);
 
-// First lock byte of the ownship lanes, the input lanes and the process table. A role's lock byte is its value.
+// First lock byte of the ownship lanes, the input lanes and the process table.
 inline constexpr std::size_t kFirstOwnshipByte = 8;
 inline constexpr std::size_t kFirstInputByte = 16;
 inline constexpr std::size_t kFirstProcessByte = 32;
@@ -39,8 +39,8 @@ static_assert(kFirstInputByte + kInputLanes <= kFirstProcessByte);
 static_assert(kFirstProcessByte + kProcesses <= shm::kLockBytes);
 
 std::int64_t monotonic_ns();  // [ns] CLOCK_MONOTONIC
-// Sim time [ns] at a CLOCK_MONOTONIC time: base sim time + rate x time elapsed since the base time. It is the base sim
-// time while the clock is frozen, and before the base time.
+// Sim time [ns] at a CLOCK_MONOTONIC time: base sim time + rate x time elapsed since the base time. While the clock is
+// frozen, and before the base time, the result is the base sim time.
 std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns);
 
 // RAII owner of the file lock on one byte. The operating system releases the lock when the process dies.
@@ -121,9 +121,10 @@ struct SessionState {
 
   bool await_clock();  // sets good_clock. False: no valid clock found; good_clock then has sim time 0 in a new epoch
   std::optional<std::string> clock_problem() const;
-  // Reason why a clock is refused: validate(), or a base time in the future.
+  // Reason why a clock is refused: validate(), or a base time more than 1 s in the future. nullopt: the clock is valid.
   std::optional<std::string> inspect_clock(const ClockState& state) const;
-  // Entry of state-machine, else of radar-model, in the process table. nullptr: no other process has these roles.
+  // Entry of state-machine, else of radar-model, in the process table. nullptr: no other process holds one of these
+  // roles and has an entry.
   const ProcessEntry* leading_entry() const;
   bool has_foreign_clock() const;
   void enter_table();

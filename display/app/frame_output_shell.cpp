@@ -57,7 +57,7 @@ error::Expected<FrameWriter> FrameWriter::create(const std::filesystem::path& fo
   return FrameWriter(std::make_shared<const file::Folder>(std::move(*opened)), keep);
 }
 
-// Opens the folder again if its path no longer leads to it.
+// Makes or opens a folder at the path if the path no longer leads to the opened folder.
 error::Expected<void> FrameWriter::return_to_path() {
   if (folder_->is_at_path()) return {};
   auto reopened = create(folder_->path(), keep_);

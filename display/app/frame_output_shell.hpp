@@ -44,12 +44,13 @@ class FrameSteps {
 };
 
 // Writes pictures as frame_NNNNNN.png. A reader never finds a partial file. A failed write leaves the folder
-// unchanged, with one exception: on a full disk the oldest of `keep` frames is removed to make space for the next.
+// unchanged, with one exception: on a full disk the oldest frames are removed to make space, until `keep` - 1 are left.
 class FrameWriter {
  public:
   // Makes the folder, mode 0700. `keep`: number of newest frames that stay in the folder, frames of earlier runs
   // included; 0: all. Error: the folder cannot be made or used.
-  // When its path no longer leads to the folder, the next write makes or opens the folder there, with the same checks.
+  // If the folder is moved or replaced later, the next write makes or opens a folder at the path `folder`, with the
+  // same checks.
   static error::Expected<FrameWriter> create(const std::filesystem::path& folder, std::size_t keep = 0);
 
   error::Expected<void> write(const imageio::Image& image, std::int64_t number);
@@ -77,8 +78,8 @@ class FramePublisher {
 
   // Marks the current picture of the display as not yet published.
   void note_painted() { unpublished_ = true; }
-  // Publishes pictures that have arrived from the GPU. Starts the readback of the current picture if it is not yet
-  // published. Never waits. Call it after each update. `size`: edge of the display [pixels].
+  // Publishes pictures that have arrived from the GPU. If the current picture is not yet published, starts its readback
+  // (copy from the GPU). Never waits. Call work() after each update. `size`: edge of the display [pixels].
   void work(host::Display& mpd, int size);
   // Publishes the current picture. Waits for the GPU.
   void publish_at_once(host::Display& mpd);

@@ -1,4 +1,5 @@
-// OpenGL 3.3 core contexts: headless (EGL), and a window with keyboard and mouse clicks (GLFW).
+// OpenGL 3.3 core contexts: headless by the library EGL, and a window with keyboard and mouse clicks by the library
+// GLFW.
 // Errors: a missing library, a missing display, or OpenGL older than 3.3.
 // Threads: a context is current on the thread that created it, until its owner object is destroyed.
 #pragma once
@@ -14,7 +15,7 @@
 
 namespace yars::display::gl {
 
-// Owner of an OpenGL context.
+// Owner of an OpenGL context: the state and the objects with which a thread draws.
 class Context {
  public:
   virtual ~Context() = default;

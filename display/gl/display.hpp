@@ -1,7 +1,7 @@
 // Radar display in OpenGL: stores sweeps and patch maps, and draws them with the symbology.
 // Inputs: sweeps, patch maps, DisplayInput.
-// Outputs: a square picture in a framebuffer object of the display, to be read back as RGB or copied to the current
-// framebuffer.
+// Outputs: a square picture in a framebuffer object (render target in GPU memory) of the display. The picture can be
+// read back as RGB, or copied to the current framebuffer.
 // Units: sizes in pixels.
 // Threads: an OpenGL context (context.hpp) must be current for the lifetime of an object.
 #pragma once

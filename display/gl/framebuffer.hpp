@@ -66,7 +66,7 @@ class Readback {
   static constexpr std::size_t kMaxPending = 2;
   struct Copy {
     std::uint32_t buffer = 0;
-    void* fence = nullptr;  // a GLsync
+    void* fence = nullptr;  // a GLsync: signaled when the GPU has finished the copy
     int size = 0;
     std::int64_t tick = 0, sim_time_ns = 0;
   };

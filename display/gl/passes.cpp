@@ -184,8 +184,9 @@ bool MapPass::has(std::uint64_t id) const {
   return std::ranges::find(maps_, id, &StoredMap::id) != maps_.end();
 }
 
-// Binds a map's texture. A map with more pixels than the display is averaged by mipmaps, because its speckle would
-// flicker without averaging. Other maps get no mipmaps, because a software renderer generates mipmaps slowly.
+// Binds a map's texture. A map with more pixels than the display is averaged by mipmaps (smaller copies of the
+// texture), because its speckle would flicker without averaging. Other maps get no mipmaps, because a software renderer
+// generates mipmaps slowly.
 void MapPass::bind(StoredMap& map, int display_size) {
   glActiveTexture(GL_TEXTURE0);
   glBindTexture(GL_TEXTURE_2D, map.texture);

@@ -19,7 +19,7 @@ namespace yars::display::host {
 namespace {
 
 constexpr int kInitialSize = 480;  // [pixels] edge of the display until the first paint()
-constexpr int kMinOpengl = 33;     // OpenGL 3.3, which has GLSL 3.30 and sampler objects
+constexpr int kMinOpengl = 33;     // 10 * major + minor: OpenGL 3.3, which has GLSL 3.30 and sampler objects
 constexpr int kButtons = 20;
 
 }  // namespace

@@ -58,7 +58,7 @@ class SessionFeed {
   databuffer::WantedMaps wanted_maps_{*session_, "display: patch map"};
   databuffer::Validated<databuffer::RadarState> state_;
   databuffer::Validated<databuffer::ModelStatus> status_;
-  std::int64_t next_health_ns_ = 0;  // CLOCK_MONOTONIC
+  std::int64_t next_health_ns_ = 0;  // CLOCK_MONOTONIC time of the next reading of the process table
 };
 
 // Writer of pilot inputs: clicks on legends and typed keys become events in an input lane of the session.

@@ -3,7 +3,7 @@
 // Outputs: plain data by layer; boxes occupied by texts, scales and symbols, which label_layout.hpp reads.
 // Units: display units. The edge of the square is 480 units. Origin upper left, x right, y down.
 // Accuracy: coordinates of strokes and occupied boxes are rounded to 1/8 unit, so that the list usually stays equal
-//   during an invisible motion.
+//   during a motion that is too small to see.
 // Threads: one thread at a time.
 #pragma once
 
@@ -182,7 +182,7 @@ struct Color {
 
 // Colors of the display. The defaults are the green of the built-in configuration.
 struct ColorScheme {
-  Color ground{0.0F, 0.0F, 0.0F};
+  Color ground{0.0F, 0.0F, 0.0F};    // background
   Color video{0.30F, 0.95F, 0.42F};  // color of light 1 (radar_video.hpp); the light scales this color
   Color bright{0.72F, 1.0F, 0.76F};  // symbols; brighter than the brightest video
   Color dim{0.22F, 0.55F, 0.28F};    // arcs, lines
@@ -190,7 +190,7 @@ struct ColorScheme {
   Color of(Ink ink) const { return ink == Ink::dim ? dim : bright; }
 };
 
-// The configured colors on a black ground.
+// The configured colors on a black background.
 ColorScheme color_scheme(const radar::ColorConfiguration& colors);
 
 }  // namespace yars::display

@@ -22,7 +22,7 @@ struct Clearance {
 };
 constexpr Clearance kKeepPosition{2.5F, 1.0F, 0.0F, true};
 // A new position needs more clearance than a kept position. Otherwise the label would move again in the next picture.
-// kLastResort applies if no position satisfies kNewPosition. kMoveNearer applies to a move to a smaller ring.
+// kLastResort applies if no position satisfies kNewPosition. kMoveNearer applies to a move nearer the symbol.
 constexpr Clearance kNewPosition{3.5F, 2.0F, 2.0F, false}, kLastResort{3.5F, 2.0F, 2.0F, true};
 constexpr Clearance kMoveNearer{7.0F, 3.0F, 3.0F, false};
 constexpr float kEdgeAllowance = 1.5F;  // [units] reduces the clearance from the edge of the display
@@ -104,7 +104,8 @@ class Search {
     const Position position = position_of(label_.role, index);
     const Rect box =
         text_box(words_of(label_.words), moved(label_.anchor, position.offset), {kLabelHeight, position.align});
-    // The clearance from the display's edge, too, is smaller for a kept position. Otherwise a label there could blink.
+    // The clearance from the display's edge, too, is smaller for a kept position. Otherwise a label at the edge could
+    // blink.
     return on_display(grown(box, clearance.around - kEdgeAllowance)) && is_clear(grown(box, clearance.around)) &&
            (position.ring == 0 || line_is_clear(position, clearance));
   }
@@ -162,7 +163,8 @@ class Search {
   // True when the leader line crosses no text, no label, no cursor arm and no other leader line. It may cross scales
   // with gaps (BoxKind::scale). With `crosses_symbols` it may also cross points, solid scales, the window outline and
   // the steering line. Points and texts close to the gap between the anchor and the start of the line are ignored.
-  // Close means within 1.5 units for a kept position and within 1 unit for a new one, so a kept position is lost later.
+  // Close means within 1.5 units for a kept position, 1 unit for a new one, and 0.5 units for a move nearer the symbol.
+  // A kept position is therefore lost later.
   bool line_is_clear(const Position& position, const Clearance& clearance) const {
     const Segment own = line(position);
     for (const OccupiedBox& box : list_.occupied()) {

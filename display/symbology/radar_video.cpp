@@ -30,7 +30,7 @@ std::array<float, 256> video_light(int brightness, int contrast) {
 
 namespace {
 
-constexpr double kEdgeLength_m = 1000.0;  // the chord of this length matches the geodesic to 1e-8
+constexpr double kEdgeLength_m = 1000.0;  // relative difference of chord and geodesic: below 1e-8
 constexpr double kMaxWidth_deg = 45.0;    // maximum width of a wedge, which is drawn as a quadrangle
 constexpr double kRounding_deg = 1e-6;    // tolerance for azimuths computed in earth-centred coordinates
 

@@ -40,7 +40,7 @@ constexpr float kCaretLength = 8.0F, kCaretHalf = 4.0F;  // length and half widt
 // Gray scale, in the lower right, outside the +-60 deg sector. [units]
 constexpr Rect kGrayScale{420.0F, 344.0F, 434.0F, 424.0F};
 
-constexpr float kArcHalfSector = 60.0F;      // [deg] the arcs end at the gimbal limit
+constexpr float kArcHalfSector = 60.0F;      // [deg] the arcs end at the gimbal limit of the antenna
 constexpr double kDefaultArcSpacing = 0.25;  // fraction of the range
 constexpr double kMinArcSpacing = 0.05;      // fraction of the range; closer arcs would hide the video
 

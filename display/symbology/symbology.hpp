@@ -30,6 +30,7 @@ void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, 
 // Elevation scale with the antenna caret.
 void draw_elevation_scale(double antenna_deg, DrawList& list);
 
+// Source of pitch and roll. AHRS: attitude and heading reference system.
 enum class AttitudeSource : std::uint8_t { ins, ahrs, invalid };  // ins: round ball; ahrs: square; invalid: crossed out
 void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list);
 

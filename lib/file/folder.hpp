@@ -1,7 +1,7 @@
 // Folder of the file system, opened as a file descriptor. Files are created relative to the descriptor, so a later
 // change of the path, such as a new symbolic link, does not redirect them.
 // Inputs: a path, which is opened one component at a time.
-// Outputs: a descriptor (O_PATH) of the last component.
+// Outputs: a descriptor of the last component, opened with O_PATH: it identifies the folder, but cannot list it.
 // Errors: an Error that names the component that cannot be opened, and what was found there.
 // Security: a symbolic link is followed only if this user or root owns it. In a sandbox that hides the owner, a link is
 // also followed in folders that this user cannot write to. Source: docs/security.md.
@@ -51,7 +51,8 @@ class Folder {
   const std::filesystem::path& path() const { return path_; }
   // True if the path still leads to this folder. False if it was removed, renamed or replaced.
   bool is_at_path() const;
-  // True if the folder is at its path, and `name` in it is the open file. False if the file was removed or renamed.
+  // True if the folder is at its path, and `name` in it is the file of the descriptor `open_file`. False if that file
+  // was removed or renamed.
   bool has_at_path(const std::string& name, int open_file) const;
   // Status of the file at `name`. A symbolic link is not followed. nullopt if the call fails; errno has the reason.
   std::optional<struct stat> status_of(const std::string& name) const;

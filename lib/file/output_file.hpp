@@ -93,8 +93,8 @@ error::Expected<std::filesystem::path> write_file_and_folders(const std::filesys
 // Log file with rotation, mode 0600. Texts are appended to NAME.log; NAME.1.log is the newest of the old files.
 // If a text does not fit into NAME.log, each file is renamed to the next number and the oldest file is deleted. A text
 // longer than Limits::bytes is written as a whole to an empty file. A log or folder that was removed or renamed is
-// begun again at its path. Errors: NAME.log is not a regular file of this user, or has a second hard link; a write has
-// failed.
+// begun again at its path. Errors: NAME.log is not a regular file of this user, or has a second hard link; a removed
+// folder cannot be made again; a write has failed.
 class LogFile {
  public:
   struct Limits {

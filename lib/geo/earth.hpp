@@ -12,7 +12,8 @@ inline constexpr double kMeanEarthRadius_m = 6'371'008.8;
 // from this length by less than 0.6 %, at every latitude.
 inline constexpr double kMetresPerDegree = 111'195.0;
 
-// [m] Bounds of the length of one degree of latitude: 110,574 m at the equator, 111,693.98 m at a pole.
+// [m] Bounds, rounded outwards, of the length of one degree of latitude on the ellipsoid. This length is 110,574 m at
+// the equator and 111,693.98 m at a pole.
 // A distance [m] / kMinMetresPerDegree is an upper bound of the difference in latitude [deg].
 // A difference in latitude [deg] x kMaxMetresPerDegree is an upper bound of the distance [m].
 inline constexpr double kMinMetresPerDegree = 110'500.0;

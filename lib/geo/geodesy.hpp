@@ -62,7 +62,8 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth);
 // Short geodesic: latitude and longitude as Taylor polynomials in the distance from the start.
 // Accuracy: within 1 mm of GeodesicRay up to the range given to order_for() (tests/lib/geo/geodesic_series_test.cpp).
 // Cost: tens of nanoseconds for a position; GeodesicRay takes hundreds.
-// Limit: the series diverges at ranges beyond the distance to the nearer pole. Ranges must be well below it.
+// Limit: the series diverges at ranges beyond the distance to the nearer pole. Ranges must be much shorter than this
+// distance.
 struct GeodesicSeries {
   static constexpr int kMaxOrder = 8;
 

@@ -129,8 +129,8 @@ inline Angle operator-(Bearing to, Bearing from) {
   return Angle::degrees(wrapped_degrees(to.degrees_ - from.degrees_));
 }
 
-// Height over one datum. The difference of two heights over the same datum is a Length. Combining heights over
-// different datums does not compile.
+// Height over one datum (reference surface). The difference of two heights over the same datum is a Length. Combining
+// heights over different datums does not compile.
 template <class Datum>
 class HeightOver {
  public:

@@ -14,7 +14,8 @@
 namespace yars::log {
 
 // Rate limiter for log lines. In each window of 10 s it passes the first lines of each kind; it suppresses and counts
-// the others. Two lines are of one kind if they are equal apart from digits and the text after ", found".
+// the others. Two lines are of one kind if they are equal apart from digits and the text after ", found". A kind with
+// suppressed lines gets its next window only after take_suppressed() has returned these lines.
 class RepeatFilter {
  public:
   static constexpr std::int64_t kWindow_ns = 10'000'000'000;  // [ns] length of a window, from a kind's first line on

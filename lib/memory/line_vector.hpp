@@ -1,6 +1,7 @@
 // std::vector whose data begin on a cache line (64 bytes), so that no aligned vector load crosses into a second line.
 // An allocation of 2 MiB or more requests large memory pages (MADV_HUGEPAGE). With small pages, access along rows and
-// columns of an array of many MiB misses the TLB more often than the data cache.
+// columns of an array of many MiB misses the TLB, the processor's cache of page addresses, more often than the data
+// cache.
 // Errors: std::bad_alloc. If large pages are not available, small pages are used.
 #pragma once
 

@@ -23,12 +23,13 @@ struct DeviceButton {
 };
 
 // Use of an axis. tdc_x, tdc_y: throttle designator control (TDC), right and up positive. elevation: absolute antenna
-// elevation. directions: a move to either end acts as a button, for hats and rockers. lever: each step of the travel is
-// an event.
+// elevation. directions: a move to either end acts as a button, for hats (four-way switches) and rockers (switches that
+// rest in the middle). lever: each step of the travel sends an event.
 enum class AxisUse : std::uint8_t { tdc_x = 0, tdc_y = 1, elevation = 2, directions = 3, lever = 4 };
 
 struct DeviceAxis {
-  // low, high: the limit that the device reports. centre: the middle between low and high.
+  // Value of low, high and centre if the map does not give them. Then low and high are the limits that the device
+  // reports, and centre is the middle between low and high.
   static constexpr double kAsDevice = std::numeric_limits<double>::quiet_NaN();
 
   std::string code;  // for example ABS_X; config/schema/devices.hpp has all spellings

@@ -10,7 +10,7 @@ namespace {
 constexpr std::array<std::string_view, 5> kNames{"1996", "draft", "standard", "fine", "reference"};
 
 // The algorithm of the 1996 report: flat earth, no refraction, constant gain within the beam. The smear covers three
-// sweeps and three posts.
+// sweeps and three samples.
 Fidelity of_1996() {
   Fidelity fidelity;
   fidelity.algorithm = Algorithm::report_1996;

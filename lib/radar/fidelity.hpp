@@ -27,7 +27,8 @@ struct Fidelity {
   double earth_radius_factor = 4.0 / 3.0;  // effective earth radius factor k; 1 = no refraction
   int samples = 480;                       // range samples of a sweep, 1 to 4096
   // Number of exact geodesic positions of a sweep, 2 to 9. The other positions are interpolated. With 5 or more, a
-  // Taylor series (GeodesicSeries, 1 mm) replaces the interpolation where it converges. 0: every position is exact.
+  // Taylor series (GeodesicSeries) replaces the interpolation where its error is at most 1 mm. 0: every position is
+  // exact.
   int geodesic_knots = 5;
   Interpolation interpolation = Interpolation::bilinear;
   // Maximum number of terrain posts between two samples. Where the finest grid has more, a coarser grid of the cell is

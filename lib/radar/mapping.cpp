@@ -114,7 +114,7 @@ bool blank_allows(geo::Length range, geo::Length size, const WindowLimits& table
   return window && (size == geo::Length() || std::abs((*window - size).nautical_miles()) < kSameWindow_nm);
 }
 
-// Limit of the window's ranges that `range` exceeds; nullopt: none.
+// Message of the display if a map with this window is not possible at the cursor range `range`; nullopt if possible.
 std::optional<std::string_view> range_rejection(geo::Length range, const MapWindow& window, const WindowLimits& table) {
   const bool blank = window.blank || window.size == geo::Length();
   if (blank && blank_allows(range, window.size, table)) return std::nullopt;
@@ -125,7 +125,7 @@ std::optional<std::string_view> range_rejection(geo::Length range, const MapWind
   return std::nullopt;
 }
 
-// The servo limits the elevation against the horizon, the gimbal both angles in airframe axes.
+// The servo limits the elevation against the horizon. The gimbal limits azimuth and elevation in airframe axes.
 bool antenna_reaches(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation,
                      const AntennaConfiguration& antenna) {
   return std::abs(elevation.degrees()) <= antenna.elevation_limit_deg + antenna.tolerance_deg &&

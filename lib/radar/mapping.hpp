@@ -81,10 +81,10 @@ struct SyntheticArray {
 };
 
 // Formation time of a map, at most the configured cap: k lambda R / (2 V rho sin(squint)) for each look and each strip.
-// k: broadening by the weighting; lambda: wavelength; R: slant range; V: ground speed; rho: azimuth resolution, equal
-// to map_resolution().
+// k: broadening of the response by the weighting (a taper that lowers sidelobes); lambda: wavelength; R: slant range;
+// V: ground speed; rho: azimuth resolution, equal to map_resolution().
 // Source: docs/spec/physics.md#formation-time; Carrara, Goodman, Majewski, "Spotlight Synthetic Aperture Radar", 2.3.
-// Example: 480 kt, 9.6 GHz, resolution 8.5 ft, slant range 20 NM and squint 90 degrees give 1.1 s.
+// Example: 480 kt, 9.6 GHz, resolution 8.5 ft, slant range 20 NM and squint 90 degrees give 1.1 s for one look.
 geo::Duration formation_time(const MapGeometry& geometry, const SyntheticArray& array);
 
 // True if the line of sight is in the blind zone, which lies about the ground track ahead and astern. There the Doppler
@@ -135,8 +135,8 @@ struct MapLimits {
 };
 
 // Message of the display if a patch map about `centre` is not possible; nullopt if the map is possible. The limits of a
-// re-map are the same. A position that is not finite gives "NO CURSOR". The gimbal limits azimuth and elevation twice:
-// against nose and horizon, and in airframe axes.
+// re-map are the same. A position that is not finite gives "NO CURSOR". Azimuth and elevation have to be within the
+// limits twice: relative to true heading and horizon, and in airframe axes. Else the message is "GIMBAL".
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the 1996 report.
 std::optional<std::string_view> map_rejection(const MapViewpoint& from, const MapCentre& centre,
                                               const MapWindow& window, const MapLimits& limits);

@@ -21,7 +21,7 @@ struct NavigationConfiguration {
   double drift_east_mps = 0.0;      // [m/s] velocity error when the session begins
   double drift_down_mps = 0.0;      // [m/s] velocity error when the session begins
   double walk_mps = 0.0;            // [m/s] random walk of the velocity error: standard deviation after one hour
-  double update_validity_s = 30.0;  // [s] validity of the cursor position for an INS update, from its last move
+  double update_validity_s = 30.0;  // [s] time after a cursor move in which the cursor can update the INS
   double velocity_period_s = 60.0;  // [s] time between velocity updates
   double velocity_noise_mps = 0.1;  // [m/s] standard deviation of each measured horizontal component; about 1/3 ft/s
   std::string magnetic_model;       // model of the magnetic field, such as "wmm2020"; empty: default of GeographicLib

@@ -71,7 +71,7 @@ std::optional<PointName> point_name(std::string_view text) {
   const std::size_t dot = text.find('.');
   const std::string_view number_text = text.substr(0, dot);
   const auto number = number_of(number_text);
-  // Leading zeros are refused. With leading zeros, one point would have several names.
+  // A number with leading zeros is refused, because one point would then have several names.
   if (!number || number_text.front() == '0' || *number > kMaxNumber) return std::nullopt;
   if (dot == std::string_view::npos) return PointName{*number, 0, false};
 

@@ -14,7 +14,7 @@
 namespace yars::radar {
 
 // Sizes of arrays in records, and the duration of a tick.
-inline constexpr int kMaxSamples = 4096;                     // samples of a sweep
+inline constexpr int kMaxSamples = 4096;                     // maximum number of samples of a sweep
 inline constexpr int kBezelButtons = 20;                     // buttons around the display
 inline constexpr int kMaxPointsDrawn = 8;                    // sequence points in a record; state-machine uses five
 inline constexpr std::int64_t kTickNanoseconds = 5'000'000;  // [ns] tick of radar-model and state-machine, in sim time
@@ -62,8 +62,8 @@ std::string_view name_of(ScanWidth scan);
 std::string_view name_of(CursorFunction function);
 std::string_view name_of(Navigator navigator);
 
-// Number and offset in the name of a sequence point, for example `7`. A dot after the number makes it a target. Else it
-// is a steer or initial point. `7.1` to `7.9` are offsets, `7.01` to `7.99` target offsets. Numbers are 1 to 100.
+// Number and offset in the name of a sequence point. `7.` with a dot is a target. `7` without a dot is a steer point or
+// an initial point. `7.1` to `7.9` are offsets, `7.01` to `7.99` target offsets. Numbers are 1 to 100.
 // Source: docs/spec/pilots_interface.md#rule-11.
 struct PointName {
   int number = 0;       // 1 to 100

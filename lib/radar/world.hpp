@@ -60,7 +60,8 @@ struct SeaConfiguration {
   double texture = 4.0;      // shape parameter of the gamma-distributed texture; 0 = none
 };
 
-// Rain cell: a vertical cylinder. The rate is highest at its axis and zero at its rim and above its top.
+// Rain cell (shower): a vertical cylinder. Return and attenuation of the rain are greatest at the axis. They are zero
+// at the rim and above the top.
 struct RainCell {
   geo::GeoPoint position;
   double radius_m = 9260.0;  // [m] 5 NM

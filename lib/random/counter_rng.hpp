@@ -12,7 +12,8 @@ namespace yars::random {
 // 2^64 / golden ratio, rounded to an odd number. Its multiples modulo 2^64 are spread evenly.
 inline constexpr std::uint64_t kGoldenGamma = 0x9e3779b97f4a7c15U;
 
-// SplitMix64's finalizer without the last shift. The upper 32 bits of the result are well mixed.
+// Finalizer of SplitMix64 (the function that mixes the bits of a count), without the last shift. The upper 32 bits of
+// the result are well mixed.
 // Source: Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators", function mix64variant13.
 constexpr std::uint64_t splitmix64_rounds(std::uint64_t bits) {
   bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;

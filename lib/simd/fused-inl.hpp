@@ -1,6 +1,7 @@
-// Fused multiply-add for Highway vectors of float or double, of any width.
+// Fused multiply-add (FMA) for vectors of the library Highway, of float or double and of any width.
 // Inputs: three vectors of the same type.
-// Outputs: a * b + c, c - a * b or a * b - c, rounded once. All targets, with or without FMA, give equal bits.
+// Outputs: a * b + c, c - a * b or a * b - c, rounded once. All targets (instruction sets) give equal bits, whether or
+// not they have an FMA instruction.
 // Reason: Highway's MulAdd rounds twice on targets without FMA, so sweeps would differ between targets.
 // Use: include this file after highway.h, in a source that foreach_target.h compiles once for each target.
 // Source: docs/decisions/0009-vectors-by-highway.md; Boldo and Melquiond 2008, "Emulation of a FMA and correctly

@@ -23,8 +23,8 @@ bool continues(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }
 
-// Code point of the UTF-8 character at the front of `text`. Overlong forms, surrogates and values above U+10FFFF give
-// 0, which counts as a control character.
+// Code point of the UTF-8 character at the front of `text`. 0, which counts as a control character, stands for invalid
+// characters: overlong forms (more bytes than the value needs), surrogates (U+D800 to U+DFFF), values above U+10FFFF.
 std::uint32_t code_point(std::string_view text, std::size_t length) {
   const auto first = static_cast<unsigned char>(text[0]);
   if (length == 1) return first;

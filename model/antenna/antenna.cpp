@@ -18,8 +18,8 @@ Bearing scan_centre(const radar::Platform& platform, const radar::AntennaConfigu
 }
 
 namespace {
-// Ratio of the turn-around time to the time in which a pass crosses the sector. With 0.1, a scan of 100 deg takes 1 s
-// at 110 deg/s.
+// Ratio of the turn-around time to the time in which a pass crosses the sector. With 0.1, a pass over 100 deg takes 1 s
+// at 110 deg/s, with its turn-around.
 constexpr double kTurnFraction = 0.1;
 constexpr double kMinWidth_deg = 1.0;  // a narrower sector would have one or two sweeps a pass at 110 deg/s
 constexpr double kMinRate_dps = 1.0;   // a lower rate is taken for a mistake: a scan would take minutes
@@ -88,8 +88,9 @@ bool Axis::reached() const {
 }
 
 namespace {
-// Maximum rate [deg/s] at which the scan centre follows the ground track. It exceeds the turn rate of aircraft. It must
-// be below the scan rate; otherwise the left edge of a sweep could lie right of its right edge.
+// Maximum rate [deg/s] at which the scan centre moves, after the ground track or after aim(). It exceeds the turn rate
+// of aircraft. If a scan is slower than the movement of its centre, the left edge of a sweep can lie right of its right
+// edge.
 constexpr double kMaxCentreRate_dps = 30.0;
 
 AxisLimits azimuth_limits(const radar::AntennaConfiguration& antenna) {

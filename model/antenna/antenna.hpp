@@ -2,7 +2,8 @@
 // Inputs: attitude and ground track; sector to scan; commanded elevation; limits and rates of the configuration.
 // Outputs: left and right edge of the tick's sweep, antenna azimuth (true bearings), elevation, phase of the scan.
 // Frame: azimuths are true or relative to the nose, clockwise positive. Elevations are positive above the horizon.
-// Gimbal angles are in airframe axes. Commands that are not finite are ignored. Commands out of range are clamped.
+// Gimbal angles are in airframe axes. A commanded direction that is not finite is ignored. A direction out of range is
+// clamped.
 // Source: docs/spec/pilots_interface.md#rule-2.
 #pragma once
 
@@ -21,11 +22,11 @@ namespace yars::model::antenna {
 // Centre of the scan: the ground track, limited to `drift_limit_deg` either side of the nose.
 geo::Bearing scan_centre(const radar::Platform& platform, const radar::AntennaConfiguration& antenna);
 
-// Beam azimuth and bar (elevation of one pass) as functions of the tick within the scan. Rounding errors do not
+// Beam azimuth and bar (elevation of one pass) as functions of the tick within the scan, so that rounding errors do not
 // accumulate. A pass crosses the sector once: `sweep_ticks` ticks with one sweep each, then a turn-around of
 // `turn_ticks` without sweeps. A circular scan turns clockwise without turn-around.
-// The turn-around takes a tenth of the crossing time: a scan of 100 deg at 110 deg/s takes 1 s. Time is proportional to
-// width.
+// The turn-around takes a tenth of the crossing time: a pass over 100 deg at 110 deg/s takes 1 s with its turn-around.
+// The time of a pass is proportional to the width.
 struct ScanPattern {
   double width_deg = 100.0;
   double bar_spacing_deg = 2.5;  // between elevation bars, one elevation beamwidth
@@ -41,6 +42,7 @@ struct ScanPattern {
   // Sweep i lies between edges i and i + 1. A pass with direction +1 starts at the left.
   double edge_deg(int index, int direction) const;
   // Azimuth of the antenna relative to the scan centre, `ticks` in [0, turn_ticks] after the start of the turn-around.
+  // `direction`: direction of the pass before the turn-around.
   double turn_deg(int ticks, int direction) const;
   // Elevation of a bar above the commanded elevation. Bar 0 is the highest.
   double bar_deg(int bar) const;
@@ -101,7 +103,7 @@ struct AntennaStep {
 struct Sector {
   double width_deg = 0.0;
   double offset_deg = 0.0;  // middle of the sector, positive right of scan_centre()
-  double rate_dps = 0.0;    // 0: the rate of the configuration
+  double rate_dps = 0.0;    // 0: rate and bars of the configuration; above 0: azimuth rate of a scan with one bar
 };
 
 // Two-axis antenna. It slews to an edge of a sector, then scans the sector, stabilized in space about the scan centre.
@@ -124,15 +126,16 @@ class Antenna {
     double rate_dps = 0.0;    // 0: the rate of the configuration
   };
   State state() const;
-  // Out-of-range values are clamped. Values that are not finite become 0 or leave the axis unchanged.
+  // Antenna angles and tick are clamped to their ranges; the width is limited as by make_scan_pattern(). If an antenna
+  // angle is not finite, its axis does not move. Offset, rate and centre become 0 if they are not finite.
   void resume(const State& state);
   // Slews to an edge of the sector, then scans. The scan starts at the right edge if the antenna points right of the
   // sector's middle, else at the left edge. A circular scan always starts at the left edge.
   void restart(const Sector& sector);
   void restart(double width_deg) { restart(Sector{.width_deg = width_deg}); }
-  // Sets the middle of the sector. The scan moves there at 30 deg/s at most.
+  // Sets the middle of the sector, positive right of scan_centre(). The scan moves there at 30 deg/s at most.
   void aim(double offset_deg) { offset_deg_ = offset_deg; }
-  // Holds the antenna until the next restart().
+  // Holds the antenna until the next restart() or point().
   void park();
   // One tick that slews to a direction or holds it; called instead of step(). The direction is clamped to the servo's
   // limits. Returns true if both axes are within tolerance of the clamped direction. Afterwards a scan needs restart().

@@ -81,7 +81,7 @@ class SceneLoader {
   std::unique_ptr<scene::SceneStore> store_;
   bool synchronous_;
   std::optional<terrain::TerrainRegion> requested_;
-  std::mutex mutex_;  // guards the following members
+  std::mutex mutex_;  // guards the members below, except thread_
   std::condition_variable wake_;
   std::optional<terrain::TerrainRegion> pending_;
   std::optional<terrain::TerrainRegion> loaded_region_;  // region of view_

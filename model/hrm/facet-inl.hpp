@@ -1,5 +1,5 @@
 // Scene triangles on the polar grid, one per lane: corners, planes, orientation towards the radar.
-// Included once for each Highway target.
+// Included once for each target (instruction set) of the library Highway.
 #if defined(YARS_MODEL_HRM_FACET_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_HRM_FACET_INL
 #undef YARS_MODEL_HRM_FACET_INL
@@ -144,7 +144,8 @@ HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
 }
 
 // Gamma of walls, raised by the cardinal effect (stronger return of walls that face the radar). The effect depends on
-// the horizontal angle between the normal of a wall and the line of sight. `cardinal`: effect at angle 0.
+// the horizontal angle between the normal of a wall and the line of sight. `cardinal`: effect at
+// angle 0, relative to gamma.
 HWY_INLINE Floats wall_gamma(const CardinalShape& shape, const Facet& facet, Floats gamma, Floats cardinal) {
   const Tag d;
   const SignedTag di;

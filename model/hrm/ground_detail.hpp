@@ -33,7 +33,7 @@ class GroundTexture {
   int edge_;           // texels per side of the texture, a power of two
   float unit_ = 1.0F;  // difference in texture value per step of a byte in table_
   // Words as in simd::DetailTable: a texel and its neighbours to the east, north and north-east, one byte each. So one
-  // gather reads the four texels of a bilinear sample.
+  // gather (vector load with one address per lane) reads the four texels of each bilinear sample.
   std::vector<std::uint32_t> table_;
 };
 

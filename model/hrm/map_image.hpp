@@ -46,8 +46,8 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
 
 // Speckle of one map. Each look is a field of circular complex Gaussian numbers. The intensity is the mean of the
 // squared magnitudes of all looks. It has mean 1 and variance 1 / looks at every pixel.
-// Pixels finer than resolution cells (kMapCells per side): one number per cell and look, interpolated to pixels with
-// weights of unit energy, which keep the statistics. Other pixels: one independent intensity per pixel.
+// Pixels finer than resolution cells (kMapCells per side): one number per cell and look, interpolated to pixels. The
+// squares of the weights sum to 1, which keeps mean and variance. Other pixels: one independent intensity per pixel.
 // Source: Goodman, "Statistical properties of laser speckle patterns" (1975); docs/spec/physics.md#speckle.
 class Speckle {
  public:

@@ -7,7 +7,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// These headers need the target that highway.h defines.
+// These headers need the target (instruction set) that highway.h defines.
 #include "model/physics/clutter_simd-inl.hpp"
 #include "model/physics/polynomials-inl.hpp"
 
@@ -60,8 +60,8 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
     const auto along = hn::Sub(y, hn::ConvertTo(d, line));
     const auto offset = hn::ShiftLeft<4>(line);
     const auto left_at = hn::Add(start_of(column, strip_size), offset);
-    // Prefetches the grid rows of the next map rows, which are nearer to the aircraft. The hardware prefetcher cannot
-    // follow as many streams as there are strips.
+    // Prefetches (loads into the cache) the grid rows of the next map rows, which are nearer to the aircraft. The
+    // hardware prefetcher cannot follow as many streams as there are strips.
     hwy::Prefetch(cross_section_m2 + hn::GetLane(left_at) - kPrefetchRows * kStripColumns);
     const auto right_at = hn::Add(start_of(hn::Add(column, hn::Set(di, 1)), strip_size), offset);
     const auto near_left = hn::GatherIndex(d, cross_section_m2, left_at);

@@ -1,5 +1,5 @@
 // Vector loops of the map image: sampling of the polar grid, impulse response, speckle.
-// Determinism: all Highway targets give equal bits.
+// Determinism: all targets (instruction sets) of the library Highway give equal bits.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@ namespace yars::model::hrm::simd {
 // One row of the map and its position relative to the aircraft.
 struct MapRow {
   int columns = 0;             // pixels
-  float first_right_m = 0.0F;  // position of the first pixel to the right of the line of sight to the centre
+  float first_right_m = 0.0F;  // position of pixel 0, to the right of the line of sight to the centre
   float pixel_m = 0.0F;
   float ahead_m = 0.0F;  // from the aircraft to the row, along that line of sight
   float scale = 1.0F;    // factor on the cross section per square metre
@@ -28,7 +28,7 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
 inline constexpr std::size_t kBlock = 16;
 
 // to[i] = weights[0] * from[i] + sum over k > 0 of weights[k] * (from[i - k * stride] + from[i + k * stride]).
-// `weights` is one half of a symmetric kernel. `count` is a multiple of kBlock.
+// `weights` is one half of a symmetric convolution kernel, from its centre outwards. `count` is a multiple of kBlock.
 void smooth(std::size_t count, const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to);
 
 // For one block: to[i] = from[i] if from[i] exceeds `limit`, else 0. Returns true if any entry exceeds `limit`.
@@ -38,7 +38,7 @@ bool keep_above(const float* from, float limit, float* to);
 void spread(const float* from, std::ptrdiff_t stride, std::span<const float> weights, float* to);
 
 // For one block: to[i + k] += middle[k] * from[i] for |k| <= radius * kBlock. `middle` points to the centre of the
-// kernel, which has a block of zeros beyond each end.
+// convolution kernel, which has a block of zeros beyond each end.
 void spread_along(const float* from, std::size_t radius, const float* middle, float* to);
 
 // Speckle loops follow. Each `count` is a multiple of 16.

@@ -37,7 +37,7 @@ class PatchFormation {
   PatchFormation& operator=(PatchFormation&&) noexcept;
 
   PatchNeed begin(const PatchOrder& order);        // returns the terrain to load; any state -> database
-  void give(const PatchEnvironment& environment);  // sets the inputs; database -> processing
+  void give(const PatchEnvironment& environment);  // sets the inputs; database -> processing; aborts in another state
   void advance();                                  // runs one stage; after `map`: -> output; after `video`: -> done
   PatchState state() const;
   int stages_done() const;  // number of kPatchStages that are complete

@@ -117,8 +117,8 @@ struct Relief {
   double highest_m = 0.0;
 };
 
-// Extends `relief` by the height samples of the columns [first, last). The samples cover a square with
-// sides of 1.5 windows.
+// Extends `relief` by the height samples of the sample columns [first, last). The samples cover a square with sides of
+// 1.5 windows.
 void widen(const PatchGeometry& geometry, const terrain::TerrainView& ground, int first, int last, Relief& relief) {
   const double half_m = 0.75 * geometry.window_m();
   for (int i = first; i < last; ++i) {

@@ -1,7 +1,8 @@
 // Geometry of one patch map: map plane, polar grid and the terrain that the map needs.
 // Polar grid: rows are ground range, columns are azimuth.
 // Units: metres, radians; heights above mean sea level or above the map plane, as named.
-// Frame: azimuthal equidistant about the aircraft, turned so that the bearing of the map's centre points up.
+// Frame: azimuthal equidistant projection about the aircraft, which keeps distance and bearing from the aircraft. It is
+// turned so that the bearing of the map's centre points up.
 // Accuracy: position_of() inverts point_of() within 1 mm, at the poles and across the antimeridian too.
 // Source: docs/radar_maths.md, "Patch maps"; docs/spec/physics.md#layover.
 #pragma once

@@ -366,7 +366,7 @@ void PowerPicture::add_response_and_movers(const PatchInputs& inputs, PatchData&
 void PowerPicture::draw_video(const PatchInputs& inputs, PatchData& data) const {
   const MapNoise noise{thermal_noise(inputs, data), inputs.order.looks, inputs.order.map, seed_, with_speckle_};
   data.picture.resize(data.image.power.size());
-  constexpr int kRowsPerTask = 128;  // each task draws two rows of speckle cells again, so fewer rows cost more time
+  constexpr int kRowsPerTask = 128;  // each task draws two rows of speckle cells again, so smaller tasks cost more time
   parallel::parallel_for(inputs.executor, data.image.size, kRowsPerTask, [&](int first, int last, std::size_t) {
     form_video(high_resolution_, data.image, noise, first, last, data.picture);
   });

@@ -21,8 +21,8 @@
 
 namespace yars::model::hrm {
 
-// Impulse response in range and azimuth: the power of a Taylor-weighted aperture (n-bar 5). The half-power width is one
-// resolution cell.
+// Impulse response in range and azimuth: the power of a Taylor-weighted aperture. The weighting lowers the sidelobes;
+// its parameter n-bar is 5. The half-power width is one resolution cell.
 // Source: Carrara, Goodman, Majewski, "Spotlight SAR", D.2 (Taylor weighting); docs/spec/physics.md#response.
 class Response {
  public:

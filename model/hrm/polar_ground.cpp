@@ -318,7 +318,7 @@ void PolarGround::interpolate_columns(std::size_t step) {
   simd::interpolate_columns(rows, step, strip_gamma_.data(), pitch_);
 }
 
-// Prefetches one sixteenth of a strip's output with each column.
+// Prefetches (loads into the cache) one sixteenth of a strip's output with each column.
 void PolarGround::prefetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const {
   const auto part_rows = static_cast<std::size_t>(grid.rows) / std::size_t{kStripColumns} + 1;
   const std::size_t strip = grid.at(column - column % kStripColumns, 0);

@@ -1,7 +1,7 @@
 // Terrain sampled on the polar grid of a patch map: height and gamma of each point, and the horizon before row 0.
 // Inputs: terrain views of the window and of the path, the radar's configuration, optional ground detail.
 // Outputs: GroundArrays, filled strip by strip.
-// Units: metres; gamma is a ratio; the horizon is the slope of the line of sight over the highest nearer ground.
+// Units: metres; gamma is a ratio; the horizon is the greatest tangent of elevation of all nearer ground.
 // Threads: one instance per thread, because an instance has the buffers of a column.
 // Source: docs/radar_maths.md, "Patch maps"; decision 19 (every post raises the horizon).
 #pragma once
@@ -69,7 +69,9 @@ class PolarGround {
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
   // Coefficients of the tangent of elevation at one distance over ground:
-  // tangent = (height * cosine - above) / (chord + height * sine), height above mean sea level.
+  // tangent = (height * cosine - above) / (chord + height * sine), height above mean sea level. Here `above` is the
+  // aircraft's altitude plus the drop of the earth's surface, and `chord` is R sin a. The sine and the cosine are of a,
+  // the angle at the centre of the effective earth (radius R) between aircraft and ground.
   struct Sight {
     Sight(const PatchGeometry& geometry, double distance_m);
     float above_m, chord_m, sine, cosine;

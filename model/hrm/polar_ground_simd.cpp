@@ -19,8 +19,7 @@ using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 
 // modulate() multiplies two samples of the texture. The coordinates of the second are those of the first, rotated by 70
-// degrees and scaled by the golden ratio. The periods of both samples have
-// no common multiple.
+// degrees and scaled by the golden ratio. The periods of both samples have no common multiple.
 constexpr float kTurnCosine = 0.3420201F;
 constexpr float kTurnSine = 0.9396926F;
 constexpr float kStretch = 1.618034F;

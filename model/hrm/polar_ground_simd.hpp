@@ -1,5 +1,5 @@
 // Vector loops for ground on the polar grid: texture sampling, interpolation between columns, interleaving of columns.
-// Determinism: all Highway targets give equal bits.
+// Determinism: all targets (instruction sets) of the library Highway give equal bits.
 #pragma once
 
 #include <cstddef>
@@ -22,14 +22,15 @@ struct DetailTable {
   float unit2 = 1.0F;
 };
 
-// gamma[i] *= texture(east, north) * texture(rotated and scaled east, north), bilinear. Here east = east_deg[i] *
-// east_scale and north = north_deg[i] * north_scale, in texels. Reads and writes up to 15 entries beyond `count`.
+// gamma[i] *= texture(east, north) * texture(rotated and scaled east, north). Both samples are bilinear. Here east =
+// east_deg[i] * east_scale and north = north_deg[i] * north_scale, in texels. Reads and writes up to 15 entries beyond
+// `count`.
 void modulate(std::size_t count, const DetailTable& table, const float* east_deg, const float* north_deg,
               float east_scale, float north_scale, float* gamma);
 
 // Fills sixteen columns by linear interpolation between every `step`th column. The first and the last column are
-// inputs. Columns begin `pitch` entries apart and have `count` rows. Up to 15 further entries of each column are
-// overwritten.
+// inputs, so `step` divides 15. Columns begin `pitch` entries apart and have `count` rows. Up to 15 further entries of
+// each column are overwritten.
 void interpolate_columns(std::size_t count, std::size_t step, float* columns, std::size_t pitch);
 
 // points[16 * row + column] = {gamma[column * pitch + row], height_m[column * pitch + row]} for `count` rows.

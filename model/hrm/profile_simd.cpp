@@ -20,7 +20,8 @@ using Mask = hn::Mask<Tag>;
 constexpr float kMinStep = 0.2F;
 // [rows] minimum apparent extent of a piece. Prevents a division by zero for a piece at constant slant range.
 constexpr float kMinExtent = 1.0e-3F;
-// [rows] shorter intervals are added row by row, longer ones by gather and scatter. Affects only speed.
+// [rows] shorter intervals are added row by row, longer ones by gather and scatter (vector access with one address per
+// lane). Affects only speed.
 constexpr int kMaxRows = 8;
 
 // Points of the profiles at one row, one column per lane.

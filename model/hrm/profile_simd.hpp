@@ -5,7 +5,7 @@
 // the lines of sight over all nearer pieces is visible.
 // The power of a piece is gamma times its projected area: column width * angle subtended at the radar * slant range.
 // So the power of a column depends on its visible angle and not on the row spacing.
-// Determinism: all Highway targets give equal bits.
+// Determinism: all targets (instruction sets) of the library Highway give equal bits.
 // Source: docs/radar_maths.md, "Patch maps".
 #pragma once
 
@@ -29,7 +29,7 @@ struct Strip {
   float first_distance_m = 0.0F;
   float spacing_m = 0.0F;
   bool layover = true;                   // false: every scatterer returns at its own distance over ground
-  float double_bounce = 0.0F;            // double bounce at a wall's foot relative to the wall's return; 0: none
+  float double_bounce = 0.0F;            // echo over wall and ground, relative to the wall's return; 0: none
   const float* distance_m = nullptr;     // by row
   const float* inverse_m = nullptr;      // 1 / distance, by row
   const float* above_plane_m = nullptr;  // PatchGeometry::above_plane_m(), by row

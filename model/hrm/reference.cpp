@@ -16,7 +16,8 @@ namespace {
 constexpr double kPathSpacing_m = 15.0;  // [m] spacing of samples on the path if its terrain has no posts
 constexpr double kSeaSpacing_m = 100.0;  // [m] spacing of samples on ground without posts (sea), which GroundWalk omits
 constexpr double kMinWalkSpacing = 0.1;  // [post spacings] rows closer than this need no GroundWalk between them
-// GroundWalk steps per post on the path, if rows are closer than kMinWalkSpacing. Shadow edges must be exact to a row.
+// Steps of GroundWalk per post spacing on the path, if rows are closer than kMinWalkSpacing. Shadow edges must be exact
+// to a row.
 constexpr double kFineSteps = 40.0;
 constexpr double kNoTangent = -std::numeric_limits<double>::infinity();
 constexpr double kFacetPixels = 1.0 / 3.0;  // [pixels] maximum side of a facet
@@ -270,7 +271,8 @@ void Reference::add_face(const Face& face) {
   }
 }
 
-// Adds the power of a facet. `weights`: barycentric coordinates of its middle `point` in the face.
+// Adds the power of a facet. `point`: middle of the facet. `weights`: weights of the face's corners at that point
+// (barycentric coordinates).
 void Reference::add_facet(const Face& face, Point3 point, Point3 weights, double area_m2) {
   if (!seen(point)) return;
   const Point3 to_radar = -1.0 / std::sqrt(dot(point, point)) * point;
@@ -297,8 +299,8 @@ void Reference::add_facet(const Face& face, Point3 point, Point3 weights, double
   if (seen(foot)) add(foot, bounce_ * power);
 }
 
-// Returns the point with its distance over ground and height. The ground gets height 0 and a horizon below every
-// tangent.
+// Returns the point with its distance over ground and height. The ground gets height 0 (the map plane) and a
+// horizon below every tangent.
 Reference::Ground Reference::below(Point3 point) const {
   const double radius_m = geometry_->earth().radius_m();
   const double altitude_m = geometry_->altitude_m() - geometry_->plane_msl_m();

@@ -70,7 +70,7 @@ class Reference : public Algorithm {
   radar::Fidelity fidelity_;
   physics::SceneSurface surface_;
   physics::GasPath gas_;
-  double bounce_;  // double bounce at a wall's foot relative to the wall's return; 0: none
+  double bounce_;  // double bounce: echo over wall and ground, relative to the wall's return; 0: none
   PowerPicture power_picture_;
   // Current map, set by begin().
   const PatchGeometry* geometry_ = nullptr;

@@ -53,7 +53,7 @@ void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, cons
       brightness[at] = 0.0F;
       if (!(tangent > horizon)) continue;
       horizon = tangent;
-      // SurfacePoint::gamma is negated for a standing scene surface: +0 is a void, -0 such a surface with gamma 0.
+      // SurfacePoint::gamma is +0 at a void. It is negated for a standing scene surface, so -0 is no void.
       if (const float gamma = inputs.surface[at].gamma; gamma == 0.0F && !std::signbit(gamma)) continue;
       const int nearer = std::max(row - 1, 0);
       const int farther = row == 0 ? 1 : row;

@@ -7,7 +7,7 @@
 #define HWY_TARGET_INCLUDE "model/hrm/scene_raster_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// These headers need the target that highway.h defines.
+// These headers need the target (instruction set) that highway.h defines.
 #include "model/hrm/facet-inl.hpp"
 #include "model/hrm/small_triangles-inl.hpp"
 

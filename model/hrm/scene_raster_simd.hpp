@@ -3,7 +3,7 @@
 // lane. Standing surfaces are all surfaces that do not lie on the ground. The result does not depend on the order in
 // which they are drawn: the higher surface wins, and at equal height the one with the greater gamma.
 // Cardinal effect: stronger return of walls that face the radar (docs/spec/physics.md#land).
-// Determinism: all Highway targets give equal bits.
+// Determinism: all targets (instruction sets) of the library Highway give equal bits.
 #pragma once
 
 #include <array>
@@ -66,7 +66,8 @@ struct Fragments {
   std::vector<std::uint32_t> wall_height, wall_return;  // in steps of kWallStep_m, as in WallPoint
 };
 
-// Sets SurfacePoint::gamma of the ground below the triangles. Where triangles overlap, the last one wins.
+// Sets SurfacePoint::gamma of the ground below the triangles. Where triangles overlap, the last one wins. Grid points
+// with a negative gamma (standing surfaces) keep it.
 void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, const GridVertices& vertices,
                   const Canvas& canvas);
 

@@ -1,6 +1,6 @@
 // Vector loops over a scene tile: transform of vertices to the polar grid, selection of triangles to draw.
 // Frame: tile east, north, up [m] to columns and rows of the grid, height above the map plane [m].
-// Determinism: all Highway targets give equal bits.
+// Determinism: all targets (instruction sets) of the library Highway give equal bits.
 #pragma once
 
 #include <array>

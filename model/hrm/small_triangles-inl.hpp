@@ -1,6 +1,6 @@
 // Rasteriser of small scene triangles, one per lane: surfaces as seen from above, and walls.
 // Drawn grid points are collected as fragments (struct Fragments) and stored in batches.
-// Included once for each Highway target.
+// Included once for each target (instruction set) of the library Highway.
 #if defined(YARS_MODEL_HRM_SMALL_TRIANGLES_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_HRM_SMALL_TRIANGLES_INL
 #undef YARS_MODEL_HRM_SMALL_TRIANGLES_INL
@@ -27,7 +27,7 @@ using Bits = hn::Vec<BitsTag>;
 
 constexpr std::size_t kFlushCount = 1024;    // fragments collected before they are stored
 constexpr std::size_t kPrefetchPoints = 24;  // distance of the prefetch [fragments]
-constexpr float kUnderRoof_m = 0.02F;        // [m] lowers the top of a wall, so that its roof is higher and wins
+constexpr float kUnderRoof_m = 0.02F;        // [m] lowers the top of a wall, so that a roof on the wall is higher
 // [steps of kWallStep_m] limit of one wall's height and return, which keeps the conversion to int32 defined.
 constexpr float kMaxWall = 1.0e9F;
 constexpr std::uint32_t kFullWall = 0x7fffffffU;  // upper limit of the sums in WallPoint, so that they do not wrap

@@ -63,7 +63,8 @@ struct DbsCell {
 };
 DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose, const DopplerParameters& parameters);
 
-// radar::elevation_to_ground() from the aircraft to a point on the ground.
+// Elevation angle from the aircraft to a point on the ground, positive above the horizontal, on a flat earth.
+// `ground_m`: elevation of the point [m MSL]; NaN counts as sea level.
 geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m);
 
 // Doppler velocity update (PVU, IPVU): a round of beams, and the velocity over ground from a complete round.

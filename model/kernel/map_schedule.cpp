@@ -151,7 +151,7 @@ void MapSchedule::step(const ModelTick& tick, const Pose& pose, double ground_m,
   const bool jumped = tick.epoch != epoch_;
   epoch_ = tick.epoch;
   if (is_commanded(command)) {
-    // Completed, but the state machine has not yet received the status. `stopped_` remains until then.
+    // The request is completed, but the state machine has not yet received the status. `stopped_` remains until then.
     if (command.map_request == done_request_) return;
     if (map_ && map_->request == command.map_request && !jumped) return;
     stopped_ = exceeded_limit(command, pose, ground_m);

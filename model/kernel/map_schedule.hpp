@@ -59,7 +59,8 @@ class MapSchedule {
   // Centre of the map that the command starts next: the commanded map, or a re-map (repetition of the shown map).
   geo::GeoPoint next_centre(const databuffer::RadarCommand& command, const Pose& pose) const;
   // Starts or cancels maps. `ground_m`: elevation [m MSL] at next_centre(); NaN: unknown. `dish_free`: true if re-maps
-  // may start. A commanded map does not need the dish to be free. Both obey the limits of radar::map_rejection().
+  // may start. A commanded map does not need the dish to be free. The limits of radar::map_rejection() apply to
+  // commanded maps and re-maps.
   void step(const databuffer::ModelTick& tick, const Pose& pose, double ground_m, bool dish_free = true);
   // Completes the pending map, which becomes the newest map. Precondition: forming().
   void complete();
@@ -72,7 +73,8 @@ class MapSchedule {
   bool blocks_scanning(const databuffer::RadarCommand& command) const;
   // Target of the dish: the centre of the forming map, else of the next re-map; nullopt if there is neither.
   std::optional<geo::GeoPoint> pointing_target(const databuffer::ModelTick& tick, const Pose& pose) const;
-  // Formation time [s] of a map at a target; NaN for a window of 0. `ground_m`: elevation at the target.
+  // Formation time [s] of a map at a target; NaN for a window of 0. `ground_m`: elevation [m MSL] at the target; NaN
+  // counts as sea level.
   double estimate_s(const databuffer::RadarCommand& command, const Pose& pose, geo::GeoPoint target, double ground_m,
                     double window_nm) const;
   void describe(std::int64_t tick, databuffer::ModelStatus& status) const;

@@ -28,7 +28,7 @@ struct ScanRequest {
   Pose pose;
   geo::Length range;
   geo::Angle width;
-  geo::Angle elevation;          // antenna elevation above the horizon
+  geo::Angle elevation;          // antenna elevation above the horizontal
   int gain = 3;                  // 0..3
   std::int64_t sim_time_ns = 0;  // sim time of the first sweep
   std::uint8_t band = 0;         // 0..4: A..E

@@ -2,8 +2,8 @@
 // Inputs: configuration; a ModelTick per step; terrain, scenes and traffic by reference.
 // Outputs: a Sweep record when a tick completes one; the needed terrain region; ModelStatus; the pending patch map.
 // Determinism: configuration, terrain, seed and the ticks so far determine every bit of a sweep.
-// Errors: an ownship record that is flagged valid but has values out of range gives blank sweeps at the last valid
-// position.
+// Errors: an ownship record (state of the radar's own aircraft) that is flagged valid but has values out of range gives
+// blank sweeps at the last valid position.
 // Threads: one at a time per instance. step() allocates only if the number of samples or the preset changes.
 // Source: docs/architecture.md#kernel-and-shell, docs/radar_maths.md#from-tick-to-sweep.
 #pragma once

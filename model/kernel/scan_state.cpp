@@ -61,7 +61,8 @@ void ScanState::point_unless_scanning(const ModelTick& input, const terrain::Ter
   }
 }
 
-// Antenna elevation above the horizon. In HRM (DBS scan) the dish points at the ground at the cursor.
+// Antenna elevation above the horizontal. In the mode HRM PPI (DBS scan) the dish points at the ground at the cursor,
+// if the cursor is valid.
 geo::Angle ScanState::commanded_elevation(const terrain::TerrainView& terrain) const {
   const geo::GeoPoint cursor{command.cursor_latitude_deg, command.cursor_longitude_deg};
   const bool known = (command.flags & databuffer::kCursorValid) != 0U && std::isfinite(cursor.latitude_deg) &&

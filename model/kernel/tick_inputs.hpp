@@ -1,4 +1,5 @@
-// Inputs of a scan derived from a tick: ownship as a pose, traffic as points, terrain detail, fidelity preset.
+// Inputs of a scan derived from a tick: ownship (the radar's own aircraft) as a pose, traffic as points, terrain
+// detail, fidelity preset.
 // Units: records have metres and degrees. Velocities are north, east, down [m/s].
 // Errors: an invalid ownship record gives no pose. Loads that are not finite are ignored.
 #pragma once

@@ -65,8 +65,9 @@ namespace {
 constexpr double kLowest_m = -1000.0, kHighest_m = 30'000.0, kStep_m = 100.0;  // heights [m MSL] of GasProfile
 constexpr double kZeroCelsius_k = 273.15;
 
-// The following three functions are contributions to N'', the imaginary part of the refractivity [N units].
-// `f`: frequency [GHz]; `theta`: 300 K / temperature. Source: ITU-R P.676-13, Annex 1, equations (2) and following.
+// The following three functions give contributions to N'', the imaginary part of the refractivity. Its unit is 1e-6 of
+// the refractive index. `f`: frequency [GHz]; `theta`: 300 K / temperature; `vapour_hpa`: partial pressure of water
+// vapour. Source: ITU-R P.676-13, Annex 1, equations (2) and following.
 
 // Oxygen lines.
 double oxygen(double f, const Air& air, double theta, double vapour_hpa) {

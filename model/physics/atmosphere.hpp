@@ -124,13 +124,14 @@ double rain_attenuation_db_per_m(const radar::RainConfiguration& rain, double ra
 struct RainChord {
   double middle_m = 0.0;
   double half_m = 0.0;  // 0: the ray misses the shower
-  double depth = 0.0;   // square root of the profile at the chord's middle
+  double depth = 0.0;   // square root of the profile at the chord's middle; <= 0 if the ray misses the shower
   double radius_m = 0.0;
 
   double profile(double distance_m) const;
   // Integral of the profile between two distances.
   double integral_m(double from_m, double to_m) const;
 };
+// Chord of the ray from `apex` at `azimuth` through the shower with the centre `middle`.
 RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint middle, double radius_m);
 
 // Rain along one sweep: return at each range, and attenuation of other returns.
@@ -143,7 +144,7 @@ class RainPath {
  public:
   explicit RainPath(const RadarParameters& parameters);
 
-  // Finds the showers that a sweep crosses within its range. Call it once a sweep. Does not allocate.
+  // Finds the showers that a sweep crosses within its range. Call enter() once a sweep. Does not allocate.
   void enter(const SweepGeometry& geometry);
   bool dry() const { return crossed_.empty(); }
 

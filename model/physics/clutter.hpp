@@ -1,4 +1,5 @@
-// Clutter statistics: counter-based noise of a sweep (speckle, thermal noise), and texture fixed to the ground.
+// Statistics of clutter, the return of ground and sea: speckle and thermal noise of a sweep; texture that is fixed to
+// the ground. Speckle: random fluctuation of a cell's power, because the returns of its many scatterers interfere.
 // Inputs: noise key and index of a resolution cell; geodetic position for texture.
 // Outputs: 32 random bits; texture levels of mean 1.
 // Accuracy: variance of texture within 1 % of 1/shape for shapes >= 1.
@@ -17,7 +18,7 @@ namespace yars::model::physics {
 
 // State of the counter-based noise of one sweep. A number depends on seed, scan, sweep, cell and draw alone.
 // The generator uses only integers, so every algorithm, vector width and build draws equal bits.
-// It is not cryptographic: two rounds of multiply and xor-shift.
+// The generator is not cryptographic: three multiplications with xor-shifts between them.
 // Source: constants by C. Wellons, "hash prospector", lowbias32.
 struct NoiseState {
   std::uint32_t first = 0;

@@ -67,8 +67,8 @@ std::size_t next_sample_with_material(std::size_t count, std::uint32_t codes, co
 // `sigma0` has capacity for the entries and one more vector.
 void sigma0_at_azimuth(const SeaTable& table, float cosine, float* sigma0);
 
-// variate[cell] = gamma variate of mean 1 and variance 1/looks, for resolution cells 0..cells-1. Up to 16 more entries
-// are overwritten.
+// Fills variate[cell] = gamma variate of mean 1 and variance 1/looks, for resolution cells 0..cells-1. Up to 16 more
+// entries are overwritten.
 void speckle(std::size_t cells, NoiseState state, int looks, float* variate);
 
 struct VideoInputs {

@@ -216,7 +216,7 @@ void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length rang
 }
 
 namespace {
-constexpr double kMaxPiece_m = 500.0;  // longest piece, 5 mm off the geodesic up to 60 degrees of latitude
+constexpr double kMaxPiece_m = 500.0;  // longest piece, 10 mm off the geodesic up to 60 degrees of latitude
 constexpr double kMinPiece_m = 1.0;    // shortest piece, near a pole
 constexpr double kMaxBend_m = 0.2;     // maximum deviation of a piece from the geodesic, near a pole
 constexpr double kNoGround = -std::numeric_limits<double>::infinity();

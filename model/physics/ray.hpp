@@ -3,8 +3,8 @@
 // Inputs: apex, azimuth, range, distances of the samples [m].
 // Outputs: latitude and longitude, split into whole degrees and fractions [deg]; tangents of elevation angles.
 // Frame: WGS84. Longitudes are continuous across the antimeridian.
-// Accuracy: positions within 0.5 m up to 160 NM at every latitude. GroundWalk: 5 mm up to 60 degrees of latitude, 0.2 m
-// at the poles.
+// Accuracy: positions within 0.5 m up to 160 NM at every latitude. GroundWalk: 10 mm up to 60 degrees of latitude,
+// 0.2 m beyond.
 // Voids do not raise a horizon. GroundWalk keeps references to its inputs.
 // Source: docs/spec/physics.md#geometry, docs/spec/physics.md#shadow.
 #pragma once
@@ -124,7 +124,7 @@ void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length rang
 // Highest tangent of the ground along a ray between two distances, in double. The algorithm `reference` uses it between
 // its samples. The ray is walked in steps of a tenth of the posts' spacing. Exact geodesic positions are at
 // most 500 m apart, closer near a pole. Between these positions the ray is straight in latitude and longitude.
-// Accuracy: 5 mm up to 60 degrees of latitude, 0.2 m from 88 degrees to the pole.
+// Accuracy of the positions: 10 mm up to 60 degrees of latitude, 0.2 m beyond.
 class GroundWalk {
  public:
   static constexpr double kStepsPerPost = 10.0;  // steps per spacing of the posts

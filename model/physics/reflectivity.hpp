@@ -34,7 +34,7 @@ inline double wavelength_m(double frequency_ghz) {
   return kSpeedOfLight / (frequency_ghz * 1e9);
 }
 
-// Area of a few kilometres in which all streets follow one rectangular grid. Patches depend on position alone, not on
+// Area a few kilometres wide in which all streets follow one rectangular grid. Patches depend on position alone, not on
 // the loaded terrain. So synthetic and real culture at one position have equal streets and an equal cardinal effect.
 // The cardinal effect is the strong return of walls that face the radar.
 struct StreetPatch {
@@ -119,8 +119,8 @@ class SceneSurface {
   double cutoff_tangent_;  // tangent of cutoff_deg_, the angle beyond which the cardinal effect is 0
 };
 
-// Upper limit of shading, a factor on gamma: cos(ray, interpolated normal) / cos(ray, facet's normal). The ratio
-// diverges at silhouettes.
+// Upper limit of shading, a factor on gamma: the cosine of the angle between ray and interpolated normal, divided by
+// the cosine of the angle between ray and facet's normal. The ratio diverges where the radar sees a facet edge-on.
 inline constexpr double kMaxShading = 4.0;
 
 // Sea return. Source: NRL model, Gregers-Hansen and Mital 2012 (DTIC ADA559494), 0.1 to 60 degrees grazing, sea states
@@ -153,7 +153,7 @@ struct SeaReturn {
 };
 SeaReturn make_sea_return(const RadarParameters& parameters);
 
-// sigma0 (power ratio) at a grazing angle and an azimuth of the ray. Above 60 degrees grazing, sigma0 is constant.
+// sigma0 (power ratio) at a grazing angle and an azimuth of the ray. Above 60 degrees grazing, sigma0 is that at 60.
 // Below 0.1 degrees the formula is extrapolated. 0 if sin_grazing <= 0.
 double sea_sigma0(const SeaReturn& sea, double sin_grazing, geo::Bearing azimuth);
 

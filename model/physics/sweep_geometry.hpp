@@ -39,8 +39,8 @@ struct AzimuthInterval {
 AzimuthInterval point_interval(const BeamSlice& slice, double beamwidth_rad);
 
 // Two-way gain in azimuth of a target with its middle at `offset_rad` and the width `width_rad`. The gain is 0 if the
-// middle is outside point_interval(). In a sharpened cell the gain is instead the fraction of the target inside the
-// cell, times beamwidth / cell width. All gains include BeamSlice::factor.
+// middle is outside point_interval(). In a sharpened cell the gain is instead the fraction of the target's width inside
+// the cell, times beamwidth / cell width. All gains include BeamSlice::factor.
 double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double offset_rad, double width_rad = 0.0);
 
 // Apex, direction and range of one ray of a sweep.
@@ -109,6 +109,7 @@ class EffectiveEarth {
   double radius_m_;
 };
 
+// Effective earth of a ray by the parameters. A factor k below 0.1, or NaN, is replaced by 0.1.
 EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoint apex, geo::Bearing azimuth);
 
 // Distance over ground of each sample's centre [m], ascending: evenly spaced in ground range, or in slant range.

@@ -1,8 +1,8 @@
 // Interface of the algorithms that make the sweeps of the real beam map. They compute power from terrain, and video
 // from power. Video is brightness, 0 to 255.
 // Inputs: geometry of a sweep; terrain, scenes and traffic; configuration at construction.
-// Outputs: power per sample (full scale = 1), mask of the lit samples, 8-bit video. Samples are ordered near to far. A
-// void (ground without elevation data) returns no power.
+// Outputs: power per sample, mask of the lit samples, 8-bit video. Samples are ordered near to far. A power of 1 is
+// full scale: it gives video 255 at the highest GAIN step. A void (ground without elevation data) returns no power.
 // Threads: one thread at a time may use an instance. No allocation after construction.
 // Source: docs/radar_maths.md.
 #pragma once
@@ -28,7 +28,8 @@ class Algorithm {
   Algorithm& operator=(const Algorithm&) = delete;
   virtual ~Algorithm() = default;
 
-  // Computes the power of sample_count() samples after sensitivity time control and pulse smear, without noise.
+  // Computes the power of sample_count() samples after sensitivity time control (a gain that increases with range) and
+  // pulse smear (mean over the samples that the pulse covers), without noise.
   // Values are finite and >= 0. Returns the number of samples on terrain that is not loaded.
   virtual std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                               std::span<float> power) = 0;

@@ -56,9 +56,9 @@ struct Reply {
 // Beacon replies in a sweep of the beacon mode BCN. A beacon replies if it has the radar's code, is in line of sight
 // and lies within half an azimuth beamwidth of the beam's centre. On the display a reply is an arc, one beamwidth wide
 // and one pulse length deep.
-// A delay t adds c t / 2 to the slant range. Received power: 4 pi (ERP_beacon / ERP_radar) G / R^2. G is the one-way
-// gain, R the beacon's slant range. The receiver is tuned to the beacons' frequency, so the ground is not received.
-// Sensitivity time control is off.
+// A delay t adds c t / 2 to the slant range (c: speed of light). Received power: 4 pi (ERP_beacon / ERP_radar) G / R^2.
+// G is the one-way gain, R the beacon's slant range. Gas attenuation is one-way. The receiver is tuned to the beacons'
+// frequency, so the ground is not received. Sensitivity time control is off.
 class Beacons {
  public:
   explicit Beacons(const physics::RadarParameters& parameters);

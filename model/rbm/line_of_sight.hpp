@@ -1,6 +1,7 @@
 // Line of sight over terrain: crests along a ray, and visibility of a point.
 // A sample's crest is the highest ground, by elevation angle, between the previous sample and this sample.
-// Inputs: terrain, ray (apex, azimuth, range), altitude of the aircraft [m MSL], effective earth.
+// Inputs: terrain, ray (apex, azimuth, range), altitude of the aircraft [m MSL], effective earth (a sphere that
+// accounts for refraction).
 // Outputs: tangent of the elevation angle of each sample's crest; visibility of a point.
 // Accuracy: every line of posts that the ray crosses is tested, on a path within 1 m of the ray.
 // Threads: one thread at a time may use an instance. No allocation after construction.

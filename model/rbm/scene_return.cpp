@@ -99,8 +99,9 @@ void SceneReturn::apply(const physics::SweepGeometry& geometry, const physics::R
     if (in_range(*scene, geometry)) add_standing(sweep, *scene);
 }
 
-// Mixes the return of covers (flat faces on the ground, summed by square) into the power of the samples. The new power
-// of a sample is the mean of its power and the cover's, weighted with the covered fraction of its square.
+// Mixes the return of covers (flat faces on the ground, summed over squares of a grid) into the power of the samples.
+// The new power of a sample is the mean of its power and the cover's. The weight of the cover's power is the covered
+// fraction of the square around the sample.
 void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scene) {
   const std::size_t number = scene.level_for(sweep.spacing_m);
   const scene::ScattererLevel& level = scene.levels[number];

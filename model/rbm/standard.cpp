@@ -180,8 +180,8 @@ void Standard::update_distances(const physics::SweepGeometry& geometry, const ph
   if (!slant && spaced_range_m_ == geometry.range.metres()) return;
   spaced_range_m_ = geometry.range.metres();
   physics::sample_distances(fidelity_, earth, geometry, terrain, distance_m_);
-  // Altitude hole: samples at slant ranges below the height above ground have no ground point. Here they get distance
-  // 0; read_terrain() makes them voids.
+  // Altitude hole: no ground is at slant ranges below the aircraft's height above ground. Samples at these ranges get
+  // distance 0 here; read_terrain() makes them voids.
   holes_ = 0;
   while (holes_ < count_ && std::isnan(distance_m_[holes_])) distance_m_[holes_++] = 0.0;
   for (std::size_t i = 0; i < count_; ++i) distance_.data()[i] = static_cast<float>(distance_m_[i]);

@@ -1,4 +1,4 @@
-// Default algorithm of the real beam map, in float, in Highway vectors of the machine's width.
+// Default algorithm of the real beam map, in float, in vectors of the machine's width (library Highway).
 // The fidelity's `geodesic_knots` selects how the positions of samples are computed (ray.hpp). The default is a Taylor
 // series of the geodesic, replaced near a pole by interpolation between exact positions. The drop of the ground by the
 // earth's curvature is a truncated series (sweep_simd.cpp).
@@ -38,7 +38,7 @@ class Standard : public Algorithm {
                   std::span<std::uint8_t> video) override;
 
  private:
-  // Array with kPad entries before the first and after the last sample.
+  // Array of one value per sample, with kPad more entries before the first sample and kPad after the last.
   struct Padded {
     Padded(std::size_t samples, float fill) : values(samples + 2 * simd::kPad, fill) {}
     float* data() { return values.data() + simd::kPad; }

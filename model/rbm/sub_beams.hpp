@@ -31,7 +31,7 @@ class SubBeams : public Algorithm {
   std::unique_ptr<Algorithm> ray_;
   std::vector<Ray> rays_;
   std::vector<float> power_;
-  std::vector<std::uint8_t> lit_;  // lit mask of the middle ray; of an even number, the ray right of the centre
+  std::vector<std::uint8_t> lit_;  // lit mask of the middle ray; of two middle rays, the right one
 };
 
 // Makes the algorithm that the fidelity names, wrapped in SubBeams if the fidelity has more than one sub-beam.

@@ -6,7 +6,7 @@
 #define HWY_TARGET_INCLUDE "model/rbm/sweep_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Included after highway.h, which defines the vector target.
+// Included after highway.h, which defines the vector target (instruction set).
 #include "model/physics/clutter_simd-inl.hpp"
 #include "model/physics/polynomials-inl.hpp"
 #include "model/rbm/gain_simd-inl.hpp"
@@ -192,7 +192,7 @@ class SweepPass {
  private:
   template <class Group, class GroupMask>
   HWY_INLINE void store_power(std::size_t i, const Geometry<Group>& g, const Group& height, const GroupMask& lit) {
-    // A void counts as height 0, which may be the aircraft's position. The limit keeps the slant range at 1 m or more.
+    // A void counts as ground of height 0, and the aircraft may be at that ground. The slant range is at least 1 m.
     const auto slant_square = max(mul_add(g.out_m, g.out_m, mul(g.up_m, g.up_m)), constant<Group>(1.0F));
     auto power = lit_power(c_, beam_, in_, ground_, i, g, height, slant_square, lit);
     if (c_.range_power != 0.0F) {

@@ -2,6 +2,8 @@
 // in one array per quantity.
 // Inputs: elevations, distances, slopes and crests of the samples; constants of the sweep; ground reflectivity.
 // Outputs: tangents of elevation angles, horizon, power (full scale = 1).
+// Sensitivity time control multiplies power by (slant range / R0)^n. R0 is the selected range.
+// The csc^2 pattern (cosecant squared) is an elevation pattern of the antenna, see two_way_gain() in receiver.hpp.
 // Threads: pure functions. The instruction set is chosen at run time. All instruction sets give results equal bit by
 // bit. All arrays of samples have kPad readable and writable entries before the first and after the last sample.
 // Exception: `result` of smear().
@@ -33,7 +35,7 @@ struct SweepConstants {
   float sin_centre = 0.0F;       // sin b; b is the depression of the csc^2 pattern's centre
   float sin_centre_tilt = 0.0F;  // sin(b + antenna elevation)
   float cos_centre_tilt = 1.0F;  // cos(b + antenna elevation)
-  float gaussian = 0.0F;         // [1/rad^2] 5.545 log2(e) / theta_el^2: exponent of the Gaussian pattern to base 2
+  float gaussian = 0.0F;         // [1/rad^2] 8 ln 2 log2(e) / theta_el^2: exponent of the Gaussian pattern to base 2
   float sin_half_beam = 0.0F;    // sin(theta_el / 2)
 };
 

@@ -53,9 +53,9 @@ model::scene::NameFilter name_filter(const std::vector<std::string>& names);
 // Adds an option `name` that takes the name of a fidelity preset.
 databuffer::Option add_preset_option(databuffer::Command command, const std::string& name, std::string& preset,
                                      const std::string& help);
-// The radar's configuration in `file` (empty: built-in defaults), changed by `options`. Throws CommandFailed for a file
-// that cannot be loaded, or a scene option that is not valid. Callers must include lib/radar/configuration.hpp, because
-// RadarConfiguration is only declared here.
+// The radar's configuration in `file` (empty: built-in defaults), changed by `options`. Prints the warnings about the
+// file on standard error. Throws CommandFailed for a file that cannot be loaded, or a scene option that is not valid.
+// Callers must include lib/radar/configuration.hpp, because RadarConfiguration is only declared here.
 radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options);
 
 // Pose of the aircraft. Its ground track equals its heading.

@@ -34,9 +34,9 @@ std::optional<error::Error> beneath_ground(geo::AltitudeMsl altitude, double gro
 // Both check_..._read functions print each problem of reading on standard error. If some files of the region are
 // unreadable, they print how many. If all files are unreadable, they throw CommandFailed with code 1.
 
-// Call after prepare(). `command`: prefix of messages, such as "yars scan". `folder`: terrain folder, for messages.
-// `path_store`: optional second store of the same folder, for the ground between aircraft and map. Problems of this
-// store are printed, but do not make the command fail.
+// Call after prepare() of the stores. `command`: prefix of messages, such as "yars scan". `folder`: terrain folder, for
+// messages. `path_store`: optional second store of the same folder, for the ground between aircraft and map. Problems
+// of this store are printed, but do not make the command fail.
 void check_terrain_read(const char* command, const std::string& folder, model::terrain::TerrainStore& store,
                         model::terrain::TerrainStore* path_store = nullptr);
 void check_scenes_read(const char* command, model::scene::SceneStore& scenes);

@@ -29,7 +29,7 @@ void check_file_name(const std::string& option, const std::string& name, const s
   const std::string ending = ending_of(name);
   if (name.empty()) return;
   if (std::find(endings.begin(), endings.end(), ending) != endings.end()) {
-    // The file is never committed, so the destructor of NewFile removes it.
+    // place() is never called, so the destructor of NewFile discards the file.
     if (const auto begun = file::NewFile::create(name); !begun) throw_failure(begun.error());
     return;
   }

@@ -17,8 +17,8 @@ namespace yars::tools {
 // Extension of a file name in lower case with its dot, such as ".png"; empty if there is none.
 std::string ending_of(const std::string& name);
 
-// Requires that `name` ends in one of `endings` (".png") and that a file can be created there. `option` names the
-// command-line option in the message. An empty name means no output file and passes.
+// Requires that `name` ends in one of `endings` (".png") and that a file can be created at this path. `option` names
+// the command-line option in the message. An empty name means no output file and passes.
 void check_file_name(const std::string& option, const std::string& name, const std::vector<std::string>& endings);
 
 // Requires a folder name. A name that ends like a file which YARS reads or writes (".png", ".dt1") is an error.

@@ -37,8 +37,8 @@ struct PatchOutput {
   std::string pixels = "video";  // pixels of a .tif: "video" or "power"
 };
 
-// Checks the options before the computation. Throws for an unknown file extension, for `pixels` without a .tif, and for
-// a .tif in a build without GDAL.
+// Checks the options before the computation. Throws for an unknown file extension, for pixels "power" without a .tif,
+// and for a .tif in a build without GDAL.
 void check_patch_output(const PatchOutput& output);
 
 // Writes the file. A power of 1 is the return of level ground with gamma 1. With the preset `1996` the
@@ -167,7 +167,7 @@ Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
 }
 
 // Minimum target distance as a fraction of the window's side; --force does not override this minimum. Below 0.5 the
-// window would extend behind the aircraft.
+// window would extend behind the aircraft. hrm::PatchOrder requires more than 0.71, half the window's diagonal.
 constexpr double kMinDistanceFraction = 0.75;
 
 void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& configuration, bool force) {

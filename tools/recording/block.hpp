@@ -55,8 +55,8 @@ bool body_matches(const BlockHead& head, std::span<const std::byte> body);
 // Encoder: collects items and compresses them into a block.
 class BlockBuilder {
  public:
-  // True if the item needs a new block: this block is full, or the item's tick is about 1 s or more away from its first
-  // tick. False if this block has no items.
+  // True if the item needs a new block: this block is full, or the item's tick is about 1 s or more away from the first
+  // tick of this block. False if this block has no items.
   bool is_full_for(const RecordParts& parts, std::optional<std::int64_t> tick) const;
   void append(const RecordedKind& kind, const RecordParts& parts, std::optional<std::int64_t> tick);
   bool empty() const { return order_.empty(); }

@@ -286,7 +286,7 @@ void Player::pass_over_hole() {
 }
 
 // Resumes the kernel and runs the pending ticks that are newer than the status. Such ticks exist, because the recorder
-// may write ticks before an older status.
+// may write a tick before the status of an earlier tick.
 void Player::start_late(const ModelStatus& status, Played& played) {
   awaits_status_ = false;
   start_kernel(status);

@@ -60,7 +60,7 @@ class Replay {
   // Makes a new kernel that resumes from this status. Allowed before the first tick and between ticks.
   void start(const StartingPoint& point);
   // Runs one tick and returns its finished sweep. nullptr: no sweep, or a sweep that is not compared. The first two
-  // sweeps after start() are not compared, because their azimuth smear needs sweeps from before the start.
+  // sweeps after start() are not compared: azimuth smear combines successive sweeps, some from before the start.
   const databuffer::Sweep* tick(const databuffer::ModelTick& tick);
   // Sets the traffic from the next tick on.
   void traffic(const databuffer::Traffic& traffic) { traffic_ = model::kernel::points_of(traffic); }
@@ -125,7 +125,7 @@ class Player {
   static bool has_ticks(const RecordingReader& reader);
 
   Played seek(std::int64_t tick);
-  // Records from the last position up to and including this tick.
+  // Records after those that seek() and play_to() have returned so far, up to and including this tick.
   Played play_to(std::int64_t tick);
 
   std::int64_t tick() const { return tick_; }  // newest tick that was played
@@ -152,7 +152,8 @@ class Player {
   std::optional<Replay> kernel_;
   bool awaits_status_ = false;          // the kernel needs a status to resume from
   std::vector<RecordingItem> pending_;  // ticks and traffic while awaits_status_ is true
-  std::int64_t kernel_from_tick_ = -1;  // the kernel resumed from this tick's status; skips ticks up to it; -1: none
+  // Tick of the status from which the kernel resumed; -1: none. Ticks up to this tick are not run.
+  std::int64_t kernel_from_tick_ = -1;
   std::uint32_t kernel_from_epoch_ = 0;
   std::optional<RecordingItem> ahead_;  // the next item, already read
   bool started_ = false;                // an item with a tick was played since the seek

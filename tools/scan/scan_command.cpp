@@ -55,7 +55,7 @@ constexpr std::array<double, 3> kGray{1.0, 1.0, 1.0};
 const Sweep* sweep_at(std::span<const Sweep> sweeps, double azimuth_deg) {
   const double from_left_deg = geo::wrapped_degrees(azimuth_deg - sweeps.front().azimuth_left_deg);
   const double width_deg = geo::wrapped_degrees(sweeps.front().azimuth_right_deg - sweeps.front().azimuth_left_deg);
-  // In a scan of 360 deg, azimuths to the left of the first sweep's edge belong to the last sweeps.
+  // In a scan of 360 deg, azimuths to the left of the first sweep's left edge belong to sweeps in the right half.
   const double offset_deg = from_left_deg < 0.0 ? from_left_deg + 360.0 : from_left_deg;
   const auto index = static_cast<std::size_t>(offset_deg / width_deg);
   return index < sweeps.size() ? &sweeps[index] : nullptr;
@@ -89,8 +89,8 @@ imageio::Image scan_picture(std::span<const Sweep> sweeps, const radar::ViewConf
 // Shadow table of a scan as CSV with a header line: one row for each sample of each sweep.
 // Columns: sweep, azimuth_deg [0, 360) true at the aircraft, ground_range_m, latitude_deg, longitude_deg,
 // elevation_m MSL, lit: 1 lit, 0 in shadow. `-` in elevation_m and lit: the terrain is void or not loaded.
-// `-` in ground_range_m: no ground has the sample's slant range. `samples` has the same number of elements for each
-// sweep.
+// `-` in ground_range_m: no ground has the sample's slant range; latitude and longitude are then the aircraft's.
+// `samples` has the same number of elements for each sweep.
 void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader> positions,
                   std::span<const trade::RaySample> samples);
 
@@ -199,6 +199,7 @@ void check_output(const ScanOptions& options) {
   check_file_name("--shadow", options.shadow, {".csv"});
 }
 
+// A warm scan is a scan after the first: the terrain is then in memory.
 struct Times {
   double first_ms = 0.0;           // [ms] wall time of the first scan, including reading of terrain
   std::vector<double> measure_ms;  // [ms] wall time of each warm scan, from terrain to power

@@ -24,7 +24,7 @@ namespace yars::tools {
 
 enum class PlanColors { file, material };
 
-// Area of a plan view. West and south edges are offsets from Model::base.
+// Area of a plan view. West and south edges are offsets from Model::base, the origin of the vertex positions.
 struct PlanFrame {
   double west_m = 0.0, south_m = 0.0, metres_per_pixel = 1.0;
   int width = 0, height = 0;  // [pixels]
@@ -48,7 +48,8 @@ constexpr std::array<std::uint32_t, 14> kByMaterial{0xFF00FF, 0xD24A3A, 0xE08A4A
                                                     0x8A6A3A, 0x3A6AB5, 0xE0D090, 0x6E6A66, 0x707078,
                                                     0x9AA060, 0x5A8A7A, 0x3A7A3A, 0xF4F6FA};
 
-// Corner of a triangle: x and y in samples, right and down from the upper left; z [m]; n: normal (east, north, up).
+// Corner of a triangle: x and y in samples, right and down from the upper left; z: height [m] above Model::base.
+// nx, ny, nz: normal (east, north, up).
 struct Corner {
   double x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
 };
@@ -68,7 +69,7 @@ class Canvas {
     if (!(area < 0.0)) return;
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
     const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});
-    // Clamped before the conversion: in a small window, corners of triangles far outside exceed the range of int.
+    // Clamped before the conversion to int: corners far outside a small window exceed the range of int.
     const int first_x = static_cast<int>(std::clamp(std::ceil(left - 0.5), 0.0, 1.0 * width_));
     const int last_x = static_cast<int>(std::clamp(std::floor(right - 0.5), -1.0, width_ - 1.0));
     const int first_y = static_cast<int>(std::clamp(std::ceil(top - 0.5), 0.0, 1.0 * height_));
@@ -192,7 +193,7 @@ constexpr double kMinWindow_m = 0.1;  // smaller windows would show the rounding
 constexpr double kMaxWindow_m = 1e6;  // maximum side of the window
 constexpr double kMaxEdge_m = 1e7;  // maximum distance of an edge from the origin; the reader uses no vertex beyond it
 
-// Error of bad usage for a window that cannot be drawn.
+// Error of bad usage for a window that cannot be drawn; nullopt for any other window.
 std::optional<error::Error> window_problem(const std::vector<double>& window) {
   using text::text_of_number;
   if (!(window[2] >= kMinWindow_m && window[2] <= kMaxWindow_m))

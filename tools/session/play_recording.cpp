@@ -35,7 +35,8 @@ class ReplaySession {
   // Returns true once after another process has begun an epoch (`yars sim reset`).
   bool was_reset();
 
-  // Publishes a key frame. Clears the session's state, outputs or status if the key frame has none.
+  // Publishes a key frame (result of recording::Player::seek()). Clears the session's radar state, outputs or model
+  // status if the key frame has none.
   void publish_key_frame(const recording::Played& played);
   void publish(const recording::Played& played);
   void heartbeat();

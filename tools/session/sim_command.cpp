@@ -23,7 +23,8 @@ using databuffer::ClockState;
 using databuffer::Session;
 
 constexpr double kMaxRate = 10.0;  // sim time / real time; at higher rates programs skip late ticks
-// Ticks by which `step` advances the clock at once. At most kMaxTicksBehind (20), because programs skip older ticks.
+// Ticks by which `step` advances the clock at once. At most kMaxTicksBehind (20): programs skip ticks that are further
+// behind the clock.
 constexpr std::int64_t kStepPortion_ticks = 10;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 

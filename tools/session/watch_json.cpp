@@ -106,6 +106,8 @@ ordered_json update_error(const RadarState& state) {
           {"seconds", ages ? ordered_json(state.update_seconds) : ordered_json(nullptr)}};
 }
 
+// Pattern steering line (PSL): the heading on which the target is approached; null if there is none. `heading_deg`
+// counts from magnetic north.
 ordered_json steering_line(const RadarState& state) {
   const auto heading = geo::Bearing::degrees(state.steering_line_deg - state.magnetic_variation_deg);
   const auto object = [&](const char* word) {

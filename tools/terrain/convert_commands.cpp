@@ -37,7 +37,8 @@ struct TerrainOutput {
 std::string output_name(const TerrainOutput& output, model::terrain::CellCorner corner,
                         const model::terrain::Cell& cell);
 
-// Resamples the cell to the output's grid (resample() in cell_view.hpp) and writes it below `tree`. Returns the path.
+// Resamples the cell to the output's grid (resample() in cell_view.hpp) and writes the result below `tree`. Returns the
+// path of the written file.
 error::Expected<std::filesystem::path> write_output(const TerrainOutput& output, const std::filesystem::path& tree,
                                                     const model::terrain::Cell& cell);
 
@@ -79,7 +80,7 @@ struct TerrainBatch {
   std::string command;  // subcommand, for error messages
   std::string in;
   std::string out;
-  int reduction = 0;  // reads every 2^reduction-th post; its height is the mean of the posts around it
+  int reduction = 0;  // every 2^reduction-th post is read; its height is the mean of the posts around this post
   // `name` returns the path of a cell's file relative to `out`. `write` writes the cell to this path below `tree`.
   std::function<std::string(model::terrain::CellCorner, const model::terrain::Cell&)> name;
   std::function<error::Expected<std::filesystem::path>(const std::filesystem::path& tree, const model::terrain::Cell&)>

@@ -38,7 +38,7 @@ struct GenerateOptions {
   std::string edge = "coast";
   bool culture = true;
   bool sea = false;
-  int threads = 0;  // 0: as many as the machine has
+  int threads = 0;  // 0: one per core of the machine
 };
 
 // Cells of the area in blocks of 8 x 8: consecutive cells are neighbours and share cached features and relief.

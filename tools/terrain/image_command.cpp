@@ -22,7 +22,8 @@
 namespace yars::tools {
 
 // Hill-shaded map of elevation, lit from the north-west, coloured by height or by surface material. Sea, voids and
-// absent cells have fixed colours. Projection: plate carree, scaled so that shapes are true at the middle parallel.
+// absent cells have fixed colours. Projection: plate carree (x proportional to longitude, y to latitude), scaled so
+// that shapes are true at the middle parallel.
 
 struct MapFrame {
   double south_deg = 0.0, north_deg = 0.0, west_deg = 0.0, east_deg = 0.0;
@@ -72,8 +73,8 @@ Colour tint(double height_m) {
   return mixed;
 }
 
-// Brightness factor by Lambert's cosine law. Light comes from the north-west, at 40 deg elevation. 0.25 is ambient
-// light. The factor 1.15 gives level ground a brightness of 0.99.
+// Brightness factor by Lambert's cosine law; slopes in m/m. Light comes from the north-west, at 40 deg elevation. 0.25
+// is ambient light. The factor 1.15 gives level ground a brightness of 0.99.
 double light(double slope_east, double slope_north) {
   constexpr double kEast = -0.542, kNorth = 0.542, kUp = 0.643;
   const double east = -slope_east * kExaggeration;

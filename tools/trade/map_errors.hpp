@@ -50,7 +50,7 @@ radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 // fidelity draws different random numbers.
 struct MapObservation {
   int size = 0;                                            // [pixels] edge of the map
-  std::vector<float> power;                                // as gamma of level ground; 1996: brightness
+  std::vector<float> power;                                // gamma of level ground of equal return; 1996: brightness
   std::vector<std::uint8_t> dark;                          // 1: less than 5 % of the power of level ground
   std::vector<std::uint8_t> video;                         // 0 to 255
   std::vector<std::optional<model::hrm::MapPoint>> marks;  // apparent position of each mark; nullopt: hidden

@@ -21,11 +21,11 @@ namespace yars::tools::trade {
 // One sample of the middle ray of a sweep: position on the exact geodesic, ground, lit or in shadow. The configured
 // algorithm computes `lit`. Beam, smears and number of rays do not change `lit`.
 struct RaySample {
-  double distance_m = 0.0;         // [m] ground range; NaN: no ground has this slant range
+  double distance_m = 0.0;         // [m] ground range; NaN: no ground at the sample's slant range
   geo::GeoPoint position;          // the aircraft's position where distance_m is NaN
   model::terrain::Surface ground;  // void where distance_m is NaN
   bool lit = false;                // false: in shadow, void or not loaded
-  bool returns = false;            // lit, and its facet faces the radar, so that it returns power to a beam of 180 deg
+  bool returns = false;            // true: lit, and returns power (above 1e-8 of full scale) to a beam 180 deg wide
 };
 
 // Samples of all sweeps: sweep after sweep, from near to far.
@@ -41,7 +41,7 @@ struct ScanObservation {
   std::vector<std::uint8_t> video;    // 0 to 255, gain of the request
   std::vector<std::uint8_t> seen;     // RaySample::lit
   std::vector<std::uint8_t> returns;  // RaySample::returns
-  double position_m = 0.0;            // [m] maximum distance of a sample from its exact position
+  double position_m = 0.0;            // [m] maximum distance of a sample from its exact position (every 4th checked)
   bool power_is_radar = true;         // false: `power` is the brightness of the 1996 report, a cosine
 };
 
@@ -60,7 +60,7 @@ Ruler make_ruler(const radar::RadarConfiguration& configuration, const model::ke
 
 struct Errors {
   double position_m = 0.0;      // [m] ScanObservation::position_m of the compared scan
-  double shadow_percent = 0.0;  // [%] of the ruler's samples with known ground: lit in one scan only
+  double shadow_percent = 0.0;  // [%] share of the ruler's samples with known ground that are lit in one scan only
   // [dB] RMS ratio of powers, over samples that return power in both scans and exceed the noise in the ruler. NaN:
   // there is no such sample, or the compared scan is by the algorithm of 1996.
   double power_db = 0.0;

@@ -1,5 +1,5 @@
 // Common parts of `yars trade` and `yars trade maps`: options, candidates, clock, output files.
-// Errors: functions that check or write throw CommandFailed.
+// Errors: functions that check options, read a directory or write files throw CommandFailed.
 #pragma once
 
 #include <string>
@@ -37,7 +37,7 @@ std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::
 void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes);
 
 // Centre of the cell in the middle of a directory's index, which is sorted from south to north, then from west to east.
-// For an empty name (built-in hills): 37 N 122 W.
+// For an empty name (built-in hills): 37 N 122 W. Throws if the directory has no usable cell.
 geo::GeoPoint default_position(const std::string& directory);
 double thread_ms();  // [ms] CPU time of the calling thread
 

@@ -45,7 +45,7 @@ struct SceneRow {
   std::vector<double> numbers;
 };
 
-// One value for each column; NaN: nothing to compare.
+// One value for each column; NaN: this scene gives no value for the column.
 using Values = std::vector<double>;
 
 struct Summary {

@@ -205,7 +205,7 @@ class AirfieldScene {
   }
 
   void fences() {
-    constexpr double kPart_m = 50;  // length of one fence object
+    constexpr double kPart_m = 50;  // minimum length of one fence object
     const std::array<Vector3, 4> ring{
         Vector3{-kFenceX_m, -kFenceY_m, 0}, {kFenceX_m, -kFenceY_m, 0}, {kFenceX_m, 300, 0}, {-kFenceX_m, 300, 0}};
     for (std::size_t i = 0; i < 4; ++i) {

@@ -54,13 +54,13 @@ class BridgeScene {
     const int sides = builder_.sides(10, 40);
     for (int pier = 0; pier <= kSpans; ++pier) {
       const double x = -kHalf_m + kSpan_m * pier;
-      // The outline is pointed upstream and downstream. The piers extend 6 m below the water surface.
+      // The outline of a pier is pointed upstream and downstream. The piers extend 6 m below the water surface.
       s.prism({{x - 3, -8, -6}, {x, -13, -6}, {x + 3, -8, -6}, {x + 3, 8, -6}, {x, 13, -6}, {x - 3, 8, -6}}, 11);
       for (const double y : {-5.0, 5.0}) s.revolve({x, y, 5}, {0, 0, 1}, {{0, 1.6}, {kDeck_m - 5.6, 1.4}}, sides);
     }
   }
 
-  // Truss at one side of the deck: horizontal chords, posts and diagonals.
+  // Truss at one side of the deck: chords (horizontal bars at its lower and upper edge), posts and diagonals.
   void truss(MeshBuilder& s, double y) const {
     s.kind = surface::kPartMetal;
     const int panels = builder_.sides(8, 40);

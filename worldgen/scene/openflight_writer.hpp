@@ -80,10 +80,13 @@ class OpenFlightWriter {
   void begin_level_of_detail(const std::string& name, double switch_in_m, double switch_out_m, Vector3 centre);
   // Bit i of `mask` is 1 if child i of the node is visible.
   void begin_switch(const std::string& name, std::uint32_t mask);
+  // The nodes up to end() are the definition `number`. They are visible only where instance() places them.
   void begin_definition(std::uint16_t number);
   void end();
 
+  // Places the definition `number`, transformed by `matrix`.
   void instance(std::uint16_t number, const Transform& matrix);
+  // Places the contents of another OpenFlight file, transformed by `matrix`. A path beyond 199 bytes is truncated.
   void external(const std::string& file, const Transform& matrix);
   // Corners are counter-clockwise seen from outside. A two-sided face is visible from both sides.
   void face(std::span<const WriterVertex> corners, const SurfaceKind& kind, bool two_sided = false);

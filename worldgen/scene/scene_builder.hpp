@@ -152,7 +152,8 @@ class SceneBuilder {
     report_progress();
   }
 
-  // Adds an instance of a definition with this number of triangles. `where`: pose, to which `mesh.map` is then applied.
+  // Adds an instance of definition `number`, which has `triangles` triangles. The instance is transformed by `where`,
+  // then by `mesh.map`.
   void add_instance(std::uint16_t number, std::uint64_t triangles, const Transform& where) {
     out.instance(number, mesh.map * where);
     mesh.count(triangles);
@@ -168,7 +169,7 @@ class SceneBuilder {
   std::uint64_t reported_triangles_ = 0;
 };
 
-// Transform that scales, rotates counter-clockwise [deg], then translates in x and y [m].
+// Transform that scales, rotates by turn_deg counter-clockwise seen from above, then translates in x and y [m].
 inline Transform pose(double x, double y, double turn_deg, double scale = 1.0) {
   return translation({x, y, 0}) * rotation_about_up(turn_deg * std::numbers::pi / 180.0) *
          scaling({scale, scale, scale});

@@ -123,8 +123,8 @@ void draw_tower(MeshBuilder& mesh, random::CounterRng& rng) {
 
 namespace {
 
-// Half of a wing or of a tailplane. `side`: +1 left, -1 right. `root_x`, `tip_x`: x of the leading edge. The order of
-// the outline makes its upper side face up.
+// Half of a wing or of a tailplane. `side`: +1 left, -1 right. `root_x`, `tip_x`: x of the leading edge.
+// Chord: distance from the leading to the trailing edge. The order of the outline makes the plate's upper side face up.
 void wing(MeshBuilder& mesh, double root_x, double root_chord, double tip_x, double tip_chord, double from_y,
           double to_y, double z, double thickness_m, double side) {
   std::vector<Vector3> outline{{root_x, side * from_y, z},

@@ -14,9 +14,9 @@ void draw_tanker(MeshBuilder& mesh, int sides);
 void draw_car(MeshBuilder& mesh, const SurfaceKind& body);
 void draw_conifer(MeshBuilder& mesh, double height_m, int sides);
 void draw_leafy_tree(MeshBuilder& mesh, double height_m, int sides);
-// House with pitched roof and chimney; at random also with a dormer and a garage.
+// House with pitched roof and chimney. A dormer and a garage are each added at random.
 void draw_house(MeshBuilder& mesh, random::CounterRng& rng);
-// Block of flats with window bands, parapet and stair heads.
+// Block of flats with rows of windows, a parapet, and the upper ends of the stairwells on the roof.
 void draw_block(MeshBuilder& mesh, random::CounterRng& rng);
 // Tower on a base. It narrows in steps toward the top and has machinery on the roof.
 void draw_tower(MeshBuilder& mesh, random::CounterRng& rng);

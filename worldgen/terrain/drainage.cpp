@@ -144,9 +144,10 @@ std::vector<double> areas_km2(const ReliefTile& relief, const Flood& flood, cons
   return areas;
 }
 
-// Sets water heights. Each starts 2 to 10 m below the ground, but not below 0. The first pass runs downstream and
-// lowers each node's water to the level of the water upstream of it, so that the river cuts through higher ground. The
-// second pass runs upstream and raises each node's water to the level of the water downstream of it.
+// Sets water heights. Each height starts 2 to 10 m below the ground, but not below sea level. The first pass runs
+// downstream and lowers each node's water below the water upstream of the node (by the slope kMinFall), so that the
+// river cuts through higher ground. The second pass runs upstream and raises each node's water to the level of the
+// water downstream of the node.
 void set_water(Drainage& drainage) {
   std::vector<RiverNode>& nodes = drainage.nodes;
   std::vector<double> upstream_m(nodes.size(), 1e9);

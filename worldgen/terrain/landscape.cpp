@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kWoodsBelowSnow_m = 900.0;      // height of the belt of rock and meadow between trees and snow
 constexpr double kMaxAirfieldExtent_m = 7000.0;  // an airfield changes no ground farther from its centre
-constexpr double kSteepRock = 0.55;              // [m/m] steeper ground is bare rock
+constexpr double kSteepRock = 0.55;              // [m/m] steeper ground without snow is bare rock
 constexpr double kBuildable = 0.15;              // [m/m] steepest ground with buildings
 
 double noise_at(const CoverSite& site, double wavelength_m, int octaves, std::uint32_t seed) {
@@ -107,7 +107,7 @@ Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Materi
 
 namespace {
 
-constexpr double kLowestRelief_m = -100.0;  // [m MSL] gullies do not raise ground below this height above the sea
+constexpr double kAlwaysSea_m = -100.0;  // [m MSL] lower ground gets no gullies: they could not raise it above the sea
 constexpr GullyOctave kGullies[] = {{2000, 0.17}, {980, 0.12}, {500, 0.08}, {240, 0.06}, {115, 0.05}};
 constexpr double kRough_m = 2.5;             // amplitude of stones and ledges on steep ground
 constexpr double kRoughWavelength_m = 75.0;  // wavelength of stones and ledges
@@ -131,8 +131,8 @@ struct LandscapeRows::Row {
   double latitude_deg;
   double cosine, sine;  // cosine and sine of the latitude
   std::vector<double> heights_m;
-  std::vector<float> steepness;
-  std::vector<float> valley;
+  std::vector<float> steepness;    // [m/m]
+  std::vector<float> valley;       // as CoverSite::valley
   std::vector<const Town*> towns;  // towns that may cover posts of this row
 };
 
@@ -170,7 +170,7 @@ void LandscapeRows::add_ground(Row& row, const LandscapeLattice::Row& lattice) c
     const LandscapeLattice::Ground ground = lattice.at(static_cast<int>(column));
     row.heights_m[column] = ground.height_m;
     // Gullies in the deep sea are never visible.
-    if (ground.height_m < kLowestRelief_m) continue;
+    if (ground.height_m < kAlwaysSea_m) continue;
     const GullyRow::Relief relief = gullies.at(longitudes_deg_[column], ground.slope);
     row.heights_m[column] += relief.height_m;
     const double steepness = std::sqrt(relief.slope.east * relief.slope.east + relief.slope.north * relief.slope.north);
@@ -283,9 +283,8 @@ MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads) 
 
 bool Landscape::may_have_land(CellCorner corner) const {
   const auto land = tiles_->relief(corner);
-  // The ring around the tile contains the nodes of its north and east edges. Spline and gullies do not raise ground
-  // below kAlwaysSea_m above the sea.
-  constexpr double kAlwaysSea_m = -100.0;
+  // The ring around the tile contains the nodes of its north and east edges. Where all nodes lie below kAlwaysSea_m,
+  // spline and gullies cannot raise the ground above the sea.
   for (int row = -1; row <= kTileNodes; ++row)
     for (int column = -1; column <= kTileNodes; ++column)
       if (land->height_m(row, column) > kAlwaysSea_m) return true;

@@ -37,8 +37,8 @@ struct CoverSite {
 // Material of a site without regard to towns and airfields.
 Material natural_cover(const CoverSite& site, std::uint32_t seed);
 
-// Material at a distance of `radii` times the town's radius from the town's centre. Beyond the town's irregular edge:
-// `natural`.
+// Material at a distance of `radii` times the town's radius from the town's centre. The result is `natural` beyond the
+// town's irregular edge, on water, and on ground too steep for buildings.
 Material town_cover(const CoverSite& site, double radii, Material natural, std::uint32_t seed);
 
 // Material of runway, taxiways, apron, hangars and the ground around them; `natural` outside the airfield.
@@ -50,7 +50,8 @@ class LandscapeRows {
  public:
   LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellCorner corner, int rows, int columns);
 
-  // Heights [m] and material codes of a row of posts, from west to east.
+  // Heights [m MSL] and material codes of a row of posts, from west to east. Row 0 is the cell's south edge. Each span
+  // must have as many elements as the row has posts.
   void make(int row, std::span<std::int16_t> posts_m, std::span<std::uint8_t> codes) const;
 
  private:
@@ -68,7 +69,7 @@ class LandscapeRows {
   std::unique_ptr<LandscapeLattice> lattice_;
   std::vector<double> longitudes_deg_;
   std::vector<double> cosines_, sines_;                // cosines and sines of the longitudes
-  std::vector<std::vector<const RiverPiece*>> bands_;  // for each lattice row, the river pieces that may change it
+  std::vector<std::vector<const RiverPiece*>> bands_;  // by lattice row: pieces that may change posts just north of it
   std::vector<const Town*> towns_;                     // towns of the cell and its neighbours
   std::vector<const Airfield*> airfields_;
 };

@@ -178,8 +178,8 @@ namespace {
 
 constexpr GullyOctave kValleys[] = {{9000, 0.27}, {4300, 0.24}};
 // [tiles] Limit of each cache. The relief of a tile takes 60 kB, its features less. A block of 8 x 8 cells (`yars
-// terrain generate`) needs about 200 tiles, so 700 hold three neighbouring blocks. With fewer than 200, tiles of one
-// block would be computed again.
+// terrain generate`) needs about 200 tiles, so 700 tiles are enough for three neighbouring blocks. With a limit below
+// 200, tiles of one block would be computed again.
 constexpr std::size_t kTilesKept = 700;
 
 }  // namespace
@@ -206,8 +206,8 @@ std::shared_ptr<const Drainage> LandscapeTiles::drainage(CellCorner corner) {
         entries.push_back({gate, basins_.drained_km2(gate.from)});
         continue;
       }
-      // A gate of a coastal tile leads to a tile with more sea. Each recursive call is for a tile with less sea, so the
-      // recursion ends.
+      // An exit of a coastal tile leads to a tile with more sea. So each recursive call is for a tile with less sea,
+      // and the recursion ends.
       const auto above = drainage(gate.from);
       for (std::size_t exit = 0; exit < above->exits.size(); ++exit)
         if (above->exits[exit].to == corner && above->exits[exit].along == gate.along)

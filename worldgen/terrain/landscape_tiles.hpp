@@ -29,7 +29,7 @@ struct Airfield {
 };
 
 inline constexpr double kRunwayHalfWidth_m =
-    70.0;  // with shoulders; the full width exceeds the 93 m between posts of DTED 1
+    70.0;  // with shoulders; the full width exceeds 93 m (3 arc seconds), the distance between posts of DTED level 1
 inline constexpr double kPadBeyond_m = 250.0;       // level ground beyond the runway's ends
 inline constexpr double kPadHalfWidth_m = 500.0;    // level ground on either side of the runway's centre line
 inline constexpr double kPadBlend_m = 500.0;        // transition from level ground to the land
@@ -43,7 +43,7 @@ struct Settlements {
 
 // Towns and airfields of a tile. A town's radius is proportional to 1 / sqrt(rank), but at least 450 m; rank 1 is the
 // largest town. Towns lie on low, gentle ground, preferably by the sea, by rivers and at river mouths. Airfields lie on
-// level ground outside towns.
+// level ground outside towns. Tiles whose middle is poleward of 68 degrees have neither.
 Settlements settlements_of(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed);
 
 // Position along and across a runway from its centre [m]. `across_m` is positive to the right of the bearing.

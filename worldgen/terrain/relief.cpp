@@ -109,7 +109,8 @@ double BroadRelief::height_m(geo::GeoPoint position) const {
   double height_m = coast_km < 0 ? kShelfMPerKm * coast_km
                                  : 95.0 * (1.0 - std::exp(-coast_km / 14.0)) + 1.6 * std::min(coast_km, 90.0);
   if (shore.fade <= 0.0) return std::max(height_m, kSeaBottom_m);
-  // Each mountain range follows the general line of the coast at the distance axis_km. Noise makes gaps in the range.
+  // Each mountain range follows the general line of the coast at the distance axis_km. Noise (`presence`) lowers parts
+  // of the range.
   const double shift_km = 26.0 * noise(at, 120, 60, 3);
   for (const Range& range : kRanges) {
     const double envelope = bell(inland_km - range.axis_km - shift_km, range.half_width_km);
@@ -171,7 +172,8 @@ double ReliefTile::steepness(int row, int column) const {
 
 namespace {
 
-// Weights of a uniform cubic B-spline over four lattice nodes, and their derivatives.
+// Weights of a uniform cubic B-spline over four lattice nodes, and the derivatives of the weights by `t`. `t`, [0, 1]:
+// position between the second and the third node.
 struct Spline {
   std::array<double, 4> value;
   std::array<double, 4> derivative;

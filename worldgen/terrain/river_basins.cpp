@@ -150,8 +150,9 @@ std::optional<CellCorner> RiverBasins::downstream_of(CellCorner corner) {
   return chosen;
 }
 
-// Gate at the lowest pair of nodes on either side of an edge, in [first, last) along the edge; every second pair is
-// examined. The gate's bed_m is the height of the higher node, or kNoGate_m if no pair is on land.
+// Gate at the lowest pair of nodes, one on each side of an edge, in [first, last) along the edge. Every second pair is
+// examined; its height is that of the higher node. The gate's bed_m is the height of the pair, or kNoGate_m if no pair
+// is on land.
 RiverGate RiverBasins::gate_between(CellCorner from, int north, int east, int first, int last) const {
   RiverGate gate{from, neighbour_of(from, north, east), north, east, (first + last) / 2, kNoGate_m};
   const int row = (from.south_deg + 90) * kTileNodes;

@@ -108,7 +108,7 @@ def header(chapter, chapters):
 
 # ---- checks of ranges
 def whole_limits(field):
-    """(minimum, maximum) of an integer or enumeration field as C++ text; None: no limit."""
+    """(minimum, maximum) of a number or enumeration field as C++ text; None: no limit."""
     if isinstance(field.type, Enumeration):
         return "0", str(len(field.type.values) - 1)
     return (field.minimum.expression if field.minimum else None), (field.maximum.expression if field.maximum else None)

@@ -1,4 +1,4 @@
-"""Parser of the records' IDL: the part of OMG IDL 4.2 that records.idl uses.
+"""Parser of the records' IDL (interface definition language): the part of IDL 4.2 that records.idl uses.
 
 In: modules, const, enum, bitmask and struct of the building blocks Core Data Types and Extended Data Types, annotations,
 #include "file" from the same folder. Out: a list of schema.Chapter. Other text raises schema.IdlError with file and line.
@@ -114,7 +114,10 @@ class Parser:
         return lines
 
     def doc(self, first, last):
-        """The comment of a declaration between two lines: the one behind it, else the one above it without headings."""
+        """Comment of the declaration in the lines `first` to `last`: the comment behind the declaration, else above it.
+
+        Headings above the declaration (lines that begin with --) are left out.
+        """
         above = [line for line in self.comment_above(first) if not line.startswith("--")]
         behind = self.scan.behind.get(last)
         if above and behind:
@@ -278,7 +281,7 @@ class Parser:
 
     # ---- annotations
     def annotations(self):
-        """{name of the annotation: {name of the parameter: Limit or text}}; "" names a single parameter."""
+        """{name of the annotation: {name of the parameter: Limit or text}}; "" is the key of an unnamed parameter."""
         notes = {}
         while self.is_next("@"):
             if self.token.text not in ANNOTATIONS:

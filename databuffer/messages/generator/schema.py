@@ -71,10 +71,10 @@ class Field(Declaration):
     minimum: Limit = None
     maximum: Limit = None
     default: Limit = None
-    nan: str = None
-    counted_by: str = None
-    cut: bool = False
-    by_hand: bool = False
+    nan: str = None  # meaning of NaN; None: NaN is not valid
+    counted_by: str = None  # name of the field with the number of entries in use; None: all are in use
+    cut: bool = False  # True: a ring copies only the entries in use
+    by_hand: bool = False  # True: validation.cpp checks the range, not the generated code
     offset: int = 0
 
     @property

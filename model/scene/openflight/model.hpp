@@ -79,6 +79,7 @@ using LoadExternal = std::function<error::Expected<std::shared_ptr<const Model>>
 // Flattens a node tree: applies transforms, expands instances and replications, and omits the nodes that `filter`
 // matches (null: omits none). Selects the sibling levels of detail with the minimum switch-out distance, the current
 // mask of a switch, and the first frame of an animation. A two-sided polygon gives triangles for each side.
+// `subject`: name of the file in errors.
 // Errors: errors of `load`, exceeded limits, nesting deeper than kMaxNodeDepth, an external file placed more than
 // 10,000 km from the origin.
 error::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,

@@ -59,7 +59,7 @@ inline Vector3 transformed_normal(const Transform& transform, Vector3 normal) {
 
 // Surface properties of faces.
 struct SurfaceKind {
-  std::uint8_t material = 0;  // DFAD surface material code; 0: not given
+  std::uint8_t material = 0;  // code of DFAD (Digital Feature Analysis Data); 0: not given
   std::uint16_t feature_id = 0;
   std::uint32_t color_rgb = 0;  // 0xRRGGBB
 };

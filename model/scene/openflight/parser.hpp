@@ -3,7 +3,7 @@
 // 76-82 and 94 (record 49 has their product).
 // Wireframe and light faces are omitted. Hidden faces are omitted, too; FileCounts::hidden_faces is their number.
 // Errors: no header, unknown revision or unit, truncated records, more pop records than push records, corners outside
-// their pool, a matrix with NaN or infinity, an exceeded limit (constants below).
+// their pool, a damaged mesh record, a matrix with NaN or infinity, an exceeded limit (constants below).
 // Source: docs/spec/formats.md#openflight.
 #pragma once
 
@@ -30,7 +30,7 @@ inline constexpr std::size_t kMaxVertices = 64'000'000;
 // Parses a file. `subject`: name of the file in errors.
 error::Expected<NodeTree> parse_openflight(std::span<const std::byte> bytes, const std::string& subject);
 
-// State of the parser for one file: turns records into nodes one after the other.
+// Parses one file: turns its records into nodes, in their order in the file.
 class TreeParser {
  public:
   TreeParser(std::span<const std::byte> bytes, std::string subject)

@@ -1,6 +1,7 @@
 // Readers of surface records: vertex palette, meshes, colours, faces.
 // Units: metres; colours 0xRRGGBB.
-// Errors: counts that exceed a record's length, an index outside its pool.
+// Errors: counts that exceed a record's length, an index outside its pool, a vertex pool without positions, an unknown
+// type of primitive or size of indices.
 // Source: docs/spec/formats.md#openflight-face, #openflight-vertex.
 #pragma once
 

@@ -201,8 +201,8 @@ class ScenePlacer {
   }
 
   // Returns `edge_m`, the limit of a piece's edges, doubled until there are about `max_pieces` pieces or fewer. Only
-  // triangles for which `counts` is true are cut. Estimate for a triangle of length L and width W, at the limit e:
-  // L / e (1 + W / e) pieces.
+  // triangles for which `counts` is true are cut. Estimated number of pieces of a triangle of length L and width W, at
+  // the limit e: (L / e) * (1 + W / e).
   template <class Counts>
   double bounded_edge(double edge_m, double max_pieces, const Counts& counts) const {
     const auto pieces = [&] {
@@ -267,7 +267,7 @@ class ScenePlacer {
   ScatterBuilder scatter_;
   double sine_ = 0.0, cosine_ = 1.0;
   double anchor_msl_m_ = 0.0;  // altitude of the terrain at the scene's position; 0 for SceneHeights::sea_level
-  // [m] Limits of the edges of pieces: of draped triangles, of faces for scatterers.
+  // [m] Limits of the edges of pieces. edge_m_: pieces of draped triangles. piece_edge_m_: pieces of scatterers' faces.
   double edge_m_ = kDrapedEdge_m;
   double piece_edge_m_ = kScattererSides_m.front();
   double reach_m_ = 0.0;

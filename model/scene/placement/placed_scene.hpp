@@ -9,7 +9,8 @@
 // the centre of their bounding rectangle.
 // Faces outside objects are draped if they are within 1 m of z = 0. Other faces outside objects have z = 0 at the
 // altitude of the terrain at the scene's position.
-// SceneHeights::anchor: the whole scene has z = 0 at that altitude. SceneHeights::sea_level: z = 0 is mean sea level.
+// SceneHeights::anchor: the whole scene has z = 0 at the altitude of the terrain at the scene's position.
+// SceneHeights::sea_level: z = 0 is mean sea level.
 // Where the terrain is void, the terrain's altitude at the scene's position is used, or 0 if the terrain is void there,
 // too.
 #pragma once

@@ -19,7 +19,7 @@ namespace yars::model::scene {
 // Linear approximation of the transform between two azimuthal equidistant planes. The origin of the second plane is the
 // point `middle` of the first plane, within 20 km of the first plane's origin.
 // Accuracy: to_local() within 1 mm up to 300 m from `middle`; position_of() within 10 mm in a square of 128 m about
-// `middle`, below 80 degrees of latitude.
+// `middle`, below 80 degrees of latitude. Both functions take a point of the first plane.
 class LocalMap {
  public:
   LocalMap(const geo::AzimuthalEquidistant& from, geo::PlanePoint middle);

@@ -32,11 +32,12 @@ std::uint64_t Scatterers::bytes() const {
 
 namespace {
 
+// Bins of a normal's direction. Cardinal effect: stronger return of walls that face the radar within 6 degrees.
 constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees, below the width of the cardinal effect
 constexpr double kElevationBin_rad = std::numbers::pi / 12.0;  // 15 degrees
 constexpr std::uint32_t kWall = 1U << 31U;                     // bit of a key: the face is a wall
-// Maximum number of squares with standing faces in a scene. The same limit applies to squares with lying faces. Bounds
-// memory to about 100 MB.
+// Maximum number of squares with standing faces in a scene. The same limit applies to squares with lying faces. It
+// bounds memory to about 100 MB.
 constexpr std::size_t kMaxSquares = 1U << 18U;
 // Maximum extent east and north of a triangle on the ground, in squares. For a larger triangle, the builder changes to
 // a coarser level.

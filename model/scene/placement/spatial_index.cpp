@@ -75,8 +75,9 @@ void GridIndex::test(std::uint32_t disc, geo::Vector3 position, double radius_m,
 }
 
 namespace {
-// Greatest difference of longitude [deg] between the centre of a circle and a point in it. `half_deg`: radius. 360 if
-// the circle contains a pole. Where a meridian touches the circle, sin(difference) = sin(radius) / cos(latitude).
+// Greatest difference of longitude [deg] between the centre of a circle and a point in it. `half_deg`: radius of the
+// circle [deg]. 360 if the circle contains a pole. Where a meridian touches the circle, sin(difference) = sin(radius) /
+// cos(latitude).
 double longitude_reach_deg(double latitude_deg, double half_deg) {
   constexpr double kMargin = 1.02;  // for the earth's flattening
   if (std::abs(latitude_deg) + kMargin * half_deg >= 90.0) return 360.0;

@@ -123,8 +123,8 @@ Cell in_whole_metres(const Cell& cell);
 
 // Two coarser grids of a cell, with every factor-th post of each dimension. They include both edges of the cell.
 // means: mean of the posts within half the new spacing; voids are left out. Posts at exactly half the new spacing have
-//   half weight. A post on an edge averages only posts of that edge, so that equal edges of neighbouring cells stay
-//   equal.
+//   half weight. A coarse post on an edge is the mean of posts of that edge only, so that equal edges of neighbouring
+//   cells stay equal.
 //   The mean is 0 (sea) if sea posts have over half of the weight. Any other mean keeps its sign and is not 0.
 // peaks: the highest post less than one new spacing away in each dimension. Bilinear interpolation between peaks is
 //   never below the original surface. Peaks are computed from the posts of their own cell only. So the peaks of two

@@ -31,7 +31,7 @@ struct CellReading {
   bool damaged = false;                         // true: a checksum in the file is wrong
 };
 
-// Replaces impossible heights by voids, and adds one warning with their number. Posts are in metres.
+// Replaces impossible heights by voids. If there are any, adds one warning with their number. Posts are in metres.
 // Impossible: below -12,000 m, above 10,000 m, and -9999 m, which some producers write for missing data.
 void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::string>& warnings);
 

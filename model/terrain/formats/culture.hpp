@@ -74,12 +74,12 @@ inline constexpr int kMaxCulturePosts = 10801;  // per edge, 1/3 arc second apar
 // The culture file of an elevation file: w122/n36.smc.png for w122/n36.dt1, N36W122.smc.png for N36W122.hgt.zip.
 std::filesystem::path culture_path(const std::filesystem::path& elevation);
 
-// Like culture_path(), with the case of the name in the folder. nullopt if there is no such entry. An entry that is not
-// a plain file is found, too; read_culture() then returns its error.
+// Path of the folder's entry with the name of culture_path(), in upper or lower case. nullopt if there is no such
+// entry. An entry that is not a plain file is found, too; read_culture() then fails.
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation, file::FolderNames& names);
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation);
 
-// Reads a culture tile: a pixel's palette index is the code of a post. The palette's colours are ignored.
+// Reads a culture file: a pixel's palette index is the code of a post. The palette's colours are ignored.
 // Errors: not an indexed PNG, fewer than 2 or more than kMaxCulturePosts posts a side, a code above kMaxMaterial. The
 // message gives column and row of the first wrong code, counted from 0 at the north-west corner.
 error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCorner corner);
@@ -87,10 +87,10 @@ error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCor
 // Red, green, blue of a material; gray for the free codes.
 std::array<std::uint8_t, 3> material_colour(std::uint8_t code);
 
-// Removes the culture of an elevation file, under names of either case. Errors: a culture that cannot be removed.
+// Removes all culture files of an elevation file, with names in upper or lower case. Errors: a file cannot be removed.
 error::Expected<void> remove_culture(const std::filesystem::path& elevation);
 
-// Writes a culture tile, with the colours of material_colour() as its palette, and creates missing folders.
+// Writes a culture file, with the colours of material_colour() as its palette, and creates missing folders.
 error::Expected<void> write_culture(const std::filesystem::path& path, const Culture& culture);
 
 }  // namespace yars::model::terrain

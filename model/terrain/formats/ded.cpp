@@ -26,7 +26,7 @@ double real_at(const std::byte* bytes) {
   return static_cast<double>(memory::big_endian<float>(bytes));
 }
 
-// The integer that is within `tolerance` of `value` and within [min, max]; nullopt if there is none, or for NaN.
+// The integer that is within `tolerance` of `value` and in [min, max]. nullopt if there is no such integer, or for NaN.
 std::optional<int> whole(double value, double tolerance, int min, int max) {
   if (!(value >= min - 0.5 && value <= max + 0.5)) return std::nullopt;
   const int nearest = static_cast<int>(std::lround(value));

@@ -245,7 +245,7 @@ error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const 
 }
 
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner) {
-  // The size of a level 2 file with eight labels in front. No file of level 0, 1 or 2 is larger.
+  // The size of a level 2 file that begins with eight labels. No file of level 0, 1 or 2 is larger.
   constexpr std::size_t kMaxFile_bytes = dted::kHeaderBytes + 3601 * dted::record_bytes(3601) + 8 * dted::kLabelBytes;
   const auto bytes = read_file(path, kMaxFile_bytes);
   if (!bytes) return tl::unexpected(bytes.error());
@@ -305,7 +305,7 @@ void append_header(const Cell& cell, int level, std::vector<std::byte>& bytes) {
   description.put(277, longitude_interval);
   description.put(281, padded(cell.rows(), 4));
   description.put(285, padded(cell.columns(), 4));
-  description.put(289, "00");  // complete
+  description.put(289, "00");  // partial cell indicator: the cell is complete
   description.append_to(bytes);
   HeaderText accuracy(dted::kAccuracyBytes);
   accuracy.put(0, "ACCNA  NA  NA  NA  ");

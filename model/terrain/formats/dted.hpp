@@ -58,13 +58,14 @@ namespace yars::model::terrain {
 // Absent columns, and posts that are absent at the south end of a column, become voids with a warning.
 // A wrong column checksum is a warning, and the heights are kept (project choice).
 // A file with a height below -16000 m in sign-magnitude is read as two's complement, with a warning.
-// Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 or blank. Any other datum, such as WGS72, is an error.
+// Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 (mean sea level of EGM84, EGM96, EGM2008) or blank.
+// Any other datum, such as WGS72, is an error.
 // Errors: no UHL, another datum, an origin not in whole degrees or not at `corner`, posts that do not span one
 // degree, a truncated or misplaced record.
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner);
 
 // Checks the datums of a description record. The fields may have blanks and null characters around them.
-// Errors: another datum than those above. `subject` names the file in errors.
+// Errors: a datum that read_dted() does not accept. `subject` names the file in errors.
 error::Expected<void> check_dted_datums(std::string_view vertical, std::string_view horizontal,
                                         const std::string& subject);
 

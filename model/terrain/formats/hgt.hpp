@@ -29,10 +29,12 @@ int hgt_posts_for_size(std::uintmax_t bytes);
 
 // Reads `N36W122.hgt.gz`, or the entry `N36W122.hgt` of `N36W122.hgt.zip`, in upper or lower case. A gzip header with
 // the name of another cell is an error. Decompression stops beyond the length of the largest HGT file, as a protection
-// against zip bombs. Errors: a damaged archive, no such entry, another length.
+// against zip bombs (archives that expand to fill the memory). Errors: a damaged archive, no such entry, another
+// length.
 error::Expected<CellReading> read_compressed_hgt(const std::filesystem::path& path, CellCorner corner);
 
-// Number of posts along an edge, from the uncompressed length in the archive; 0 if no HGT file has this length.
+// Number of posts along an edge, from the uncompressed length that the archive states. 0 if no HGT file has this
+// length, or if the archive cannot be read.
 int compressed_hgt_posts(const std::filesystem::path& path);
 
 // Returns the bytes of an HGT file. Requires 1201 x 1201 or 3601 x 3601 posts in units of 1 m.

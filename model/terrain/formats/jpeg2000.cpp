@@ -239,7 +239,7 @@ std::size_t index_of(int row, int column, int columns) {
   return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
 }
 
-// Grid of half the size: means of two by two posts without their voids; void where all four are void.
+// Grid of half the size. Each post is the mean of two by two posts without their voids; void if all of them are void.
 HeightGrid halved(const HeightGrid& fine) {
   HeightGrid coarse{(fine.rows + 1) / 2, (fine.columns + 1) / 2, {}};
   coarse.heights.reserve(index_of(coarse.rows, 0, coarse.columns));

@@ -24,7 +24,7 @@ constexpr std::size_t kHeadBytes = 36;          // length of the header, up to a
 constexpr std::size_t kChecksumAt = 28;         // offset of the checksum over all following bytes
 constexpr std::size_t kLevelBytes = 12;         // length of an entry in the table of levels
 constexpr double kUnitsPerMetre = 100.0;        // the file gives the unit of the posts in centimetres
-constexpr std::uint32_t kMaxStoredLevels = 17;  // the full grid and at most 16 reductions
+constexpr std::uint32_t kMaxStoredLevels = 17;  // more mean a damaged file; pack_cell() writes at most 6
 
 // Numbers of posts along the sides of a grid.
 struct Sides {

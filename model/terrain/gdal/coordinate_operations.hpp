@@ -1,6 +1,7 @@
 // Choice of a PROJ coordinate operation: a transformation from one coordinate system to another. Used in this folder
 // only. Input: two systems, and sample points in the first system. Output: the operation, and a warning about its
-// accuracy. PROJ's last resort is a ballpark transformation, which neglects the difference between the two datums.
+// accuracy. PROJ's last resort is a ballpark transformation. It neglects the difference between the two datums, the
+// ellipsoids to which the systems refer and their positions in the earth.
 // Errors: a null operation if PROJ has none. Threads: one thread per PJ_CONTEXT.
 #pragma once
 
@@ -23,7 +24,7 @@ struct DestroyProjection {
 using ProjContext = std::unique_ptr<PJ_CONTEXT, DestroyContext>;
 using Projection = std::unique_ptr<PJ, DestroyProjection>;
 
-// Positions in the axis order and the units of the first system.
+// Positions in the axis order and the units of their coordinate system.
 struct SamplePoints {
   std::vector<double> x, y;
 };
@@ -38,9 +39,9 @@ struct ChosenOperation {
   std::string warning;   // set if PROJ has only a ballpark transformation, or if a better operation lacks its grid file
 };
 
-// Tries the first 16 operations of PROJ's list, best first. Returns the one that transforms the most sample points
-// reversibly: the result, transformed back and forward again, is the same. A second list, for the area of these
-// results, takes precedence if one of its operations can be used.
+// `points`: sample points in the system `from`. Tries the first 16 operations of PROJ's list, best first. Returns the
+// operation that transforms the most sample points reversibly: the result, transformed back and forward again, is the
+// same. A second list, for the area of these results, takes precedence if one of its operations can be used.
 ChosenOperation operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const SamplePoints& points,
                                   Operations operations);
 

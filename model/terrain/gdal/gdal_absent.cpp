@@ -4,7 +4,7 @@
 
 namespace yars::model::terrain::gdal {
 
-// Replaces raster.cpp, raster_survey.cpp and map_writer.cpp in a build without GDAL.
+// Replaces the other sources of this folder in a build without GDAL.
 
 namespace {
 

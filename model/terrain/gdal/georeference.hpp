@@ -2,10 +2,11 @@
 // Used in this folder only.
 // Input: coordinate system and geotransform of a GDAL dataset. The geotransform is GDAL's affine transform from pixels
 //   to coordinates of the system.
-// Output: longitudes and latitudes [deg], pixel positions, geoid corrections [m].
+// Output: longitudes and latitudes [deg], pixel positions, geoid corrections [m]. The geoid is the surface of mean sea
+//   level. EGM96 is the model of the geoid that is used.
 // Frame: pixel positions count from the outer corner of the first pixel. The centre of this pixel is (0.5, 0.5).
-// Errors: no geotransform, no coordinate system, no PROJ operation to WGS84, ellipsoidal heights for which PROJ has no
-//   geoid.
+// Errors: no geotransform or a singular one, no coordinate system that PROJ knows, no PROJ operation to WGS84,
+//   ellipsoidal heights for which PROJ has no geoid.
 // Threads: one thread per object.
 #pragma once
 
@@ -101,7 +102,7 @@ struct PixelPosition {
 // Corners of a quadrilateral, in the order of its edges.
 using PixelCorners = std::array<PixelPosition, 4>;
 
-// Distance in pixels from a post to its northern and its eastern neighbour.
+// Signed offset [pixels], in columns and in rows, from a post to its northern and to its eastern neighbour.
 struct PixelStep {
   double column_north, row_north, column_east, row_east;
 };

@@ -53,8 +53,8 @@ std::string bands_of(GDALDatasetH dataset) {
   return std::to_string(count) + " band(s) of type " + GDALGetDataTypeName(type);
 }
 
-// [m] Unit of the band's heights. If the band states no unit: `by_system`, the unit of the coordinate system; 0: metre.
-// Any stated unit other than feet counts as the metre.
+// [m] Unit of the band's heights. If the band states no unit: `by_system`, the unit of the coordinate system, or the
+// metre if `by_system` is 0. Any stated unit other than feet counts as the metre.
 double metres_of(GDALRasterBandH band, double by_system) {
   constexpr double kFoot = 0.3048;
   constexpr double kSurveyFoot = 1200.0 / 3937.0;
@@ -128,13 +128,13 @@ error::Expected<Raster> open_raster(const std::filesystem::path& path) {
 
 namespace {
 
-// [m] MSL. Bounds of possible heights, as in cell_reading.cpp.
+// [m] Bounds of possible heights, as in cell_reading.cpp.
 constexpr double kLowest_m = -12'000.0;
 constexpr double kHighest_m = 10'000.0;
 constexpr float kImpossible = std::numeric_limits<float>::infinity();
 
-// Band values that producers write where they have no data, often without declaring them. They are compared before
-// scale, offset and unit are applied: scaled or in feet, some would be possible heights.
+// Band values that producers write where they have no data, often without declaring them. These values are compared
+// before scale, offset and unit are applied. Afterwards, some of these values would be possible heights.
 std::vector<float> usual_voids_of(const Raster& raster) {
   const GDALDataType type = GDALGetRasterDataType(raster.heights);
   if (type != GDT_UInt16 && type != GDT_UInt32) return {-32768.0F, -32767.0F, 32767.0F, -9999.0F};
@@ -145,7 +145,7 @@ std::vector<float> usual_voids_of(const Raster& raster) {
   return voids;
 }
 
-// Converts a band value to a height [m MSL]. NaN: no data. Infinity: an impossible height.
+// Converts a band value to a height [m]. NaN: no data. Infinity: an impossible height.
 class HeightCheck {
  public:
   explicit HeightCheck(const Raster& raster)

@@ -1,5 +1,6 @@
 // Raster of heights opened by GDAL, and mean heights of blocks of its pixels. Used in this folder only.
-// Input: a regular file. Output: heights [m MSL]; NaN where the raster has no data.
+// Input: a regular file. Output: heights [m], NaN where the raster has no data. The heights are above mean sea level,
+//   or above the ellipsoid if Georeference::heights_are_ellipsoidal().
 // Errors: not a regular file, not readable by GDAL, not exactly one band of numbers with 16 bits or more, no
 //   georeference.
 //   The first error message of GDAL becomes part of the error. GDAL prints nothing to stderr.
@@ -68,7 +69,8 @@ struct Box {
 
 // Reads the heights of pixels [m], row by row. NaN: no data. Infinity: an impossible height.
 // Impossible are heights below -12,000 m or above 10,000 m, a height of -9999 m, and undeclared no-data values of the
-// band: -32768, -32767, 32767 and -9999. In unsigned bands: 65535 of 16 bits, and 32767 of bands without a scale.
+// band: -32768, -32767, 32767 and -9999. In unsigned bands these values are 65535 (16 bits only) and 32767 (only
+// without a scale) instead.
 error::Expected<std::vector<float>> read_heights(const Raster& raster, const Box& pixels);
 
 // Size of the blocks of pixels that are averaged. The first block begins at the raster's first pixel.
@@ -90,7 +92,7 @@ struct HeightWindow {
 // Pixels whose impossible heights are counted.
 struct CountedPixels {
   Box blocks;                           // pixels of these blocks
-  std::optional<PixelCorners> corners;  // of them, only pixels with a centre between these corners; nullopt: all
+  std::optional<PixelCorners> corners;  // quadrilateral that the pixel's centre must lie in; nullopt: all pixels
 };
 
 // Reads the mean heights of `blocks`.

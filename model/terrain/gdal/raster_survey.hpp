@@ -29,8 +29,8 @@ struct RasterStatistics {
 };
 
 // Surveys a raster. nullopt if its rows and columns are not parallels and meridians of WGS84, or if its heights are
-// ellipsoidal: they become heights above mean sea level in the posts of cells only. `progress` receives the completed
-// fraction of the work, (0, 1]; it may be empty.
+// ellipsoidal. Only read_raster() (raster.hpp) converts ellipsoidal heights to heights above mean sea level. `progress`
+// receives the completed fraction of the work, (0, 1]; it may be empty.
 error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesystem::path& path,
                                                                const std::function<void(double)>& progress);
 

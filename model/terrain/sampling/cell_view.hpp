@@ -18,8 +18,9 @@
 namespace yars::model::terrain {
 
 // Interpolates in one cell. Coordinates are degrees from the cell's south-west corner, clamped to [0, 1].
-// bilinear: between the four posts around the position. nearest: the nearest of these four. cubic: Catmull-Rom over
-// sixteen posts; posts beyond the cell's edge repeat the edge. If one of the sixteen is void, the result is bilinear.
+// bilinear: between the four posts around the position. nearest: the nearest of these four. cubic: Catmull-Rom (a cubic
+// spline through the posts) over sixteen posts. Posts beyond the cell's edge repeat the edge. If one of the sixteen is
+// void, the result is bilinear.
 // Void posts are left out, and the weights of the others are scaled to a sum of 1. The water fraction is the sum of the
 // scaled weights of the posts at 0 m.
 Surface interpolate(const Cell& cell, double north_deg, double east_deg,

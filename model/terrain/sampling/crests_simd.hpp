@@ -31,9 +31,9 @@ struct CrossedCell {
   sampling::Grid grid;
   float cells_north = 0.0F, cells_east = 0.0F;  // whole cells from the ray's reference corner to this cell
   float spacing_m = 0.0F;  // [m] the smaller of row and column spacing, but at least 1/3 of the row spacing
-  // True if columns are closer than a third of the row spacing, as toward a pole. Then not every column is
-  // examined; along the ray the examined columns are at most 0.3 spacing_m apart. Longitudes are compared modulo 360
-  // degrees, because those of a ray past a pole may be 360 degrees too large or too small.
+  // True if columns are closer than a third of the row spacing, as toward a pole. Columns are then skipped as long as
+  // the examined ones are at most 0.3 spacing_m apart along the ray. Longitudes are then compared modulo 360 degrees,
+  // because those of a ray past a pole may be 360 degrees too large or too small.
   bool close_columns = false;
 };
 

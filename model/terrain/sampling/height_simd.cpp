@@ -65,7 +65,8 @@ std::size_t positions_per_line(const Grid& grid, const float* north_deg, const f
   return std::max<std::size_t>(1, static_cast<std::size_t>(static_cast<float>(count) / lines));
 }
 
-// Computes post offsets and fractions of `count` positions. Prefetches the posts of every `fetch_step`-th position.
+// Computes post offsets and fractions of `count` positions. In each vector, prefetches the posts of the first position
+// and of every `fetch_step`-th position after it.
 HWY_INLINE void locate(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count,
                        std::size_t fetch_step, Located& located) {
   const FloatLanes d;

@@ -26,7 +26,8 @@ using Ints = hn::Vec<IntLanes>;
 
 constexpr std::int32_t kVoid = -32768;
 
-// Quotient number / kStep, rounded down. Multiplies by kInverse, which is 65536 / kStep rounded up, and drops 16 bits.
+// Quotient number / kStep, rounded down. The number is multiplied by kInverse, which is 65536 / kStep rounded up. The
+// lower 16 bits of the product are dropped.
 // Exact for 0 <= number < 13000 and a kStep of 3 or 7.
 template <int kStep>
 HWY_INLINE Ints divided(Ints number) {
@@ -62,7 +63,8 @@ class BlockLanes {
   Ints row_of_blocks_, column_of_blocks_;
 };
 
-// Two adjacent posts of a row at offsets [bytes] from `posts`. The western one is in the lower 16 bits.
+// Two adjacent posts of a row in each lane. The western post begins `offset` bytes after `posts`. It is in the lower 16
+// bits.
 HWY_INLINE Ints gather_word(const std::int16_t* posts, Ints offset) {
 #if HWY_TARGET == HWY_SCALAR
   // Highway's scalar gather requires aligned words.

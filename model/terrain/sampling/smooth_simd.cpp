@@ -33,7 +33,8 @@ HWY_INLINE Floats bilinear(const Quad& quad) {
   return fused::mul_add(quad.north, hn::Sub(north, south), south);
 }
 
-// Bilinear mean over the nodes that are not void, with their weights scaled to a sum of 1. NaN if all are void.
+// Bilinear mean over the nodes that are not void, with their weights scaled to a sum of 1. NaN if these nodes have no
+// weight.
 HWY_INLINE Floats without_voids(const Quad& quad) {
   const FloatLanes d;
   const auto one = hn::Set(d, 1.0F);

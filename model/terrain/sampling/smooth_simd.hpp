@@ -22,8 +22,8 @@ struct Nodes {
 };
 
 // Bilinear interpolation between the four nodes around each position. Void nodes are left out, and the weights of the
-// others are scaled to a sum of 1; if all four are void, the result is NaN. A position outside the grid leaves its
-// element of `elevation_m` unchanged. Returns true if all positions are inside the grid.
+// others are scaled to a sum of 1. If the others have no weight, the result is NaN. A position outside the grid leaves
+// its element of `elevation_m` unchanged. Returns true if all positions are inside the grid.
 bool heights(const Nodes& nodes, const float* north_deg, const float* east_deg, std::size_t count, float* elevation_m);
 
 // Heights of three successive posts, as arrays. Element i of each belongs to the same triple. NaN: void.
@@ -32,7 +32,7 @@ struct Neighbours {
 };
 // slope[i] = slope at `here` [m per post interval]: the mean of the differences to both neighbours. Its absolute value
 // is at most 3 times the smaller difference. It is 0 if the signs of the differences differ. Next to a void, both
-// differences are the difference to the other neighbour.
+// differences are the difference to the other neighbour. The slope is 0 if `here` or both neighbours are void.
 void limited_slopes(std::size_t count, const Neighbours& posts, float* slope);
 
 // Heights and slopes at the two ends of an interval, as arrays.
@@ -40,7 +40,7 @@ struct Interval {
   const float *near, *far, *near_slope, *far_slope;
 };
 // height[i] = cubic Hermite interpolant at `fraction`, in [0, 1), of the interval from near to far. If one end is
-// void: the height of the other end.
+// void, height[i] is the height of the other end. If both are void, it is NaN.
 void between(std::size_t count, const Interval& ends, float fraction, float* height);
 
 }  // namespace yars::model::terrain::smooth

@@ -17,7 +17,7 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr double kMaxLatitude_deg = 88.0;    // nearer to a pole an interval of posts is not a rectangle on the ground
+constexpr double kMaxLatitude_deg = 88.0;    // nearer to a pole four posts do not span a rectangle on the ground
 constexpr int kMaxParts = 64;                // maximum number of parts of an interval of posts
 constexpr std::size_t kMaxNodes = 1U << 23;  // 32 MiB; in a cell with more nodes, intervals get fewer parts
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();

@@ -1,7 +1,7 @@
 // Interfaces of terrain: TerrainView, which kernels sample, and TerrainStore, which makes views; regions of terrain.
 // Input: WGS84 positions in degrees. Output: elevation [m MSL], water fraction [0, 1], DFAD material code.
-// A reduced cell has a post at every 2^n-th original post: the mean height around it, and the peak, which is the
-//   highest ground around it (cell.hpp). DFAD codes: culture.hpp.
+// A reduced cell keeps every 2^n-th post. Each has two heights: the mean of the original posts around it, and the peak,
+//   the highest ground around it (cell.hpp). DFAD codes: culture.hpp.
 // Accuracy: surface_at() is double precision; surfaces() differs by at most 0.05 m + 1e-6 of the cell's relief.
 // Errors: voids and invalid positions give NaN. A store reports problems as sentences.
 // Threads: any thread may read a view, which is immutable. prepare() runs on one thread at a time and may wait.
@@ -68,7 +68,7 @@ struct PostSpacing {
   double columns_deg = 0.0;  // [deg] longitude between columns; a column lies on every whole degree
 };
 
-// Geometry of a ray from an observer at its start, over the effective earth (a sphere).
+// Geometry of a ray from an observer at its start, over the effective earth: a sphere that accounts for refraction.
 struct RaySight {
   double altitude_m = 0.0;            // [m] MSL of the observer
   double curvature = 0.0;             // [1/m] curvature of the effective earth

@@ -101,8 +101,9 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
   const auto whole = posts_of(file, corner);
   if (!whole) return tl::unexpected(whole.error());
   auto [north, east] = *whole;
-  // For a raster finer than one arc second, read_raster() does the first halvings by averaging pixels, at most down to
-  // one arc second. reduced() does the rest and finds the peaks. Averaging to coarser posts would lose summits.
+  // For a raster finer than one arc second, read_raster() does the first halvings by averaging pixels. They end
+  // when the posts are at least one arc second apart, or when a number of intervals is odd. reduced() does the rest and
+  // finds the peaks. Averaging to even coarser posts would lose summits.
   constexpr int kFinestReduced = 3600;  // posts per degree
   int remaining = reduction;
   for (; remaining > 0 && std::max(north, east) > kFinestReduced && north % 2 == 0 && east % 2 == 0; --remaining) {

@@ -1,6 +1,7 @@
 // Elevation files of a folder: the cell that a file name states, reading by format, index and coverage of the folder.
 // Input: a folder, or one file. Output: a DirectoryIndex (the file of each cell); a CellReading; problems as sentences.
 // Names: `wLLL/nBB.dtN` (N 0 to 2), `N36W122.hgt`, `.hgt.zip`, `.hgt.gz` and `wLLL/nBB.jp2` state their cell.
+//   LLL and BB: longitude and latitude [deg] of the cell's south-west corner, after w or e and n or s.
 //   `wLLL/nBB.jp2` is a pack (formats/pack.hpp). Names may be in upper or lower case. The headers of `.ded` files and
 //   rasters (.tif, .tiff, .img, other .jp2) state their cells.
 // Errors: each message names the file. Source: docs/terrain.md.
@@ -62,7 +63,7 @@ using DirectoryIndex = std::map<std::size_t, CellFile>;
 // zip and gzip archives, are read. Symbolic links to folders are not followed.
 // Of several files for one cell, one is used. Preference: at least 99 % of the cell spanned, then finest spacing, then
 // order of CellFormat, then order of paths.
-// `problems` receives a sentence for each unusable elevation file, sorted.
+// `problems` receives a sentence for each unusable elevation file and each folder that cannot be read, sorted.
 // Errors: the directory is missing or has no usable cell.
 error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory,
                                                 std::vector<std::string>* problems = nullptr);

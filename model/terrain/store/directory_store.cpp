@@ -66,7 +66,8 @@ TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& 
   return view_;
 }
 
-// Reports once when regions leave the coverage of the folder. A region of radius 0, a single position, is not reported.
+// Reports a problem each time that the regions leave the coverage of the folder. A region of radius 0, a single
+// position, is not reported.
 void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
   if (region.radius_m <= 0.0) return;
   const bool outside = !touches(index_, region);
