@@ -117,6 +117,7 @@ std::string Learning::take_button(std::uint16_t code) {
   const std::string name = config::button_name(code);
   if (!config::button_code(name)) return {};
   if (kPrompts[next_].event.empty()) return name + " is a button; an axis is expected";
+  begin_prompt();
   return take_result({Found::button, code, 1, 0.0, 0.0, 0.0}, name);
 }
 

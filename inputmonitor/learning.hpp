@@ -54,8 +54,8 @@ class Learning {
     double rest = 0.0;          // [raw units]
     double return_error = 0.0;  // [raw units] hat or axis: distance from rest after the return
   };
-  // Rest value, minimum and maximum of an axis [raw units]. Minimum and maximum count from the last identified move of
-  // any axis, skip() or back(). A button does not reset them.
+  // Rest value, minimum and maximum of an axis [raw units]. Minimum and maximum count from the last identified
+  // control, skip() or back().
   struct Watched {
     double rest = 0.0;
     double min = 0.0;

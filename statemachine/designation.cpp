@@ -138,7 +138,7 @@ double bank_onto_line(const geo::GeodesicInverse& sight, Bearing approach, const
 
 }  // namespace
 
-void steer_slewing(Step& step) {
+void steer_by_acquisition_switch(Step& step) {
   if (!has(step.state, databuffer::kTargetDesignated)) return;
   if (step.event.argument < 0) {
     put_line(step.state, SteeringLine::slewing);

@@ -42,7 +42,7 @@ void request_cursor_elevation(databuffer::RadarState& state);
 // Source: docs/spec/pilots_interface.md#rule-15.
 
 // Acquisition switch with cursor function TGT. Aft: the TDC turns the line. Forward: steer_line_of_sight().
-void steer_slewing(Step& step);
+void steer_by_acquisition_switch(Step& step);
 // TDC release while slewing: fixes the heading of the line as the approach heading.
 void fix_steering_line(Step& step);
 bool slews_steering_line(const databuffer::RadarState& state);  // true while the TDC turns the line

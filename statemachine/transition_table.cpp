@@ -83,13 +83,13 @@ using databuffer::EventKind;
 using databuffer::RadarState;
 
 constexpr Columns kBothHrm = kHrm | kPatch;
-constexpr Columns kWithCursor = kRbm | kBothHrm | kBcn;
+constexpr Columns kModesWithCursor = kRbm | kBothHrm | kBcn;
 constexpr Columns kAllGround = kRbm | kHrm | kPatch | kBcn | kPvu;
 constexpr Columns kRadar = kAllGround | kRanging;  // all modes with power on; kMenu is a column of buttons only
-constexpr Conditions kRangeStepConditions = kThawed | kWithMap;
+constexpr Conditions kRangeStepConditions = kThawed | kCursorIsMap;
 constexpr Conditions kRecallable = kFrozen | kHasMap;
 // Conditions for commanding a map. A map needs the transmitter. While SET is on, the TDC acts on the frozen map.
-constexpr Conditions kMapCommandConditions = kWithMap | kOperating | kSniffOff | kSetOff;
+constexpr Conditions kMapCommandConditions = kCursorIsMap | kOperating | kSniffOff | kSetOff;
 
 template <std::uint32_t Flag>
 bool on(const RadarState& state) {
@@ -142,20 +142,20 @@ constexpr std::array kButtons{
 constexpr std::array kControls{
     ControlRow{EventKind::tdc, kRadar, kAlways, deflect},
     ControlRow{EventKind::tdc_release, kRbm | kBothHrm | kPvu, kMapCommandConditions, command_map},
-    ControlRow{EventKind::tdc_release, kWithCursor, kWithUpdate | kOperating, accept_update},
-    ControlRow{EventKind::tdc_release, kRanging, kWithUpdate | kOperating | kSetOn, accept_update},
-    ControlRow{EventKind::tdc_release, kWithCursor, kWithCue | kOperating, cue_sensor},
-    ControlRow{EventKind::tdc_release, kRanging, kWithCue | kOperating | kSetOn, cue_sensor},
-    ControlRow{EventKind::tdc_release, kWithCursor, kWithTarget | kOperating | kLineSlews, fix_steering_line},
-    ControlRow{EventKind::tdc_release, kRanging, kWithTarget | kOperating | kLineSlews | kSetOn, fix_steering_line},
-    ControlRow{EventKind::tdc_release, kWithCursor, kWithTarget | kOperating, designate_target},
-    ControlRow{EventKind::tdc_release, kRanging, kWithTarget | kOperating | kSetOn, designate_target},
-    ControlRow{EventKind::tdc_release, kWithCursor, kWithMark | kOperating, store_mark},
-    ControlRow{EventKind::tdc_release, kRanging, kWithMark | kOperating | kSetOn, store_mark},
+    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsUpdate | kOperating, accept_update},
+    ControlRow{EventKind::tdc_release, kRanging, kCursorIsUpdate | kOperating | kSetOn, accept_update},
+    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsCue | kOperating, cue_sensor},
+    ControlRow{EventKind::tdc_release, kRanging, kCursorIsCue | kOperating | kSetOn, cue_sensor},
+    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsTarget | kOperating | kLineSlews, fix_steering_line},
+    ControlRow{EventKind::tdc_release, kRanging, kCursorIsTarget | kOperating | kLineSlews | kSetOn, fix_steering_line},
+    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsTarget | kOperating, designate_target},
+    ControlRow{EventKind::tdc_release, kRanging, kCursorIsTarget | kOperating | kSetOn, designate_target},
+    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsMark | kOperating, store_mark},
+    ControlRow{EventKind::tdc_release, kRanging, kCursorIsMark | kOperating | kSetOn, store_mark},
     ControlRow{EventKind::castle_up, kRadar, kAlways, next_sequence_point},
-    ControlRow{EventKind::acquisition, kAllGround, kWithMap, step_window},
-    ControlRow{EventKind::acquisition, kWithCursor, kWithTarget | kOperating, steer_slewing},
-    ControlRow{EventKind::acquisition, kRanging, kWithTarget | kOperating | kSetOn, steer_slewing},
+    ControlRow{EventKind::acquisition, kAllGround, kCursorIsMap, step_window},
+    ControlRow{EventKind::acquisition, kModesWithCursor, kCursorIsTarget | kOperating, steer_by_acquisition_switch},
+    ControlRow{EventKind::acquisition, kRanging, kCursorIsTarget | kOperating | kSetOn, steer_by_acquisition_switch},
     ControlRow{EventKind::freeze, kRbm | kBcn, kAlways, toggle_freeze},
     ControlRow{EventKind::freeze, kBothHrm, kSniffOff | kSetOff, toggle_freeze},
     ControlRow{EventKind::elevation, kRbm | kBcn | kPvu | kRanging, kSetOff, set_elevation},
@@ -195,15 +195,15 @@ Columns column_of(radar::Mode mode) {
 Conditions condition_of(radar::CursorFunction function) {
   switch (function) {
     case radar::CursorFunction::map:
-      return kWithMap;
+      return kCursorIsMap;
     case radar::CursorFunction::update:
-      return kWithUpdate;
+      return kCursorIsUpdate;
     case radar::CursorFunction::cue:
-      return kWithCue;
+      return kCursorIsCue;
     case radar::CursorFunction::target:
-      return kWithTarget;
+      return kCursorIsTarget;
     case radar::CursorFunction::mark:
-      return kWithMark;
+      return kCursorIsMark;
   }
   return kAlways;
 }
@@ -251,7 +251,7 @@ constexpr std::array kMissing{MissingCondition{kOperating, "dead in STBY"},
                               MissingCondition{kSetOn, "dead without SET"},
                               MissingCondition{kHasMap, "dead without a map"},
                               MissingCondition{kMapShown, "dead without a map on the display"},
-                              MissingCondition{kWithMap, "dead unless the cursor function is MAP"}};
+                              MissingCondition{kCursorIsMap, "dead unless the cursor function is MAP"}};
 
 // Of the rows for this event and column, takes the row with the fewest missing conditions and returns these conditions;
 // nullopt if there is no such row.

@@ -28,7 +28,7 @@ void add_commands(databuffer::Command app, const tools::CommonOptions& common) {
 int run(int argc, char** argv) {
   databuffer::CommandLine app("YARS: an open air-to-ground radar simulation", "yars");
   app.require_subcommand();
-  app.accept_behind_subcommands();
+  app.accept_options_after_subcommands();
   databuffer::ProgramOptions options;
   databuffer::add_common_options(app, options, false);
   tools::CommonOptions common;

@@ -333,7 +333,7 @@ std::vector<SlotSchema> noise_slots() {
                       "thermal noise, relative to full scale"),
           {.name = "looks",
            .lowest = 1,
-           .highest = 64,
+           .highest = 16,
            .binding = IntegerSlot{YARS_FIELD(radar.receiver.looks)},
            .purpose = "independent looks averaged in each sample; more looks give less speckle"},
           {.name = "seed",

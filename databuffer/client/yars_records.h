@@ -122,11 +122,11 @@ typedef struct {
   uint32_t reserved0;
 } yars_traffic_entity;
 
-/* Surface traffic: ships and vehicles that an instructor's station or a bridge reports. The radar shows moving
- * targets. Between two records each entity continues straight at its velocity. A record lists all entities; an
- * entity that it omits is removed. After kTrafficStaleAfter without a record all entities are removed. */
+/* Surface traffic: ships and vehicles that an instructor's station or a bridge reports. The radar model computes
+ * their echoes. Between two records each entity continues straight at its velocity. A record lists all entities; an
+ * entity that the record omits is removed. After kTrafficStaleAfter without a record all entities are removed. */
 typedef struct {
-  int64_t tick;                     /* [tick] at which the radar model latched the record; 0 before */
+  int64_t tick;                     /* [tick] tick at which the radar model latched the record; 0 before */
   int64_t source_time_ns;           /* [ns] time stamp of the source; stored, not used */
   uint32_t count;                   /* [0, 64] number of entries in use */
   uint32_t epoch;                   /* session epoch that the writer knew */
@@ -137,12 +137,12 @@ typedef struct {
 /* Input event. Meaning and limits of argument, x, y and text depend on the kind: input_event.cpp. */
 typedef struct {
   int64_t session_time_ns; /* [ns] sim time when the source made the event */
-  int64_t monotonic_ns;    /* [ns] CLOCK_MONOTONIC when the source made the event; start of the latency */
-  double x;                /* TDC deflection right [-1, 1], or elevation [deg] */
-  double y;                /* TDC deflection up [-1, 1] */
+  int64_t monotonic_ns;    /* [ns] CLOCK_MONOTONIC when the source made the event; latency counts from here */
+  double x;                /* TDC deflection right [-1, 1]; elevation [deg]; error north [ft] or [ft/s] */
+  double y;                /* TDC deflection up [-1, 1]; error east [ft] or [ft/s] */
   uint16_t kind;           /* EventKind */
   int16_t argument;
-  uint32_t number;         /* counts up per source; `yars inject` waits for its event by this number */
+  uint32_t number;         /* counts up per source; `yars inject` finds its applied event by this number */
   char text[16];           /* zero terminated */
 } yars_input_event;
 
@@ -168,7 +168,7 @@ typedef struct {
 
 /* Point that MARK stored. */
 typedef struct {
-  double latitude_deg;  /* [deg] [-90, 90] by the navigator in use */
+  double latitude_deg;  /* [deg] [-90, 90] position in the coordinates of the navigator in use */
   double longitude_deg; /* [deg] [-180, 180] */
   double elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
   int64_t sim_time_ns;  /* [ns] */
@@ -180,7 +180,7 @@ typedef struct {
   int64_t tick;                 /* [tick] [-1, 9007199254740992] tick of the last change */
   double range_nm;              /* [NM] [0, 10800] selected range */
   double scan_width_deg;        /* [deg] [0, 360] whole width */
-  double antenna_elevation_deg; /* [deg] [-60, 60] commanded, relative to the horizon */
+  double antenna_elevation_deg; /* [deg] [-60, 60] commanded, above the horizontal */
   /* True position of the ground point under the cursor on the video. Without kCursorValid it may be NaN. */
   double cursor_latitude_deg;  /* [deg] [-90, 90] */
   double cursor_longitude_deg; /* [deg] [-180, 180] */
@@ -189,16 +189,16 @@ typedef struct {
   double cursor_range_nm;      /* [NM] [0, 10800] ground range from the aircraft */
   double tdc_x;                /* [-1, 1] held deflection */
   double tdc_y;                /* [-1, 1] held deflection */
-  double window_nm;            /* [NM] [0, 10800] 0 = blank */
-  uint64_t events_applied;     /* since the session began */
+  double window_nm;            /* [NM] [0, 10800] 0 = blank selection */
+  uint64_t events_applied;     /* number of events since the session began */
   uint32_t epoch;
   uint32_t flags;              /* RadarFlags */
-  uint32_t scan_restart;       /* counts up when the scan restarts (change of range, mode or width) */
+  uint32_t scan_restart;       /* counts up when the scan restarts (changed range, mode or width) */
   uint32_t boxed;              /* bit n: legend of PB n is boxed */
   uint8_t power;               /* radar::Power */
   uint8_t mode;                /* radar::Mode as shown (RBM, ..., MENU) */
   uint8_t master;              /* radar::Master */
-  uint8_t resume_mode;         /* radar::Mode that runs; differs from `mode` only while the menu is shown */
+  uint8_t resume_mode;         /* radar::Mode in operation; differs from `mode` only while the menu is shown */
   uint8_t range_index;
   uint8_t scan;                /* radar::ScanWidth */
   uint8_t gain;                /* [0, 3] */
@@ -213,14 +213,15 @@ typedef struct {
   uint8_t recall;              /* radar::Recall */
   char sequence_point[8];      /* name of the selected sequence point, zero terminated */
   char message[32];            /* for the pilot, zero terminated; empty = none */
-  int64_t message_until_tick;  /* [tick] [-1, 9007199254740992] at which the message disappears, or kUntilCauseEnds */
-  yars_drawn_point points[8];  /* the first `points_drawn` are in use */
-  char legends[21][8];         /* [n]: legend of PB n, zero terminated, empty = none; [0] unused */
-  /* Apex of the cursor's frame: position of the aircraft, now or when the picture froze. */
+  /* [tick] [-1, 9007199254740992] tick at which the message disappears, or kUntilCauseEnds */
+  int64_t message_until_tick;
+  yars_drawn_point points[8]; /* the first `points_drawn` are in use */
+  char legends[21][8];        /* [n]: legend of PB n, zero terminated, empty = none; [0] unused */
+  /* Apex of the cursor's frame: present position of the aircraft, or its position when the picture froze. */
   double frame_latitude_deg;  /* [deg] [-90, 90] */
   double frame_longitude_deg; /* [deg] [-180, 180] */
-  double frame_track_deg;     /* [deg] [0, 360] true ground track at the apex, up on the display */
-  uint8_t ground_mode;        /* radar::Mode to return to from A/A and ranging */
+  double frame_track_deg; /* [deg] [0, 360] true ground track at the apex; this direction points up on the display */
+  uint8_t ground_mode;    /* radar::Mode resumed after the master modes air-to-air and air-to-ground ranging */
   uint8_t reserved_bytes[3];
   /* The map that the pilot commands. */
   uint32_t map_request;     /* counts up with each commanded map */
@@ -238,13 +239,15 @@ typedef struct {
   yars_navigator_error mission;
   yars_navigator_error ins;
   /* UPDT: offset of the cursor from the displayed position of the selected sequence point. */
-  double update_north_m;     /* [m] [-20100000, 20100000] */
-  double update_east_m;      /* [m] [-20100000, 20100000] */
-  int64_t cursor_moved_tick; /* [tick] [-1, 9007199254740992] at which the cursor was last slewed or moved to a point */
-  int32_t update_seconds;    /* [s] time until the cursor's position is too old for an INS update; -1 = no limit */
-  uint32_t vtr_request;      /* counts up with PB 12, which starts or stops the recorder */
-  /* The designated target, the steering line to it, and the cue. */
-  double target_latitude_deg;  /* [deg] [-90, 90] by the navigator at the designation */
+  double update_north_m; /* [m] [-20100000, 20100000] */
+  double update_east_m;  /* [m] [-20100000, 20100000] */
+  /* [tick] [-1, 9007199254740992] tick at which the cursor was last slewed or moved to a point */
+  int64_t cursor_moved_tick;
+  int32_t update_seconds; /* [s] time until the cursor's position is too old for an INS update; -1 = no limit */
+  uint32_t vtr_request;   /* counts up with PB 12, which starts or stops the recorder */
+  /* The designated target, the steering line to it, and the cue. The target's position is in the coordinates of the
+   * navigator in use at the designation. */
+  double target_latitude_deg;  /* [deg] [-90, 90] */
   double target_longitude_deg; /* [deg] [-180, 180] */
   double target_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
   char target_name[8];         /* "4.", "2.01", zero terminated */
@@ -259,9 +262,9 @@ typedef struct {
   uint8_t mark_count;       /* [0, 10] number of marks; a further mark replaces the oldest */
   uint8_t reserved_bytes2[2];
   uint32_t velocity_taken;  /* last ModelStatus::velocity_count that was evaluated */
-  /* [tick] [-1, 9007199254740992] of the last correction of the navigator's velocity; -1 = never */
+  /* [tick] [-1, 9007199254740992] tick of the last correction of the navigator's velocity; -1 = never */
   int64_t velocity_updated_tick;
-  /* [tick] [-1, 9007199254740992] at which the velocity differences of IPVU disappear */
+  /* [tick] [-1, 9007199254740992] tick at which the velocity differences of IPVU disappear */
   int64_t velocity_shown_until_tick;
   /* Velocity measured by the radar minus velocity of the mission navigator. */
   double velocity_along_mps;    /* [m/s] [-10000, 10000] along the ground track */
@@ -271,16 +274,16 @@ typedef struct {
   /* [deg] [-180, 180] east positive: from the navigator, from the model of the earth's field, or configured */
   double magnetic_variation_deg;
   /* Ground point whose elevation the radar model shall report: a designated point, else the cursor. */
-  double asked_latitude_deg;  /* [deg] [-90, 90] on the video */
+  double asked_latitude_deg;  /* [deg] [-90, 90] true position */
   double asked_longitude_deg; /* [deg] [-180, 180] */
-  int64_t asked_tick;         /* [tick] [-1, 9007199254740992] of the designation */
+  int64_t asked_tick;         /* [tick] [-1, 9007199254740992] tick of the designation */
   uint32_t asked_for;         /* bits kAskedFor...; 0 = only the cursor */
   uint32_t reserved_word;
   uint64_t reserved[3];
 } yars_radar_state;
 
-/* Outputs of the state machine to the aircraft: sensors, weapons, head-up display. Positions are from the navigator
- * in use. Written every tick, also with the radar off, because readers must learn of a dropped target. */
+/* Outputs of the state machine to the aircraft: sensors, weapons, head-up display. Positions are in the coordinates
+ * of the navigator in use. Written every tick, also with the radar off: readers must learn of a dropped target. */
 typedef struct {
   int64_t tick;        /* [tick] */
   int64_t sim_time_ns; /* [ns] */
@@ -298,7 +301,8 @@ typedef struct {
   double bearing_deg;    /* [deg] [0, 360) true; NaN = no target */
   double depression_deg; /* [deg] below the horizon; NaN = no target */
   /* Steering to the target. */
-  /* [deg] SteeringCommand azimuth: target right of the ground track; bank: right wing down; NaN = none */
+  /* [deg] positive: SteeringCommand azimuth: target right of the ground track; SteeringCommand bank: right wing
+   * down; NaN = none */
   double steering_deg;
   double approach_deg;   /* [deg] [0, 360) true heading of the pattern steering line; NaN = none */
   uint32_t epoch;
@@ -321,17 +325,17 @@ typedef struct {
   double azimuth_left_deg;    /* [deg] [0, 360] true, counter-clockwise edge of the wedge */
   double azimuth_right_deg;   /* [deg] [0, 360] true, clockwise edge of the wedge */
   double ground_track_deg;    /* [deg] [0, 360] true */
-  double elevation_deg;       /* [deg] [-90, 90] of the antenna, relative to the horizon */
+  double elevation_deg;       /* [deg] [-90, 90] of the antenna, above the horizontal */
   double range_m;             /* [m] [0, 20001600] ground range of the far edge of the last sample */
-  uint64_t hash;              /* XXH3 64 of the fields above except the times, then of the samples in use */
+  uint64_t hash;     /* XXH3 (64 bits) of the fields above except tick and sim_time_ns, then of the samples in use */
   uint32_t epoch;
-  uint32_t scan;              /* number of the scan, counts up */
-  uint32_t number;            /* number of the sweep, counts up over all scans */
-  uint32_t samples;           /* [0, 4096] number of entries of `video` in use */
-  uint32_t flags;             /* SweepFlags */
-  uint8_t mode;               /* radar::Mode */
-  uint8_t gain;               /* [0, 3] */
-  uint8_t direction;          /* [0, 1] 1: clockwise, 0: counter-clockwise */
+  uint32_t scan;     /* number of the scan, counts up */
+  uint32_t number;   /* number of the sweep, counts up over all scans */
+  uint32_t samples;  /* [0, 4096] number of entries of `video` in use */
+  uint32_t flags;    /* SweepFlags */
+  uint8_t mode;      /* radar::Mode */
+  uint8_t gain;      /* [0, 3] */
+  uint8_t direction; /* [0, 1] 1: clockwise, 0: counter-clockwise */
   uint8_t reserved0;
   uint64_t reserved[4];
   /* from near to far; 0 black, 255 white; after gain, before brightness; the first `samples` are in use */
@@ -340,48 +344,49 @@ typedef struct {
 
 /* Status of the radar model, published every tick. A restarted model continues its servo and scan from it. */
 typedef struct {
-  int64_t tick;                     /* [tick] [0, 922337203685] */
-  int64_t sim_time_ns;              /* [ns] [0, 4611686018427387904] */
-  double antenna_azimuth_deg;       /* [deg] [-180, 180] relative to the nose, right positive; NaN = unknown */
-  double antenna_elevation_deg;     /* [deg] [-90, 90] relative to the horizon; NaN = unknown */
-  double height_above_ground_m;     /* [m] [-200000, 212000] below the aircraft; NaN = unknown */
-  double ground_elevation_m;        /* [m] [-12000, 10000] MSL below the aircraft; NaN = unknown */
-  double cursor_ground_elevation_m; /* [m] [-12000, 10000] MSL below the cursor; NaN = unknown */
-  double map_timer_s;               /* [s] [0, 1e6] NaN = none */
-  double map_progress;              /* [0, 1] NaN = none */
-  double load;                      /* [0, 1e6] smoothed load of the kernel as a fraction of a processor core */
+  int64_t tick;                 /* [tick] [0, 922337203685] */
+  int64_t sim_time_ns;          /* [ns] [0, 4611686018427387904] */
+  double antenna_azimuth_deg;   /* [deg] [-180, 180] relative to the nose, right positive; NaN = unknown */
+  double antenna_elevation_deg; /* [deg] [-90, 90] above the horizontal; NaN = unknown */
+  /* [m] [-200000, 212000] height of the aircraft above the ground below it; NaN = unknown */
+  double height_above_ground_m;
+  double ground_elevation_m; /* [m] [-12000, 10000] elevation MSL of the ground below the aircraft; NaN = unknown */
+  double cursor_ground_elevation_m; /* [m] [-12000, 10000] elevation MSL of the ground at the cursor; NaN = unknown */
+  /* [s] [0, 1e6] while a map forms: its remaining time; else the formation time of a map at the cursor; NaN = none */
+  double map_timer_s;
+  double map_progress;    /* [0, 1] completed fraction of the map that is being formed; NaN = none */
+  double load;            /* [0, 1e6] smoothed load of the kernel as a fraction of a processor core */
   uint64_t terrain_generation;
-  uint64_t terrain_bytes;           /* [bytes] */
-  uint64_t sweeps;                  /* number published since the session began */
-  uint64_t late_ticks;              /* number of skipped ticks */
-  uint64_t refused;                 /* number of inputs refused by validation */
-  uint64_t posts_pending;           /* number of look-ups of posts that were not loaded yet */
+  uint64_t terrain_bytes; /* [bytes] */
+  uint64_t sweeps;        /* number published since the session began */
+  uint64_t late_ticks;    /* number of skipped ticks */
+  uint64_t refused;       /* number of inputs refused by validation */
+  uint64_t posts_pending; /* number of look-ups of posts that were not loaded yet */
   uint32_t epoch;
   uint32_t scan;
   uint32_t sweep;
-  uint32_t flags;                   /* ModelFlags */
-  uint32_t scan_restart;            /* last RadarState::scan_restart that was executed */
+  uint32_t flags;         /* ModelFlags */
+  uint32_t scan_restart;  /* last RadarState::scan_restart that was executed */
   uint32_t ownship_lane;
-  int8_t scan_direction;            /* [-1, 1] +1 clockwise, -1 counter-clockwise */
-  uint8_t mode;                     /* radar::Mode */
+  int8_t scan_direction;  /* [-1, 1] +1 clockwise, -1 counter-clockwise */
+  uint8_t mode;           /* radar::Mode */
   uint8_t scan_bar;
-  uint8_t mappable;                 /* [0, 1] 1: a patch map can be commanded at the cursor */
-  char why_not[20];                 /* reason if mappable is 0, such as "BLIND ZONE" */
+  uint8_t mappable;       /* [0, 1] 1: a patch map can be commanded at the cursor */
+  char why_not[20];       /* reason if mappable is 0, such as "BLIND ZONE" */
   char fidelity[16];
-  yars_ownship ownship;             /* the ownship used in this tick */
-  yars_nav nav;                     /* nav of the same lane */
+  yars_ownship ownship;   /* the ownship used in this tick */
+  yars_nav nav;           /* nav of the same lane */
   /* Values from which a restarted model, or a replay from the middle of a scan, continues with the next sweep. */
   double scan_centre_deg;  /* [deg] [-360, 360] true, at the end of the tick */
   double scan_width_deg;   /* [deg] [0, 360] of the present scan */
   double scan_range_m;     /* [m] [0, 20001600] of the present scan */
-  uint32_t scan_tick;      /* [tick] since the start of the scan */
+  uint32_t scan_tick;      /* [tick] number of ticks since the start of the scan */
   uint8_t antenna_phase;   /* [0, 4] antenna::Phase */
   uint8_t scan_noise_only; /* 1: the present scan is in SNIFF */
   uint8_t reserved0[2];
   /* [ns] [0, 4611686018427387904] sim time at which the ownship in use arrived; its age is measured from here */
   int64_t ownship_received_ns;
-  /* Position of the patch map that is being formed; map_window_nm 0 = none. Its remaining time is map_timer_s, and
-   * its completed fraction is map_progress. */
+  /* Position of the patch map that is being formed; map_window_nm 0 = none. */
   double map_latitude_deg;   /* [deg] [-90, 90] centre */
   double map_longitude_deg;  /* [deg] [-180, 180] */
   double map_up_deg;         /* [deg] [0, 360] true bearing of the map's top */
@@ -408,11 +413,11 @@ typedef struct {
   uint64_t reserved[3];
 } yars_model_status;
 
-/* Description of a frame of the display, stored with its pixels. Pixels: rows from the top, without padding, 4 bytes
- * each in the order red, green, blue, 255. */
+/* Description of a frame of the display, stored with its pixels. The pixels are stored row by row from the top,
+ * without padding. Each pixel has 4 bytes: red, green, blue, 255. */
 typedef struct {
   uint64_t id;         /* [0, 9007199254740992] counts up over the session; 0 = none */
-  int64_t tick;        /* [tick] of the displayed radar state */
+  int64_t tick;        /* [tick] tick of the displayed radar state */
   int64_t sim_time_ns; /* [ns] sim time at which the frame was drawn */
   uint32_t width;      /* [pixels] [1, 1024] */
   uint32_t height;     /* [pixels] [1, 1024] */

@@ -46,7 +46,8 @@ void inspect_name(Inspection& inspection, const InputEvent& event) {
   inspection.text("text", event.text);
   const auto end = std::ranges::find(event.text, '\0');
   if (!radar::point_name({event.text, static_cast<std::size_t>(end - event.text)}))
-    inspection.fault("text", "a sequence point like 2, 2., 2.1, 2.01", "another name");
+    inspection.fault("text", "a sequence point like 2, 2., 2.1, 2.01",
+                     '"' + std::string(event.text, static_cast<std::size_t>(end - event.text)) + '"');
 }
 
 }  // namespace

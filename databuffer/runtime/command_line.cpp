@@ -137,7 +137,7 @@ CommandLine::~CommandLine() = default;
 void CommandLine::version(const std::string& text) {
   app_->set_version_flag("--version", text);
 }
-void CommandLine::accept_behind_subcommands() {
+void CommandLine::accept_options_after_subcommands() {
   app_->fallthrough();
 }
 void CommandLine::before_callbacks(const std::function<void()>& call) {

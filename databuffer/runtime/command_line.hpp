@@ -81,7 +81,7 @@ class CommandLine : public Command {
   const std::string& name() const { return name_; }
   void version(const std::string& text);
   // Accepts the options of this command also after a subcommand.
-  void accept_behind_subcommands();
+  void accept_options_after_subcommands();
   // Sets a function that parse() calls after parsing and before the callbacks of subcommands.
   void before_callbacks(const std::function<void()>& call);
   // Parses the arguments and runs the callbacks. Returns the exit code if the program is to end: after a usage error,

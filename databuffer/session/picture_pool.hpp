@@ -91,12 +91,12 @@ void load_pixels(const Slot& slot, std::size_t bytes, std::vector<std::uint8_t>&
 // Pool of patch maps, written by radar-model. Readers validate the record with validate(PatchMap).
 
 // Size of the picture [bytes], limited to the capacity of a slot.
-inline std::size_t patch_pixels(const PatchMap& map) {
+inline std::size_t patch_bytes(const PatchMap& map) {
   const std::size_t edge = std::min(map.size, kMaxPatchPixels);
   return edge * edge;
 }
 
-// Writes a map with its id and patch_pixels(map) bytes over the oldest map that is not in `keep`. `keep` holds the ids
+// Writes a map with its id and patch_bytes(map) bytes over the oldest map that is not in `keep`. `keep` holds the ids
 // that the radar state names or may name next, and the id of the writer's last map. False: `keep` has all slots' ids.
 template <class Access = shm::PlainAccess>
 bool publish_patch(SessionLayout& layout, const PatchMap& map, std::span<const std::uint8_t> pixels,
@@ -108,7 +108,7 @@ bool publish_patch(SessionLayout& layout, const PatchMap& map, std::span<const s
   slot->epoch.store(map.epoch, std::memory_order_release);
   slot->progress_permille.store(kWhole_permille, std::memory_order_release);
   shm::store_words<Access>(slot->map.data(), &map, shm::kWordsOf<PatchMap>);
-  store_pixels<Access>(*slot, pixels.first(std::min(pixels.size(), patch_pixels(map))));
+  store_pixels<Access>(*slot, pixels.first(std::min(pixels.size(), patch_bytes(map))));
   Access::store(slot->id, map.id, std::memory_order_release);
   return true;
 }
@@ -123,13 +123,13 @@ bool read_patch(const SessionLayout& layout, std::uint64_t id, PatchMap& map) {
   return still_holds<Access>(*slot, id) && map.id == id;
 }
 
-// As above, and reads the picture: rows without padding, patch_pixels(map) bytes.
+// As above, and reads the picture: rows without padding, patch_bytes(map) bytes.
 template <class Access = shm::PlainAccess>
 bool read_patch(const SessionLayout& layout, std::uint64_t id, PatchMap& map, std::vector<std::uint8_t>& pixels) {
   const PatchSlot* slot = slot_of<Access>(layout.patches, id);
   if (slot == nullptr) return false;
   shm::load_words<Access>(slot->map.data(), &map, shm::kWordsOf<PatchMap>);
-  load_pixels<Access>(*slot, patch_pixels(map), pixels);
+  load_pixels<Access>(*slot, patch_bytes(map), pixels);
   return still_holds<Access>(*slot, id) && map.id == id;
 }
 

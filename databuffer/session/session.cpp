@@ -75,7 +75,7 @@ Expected<Session> Session::open_read_only(const std::string& name) {
   auto segment = shm::Segment::open_read_only(name, kLayoutIdentity);
   if (!segment) return tl::unexpected(segment.error());
   auto state = std::make_unique<SessionState>(std::move(*segment), "reader");
-  if (!state->await_clock()) state->good_clock.running = 0;
+  if (!state->await_clock()) state->last_valid_clock.running = 0;
   return Session(std::move(state));
 }
 
@@ -174,7 +174,7 @@ void Session::heartbeat() {
   state_->restore_entry();
   state_->check_name();
   state_->report_folded_notes(now_ns, false);
-  log::report_suppressed(log::SuppressedKinds::over);
+  log::report_suppressed(log::SuppressedKinds::ended);
 }
 
 void Session::publish_progress(std::uint32_t progress) {

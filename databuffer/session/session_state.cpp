@@ -89,13 +89,13 @@ ClockState first_clock() {
 bool SessionState::await_clock() {
   for (int attempt = 0; attempt < kClockAttempts; ++attempt) {
     if (clock.refresh() && !inspect_clock(clock.value())) {
-      good_clock = clock.value();
+      last_valid_clock = clock.value();
       return true;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  good_clock = first_clock();
-  good_clock.epoch = clock.value().epoch + 1;
+  last_valid_clock = first_clock();
+  last_valid_clock.epoch = clock.value().epoch + 1;
   return false;
 }
 
@@ -194,10 +194,10 @@ std::optional<Claim> SessionState::take(std::size_t byte, int lane) {
 // Latest valid clock. An invalid clock is refused and noted; the last valid one stays in use.
 ClockState SessionState::clock_now() {
   std::unique_lock guard(clock_mutex);
-  if (!clock.refresh()) return good_clock;
+  if (!clock.refresh()) return last_valid_clock;
   const auto refusal = inspect_clock(clock.value());
-  if (!refusal) good_clock = clock.value();
-  const ClockState now = good_clock;
+  if (!refusal) last_valid_clock = clock.value();
+  const ClockState now = last_valid_clock;
   guard.unlock();
   if (refusal) note(NoteKind::refusal, "clock: " + *refusal, process_name);
   return now;

@@ -119,7 +119,8 @@ struct SessionState {
   SessionLayout& write() { return layout_of(*segment); }
   const SessionLayout& read() const { return *static_cast<const SessionLayout*>(std::as_const(*segment).memory()); }
 
-  bool await_clock();  // sets good_clock. False: no valid clock found; good_clock then has sim time 0 in a new epoch
+  bool await_clock();  // sets last_valid_clock. False: no valid clock found; last_valid_clock then has sim time 0 in a
+                       // new epoch
   std::optional<std::string> clock_problem() const;
   // Reason why a clock is refused: validate(), or a base time more than 1 s in the future. nullopt: the clock is valid.
   std::optional<std::string> inspect_clock(const ClockState& state) const;
@@ -146,9 +147,9 @@ struct SessionState {
   bool had_name = true;             // true if the segment file had its name in /dev/shm at the last check
   std::mutex notes_mutex;           // protects note_filters
   std::array<log::RepeatFilter, kNoteKinds> note_filters = filters();
-  std::mutex clock_mutex;  // protects clock and good_clock
+  std::mutex clock_mutex;  // protects clock and last_valid_clock
   shm::LatestReader<ClockState> clock;
-  ClockState good_clock{};  // last valid clock
+  ClockState last_valid_clock{};  // last valid clock
 };
 
 }  // namespace yars::databuffer

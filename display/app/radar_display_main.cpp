@@ -54,9 +54,12 @@ class HeadlessDisplay {
   void step(std::int64_t sim_time_ns) {
     mpd_.update(sim_time_ns);
     const bool due_in_folder = frames_ && steps_.is_due(sim_time_ns);
-    if (due_in_folder || is_due_in_segment()) paint();
+    const bool painted = (due_in_folder || is_due_in_segment()) && paint();
     if (publisher_) publisher_->work(mpd_, size_);
-    if (due_in_folder) report(write(steps_.number()));
+    if (due_in_folder)
+      report(write(steps_.number()));
+    else if (painted)
+      mpd_.note_shown();
   }
 
   // One update in lockstep. Each picture shows exactly the tick of its step, both as file and in the segment.

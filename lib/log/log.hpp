@@ -68,8 +68,8 @@ void warning(std::string_view text);
 void error(std::string_view text);
 // Logs the counts of suppressed lines. In each window of 10 s the log passes at most 10 lines of one kind and 200 of
 // all kinds. The limits do not apply to debug(), to_file() and the lines of this function.
-// over: kinds whose window has ended, for Session::heartbeat(). all: every kind, for the end of run_program().
-enum class SuppressedKinds { over, all };
+// ended: kinds whose window has ended, for Session::heartbeat(). all: every kind, for the end of run_program().
+enum class SuppressedKinds { ended, all };
 void report_suppressed(SuppressedKinds which);
 // Writes a line to the log file only, for text that standard error already shows in another form.
 void to_file(std::string_view text);

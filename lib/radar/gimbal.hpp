@@ -1,5 +1,5 @@
 // Directions in airframe axes, and the limits of the antenna's gimbal.
-// Inputs: attitude of the aircraft; true azimuth and elevation above the horizon; limits of the configuration.
+// Inputs: attitude of the aircraft; true azimuth and elevation above the horizontal; limits of the configuration.
 // Source: docs/spec/pilots_interface.md#rule-2.
 #pragma once
 
@@ -22,7 +22,7 @@ struct GimbalAngles {
   geo::Angle azimuth;    // positive right of the nose
   geo::Angle elevation;  // positive above the wing plane
 };
-// Rotates a direction (true azimuth, elevation above the horizon) into airframe axes.
+// Rotates a direction (true azimuth, elevation above the horizontal) into airframe axes.
 GimbalAngles gimbal_from_space(const Platform& platform, geo::Bearing azimuth, geo::Angle elevation);
 
 // True if the direction is within the gimbal limits plus the servo's tolerance. A circular scan has no azimuth limit.

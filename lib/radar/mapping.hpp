@@ -95,8 +95,8 @@ bool in_blind_zone(geo::Angle squint, double blind_zone_deg);
 // lambda: wavelength; V: ground speed; T: dwell. If the result is the real beam width, the scan is not sharpened.
 geo::Angle dbs_beamwidth(geo::Angle squint, geo::Speed ground_speed, const SyntheticArray& array);
 
-// Elevation angle from an altitude to the ground at a distance, positive above the horizon, on a flat earth. `ground_m`
-// is MSL; NaN counts as sea level.
+// Elevation angle from an altitude to the ground at a distance, positive above the horizontal, on a flat earth.
+// `ground_m` is MSL; NaN counts as sea level.
 geo::Angle elevation_to_ground(geo::AltitudeMsl altitude, geo::Length distance, double ground_m);
 
 // Position and attitude of the aircraft.

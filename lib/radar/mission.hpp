@@ -30,7 +30,7 @@ struct NavigationConfiguration {
   // Beams of a velocity measurement (PVU), in the order of measurement. At zero pitch and zero drift the gimbal reaches
   // the default beams at any bank angle.
   std::vector<double> beam_azimuths_deg{-30, 30, 30, -30};   // [deg] relative to the ground track, right positive
-  std::vector<double> beam_depressions_deg{15, 15, 45, 45};  // [deg] below the horizon, one for each azimuth
+  std::vector<double> beam_depressions_deg{15, 15, 45, 45};  // [deg] below the horizontal, one for each azimuth
   double beam_dwell_s = 0.4;                                 // [s] dwell on each beam
 };
 

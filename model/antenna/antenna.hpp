@@ -1,7 +1,7 @@
 // Antenna servo and scan pattern: the direction of the beam in each tick of 5 ms.
 // Inputs: attitude and ground track; sector to scan; commanded elevation; limits and rates of the configuration.
 // Outputs: left and right edge of the tick's sweep, antenna azimuth (true bearings), elevation, phase of the scan.
-// Frame: azimuths are true or relative to the nose, clockwise positive. Elevations are positive above the horizon.
+// Frame: azimuths are true or relative to the nose, clockwise positive. Elevations are positive above the horizontal.
 // Gimbal angles are in airframe axes. A commanded direction that is not finite is ignored. A direction out of range is
 // clamped.
 // Source: docs/spec/pilots_interface.md#rule-2.
@@ -92,7 +92,7 @@ struct AntennaStep {
   geo::Bearing left;     // true bearing of the sweep's left edge; valid while sweeping
   geo::Bearing right;    // true bearing of the sweep's right edge; valid while sweeping
   geo::Bearing azimuth;  // true bearing of the antenna at the end of the tick
-  geo::Angle elevation;  // above the horizon
+  geo::Angle elevation;  // above the horizontal
   int direction = 1;     // +1 clockwise, -1 counter-clockwise
   int bar = 0;
   bool reachable = true;    // false: an edge of the sweep is outside the gimbal limits, so the sweep is blank
@@ -116,7 +116,7 @@ class Antenna {
   // Complete state, from which `resume` continues in the middle of a scan.
   struct State {
     double azimuth_deg = 0.0;    // right of the nose
-    double elevation_deg = 0.0;  // above the horizon
+    double elevation_deg = 0.0;  // above the horizontal
     double centre_deg = 0.0;     // true bearing of the scan's centre
     double width_deg = 0.0;
     int tick = 0;  // within the scan
@@ -146,7 +146,7 @@ class Antenna {
 
   bool between_scans() const { return tick_ == 0; }                   // parked, slewing, pointing, or after a scan
   double azimuth_deg() const { return azimuth_.position_deg(); }      // right of the nose
-  double elevation_deg() const { return elevation_.position_deg(); }  // above the horizon
+  double elevation_deg() const { return elevation_.position_deg(); }  // above the horizontal
   const ScanPattern& pattern() const { return pattern_; }
 
  private:

@@ -200,8 +200,8 @@ std::vector<std::string> PatchMaker::take_problems() {
 
 void PatchMaker::make(const Job& job) {
   const hrm::PatchNeed need = formation_.begin(job.order);
-  formation_.give({stores_.window->prepare(need.window), stores_.path->prepare(need.path),
-                   stores_.scenes ? stores_.scenes->prepare(need.window) : nullptr, job.traffic});
+  formation_.set_environment({stores_.window->prepare(need.window), stores_.path->prepare(need.path),
+                              stores_.scenes ? stores_.scenes->prepare(need.window) : nullptr, job.traffic});
   std::vector<std::string> problems = stores_.window->take_problems();
   for (std::string& problem : stores_.path->take_problems()) problems.push_back(std::move(problem));
   if (stores_.scenes)

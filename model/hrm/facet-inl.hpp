@@ -114,9 +114,9 @@ HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, con
   facet.area = hn::Sub(hn::Mul(c1, r2), hn::Mul(r1, c2));
   const auto right = hn::Sub(hn::Mul(r1, z2), hn::Mul(z1, r2));
   const auto out = hn::Sub(hn::Mul(z1, c2), hn::Mul(c1, z2));
-  facet.across = hn::Mul(set(limits.row_height_m), right);
+  facet.across = hn::Mul(set(limits.row_spacing_m), right);
   facet.ahead = hn::Mul(set(limits.column_width_m), out);
-  const auto upward = hn::Mul(hn::Mul(set(limits.column_width_m), set(limits.row_height_m)), facet.area);
+  const auto upward = hn::Mul(hn::Mul(set(limits.column_width_m), set(limits.row_spacing_m)), facet.area);
   const auto level2 = hn::Add(hn::Mul(facet.across, facet.across), hn::Mul(facet.ahead, facet.ahead));
   const auto upward2 = hn::Mul(upward, upward);
   facet.steep = hn::Lt(upward2, hn::Mul(set(limits.wall_normal2), level2));

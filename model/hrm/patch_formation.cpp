@@ -77,7 +77,7 @@ PatchNeed PatchFormation::begin(const PatchOrder& order) {
   return patch_need(order, work.fidelity);
 }
 
-void PatchFormation::give(const PatchEnvironment& environment) {
+void PatchFormation::set_environment(const PatchEnvironment& environment) {
   YARS_REQUIRE(static_cast<int>(work_->state), ==, static_cast<int>(PatchState::database));
   work_->inputs.environment = environment;
   work_->begin_map();

@@ -1,11 +1,10 @@
 // Formation of one patch map (high resolution map), stage by stage.
 // Inputs: a PatchOrder, terrain of the window and of the path to it, scene, traffic.
 // Outputs: a square picture of 8-bit video, row 0 at the far edge, and the power before speckle and noise.
-// Use: begin(), give(), then advance() until state() is `done`. A map may be abandoned by calling begin() again.
-// Determinism: equal inputs give equal bits, for any number of threads.
-// Threads: one caller at a time; stages run on the executor's threads.
-// The stages that differ between algorithms are functions of hrm::Algorithm (algorithm.hpp).
-// Source: docs/spec/physics.md#hrm. The states are from the 1996 report.
+// Use: begin(), set_environment(), then advance() until state() is `done`. A map may be abandoned by calling begin()
+// again. Determinism: equal inputs give equal bits, for any number of threads. Threads: one caller at a time; stages
+// run on the executor's threads. The stages that differ between algorithms are functions of hrm::Algorithm
+// (algorithm.hpp). Source: docs/spec/physics.md#hrm. The states are from the 1996 report.
 #pragma once
 
 #include <array>
@@ -22,8 +21,8 @@
 
 namespace yars::model::hrm {
 
-// reset: no map. database: waits for give(). processing: a stage before the last is next. output: the last stage is
-// next. done: the map is complete.
+// reset: no map. database: waits for set_environment(). processing: a stage before the last is next. output: the last
+// stage is next. done: the map is complete.
 enum class PatchState : std::uint8_t { reset, database, processing, output, done };
 
 // Names of the stages, in order.
@@ -36,9 +35,10 @@ class PatchFormation {
   PatchFormation(PatchFormation&&) noexcept;
   PatchFormation& operator=(PatchFormation&&) noexcept;
 
-  PatchNeed begin(const PatchOrder& order);        // returns the terrain to load; any state -> database
-  void give(const PatchEnvironment& environment);  // sets the inputs; database -> processing; aborts in another state
-  void advance();                                  // runs one stage; after `map`: -> output; after `video`: -> done
+  PatchNeed begin(const PatchOrder& order);  // returns the terrain to load; any state -> database
+  void set_environment(
+      const PatchEnvironment& environment);  // sets the inputs; database -> processing; aborts in another state
+  void advance();                            // runs one stage; after `map`: -> output; after `video`: -> done
   PatchState state() const;
   int stages_done() const;  // number of kPatchStages that are complete
 
@@ -46,7 +46,7 @@ class PatchFormation {
   const std::vector<std::uint8_t>& picture() const;
   // Valid after the stage `map`: power before speckle and noise, in the unit of map_image.hpp.
   const MapImage& image() const;
-  const PatchGeometry& geometry() const;  // valid after give()
+  const PatchGeometry& geometry() const;  // valid after set_environment()
   geo::Duration formation() const;        // time in which the synthetic array is formed
   std::size_t triangles() const;          // number of triangles in the scene tiles near the window
   std::size_t posts_pending() const;      // number of samples over terrain that was not loaded

@@ -28,8 +28,8 @@ constexpr double kFoot_m = 0.3;             // [m] distance from a wall to the g
 
 // A point and the ground below it. Heights are above the map plane.
 struct Reference::Ground {
-  double distance_m, point_m;  // of the point: distance over ground, height
-  double height_m, horizon;    // of the ground: height, greatest tangent of elevation of nearer ground
+  double distance_m, point_height_m;  // of the point: distance over ground, height
+  double height_m, horizon;           // of the ground: height, greatest tangent of elevation of nearer ground
 };
 
 Reference::Reference(const physics::RadarParameters& parameters)
@@ -309,7 +309,7 @@ Reference::Ground Reference::below(Point3 point) const {
   if (std::isfinite(radius_m)) {
     const double down_m = radius_m + altitude_m + point.z;
     ground.distance_m = radius_m * std::atan2(out_m, down_m);
-    ground.point_m = std::hypot(out_m, down_m) - radius_m;
+    ground.point_height_m = std::hypot(out_m, down_m) - radius_m;
   }
   return ground;
 }
@@ -334,8 +334,8 @@ Reference::Ground Reference::ground_at(Point3 point) const {
 bool Reference::seen(Point3 point) const {
   if (!(point.y > 0.0)) return false;
   const Ground ground = ground_at(point);
-  if (ground.point_m < ground.height_m - kBuried_m) return false;
-  return tangent(ground.distance_m, ground.point_m) >= ground.horizon && !occluders_.hide(point);
+  if (ground.point_height_m < ground.height_m - kBuried_m) return false;
+  return tangent(ground.distance_m, ground.point_height_m) >= ground.horizon && !occluders_.hide(point);
 }
 
 // Adds a cross section, after gas attenuation, to the four pixels about the point's image. The image is the point of
@@ -344,7 +344,7 @@ void Reference::add(Point3 point, double cross_section_m2) {
   if (!gas_.none()) {
     const Ground here = below(point);
     cross_section_m2 *= gas_.two_way_transmission(geometry_->earth(), geometry_->altitude_m(), here.distance_m,
-                                                  here.point_m + geometry_->plane_msl_m());
+                                                  here.point_height_m + geometry_->plane_msl_m());
   }
   double distance_m = std::hypot(point.x, point.y);
   const double sine = point.x / distance_m;

@@ -176,7 +176,7 @@ void SceneRaster::draw(const PatchGeometry& geometry, const PolarGrid& grid, con
   limits.last_column = static_cast<float>(last);
   limits.first_row = -simd::kSurfaceReach;
   limits.last_row = static_cast<float>(grid.rows);
-  limits.row_height_m = static_cast<float>(grid.spacing_m);
+  limits.row_spacing_m = static_cast<float>(grid.spacing_m);
   limits.wall_normal2 = static_cast<float>(scene::kWallNormal2);
   for (const PlacedTile& placement : tiles) {
     if (!(placement.max_column >= limits.first_column && placement.min_column < limits.last_column)) continue;

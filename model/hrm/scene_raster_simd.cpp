@@ -59,13 +59,14 @@ HWY_INLINE void draw_wide_surface(const Triangle& triangle, const Facet& facet, 
     const auto base = hn::Add(facet.value, hn::Mul(facet.by_column, column));
     const auto height = without_negative_zero(triangle.within(hn::Add(base, hn::Mul(facet.by_row, row))));
     auto* const points = &canvas.arrays.surface[at].gamma;
-    Floats old_gain, old_height;
-    hn::LoadInterleaved2(d, points, old_gain, old_height);
+    Floats old_gamma, old_height;
+    hn::LoadInterleaved2(d, points, old_gamma, old_height);
     // Compared as unsigned integers, negated gammas ascend with gamma and exceed the gamma of the ground.
-    const auto stronger = hn::RebindMask(d, hn::Gt(hn::BitCast(BitsTag(), negative), hn::BitCast(BitsTag(), old_gain)));
+    const auto stronger =
+        hn::RebindMask(d, hn::Gt(hn::BitCast(BitsTag(), negative), hn::BitCast(BitsTag(), old_gamma)));
     const auto best = hn::Or(hn::Gt(height, old_height), hn::And(hn::Eq(height, old_height), stronger));
     const auto drawn = hn::And(wanted, best);
-    hn::StoreInterleaved2(hn::IfThenElse(drawn, negative, old_gain), hn::IfThenElse(drawn, height, old_height), d,
+    hn::StoreInterleaved2(hn::IfThenElse(drawn, negative, old_gamma), hn::IfThenElse(drawn, height, old_height), d,
                           points);
   });
 }

@@ -117,7 +117,7 @@ HWY_INLINE hn::Mask<Tag> faces(const ThreeCorners& column, const ThreeCorners& r
   const auto z1 = hn::Sub(height.second, height.first);
   const auto z2 = hn::Sub(height.third, height.first);
   const auto width = hn::Set(d, limits.column_width_m);
-  const auto depth = hn::Set(d, limits.row_height_m);
+  const auto depth = hn::Set(d, limits.row_spacing_m);
   const auto area = hn::Sub(hn::Mul(c1, r2), hn::Mul(r1, c2));
   const auto upward = hn::Mul(hn::Mul(width, depth), area);
   const auto across = hn::Mul(depth, hn::Sub(hn::Mul(r1, z2), hn::Mul(z1, r2)));

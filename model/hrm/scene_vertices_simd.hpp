@@ -41,7 +41,7 @@ inline constexpr float kSurfaceReach = 0.5F;  // [rows] extension of a drawn sur
 // Part of the grid to draw, and the distances between grid points.
 struct GridLimits {
   float first_column, last_column, first_row, last_row;
-  float column_width_m, row_height_m;
+  float column_width_m, row_spacing_m;
   float sine, cosine;  // sine and cosine of the grazing angle at the tile
   float wall_normal2;  // walls have (vertical / horizontal part of the normal)^2 below this
 };

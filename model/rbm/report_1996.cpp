@@ -9,7 +9,7 @@
 namespace yars::model::rbm {
 
 namespace {
-constexpr std::array<float, 3> kPostWeights{0.25F, 0.5F, 0.25F};
+constexpr std::array<float, 3> kSmearWeights{0.25F, 0.5F, 0.25F};
 constexpr float kNoHorizon = -1.0e30F;  // lower than the tangent of any terrain
 constexpr int kGainSteps = 4;
 constexpr double kReferenceFraction = 0.5;  // [selected ranges] distance at which level ground gives full scale
@@ -24,7 +24,7 @@ float reference_intensity(const physics::SweepGeometry& geometry) {
 }
 
 float smoothed(float before, float centre, float after) {
-  return kPostWeights[0] * before + kPostWeights[1] * centre + kPostWeights[2] * after;
+  return kSmearWeights[0] * before + kSmearWeights[1] * centre + kSmearWeights[2] * after;
 }
 }  // namespace
 

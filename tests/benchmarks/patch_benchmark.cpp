@@ -97,7 +97,7 @@ void time_one_map(hrm::PatchFormation& formation, const hrm::PatchOrder& order, 
   std::array<double, hrm::kPatchStages.size()> stages_s{};
   const double total_s = benchmarks::timed([&] {
     formation.begin(order);
-    formation.give(database);
+    formation.set_environment(database);
     for (double& stage_s : stages_s) {
       const double begin_s = benchmarks::thread_seconds();
       formation.advance();
@@ -161,7 +161,7 @@ double wall_time_s(std::vector<hrm::PatchFormation>& formations, const hrm::Patc
     workers.emplace_back([&] {
       for (int map = 0; map < maps; ++map) {
         formation.begin(order);
-        formation.give(database);
+        formation.set_environment(database);
         while (formation.state() != hrm::PatchState::done) formation.advance();
       }
     });

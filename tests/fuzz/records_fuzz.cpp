@@ -48,7 +48,7 @@ class Readers {
             session_, false, [this](const Sweep& sweep) { take(sweep); },
             [](const PatchMap& map, std::span<const std::uint8_t> pixels) {
               require_good(validate(map));
-              YARS_REQUIRE(pixels.size(), ==, patch_pixels(map));
+              YARS_REQUIRE(pixels.size(), ==, patch_bytes(map));
             }),
         flight_(session_, *flight::open_source("fixed:36.6,-121.9,20000,0,400"), kFlightLane, false),
         writer_(*tools::recording::RecordingWriter::create("/dev/null", {})),

@@ -59,7 +59,7 @@ TEST(LandscapeRivers, WaterNeverRisesOnItsWayToTheSea) {
     for (const RiverNode& node : drainage.nodes) {
       ++nodes;
       if (node.downstream < 0) {
-        const double below_m = node.exit < 0 ? 0.0 : drainage.exits[static_cast<std::size_t>(node.exit)].bed_m;
+        const double below_m = node.exit < 0 ? 0.0 : drainage.exits[static_cast<std::size_t>(node.exit)].water_m;
         EXPECT_GE(node.water_m, below_m);
         if (node.exit < 0) {
           EXPECT_EQ(node.water_m, 0.0) << "a river that does not leave the tile ends in the sea";
@@ -88,11 +88,11 @@ TEST(LandscapeRivers, ARiverThatLeavesATileEntersTheNextAtTheSameHeight) {
       });
       ASSERT_NE(entry, to->drainage.entries.end());
       EXPECT_EQ(entry->area_km2, from->drainage.exits_km2[exit]);
-      EXPECT_EQ(entry->gate.bed_m, gate.bed_m);
+      EXPECT_EQ(entry->gate.water_m, gate.water_m);
       const TileNode target = gate_target(gate);
       for (const RiverNode& node : to->drainage.nodes)
         if (node.row == target.row && node.column == target.column && entry->area_km2 >= kRiverKm2) {
-          EXPECT_LE(node.water_m, gate.bed_m);
+          EXPECT_LE(node.water_m, gate.water_m);
         }
       ++gates;
     }

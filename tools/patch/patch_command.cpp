@@ -155,7 +155,7 @@ Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
   Timing timing;
   patch_formation.begin(order);
   const double begin_ms = wall_ms();
-  patch_formation.give(environment);
+  patch_formation.set_environment(environment);
   while (patch_formation.state() != hrm::PatchState::done) {
     const auto stage = static_cast<std::size_t>(patch_formation.stages_done());
     const double stage_begin_ms = wall_ms();
@@ -260,7 +260,8 @@ void add_patch_command(databuffer::Command app, const CommonOptions& common) {
   add_pose_options(command, options->pose);
   command.option("--speed-kt", options->speed_kt, "[kt] speed over ground").range(0.0, 10000.0);
   command.option("--target-lat", options->target_latitude_deg, "[deg] latitude of the map's centre").range(-90.0, 90.0);
-  command.option("--target-lon", options->target_longitude_deg, "[deg] its longitude").range(-180.0, 180.0);
+  command.option("--target-lon", options->target_longitude_deg, "[deg] longitude of the map's centre")
+      .range(-180.0, 180.0);
   command.option("--window-nm", options->window_nm, "[NM] side of the map (else the configuration's at power-up)")
       .range(0.01, 200.0);
   command.flag("--force", options->force, "ignore the radar's limits; the blind zone stays blank");

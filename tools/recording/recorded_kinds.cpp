@@ -13,7 +13,7 @@ using databuffer::Sweep;
 
 constexpr std::size_t kSweepFields = offsetof(Sweep, video);  // [bytes]
 
-std::size_t patch_pixels(const PatchMap& map) {
+std::size_t patch_bytes(const PatchMap& map) {
   const std::size_t edge = std::min(map.size, databuffer::kMaxPatchPixels);
   return edge * edge;
 }
@@ -27,7 +27,7 @@ std::size_t sweep_tail(std::span<const std::byte> fixed) {
 std::size_t patch_tail(std::span<const std::byte> fixed) {
   PatchMap map{};
   std::memcpy(&map, fixed.data(), sizeof map);
-  return patch_pixels(map);
+  return patch_bytes(map);
 }
 
 template <class T>
@@ -88,7 +88,7 @@ RecordParts parts_of(const Sweep& sweep) {
 
 RecordParts parts_of(const Patch& patch) {
   const auto pixels = std::as_bytes(std::span(patch.pixels));
-  return {std::as_bytes(std::span(&patch.map, 1)), pixels.first(std::min(pixels.size(), patch_pixels(patch.map)))};
+  return {std::as_bytes(std::span(&patch.map, 1)), pixels.first(std::min(pixels.size(), patch_bytes(patch.map)))};
 }
 
 std::span<const RecordedKind> recorded_kinds() {

@@ -133,7 +133,7 @@ std::uint64_t Player::different() const {
 
 bool Player::look_ahead() {
   if (!ahead_) ahead_ = reader_->next();
-  if (reader_->take_damage_flag()) pass_over_hole();
+  if (reader_->take_damage_flag()) pass_over_damage();
   return ahead_.has_value();
 }
 
@@ -280,7 +280,7 @@ void Player::use_traffic(const databuffer::Traffic& traffic) {
 }
 
 // Ticks are missing, so the kernel resumes from the next status.
-void Player::pass_over_hole() {
+void Player::pass_over_damage() {
   awaits_status_ = world_.has_value();
   pending_.clear();
 }

@@ -139,7 +139,7 @@ class Player {
   void take_tick(const databuffer::ModelTick& tick, Played& played);
   void take_status(const databuffer::ModelStatus& status, Played& played);
   void run_kernel(const databuffer::ModelTick& tick, Played& played);
-  void pass_over_hole();
+  void pass_over_damage();
   void start_late(const databuffer::ModelStatus& status, Played& played);
   void start_kernel(const databuffer::ModelStatus& status);
   void use_traffic(const databuffer::Traffic& traffic);

@@ -294,7 +294,8 @@ void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   add_pose_options(command, options->pose);
   command.option("--range-nm", options->range_nm, "[NM]").range(0.1, 1000.0);
   command.option("--scan-width", options->width_deg, "[deg]").range(1.0, 120.0);
-  command.option("--elevation", options->elevation_deg, "[deg] antenna elevation above the horizon").range(-90.0, 90.0);
+  command.option("--elevation", options->elevation_deg, "[deg] antenna elevation above the horizontal")
+      .range(-90.0, 90.0);
   command.flag("--force", options->force, "allow angles beyond the gimbal limits, and an aircraft below the ground");
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset (else the configuration's)");
   command.option("--samples", options->samples, "samples of a sweep").range(1, radar::kMaxSamples);

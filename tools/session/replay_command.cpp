@@ -148,7 +148,7 @@ class KernelRerun {
     else
       run(item);
   }
-  void pass_over_hole() {
+  void pass_over_damage() {
     awaits_status_ = true;
     pending_.clear();
   }
@@ -229,7 +229,7 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
   while (auto entry = reader.next()) {
     if (databuffer::stop_requested())
       throw_failure({options.file, "the whole recording to be read", "a request to stop", "", false});
-    if (reader.take_damage_flag()) run.pass_over_hole();
+    if (reader.take_damage_flag()) run.pass_over_damage();
     run.take(*entry);
   }
   if (!run.has_run()) {

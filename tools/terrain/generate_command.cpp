@@ -169,7 +169,9 @@ void add_terrain_generate(databuffer::Command terrain) {
   command.callback([options] {
     check_folder_name("--out", options->out);
     if (options->south_deg + options->cells_latitude > 90)
-      throw CommandFailed{"--cells-lat: expected an area up to the north pole at most, found one beyond it", 2};
+      throw CommandFailed{"--cells-lat: expected at most " + std::to_string(90 - options->south_deg) +
+                              " cells from --south to the north pole, found " + std::to_string(options->cells_latitude),
+                          2};
     Generation(*options).run();
   });
 }

@@ -244,10 +244,10 @@ void draw(const TerrainImageOptions& options) {
     paint_cell(reading->cell, culture ? &*culture : nullptr, frame, image);
     ++painted;
   }
-  if (const auto written = imageio::write_png(options.out, image); !written) throw_failure(written.error());
   if (painted + failed == 0)
     throw_failure({options.directory, "cells in the region that is drawn", "none: it covers " + coverage_text(*index),
                    "check --south, --north, --west and --east and their signs"});
+  if (const auto written = imageio::write_png(options.out, image); !written) throw_failure(written.error());
   if (failed > 0)
     throw CommandFailed{"yars terrain image: expected all cells to be drawn, found " + std::to_string(failed) +
                             " that could not be; see the problems",

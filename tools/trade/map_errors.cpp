@@ -105,7 +105,7 @@ double time_map(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
                 const hrm::PatchEnvironment& environment, Clock clock) {
   const double begin_ms = clock();
   patch_formation.begin(order);
-  patch_formation.give(environment);
+  patch_formation.set_environment(environment);
   while (patch_formation.state() != hrm::PatchState::done) patch_formation.advance();
   return clock() - begin_ms;
 }

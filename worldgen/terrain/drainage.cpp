@@ -155,7 +155,7 @@ void set_water(Drainage& drainage) {
     for (std::size_t index = 0; index < nodes.size(); ++index) {
       const TileNode target = gate_target(entry.gate);
       const bool here = nodes[index].row == target.row && nodes[index].column == target.column;
-      if (here && entry.area_km2 >= kRiverKm2) upstream_m[index] = std::min(upstream_m[index], entry.gate.bed_m);
+      if (here && entry.area_km2 >= kRiverKm2) upstream_m[index] = std::min(upstream_m[index], entry.gate.water_m);
     }
   for (std::size_t index = nodes.size(); index-- > 0;) {
     RiverNode& node = nodes[index];
@@ -170,7 +170,7 @@ void set_water(Drainage& drainage) {
     if (node.downstream >= 0)
       node.water_m = std::max(node.water_m, nodes[static_cast<std::size_t>(node.downstream)].water_m);
     else if (node.exit >= 0)
-      node.water_m = std::max(node.water_m, drainage.exits[static_cast<std::size_t>(node.exit)].bed_m);
+      node.water_m = std::max(node.water_m, drainage.exits[static_cast<std::size_t>(node.exit)].water_m);
     else if (!drainage.landlocked)
       node.water_m = 0.0;  // the sea, in this tile or just beyond its edge
   }

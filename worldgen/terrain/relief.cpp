@@ -59,7 +59,7 @@ geo::Vector3 at_wavelength(geo::Vector3 point_km, double wavelength_km) {
 struct Range {
   double axis_km;  // distance of the axis inland; negative: the axis is at sea, and the summits are islands
   double half_width_km;
-  double crest_m;
+  double height_scale_m;
   std::uint32_t layer;  // number of the noise field
 };
 constexpr Range kRanges[] = {{20, 12, 1250, 70}, {96, 27, 3000, 90}, {210, 40, 2300, 110}, {-30, 9, 680, 130}};
@@ -116,8 +116,8 @@ double BroadRelief::height_m(geo::GeoPoint position) const {
     const double envelope = bell(inland_km - range.axis_km - shift_km, range.half_width_km);
     if (envelope < 1e-3) continue;
     const double presence = 0.45 + 0.75 * random::smooth_step(-0.45, 0.35, noise(at, 95, range.layer, 2));
-    height_m +=
-        range.crest_m * envelope * presence * shore.fade * (0.28 + 1.05 * ridges(warped, 34, range.layer + 5, 4));
+    height_m += range.height_scale_m * envelope * presence * shore.fade *
+                (0.28 + 1.05 * ridges(warped, 34, range.layer + 5, 4));
   }
   const double hilly =
       random::smooth_step(2.0, 25.0, coast_km) * random::smooth_step(-0.1, 0.5, noise(at, 60, 160, 2)) * shore.fade;

@@ -24,7 +24,7 @@ constexpr double kMaxFall_m = 180.0;  // where the ground falls more, the river 
 constexpr double kGateFall_m = 5.0;
 constexpr int kGatesPerEdge = 3;   // maximum for coastal tiles
 constexpr double kDry_m = 1.0;     // minimum height of a gate's nodes
-constexpr double kNoGate_m = 1e9;  // RiverGate::bed_m where no gate is possible
+constexpr double kNoGate_m = 1e9;  // RiverGate::water_m where no gate is possible
 constexpr int kGateMargin = 12;    // [nodes] distance of gates from the ends of an edge
 
 struct Step {
@@ -151,8 +151,8 @@ std::optional<CellCorner> RiverBasins::downstream_of(CellCorner corner) {
 }
 
 // Gate at the lowest pair of nodes, one on each side of an edge, in [first, last) along the edge. Every second pair is
-// examined; its height is that of the higher node. The gate's bed_m is the height of the pair, or kNoGate_m if no pair
-// is on land.
+// examined; its height is that of the higher node. The gate's water_m is the height of the pair, or kNoGate_m if no
+// pair is on land.
 RiverGate RiverBasins::gate_between(CellCorner from, int north, int east, int first, int last) const {
   RiverGate gate{from, neighbour_of(from, north, east), north, east, (first + last) / 2, kNoGate_m};
   const int row = (from.south_deg + 90) * kTileNodes;
@@ -164,8 +164,8 @@ RiverGate RiverBasins::gate_between(CellCorner from, int north, int east, int fi
                                         : lattice_node(row + along, column + line));
     };
     const double level_m = std::max(height_m(0), height_m(1));
-    if (level_m >= gate.bed_m || std::min(height_m(0), height_m(1)) < kDry_m) continue;
-    gate.bed_m = level_m;
+    if (level_m >= gate.water_m || std::min(height_m(0), height_m(1)) < kDry_m) continue;
+    gate.water_m = level_m;
     gate.along = along;
   }
   return gate;
@@ -174,7 +174,7 @@ RiverGate RiverBasins::gate_between(CellCorner from, int north, int east, int fi
 // Water height at the highest exit of a tile, at least 0. Water must not enter the tile at a lower height.
 double RiverBasins::highest_exit_m(CellCorner corner) {
   double highest_m = 0.0;
-  for (const RiverGate& gate : exits_of(corner)) highest_m = std::max(highest_m, gate.bed_m);
+  for (const RiverGate& gate : exits_of(corner)) highest_m = std::max(highest_m, gate.water_m);
   return highest_m;
 }
 
@@ -185,7 +185,7 @@ std::optional<RiverGate> RiverBasins::inland_exit(CellCorner corner) {
   for (const Step step : kSteps) {
     if (!(neighbour_of(corner, step.north, step.east) == *to)) continue;
     RiverGate gate = gate_between(corner, step.north, step.east, kGateMargin, kTileNodes - kGateMargin);
-    gate.bed_m = std::clamp(gate.bed_m, base_m + kMinFall_m, base_m + kMaxFall_m);
+    gate.water_m = std::clamp(gate.water_m, base_m + kMinFall_m, base_m + kMaxFall_m);
     return gate;
   }
   return std::nullopt;
@@ -202,8 +202,8 @@ std::vector<RiverGate> RiverBasins::coastal_exits(CellCorner corner) {
     for (int section = 0; section < kGatesPerEdge; ++section) {
       const int first = kGateMargin + section * kSection;
       RiverGate gate = gate_between(corner, step.north, step.east, first, first + kSection);
-      if (gate.bed_m >= kNoGate_m) continue;
-      gate.bed_m = std::clamp(gate.bed_m, base_m + kGateFall_m, base_m + kMaxFall_m);
+      if (gate.water_m >= kNoGate_m) continue;
+      gate.water_m = std::clamp(gate.water_m, base_m + kGateFall_m, base_m + kMaxFall_m);
       exits.push_back(gate);
     }
   }

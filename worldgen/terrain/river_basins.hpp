@@ -26,7 +26,7 @@ struct RiverGate {
   CellCorner to;
   int north = 0, east = 0;  // step from `from` to `to`; one of them is 0
   int along = 0;            // column (step north or south) or row (step east or west) of the nodes beside the edge
-  double bed_m = 0.0;       // [m MSL] height of the water at the edge
+  double water_m = 0.0;     // [m MSL] height of the water at the edge
 };
 
 class RiverBasins {

@@ -108,7 +108,7 @@ class CourseMaker {
     const CoursePoint beyond = jittered_node(node.row + sense * gate.north, node.column + sense * gate.east);
     // The gate's source node comes first, so that both tiles compute equal bits.
     CoursePoint middle = sense > 0 ? between(here, beyond, area_km2) : between(beyond, here, area_km2);
-    middle.river = river_of(area_km2, gate.bed_m, 40.0);  // a fixed depth of 40 m, equal in both tiles
+    middle.river = river_of(area_km2, gate.water_m, 40.0);  // a fixed depth of 40 m, equal in both tiles
     return middle;
   }
 

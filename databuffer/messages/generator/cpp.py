@@ -107,7 +107,7 @@ def header(chapter, chapters):
 
 
 # ---- checks of ranges
-def whole_limits(field):
+def cpp_limits(field):
     """(minimum, maximum) of a number or enumeration field as C++ text; None: no limit."""
     if isinstance(field.type, Enumeration):
         return "0", str(len(field.type.values) - 1)
@@ -116,7 +116,7 @@ def whole_limits(field):
 
 def number_check(field, name, value):
     """C++ line that checks one number; empty if every value is valid."""
-    least, greatest = whole_limits(field)
+    least, greatest = cpp_limits(field)
     if least is None and greatest is None:
         return ""
     if field.type in schema.REALS:

@@ -228,7 +228,7 @@ class Flattener {
     for (std::uint32_t child = node.first_child; child != kNone; child = tree_.nodes[child].next_sibling, ++position) {
       const Node& below = tree_.nodes[child];
       if (below.kind == NodeKind::level_of_detail && below.switch_out_m > finest_m) continue;
-      if (node.kind == NodeKind::choice && !is_chosen(node, position)) continue;
+      if (node.kind == NodeKind::switch_node && !is_chosen(node, position)) continue;
       if (auto done = visit(child, transform, object, depth + 1); !done) return done;
       if (node.first_child_only) break;
     }
@@ -236,8 +236,8 @@ class Flattener {
   }
 
   static bool is_chosen(const Node& choice, std::uint32_t position) {
-    if (choice.choice_mask.empty()) return true;
-    return position / 32 < choice.choice_mask.size() && (choice.choice_mask[position / 32] >> position % 32 & 1U) != 0;
+    if (choice.switch_mask.empty()) return true;
+    return position / 32 < choice.switch_mask.size() && (choice.switch_mask[position / 32] >> position % 32 & 1U) != 0;
   }
 
   Done count_visits(std::size_t more) {

@@ -80,7 +80,7 @@ class KindTable {
 // includes all levels of detail, and hidden faces.
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;  // index that refers to nothing
 
-enum class NodeKind : std::uint8_t { group, object, level_of_detail, choice, instance, external, ignored };
+enum class NodeKind : std::uint8_t { group, object, level_of_detail, switch_node, instance, external, ignored };
 
 struct Node {
   NodeKind kind = NodeKind::group;
@@ -95,7 +95,7 @@ struct Node {
   std::uint32_t matrix = kNone;            // index into NodeTree::matrices
   double switch_out_m = 0.0;               // level of detail: minimum viewing distance
   std::string name;                        // for an external reference, the file name
-  std::vector<std::uint32_t> choice_mask;  // choice (switch node): one bit per child; empty: all children
+  std::vector<std::uint32_t> switch_mask;  // switch_node: one bit per child; empty: all children
 };
 
 struct TreeVertex {

@@ -205,14 +205,14 @@ TreeParser::Done TreeParser::add_level_of_detail(const Record& record) {
 
 TreeParser::Done TreeParser::add_switch(const Record& record) {
   constexpr std::size_t kCurrentAt = 16, kMasksAt = 20, kWordsAt = 24, kFirstWordAt = 28;
-  return add_named(record, NodeKind::choice).map([&] {
+  return add_named(record, NodeKind::switch_node).map([&] {
     const std::size_t current = record.number_or<std::uint32_t>(kCurrentAt, 0);
     const std::size_t words = record.number_or<std::uint32_t>(kWordsAt, 0);
     if (current >= record.number_or<std::uint32_t>(kMasksAt, 0)) return;
     for (std::size_t word = 0; word < words; ++word) {
       const auto mask = record.number<std::uint32_t>(kFirstWordAt + 4 * (current * words + word));
       if (!mask) break;
-      tree_.nodes.back().choice_mask.push_back(*mask);
+      tree_.nodes.back().switch_mask.push_back(*mask);
     }
   });
 }

@@ -75,7 +75,7 @@ void describe_numbers(Raster& raster) {
   raster.offset_m = GDALGetRasterOffset(raster.heights, nullptr) * metres;
   int stated = 0;
   const double number = GDALGetRasterNoDataValue(raster.heights, &stated);
-  if (stated != 0) raster.void_number = number;
+  if (stated != 0) raster.no_data_value = number;
   raster.masked = (GDALGetMaskFlags(raster.heights) & (GMF_ALL_VALID | GMF_NODATA)) == 0;
   raster.whole_metres = is_whole(GDALGetRasterDataType(raster.heights)) && std::abs(raster.scale) == 1.0 &&
                         raster.offset_m == std::round(raster.offset_m) && !position.heights_are_ellipsoidal();
@@ -152,10 +152,10 @@ class HeightCheck {
       : usual_voids_(usual_voids_of(raster)),
         scale_(raster.scale),
         offset_m_(raster.offset_m),
-        void_number_(raster.void_number ? static_cast<float>(*raster.void_number) : kMissing) {}
+        no_data_value_(raster.no_data_value ? static_cast<float>(*raster.no_data_value) : kMissing) {}
 
   float operator()(float number) const {
-    if (std::isnan(number) || number == void_number_) return kMissing;
+    if (std::isnan(number) || number == no_data_value_) return kMissing;
     const double height_m = static_cast<double>(number) * scale_ + offset_m_;
     const bool possible = height_m >= kLowest_m && height_m <= kHighest_m && height_m != kCommonVoid_m &&
                           std::find(usual_voids_.begin(), usual_voids_.end(), number) == usual_voids_.end();
@@ -166,7 +166,7 @@ class HeightCheck {
   static constexpr double kCommonVoid_m = -9999.0;
   std::vector<float> usual_voids_;
   double scale_, offset_m_;
-  float void_number_;
+  float no_data_value_;
 };
 
 bool contains(const Box& box, int column, int row) {

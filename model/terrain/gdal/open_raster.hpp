@@ -52,9 +52,9 @@ struct Raster {
   // Height [m] = band value x scale + offset_m.
   double scale = 1.0;
   double offset_m = 0.0;
-  std::optional<double> void_number;  // declared no-data value of the band
-  bool masked = false;                // true: a separate mask band marks pixels without data
-  bool whole_metres = false;          // true: all heights are whole metres
+  std::optional<double> no_data_value;  // declared no-data value of the band
+  bool masked = false;                  // true: a separate mask band marks pixels without data
+  bool whole_metres = false;            // true: all heights are whole metres
 };
 
 // Opens a raster with one band of heights and reads its georeference, unit, scale and no-data value.

@@ -49,7 +49,7 @@ RadarState good_state() {
   return state;
 }
 
-ClockState good_clock() {
+ClockState last_valid_clock() {
   ClockState clock{};
   clock.rate = 1.0;
   clock.running = 1;
@@ -96,7 +96,7 @@ TEST(Validation, GoodRecordsPass) {
   EXPECT_EQ(validate(good_ownship()), std::nullopt);
   EXPECT_EQ(validate(good_nav()), std::nullopt);
   EXPECT_EQ(validate(good_state()), std::nullopt);
-  EXPECT_EQ(validate(good_clock()), std::nullopt);
+  EXPECT_EQ(validate(last_valid_clock()), std::nullopt);
   EXPECT_EQ(validate(event_of(EventKind::freeze, 0)), std::nullopt);
 }
 
@@ -289,17 +289,17 @@ TEST(Validation, ASequencePointNeedsAName) {
 }
 
 TEST(Validation, ClockRangesAreChecked) {
-  expect_range_without_nan(good_clock(), &ClockState::rate, 0.0, 10.0);
-  ClockState clock = good_clock();
+  expect_range_without_nan(last_valid_clock(), &ClockState::rate, 0.0, 10.0);
+  ClockState clock = last_valid_clock();
   clock.running = 2;
   EXPECT_TRUE(validate(clock));
-  clock = good_clock();
+  clock = last_valid_clock();
   clock.base_sim_ns = -1;
   EXPECT_TRUE(validate(clock));
 }
 
 TEST(Validation, ARepositioningNeedsAllItsValues) {
-  ClockState clock = good_clock();
+  ClockState clock = last_valid_clock();
   clock.reposition_heading_deg = 1e9;
   EXPECT_EQ(validate(clock), std::nullopt);
   clock.reposition_latitude_deg = 38.0;

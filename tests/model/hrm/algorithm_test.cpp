@@ -27,15 +27,15 @@ TEST_P(EveryAlgorithm, FormsAMapIndependentOfEarlierAndAbandonedMaps) {
 
   hrm::PatchFormation formation(configuration, {});
   formation.begin(order_from(wide));
-  formation.give({ground, ground, scene});
+  formation.set_environment({ground, ground, scene});
   while (formation.state() != hrm::PatchState::done) formation.advance();
   formation.begin(order);
-  formation.give({ground, ground, scene});
+  formation.set_environment({ground, ground, scene});
   for (int stage = 0; stage < 2; ++stage) formation.advance();  // then abandoned, after the scene is drawn
   for (const bool with_scene : {true, false}) {
     const model::scene::SceneViewPointer given = with_scene ? scene : nullptr;
     formation.begin(order);
-    formation.give({ground, ground, given});
+    formation.set_environment({ground, ground, given});
     while (formation.state() != hrm::PatchState::done) formation.advance();
     const auto fresh = make_patch(configuration, order, ground, given);
     EXPECT_EQ(formation.image().power, fresh.image().power) << with_scene;

@@ -71,7 +71,7 @@ inline hrm::PatchFormation make_patch(const radar::RadarConfiguration& configura
                                       const model::scene::SceneViewPointer& scene = nullptr, std::size_t threads = 1) {
   hrm::PatchFormation process(configuration, executor_of(threads));
   process.begin(order);
-  process.give({ground, ground, scene});
+  process.set_environment({ground, ground, scene});
   while (process.state() != hrm::PatchState::done) process.advance();
   return process;
 }

@@ -87,7 +87,7 @@ TEST(FloatFiles, APatchFileHasThePowerOfTheKernelFromTheFarEdge) {
   hrm::PatchFormation process(configuration, {});
   const hrm::PatchNeed need = process.begin(order);
   auto store = model::terrain::open_terrain(configuration.terrain);
-  process.give({(*store)->prepare(need.window), (*store)->prepare(need.path), nullptr});
+  process.set_environment({(*store)->prepare(need.window), (*store)->prepare(need.path), nullptr});
   while (process.state() != hrm::PatchState::done) process.advance();
   const auto& power = process.image().power;
   EXPECT_EQ(little_endian_floats(out), std::vector<float>(power.begin(), power.end()));
