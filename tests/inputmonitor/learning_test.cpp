@@ -129,6 +129,16 @@ TEST(Learning, AButtonIsRefusedWhenAnAxisIsRequested) {
   EXPECT_THAT(learning.prompt(), HasSubstr("TDC right"));
 }
 
+TEST(Learning, AMoveThatBeganBeforeAButtonIsNotTheNextControl) {
+  DeviceInfo info;
+  info.axes[ABS_X] = AxisRange{0, 255};
+  Learning learning(info, {{ABS_X, 130}});
+  EXPECT_THAT(move(learning, {250}), IsEmpty());
+  EXPECT_THAT(learning.feed(key(0x121, 1)), HasSubstr("is PB 1"));
+  EXPECT_THAT(move(learning, {130}), IsEmpty());
+  EXPECT_THAT(learning.prompt(), HasSubstr("PB 2 ("));
+}
+
 TEST(Learning, AHatIsLearnedAsTwoButtons) {
   Learning learning({}, {});
   skip_to(learning, "ACQ forward");
