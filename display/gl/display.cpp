@@ -23,19 +23,19 @@ namespace {
 // [display units] Minimum displacement of the video that causes a redraw: 0.2 pixel on a display of 480 pixels.
 constexpr double kVisibleShift = 0.2;
 
-// Inputs that a picture shows, for comparison with the next picture. Symbols are compared separately, as draw lists.
-struct Shown {
-  std::uint64_t video_version = 0;
-  bool video = false;     // stored sweeps are drawn
-  std::uint64_t map = 0;  // id of the patch map drawn; 0: none
-  ViewFrame frame;
-  std::uint8_t brightness = 0, contrast = 0;
-  int size = 0;
-};
-
 }  // namespace
 
 struct Display::State {
+  // Inputs that a picture shows, for comparison with the next picture. Symbols are compared separately, as draw lists.
+  struct Shown {
+    std::uint64_t video_version = 0;
+    bool video = false;     // stored sweeps are drawn
+    std::uint64_t map = 0;  // id of the patch map drawn; 0: none
+    ViewFrame frame;
+    std::uint8_t brightness = 0, contrast = 0;
+    int size = 0;
+  };
+
   State(const SymbologyParameters& parameters, int size, const ColorScheme& colors_used)
       : view_section(parameters.view),
         blind_zone_deg(parameters.blind_zone_deg),
@@ -116,7 +116,7 @@ bool Display::draw(const DisplayInput& input) {
   State& state = *state_;
   // Stored sweeps of another mode are not shown.
   const bool video = shows_video(input.state) && state.store.mode() == input.state.mode;
-  Shown wanted;
+  State::Shown wanted;
   wanted.video_version = state.store.version();
   wanted.video = video;
   state.map_pass.keep(std::array{input.state.map_newest, input.state.map_old, input.state.map_stored});
