@@ -89,11 +89,11 @@ void DeviceDecoder::begin(const DeviceState& state) {
 void DeviceDecoder::feed(const RawEvent& raw, std::int64_t now_ns) {
   if (raw.type == EV_SYN && raw.code == SYN_DROPPED) loss_ = Loss::discarding;
   if (loss_ != Loss::none) {
-    // The kernel has lost events. The remaining events of the incomplete report, up to SYN_REPORT, are ignored.
+    // Linux has lost events. The remaining events of the incomplete report, up to SYN_REPORT, are ignored.
     if (raw.type == EV_SYN && raw.code == SYN_REPORT) loss_ = Loss::complete;
     return;
   }
-  // Ignored: the value 2, a key repeat of the kernel.
+  // Ignored: the value 2, a key repeat made by Linux.
   if (raw.type == EV_KEY && (raw.value == 0 || raw.value == 1)) change_button(raw.code, raw.value == 1, now_ns);
   if (raw.type == EV_ABS) change_axis(raw.code, raw.value, now_ns, false);
 }

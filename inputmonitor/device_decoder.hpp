@@ -1,7 +1,8 @@
-// Decoder of one input device: bytes of Linux evdev to raw events, raw events to input events.
+// Decoder of one input device: bytes of evdev (the Linux interface of input devices) to raw events, and raw events to
+// input events.
 // Inputs: bytes of struct input_event; device map; state of the controls; the time of each call [ns, CLOCK_MONOTONIC].
 // Outputs: input events, with time stamps and sequence numbers of 0.
-// Units: TDC deflection in [-1, 1], rounded to 0.01; antenna elevation [deg], rounded to 0.1 deg.
+// Units: TDC deflection in [-1, 1], rounded to 0.01; antenna elevation [deg above the horizontal], rounded to 0.1.
 // Threads: one thread per decoder. No system calls.
 // Source: docs/spec/formats.md#devices
 #pragma once
@@ -41,31 +42,32 @@ class RecordStream {
 
  private:
   std::array<std::byte, kRecordBytes> record_{};
-  std::size_t kept_ = 0;  // bytes of record_ received
+  std::size_t kept_ = 0;  // number of bytes of record_ received so far
 };
 
-// Minimum interval between events of TDC deflection or elevation: 10 ms, because some devices report more often. The
-// interval is shorter than a display frame.
+// The values of a decoder are TDC deflection and antenna elevation. Minimum interval between events of values: 10 ms,
+// because some devices report more often. The interval is shorter than a display frame.
 inline constexpr std::int64_t kValueInterval_ns = 10'000'000;
 // Rate limit of presses (token bucket): a bucket of 60 presses is refilled at 100 per second, about ten times the rate
-// of a hand. Presses above the limit come from a broken contact and are dropped.
+// of a hand. Repetitions and lever steps count as presses. Presses above the limit come from a broken contact and are
+// dropped.
 inline constexpr double kPressBurst = 60.0;
 inline constexpr double kPressesPerSecond = 100.0;
-// Thresholds of a hat or rocker (device_map.hpp), in fractions of full travel: pressed at 0.5 or more, released below
-// 0.4. The hysteresis suppresses jitter.
+// Thresholds of the deflection (device_map.hpp) of a hat or rocker: pressed at 0.5 or more, released below 0.4. The
+// hysteresis suppresses jitter.
 inline constexpr double kPressThreshold = 0.5;
 inline constexpr double kReleaseThreshold = 0.4;
 
 // State of all controls of a device.
 struct DeviceState {
   std::bitset<KEY_CNT> buttons;
-  std::vector<std::pair<std::uint16_t, std::int32_t>> axes;  // code, value
+  std::vector<std::pair<std::uint16_t, std::int32_t>> axes;  // code, raw value
 };
 
 // Decoder from raw events to input events by a device map.
-// TDC deflection is the sum of the deflections of all TDC axes and held TDC buttons, clamped to [-1, 1].
-// Deflection and elevation are sent on change, at most once per kValueInterval_ns. A pending change is sent at once
-// before a press or release. The initial positions of levers, elevation axes and buttons send no event.
+// TDC deflection is the sum of the deflections of all TDC axes and held TDC switches, clamped to [-1, 1] in x and in y.
+// Values are sent on change, at most once per kValueInterval_ns. A pending change is sent at once before a press or
+// release. The initial positions of controls other than TDC axes send no event.
 class DeviceDecoder {
  public:
   using Events = std::vector<databuffer::InputEvent>;
@@ -75,11 +77,12 @@ class DeviceDecoder {
   // Sets the initial state. A deflected TDC axis takes effect at once. Every other control takes effect when it moves.
   void begin(const DeviceState& state);
   void feed(const RawEvent& raw, std::int64_t now_ns);
-  // True after the kernel lost events (SYN_DROPPED). Then call resync().
+  // True after the kernel lost events (SYN_DROPPED), from the next SYN_REPORT until resync(). Then call resync().
   bool needs_resync() const { return loss_ == Loss::complete; }
-  // Call after a loss of events. Sets all controls to `state`, or releases all held controls if `state` is nullopt.
+  // Call after a loss of events. Sets all controls to `state`, or calls release_all() if `state` is nullopt.
   void resync(const std::optional<DeviceState>& state, std::int64_t now_ns);
-  void release_all();  // releases a TDC press and all deflections; other held switches send no release event
+  // Sends the end of a TDC press and of a TDC deflection. All other held switches are released without an event.
+  void release_all();
 
   // Returns the events since the last call, with pending values and repetitions that are due.
   Events take(std::int64_t now_ns);
@@ -93,14 +96,14 @@ class DeviceDecoder {
   struct Switch {
     SwitchAction action;
     bool held = false;
-    double deflection = 1.0;   // [0, 1] fraction of full travel; factor of the repetition rate, at least 0.1
+    double deflection = 1.0;   // [0, 1]; also the factor of the repetition rate, which is at least 0.1
     std::int64_t next_ns = 0;  // time of the next repetition
   };
   struct Axis {
     AxisAction action;
     double deflection = 0.0;       // TDC axis only: [-1, 1]
     std::optional<int> detent;     // lever only: index of the detent; nullopt: unknown
-    std::size_t first_switch = 0;  // hat or rocker only: index in switches_ of the positive switch, then the negative
+    std::size_t first_switch = 0;  // hat or rocker only: index in switches_ of its positive switch; next: negative
   };
 
   static Switch switch_of(const SwitchAction& action);
@@ -119,8 +122,8 @@ class DeviceDecoder {
   std::vector<Switch> switches_;  // one per button in the order of the map, then two per hat or rocker axis
   std::vector<Axis> axes_;
   std::pair<double, double> sent_deflection_{0.0, 0.0};
-  std::optional<double> elevation_deg_;       // commanded by the elevation axis; nullopt until it has a value
-  std::optional<double> sent_elevation_deg_;  // nullopt: not sent yet
+  std::optional<double> elevation_deg_;       // commanded by the elevation axis; nullopt: axis position unknown
+  std::optional<double> sent_elevation_deg_;  // last one sent, or the initial position; nullopt: neither
   std::int64_t values_sent_ns_ = 0;
   Loss loss_ = Loss::none;
   double presses_left_ = kPressBurst;               // tokens of the rate limit

@@ -62,7 +62,7 @@ Expected<SwitchAction> switch_of(const std::string& press, const std::string& re
   const auto released = event_of(release);
   if (!released) return tl::unexpected(released.error());
   SwitchAction action{*pressed, *released, std::llround(repeat_s * kNanosecondsPerSecond)};
-  // A switch without an event repeats nothing. A TDC deflection lasts until it changes and needs no repetition.
+  // A switch without a press event repeats nothing. A TDC deflection lasts until it changes and needs no repetition.
   if (!action.press || is_kind(action.press, EventKind::tdc)) action.repeat_ns = 0;
   // A TDC press needs a release event, because the cursor function acts on release.
   if (is_kind(action.press, EventKind::tdc_press) && !action.release) {

@@ -1,4 +1,5 @@
-// Device map: the input events of each button and axis of a device, by evdev code, and the response curves of the axes.
+// Device map: the input events of each button and axis of a device, and the response curves of the axes. Buttons and
+// axes have the codes of evdev (the Linux interface of input devices).
 // Inputs: a map from GUF (radar::Device); name, ids and controls of the device (DeviceInfo).
 // Outputs: DeviceMap, with numeric codes, parsed events and axis ranges.
 // Errors: an unknown code, an invalid event, an axis without a known range or with a centre outside its range.
@@ -23,7 +24,7 @@
 namespace yars::inputmonitor {
 
 // Response curve of an axis: raw value to deflection in [-1, 1].
-//   v = (raw - centre) / |end - centre|, clamped to [-1, 1]; end: high if raw >= centre, else low; negated if inverted
+//   v = (raw - centre) / |end - centre|, clamped to [-1, 1]; end: high if raw >= centre, else low; if inverted, -v
 //   t = (|v| - dead zone) / (1 - dead zone); 0 within the dead zone
 //   deflection = sign(v) ((1 - curve) t + curve t^3): continuous, odd, 1 at the end
 struct AxisShape {
@@ -74,10 +75,10 @@ struct AxisAction {
   std::uint16_t code = 0;
   radar::AxisUse use = radar::AxisUse::tdc_x;
   AxisShape shape;
-  SwitchAction positive;      // hat, rocker, lever: events of a move to the high end, after inversion
-  SwitchAction negative;      // hat, rocker, lever: events of a move to the low end, after inversion
-  double lowest_deg = -60.0;  // elevation axis: antenna elevation at deflection -1
-  double highest_deg = 60.0;  // elevation axis: antenna elevation at deflection 1
+  SwitchAction positive;      // hat, rocker: events of a push toward deflection 1; lever: of each step toward it
+  SwitchAction negative;      // the same for deflection -1
+  double lowest_deg = -60.0;  // elevation axis: antenna elevation above the horizontal at deflection -1
+  double highest_deg = 60.0;  // elevation axis: antenna elevation above the horizontal at deflection 1
   int steps = 16;             // lever: number of detents
 };
 

@@ -90,8 +90,8 @@ std::optional<DeviceState> DeviceReader::state() const {
 DeviceReader::Outcome DeviceReader::read(std::span<std::byte> bytes, std::size_t& count) {
   count = 0;
   pollfd wanted{descriptor_, POLLIN, 0};
-  // poll() distinguishes a FIFO that has had no writer yet from a closed FIFO; read() returns 0 for both. Without
-  // POLLIN the event is POLLHUP or POLLERR: the writer has closed the FIFO, or the device is unplugged.
+  // poll() distinguishes a FIFO that has had no writer yet from one that its writer has closed; read() returns 0 for
+  // both. Without POLLIN the event is POLLHUP or POLLERR: the writer has closed the FIFO, or the device is unplugged.
   if (poll(&wanted, 1, 0) <= 0) return Outcome::nothing;
   if ((wanted.revents & POLLIN) == 0) return Outcome::gone;
   const ssize_t found = ::read(descriptor_, bytes.data(), bytes.size());

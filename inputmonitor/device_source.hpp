@@ -24,7 +24,7 @@
 namespace yars::inputmonitor {
 
 // Non-blocking reader of struct input_event from a device, a FIFO or a file.
-// Name, ids, axes and state of the controls are read by ioctl. A FIFO or a file does not have them.
+// Name, ids, axes and state of the controls are read by ioctl. A FIFO or a file has none of these.
 class DeviceReader {
  public:
   // Errors: the path does not exist, cannot be read, or is no device, FIFO or file.
@@ -39,7 +39,7 @@ class DeviceReader {
   std::optional<DeviceState> state() const;
 
   enum class Outcome { nothing, some, gone };  // gone: unplugged, FIFO closed by its writer, or end of file
-  // Reads the available bytes into `bytes` and stores their number in `count`.
+  // Reads available bytes, at most bytes.size(), into `bytes` and stores their number in `count`.
   Outcome read(std::span<std::byte> bytes, std::size_t& count);
   // True if the path still names the opened file (same device and inode).
   bool is_at(const std::filesystem::path& path) const;
@@ -67,9 +67,9 @@ using DeviceMaps = std::shared_ptr<const std::vector<radar::Device>>;
 // Interval between checks of a device's path: 250 ms, so that a user hardly notices the delay after plugging in.
 inline constexpr std::int64_t kCheckInterval_ns = 250'000'000;
 
-// Event source of one device. When the device disconnects, held controls are released. The path is checked every
-// kCheckInterval_ns for a reconnection. One take() reads a bounded number of bytes, so that a device with many events
-// does not delay other sources.
+// Event source of one device. When the device disconnects, DeviceDecoder::release_all() releases its controls. The path
+// is checked every kCheckInterval_ns for a reconnection. One take() reads a bounded number of bytes, so that a device
+// with many events does not delay other sources.
 class DeviceSource final : public EventSource {
  public:
   // An empty `map_name` selects the last map that fits the device. A FIFO or a file has no name and no ids; for these
@@ -105,11 +105,11 @@ class DeviceSource final : public EventSource {
   std::unique_ptr<DeviceReader> reader_;  // null: disconnected
   std::optional<DeviceDecoder> decoder_;
   RecordStream stream_;
-  std::vector<databuffer::InputEvent> releases_;  // release events of a disconnected device
+  std::vector<databuffer::InputEvent> releases_;  // last events of a device that was disconnected
   std::vector<Notice> notices_;
   std::string last_problem_;  // last reason why connect() failed; a notice reports it once, not at every check
   std::int64_t next_check_ns_ = 0;
-  std::uint64_t dropped_ = 0;  // dropped presses that notices have counted
+  std::uint64_t dropped_ = 0;  // number of dropped presses that notices have reported
   std::uint64_t losses_ = 0;   // SYN_DROPPED events since the last notice
   bool played_ = false;        // the source is a file that was read to its end
 };

@@ -37,19 +37,20 @@ class EventSource {
  public:
   virtual ~EventSource() = default;
 
-  // Waits for input or the deadline, at most `max_wait_ms`. May return early, for example on a signal.
+  // Waits for input or until deadline_ns(), at most `max_wait_ms`. May return early, for example on a signal.
   virtual void wait(const Moment& moment, int max_wait_ms);
   // Appends the file descriptors that become readable with new input. Returns false if the source has input without a
   // descriptor, so that only its own wait() detects this input.
   virtual bool add_descriptors(std::vector<pollfd>&) const { return true; }
   // Time [ns, CLOCK_MONOTONIC] at which the next event is due without new input; nullopt if no such event is pending.
   virtual std::optional<std::int64_t> deadline_ns() const { return std::nullopt; }
-  // Returns all events since the last call, without time stamps and sequence numbers. Never waits.
+  // Returns events that no earlier call returned, without time stamps and sequence numbers. Never waits. A source may
+  // leave a part of its input to the next call.
   virtual std::vector<databuffer::InputEvent> take(const Moment& moment) = 0;
-  // Events that release all held controls, for the end of the program.
+  // Events for the end of the program: the end of a TDC press and of a TDC deflection.
   virtual std::vector<databuffer::InputEvent> release() = 0;
 
-  // True if the user has quit or the source can give no more events.
+  // True if the user has quit (Escape; window or terminal closed) or a script has reached its `end`.
   virtual bool ended() const = 0;
   // True if events are due by simulation time. Then take() must be called once per tick.
   virtual bool follows_sim_time() const = 0;
@@ -59,12 +60,13 @@ class EventSource {
   virtual std::string description() const = 0;
 };
 
-// Maximum time that a group waits in a source without a descriptor (a window): 5 ms, one tick. Meanwhile the group does
-// not see input of its other sources.
+// Maximum time that a group waits in a source without a descriptor (a window): 5 ms, one tick. Meanwhile the group
+// sees neither input nor deadlines of its other sources.
 inline constexpr int kMaxOwnWait_ms = 5;
 
-// Several sources as one source. If all sources have descriptors, input of any source ends the wait of the group. If
-// one source has none, the group waits in that source, at most kMaxOwnWait_ms. The group ends when any source ends.
+// Several sources as one source. If add_descriptors() is true for all sources, input of any source ends the wait of the
+// group. Otherwise the group waits in the first source for which it is false, at most kMaxOwnWait_ms. The group ends
+// when any source ends.
 class SourceGroup final : public EventSource {
  public:
   explicit SourceGroup(std::vector<std::unique_ptr<EventSource>> sources) : sources_(std::move(sources)) {}
@@ -87,8 +89,8 @@ class SourceGroup final : public EventSource {
 //   TIME_S EVENT     simulation time [s], not before the time of the line above
 //   +DT_S EVENT      interval after the time of the line above [s]. If the first event has this form, all times count
 //                    from the moment when the script starts.
-//   [TIME_S] end     end of the script, by default at the time of the line above; must be the last line. The input
-//                    monitor then ends, too.
+//   [TIME_S] end     end of the script, by default at the time of the line above; must be the last line. Except in
+//                    lockstep, the input monitor then ends, too.
 // `#` begins a comment. EVENT has the syntax of databuffer/messages/input_event.hpp.
 struct ScriptedEvent {
   std::int64_t time_ns = 0;

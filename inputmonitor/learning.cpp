@@ -122,7 +122,7 @@ std::string Learning::take_button(std::uint16_t code) {
 }
 
 std::string Learning::take_axis(std::uint16_t code, std::int32_t value) {
-  // A hat rests at 0. For another axis with an unknown rest value, the first value counts as rest.
+  // An unknown rest value is taken to be 0 for a hat, and the first value for another axis.
   const double first = is_hat(code) ? 0.0 : double(value);
   Watched& axis = watched_.try_emplace(code, Watched{first, first, first}).first->second;
   axis.min = std::min(axis.min, double(value));

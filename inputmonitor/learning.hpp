@@ -2,8 +2,8 @@
 // Inputs: raw events; name, ids and axis ranges of the device; rest values of its axes.
 // Outputs: prompts and answers as text; the map as a radar::Device.
 // A button is identified when it is pressed. A hat or axis is identified when it has moved from rest and has returned.
-// The minimum move is kMinTravel of the range; 1 for a hat. The direction of the move gives the sign of the axis. The
-// value farthest from rest gives one end of the axis, and the rest value its centre.
+// The minimum move is kMinTravel of the range, or kMinTravelUnknown; 1 for a hat. The direction of the move gives the
+// sign of the axis. The value farthest from rest gives one end of the axis, and the rest value its centre.
 // Threads: one thread per object. No system calls.
 // Source: docs/hardware.md, "Learning a map"
 #pragma once
@@ -34,13 +34,14 @@ class Learning {
   bool finished() const { return next_ == results_.size(); }
   // Text of the current prompt: "PB 13 (13 of 33)".
   std::string prompt() const;
-  // Takes a raw event and returns an answer for the user, empty if the event has no effect.
+  // Takes a raw event and returns an answer for the user: the control found, or why this control is refused. Empty if
+  // the event neither presses a button nor ends the move of a hat or axis.
   std::string feed(const RawEvent& raw);
   void skip();                  // goes to the next prompt; the control remains unknown
   void back();                  // goes to the previous prompt and discards its result
-  std::size_t learned() const;  // number of controls found
+  std::size_t learned() const;  // number of controls found; each direction of an axis counts as one
 
-  // Map of the controls found so far.
+  // Device map of the controls found so far.
   radar::Device device(const std::string& name) const;
 
  private:
@@ -54,8 +55,8 @@ class Learning {
     double rest = 0.0;          // [raw units]
     double return_error = 0.0;  // [raw units] hat or axis: distance from rest after the return
   };
-  // Rest value, minimum and maximum of an axis [raw units]. Minimum and maximum count from the last identified
-  // control, skip() or back().
+  // Rest value, minimum and maximum of an axis [raw units]. Minimum and maximum are of the time since the last answer
+  // to a press or a completed move, skip() or back().
   struct Watched {
     double rest = 0.0;
     double min = 0.0;

@@ -120,7 +120,7 @@ using SourcePointer = std::unique_ptr<EventSource>;
 constexpr std::string_view kScript = "script:";
 constexpr std::string_view kDevice = "evdev:";
 
-// Source without events, for a system without a display and a terminal, such as a container.
+// Source without events, for a system with neither a display nor a terminal, such as a container.
 class IdleSource final : public EventSource {
  public:
   std::vector<databuffer::InputEvent> take(const Moment&) override { return {}; }

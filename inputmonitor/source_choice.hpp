@@ -74,7 +74,7 @@ struct SourceContext {
 };
 
 // Opens all choices as one source. `auto` opens a window, else the terminal if there is one.
-// `auto` also opens all devices that have a map and read permission.
+// `auto` also opens all devices that have a map and read permission and that no other choice names.
 error::Expected<std::unique_ptr<EventSource>> open_sources(const std::vector<SourceChoice>& choices,
                                                            const SourceContext& context);
 

@@ -70,7 +70,7 @@ Shape shape_of(std::string_view sequence) {
 
 Key key_of_sequence(std::string_view sequence) {
   if (sequence.starts_with("\x1b[[")) return find_key(kLinuxFunctions, sequence.back());
-  // Ignored: a semicolon and the code of the modifier keys behind it.
+  // Ignored: a semicolon and the code of the modifier keys after it.
   std::string_view parameter = sequence.substr(2, sequence.size() - 3);
   parameter = parameter.substr(0, parameter.find(';'));
   if (sequence.back() == '~') return find_key(kNumbers, parameter);

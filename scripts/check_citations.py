@@ -4,10 +4,10 @@
 usage: check_citations.py [--root DIR]
 Prints one line per finding, `file:line: rule: what was found, what is allowed`. The exit code is 1 if there is any.
 The rules:
-  citation  a cited document exists; a citation of a document in docs/spec also names an anchor, which exists
-  rule      a rule number exists in the pilot's interface, and the file with the number cites that document by path
+  citation  a cited document and a cited anchor exist; outside of Markdown a citation of docs/spec names an anchor
+  rule      a file outside of docs/spec that names a rule by number cites the pilot's interface, which has that rule
   outside   nothing outside of the repository is cited, such as an unnamed specification or a neighbouring folder
-  link      the target of a link exists: a file or folder, and the anchor or heading in it
+  link      the target of a link in Markdown exists: a file or folder, and the anchor or heading in it
   decision  the numbers of docs/decisions have no gap and no duplicate; a cited decision exists
   anchor    an anchor occurs once in its file
 Anchors in docs/spec are explicit, so that headings can be reworded. In other documents headings are anchors as well.
@@ -25,7 +25,7 @@ SPECIFICATION = "docs/spec/"
 INTERFACE = SPECIFICATION + "pilots_interface" + ".md"
 ANCHOR = re.compile(r'<a id="([^"]*)"></a>')
 HEADING = re.compile(r"^#+ +(.*?) *$", re.M)
-# The further anchors of a list may stand on the next line of a comment.
+# A further anchor in a list of anchors. It may stand on the next line of a comment.
 NEXT = r"(?:[,;]|\s+(?:and|or|to)\b)(?:\s|//|[#;*](?=\s))+#[\w-]+"
 CITATION = re.compile(r"(?<![\w./-])(docs/(?:[\w-]+/)*[\w-]+\.md)((?:#[\w-]+(?:" + NEXT + ")*)?)")
 LINK = re.compile(r"\]\(([^()\s]*)\)")
@@ -35,8 +35,8 @@ RULE = re.compile(r"\b[Rr]ules? (\d+(?:, \d+)*(?:,? (?:and|to|or) \d+)?)")
 DECISION = re.compile(r"\b[Dd]ecisions? (\d+(?:, \d+)*(?:,? (?:and|to|or) \d+)?)(?!\d|[.,]\d)")
 # A page of the specification, or of the texts that it was written from, without the path of its folder.
 BARE_PAGE = re.compile(r"(?<![\w/.\[-])(?:pvi|seed-map|seed_map|physics|formats|commands|pilots_interface)\.md\b")
-UNNAMED = re.compile(r"(?<![\w./-])" + "sp" "ec" + r"(?![\w/-])")  # a word that names no page; in parts, as this is a source too
-NEIGHBOUR = re.compile(r"\.\./(?:seed|shared(?!/data\b))[\w./-]*")  # data for tests may lie beside the repository
+UNNAMED = re.compile(r"(?<![\w./-])" + "sp" "ec" + r"(?![\w/-])")  # split, so that this file passes its own rule
+NEIGHBOUR = re.compile(r"\.\./(?:seed|shared(?!/data\b))[\w./-]*")  # ../shared/data, for tests, is allowed
 
 
 def line_of(text, position):
@@ -139,7 +139,7 @@ def check_anchors(text):
 
 
 def decision_numbers(names):
-    """Number -> files of docs/decisions."""
+    """{number of a decision: list of its files in docs/decisions}"""
     numbers = {}
     for name in names:
         match = re.fullmatch(r"docs/decisions/(\d{4})-[\w-]+\.md", name)
@@ -177,7 +177,7 @@ def findings_of(root):
         try:
             text = (root / name).read_text(encoding="utf-8")
         except UnicodeDecodeError:
-            continue  # a picture
+            continue  # no text, such as a picture
         checks = [check_rules(name, text, documents), check_decision_names(text, numbers)]
         if name.endswith(".md"):
             checks += [check_links(root, name, text, documents), check_anchors(text)]

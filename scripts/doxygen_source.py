@@ -6,8 +6,8 @@ usage: doxygen_source.py FOLDER         copies the tree to FOLDER; scripts/docs 
 In the Markdown of the copy, Doxygen's command for a diagram replaces `<!-- diagram: FILE.dot -->`. Links to headings and
 to anchors (`<a id="NAME"></a>`) use Doxygen's labels.
 The filter turns plain comments into documentation. The first comment of a header or source describes the file. In a
-header, a comment above or behind a declaration describes that declaration. Behind the first blank line the filter keeps
-all line numbers, so that links to lines of the unfiltered sources are right.
+header, a comment above a declaration, or after it on its line, describes that declaration. After the first blank line
+the filter keeps all line numbers, so that links to lines of the unfiltered sources are right.
 """
 import pathlib
 import posixpath
@@ -63,7 +63,7 @@ def filtered(path):
 
 
 def slug(heading):
-    """The anchor of a heading by the usual rule of Markdown viewers: lower case, hyphens for blanks."""
+    """The anchor of a heading by the usual rule of Markdown viewers: lower case, hyphens for blanks, no punctuation."""
     return re.sub(r"[^\w-]", "", heading.lower().replace(" ", "-"))
 
 

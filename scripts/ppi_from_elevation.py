@@ -2,9 +2,9 @@
 """Draws elevation files as a shaded relief in the geometry of the radar display, for comparison with a radar picture.
 
 Shares no code with the radar: own DTED and HGT reader, own geodesic (Vincenty's direct formula on WGS84, Survey
-Review 23, 1975). The picture has its apex at --lat --lon and --track up. It shows -0.6 to 0.6 of the range across and
--0.1 to 1.1 of the range up; outside of the sector of +-50 degrees it is dark. Distances are ground range. Curvature of
-the earth and shadows are left out. Prints the pixel of each --mark.
+Review 23, 1975). The picture has its apex at --lat --lon and --track up. From the apex it shows -0.6 to 0.6 of the
+range across and -0.1 to 1.1 of the range up. It is dark beyond the range and outside of +-50 degrees from --track.
+Distances are ground range. Curvature of the earth and shadows are left out. Prints the pixel of each --mark.
 
   ppi_from_elevation.py --terrain DIR --lat 36.9 --lon -122.6 --track 90 --range-nm 40 --size 480 --out ppi.png \\
       --mark 36.95 -122.06 "Point Santa Cruz"
@@ -27,7 +27,7 @@ VOID = np.nan
 
 
 def vincenty_direct(latitude_deg, longitude_deg, azimuth_deg, distance_m):
-    """Latitude and longitude [deg] of the end of a geodesic. Azimuth and distance may be arrays."""
+    """Latitude and longitude [deg] of the end of a geodesic. Azimuth (from true north) and distance may be arrays."""
     minor = SEMI_MAJOR_M * (1 - FLATTENING)
     azimuth, distance_m = np.radians(azimuth_deg), np.asarray(distance_m, float)
     tan_u1 = (1 - FLATTENING) * np.tan(np.radians(latitude_deg))
@@ -56,7 +56,7 @@ def vincenty_direct(latitude_deg, longitude_deg, azimuth_deg, distance_m):
 
 
 def way_to(latitude_deg, longitude_deg, to_latitude_deg, to_longitude_deg):
-    """Azimuth [deg] and distance [m] of the geodesic between two places: Newton steps on the direct formula."""
+    """Azimuth [deg true] and distance [m] of the geodesic between two places, by iteration of the direct formula."""
     metres = np.pi / 180 * SEMI_MAJOR_M
     def flat(lat, lon):
         east = ((to_longitude_deg - lon + 180) % 360 - 180) * metres * np.cos(np.radians(to_latitude_deg))
@@ -72,7 +72,7 @@ def way_to(latitude_deg, longitude_deg, to_latitude_deg, to_longitude_deg):
 
 
 def read_dted(path):
-    """Heights [m], rows from south to north; absent and void posts are NaN."""
+    """Elevations [m above mean sea level], rows from south to north; absent and void posts are NaN."""
     data = path.read_bytes()
     columns, rows = int(data[47:51]), int(data[51:55])
     cell = np.full((rows, columns), VOID)
@@ -94,7 +94,7 @@ def read_hgt(path):
 
 
 def find_cells(folder):
-    """{(south, west) [deg]: file}. Of several files of one cell, the finest."""
+    """{(latitude, longitude) of the cell's south-west corner [deg]: file}. Of several files of one cell, the finest."""
     found = {}
     for path in sorted(folder.rglob("*")):
         name = f"{path.parent.name}/{path.name}".lower()
@@ -115,7 +115,7 @@ def find_cells(folder):
 
 
 def elevations(files, latitude, longitude):
-    """Heights [m] at positions, by bilinear interpolation. An absent cell is sea at 0 m. NaN beside a void post."""
+    """Elevations [m] at positions, by bilinear interpolation. An absent cell is sea at 0 m. NaN beside a void post."""
     result = np.zeros(latitude.shape)
     south, west = np.floor(latitude).astype(int), np.floor(longitude).astype(int)
     for place in set(zip(south.ravel().tolist(), west.ravel().tolist())) & set(files):
@@ -132,7 +132,7 @@ def elevations(files, latitude, longitude):
 
 
 def glass_place(options, x, y):
-    """Latitude and longitude [deg] of positions on the picture: x right of and y ahead of the apex, in ranges."""
+    """Latitude and longitude [deg] of picture positions: x right of the apex, y above it, as fractions of the range."""
     azimuth = options.track + np.degrees(np.arctan2(x, y))
     return vincenty_direct(options.lat, options.lon, azimuth, np.hypot(x, y) * options.range_nm * METRES_PER_NM)
 
@@ -155,7 +155,7 @@ def draw(options):
     metres = step * options.range_nm * METRES_PER_NM
     known = np.nan_to_num(height, nan=0.0)
     down_slope, right_slope = np.gradient(known, metres)
-    # The light comes from the apex, like the radar's beam. A slope that faces the apex is bright, its far side dark.
+    # The light comes from the apex, like the radar's beam. Slopes up from the apex are bright, slopes down dark.
     distance = np.maximum(np.hypot(x, y), 1e-9)
     rise = (right_slope * x - down_slope * y) / distance
     shade = np.clip(0.42 + 2.2 * rise, 0.06, 1)

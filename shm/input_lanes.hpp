@@ -94,8 +94,8 @@ bool InputLanes<T, Lanes, Depth, Access>::peek(std::size_t lane, T& out) {
     Access::store(from.pushed_seen, pushed, std::memory_order_relaxed);
     if (number == pushed) return false;
   }
-  // A lane cannot hold more than Depth records. A larger difference means damaged cursors. The consumer then discards
-  // all records, because their order is unknown.
+  // A lane cannot hold more than Depth records. A larger difference of the cursors means that they are damaged. The
+  // consumer then discards all records, because their order is unknown.
   if (pushed - number > Depth) {
     pushed = Access::load(from.pushed, std::memory_order_acquire);
     Access::store(from.pushed_seen, pushed, std::memory_order_relaxed);

@@ -98,7 +98,7 @@ class LatestReader {
  public:
   explicit LatestReader(const LatestValue<T, Access>& source) : source_(&source) {}
 
-  // Copies a newer value, if there is one, to value(). Returns true if it did.
+  // Copies a newer value, if there is one, to value(). Returns true if value() is then a newer one.
   bool refresh() {
     if (source_->version() == version_ || !source_->has_value()) return false;
     const auto version = source_->read(value_);

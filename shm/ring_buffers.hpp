@@ -30,11 +30,12 @@ class BroadcastRing {
   std::uint64_t publish(const T& record);
   // Number of the next record, which equals the number of records published.
   std::uint64_t next() const { return Access::load(next_, std::memory_order_acquire); }
-  // Number of the oldest readable record. The producer may be overwriting the record before it.
+  // Number of the oldest readable record. The producer may be overwriting the record before the oldest.
   std::uint64_t oldest() const { return oldest_before(next()); }
-  // Copies the record at `cursor` to `out` and advances the cursor. Not delivered with lost = 0: there is no new
-  // record, or the record's slot is damaged. Not delivered with lost > 0: the producer overtook the reader, and all
-  // attempts failed. A failed attempt leaves `out` unspecified. If there is no new record, `out` is unchanged.
+  // Copies the record at `cursor` to `out` and advances the cursor. If no record was delivered and `lost` is 0, there
+  // is no new record, or the record's slot is damaged. If no record was delivered and `lost` is above 0, the producer
+  // overtook the reader, and all attempts failed. A failed attempt leaves `out` unspecified. If there is no new record,
+  // `out` is unchanged.
   RingRead read(std::uint64_t& cursor, T& out) const;
 
   static constexpr std::size_t kDepth = N;
@@ -107,8 +108,8 @@ RingRead BroadcastRing<T, N, Access>::read(std::uint64_t& cursor, T& out) const 
 // from 0 since the session began. A writer that dies loses only the line that it was writing.
 // A writer that pauses while N newer lines are appended finds one of them in its slot. It then abandons its own line
 // and counts the loss. Each word is stored by compare-exchange: only if the word still has the value that the writer
-// read while it owned the slot. If the newer line has the same value there, the exchange succeeds and corrupts the
-// newer line. The checksum detects this case.
+// read while it owned the slot. If the newer line has stored that same value in the word, the exchange succeeds and
+// corrupts the newer line. The checksum detects this case.
 template <Record T, std::size_t N, class Access = PlainAccess>
 class NoteRing {
  public:
@@ -156,11 +157,12 @@ class NoteRing {
   }
 
   alignas(kCacheLine) AtomicWord total_;
-  AtomicWord lost_;  // in the padding of total_'s cache line, which builds without this counter leave zero
+  AtomicWord lost_;  // in padding of total_'s cache line that was zero before this counter was added
   alignas(kCacheLine) std::array<Slot, N> slots_;
 };
 
-// `occupant`: number of the line in the slot. A sequence that no line of this slot can have is damaged and overwritten.
+// `occupant`: number of the line in the slot. A sequence that no line of this slot can have counts as damaged and
+// is overwritten.
 template <Record T, std::size_t N, class Access>
 bool NoteRing<T, N, Access>::take(Slot& slot, std::uint64_t number) {
   for (int attempt = 0; attempt < kAttempts; ++attempt) {

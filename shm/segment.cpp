@@ -47,7 +47,8 @@ std::string file_name_of(const std::string& name) {
   return "yars." + std::to_string(geteuid()) + "." + name;
 }
 
-// Removes temporary files of dead creators. Such a file has no lock, or is a second name of the segment's file.
+// Removes temporary files of dead creators. Such a file has no lock, or its temporary name is a second name of the
+// segment's file.
 void remove_dead_temporaries(const std::string& file_name) {
   DIR* folder = opendir(kSegmentFolder);
   if (folder == nullptr) return;
@@ -78,7 +79,7 @@ Expected<void> check_owner(const SegmentFile& file, const std::string& file_name
               "ask that user to remove it, or choose another --session");
 }
 
-// Checks the header. Memory behind the header may be read only after this check has succeeded.
+// Checks the header. Memory after the header may be read only if this check has succeeded.
 Expected<void> check_layout(const SegmentFile& file, const std::string& file_name, const LayoutIdentity& wanted) {
   const std::string what_to_do = "end the programs of the other build, or choose another --session";
   if (file.size() < sizeof(SegmentHeader))
@@ -155,7 +156,8 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
     step("leftover unlinked");
     return std::nullopt;
   }
-  // Another process participates, or has write-locked the same leftover. In the second case the read lock fails.
+  // Another process participates, or has write-locked the file: as the last participant that leaves, or because it
+  // found the same leftover. While a write lock exists, the read lock fails.
   if (!file->lock(kParticipation, LockKind::read) || !file->is_at(path_of(file_name))) {
     sleep_1ms();
     return std::nullopt;
@@ -178,7 +180,7 @@ Attempt rejoin(const std::string& file_name, const LayoutIdentity& layout) {
   return std::nullopt;
 }
 
-// Maps and fills the allocated memory; `error` is the errno value of the allocation.
+// Maps and fills the allocated memory; `error` is the errno value of the allocation, 0 for success.
 Expected<void> build(SegmentFile& file, const std::string& file_name, const LayoutIdentity& layout,
                      Segment::Initialize initialize, int error) {
   if (error != 0) return system_failure(file_name, std::to_string(layout.size) + " bytes of shared memory", error);
@@ -190,8 +192,9 @@ Expected<void> build(SegmentFile& file, const std::string& file_name, const Layo
   return {};
 }
 
-// Builds a segment without a name and links it. nullopt: try again. Causes: another process linked its segment first;
-// another process took this file for a leftover and locked it first; /dev/shm is full and `memory_may_free` is true.
+// Builds a segment without a name and gives it the name. nullopt: try again. Causes: another process gave the name to
+// its own segment first; another process took this file for a leftover and locked it first; /dev/shm is full and
+// `memory_may_free` is true.
 // `memory_may_free`: a full /dev/shm is not yet an error, because other creators may still free memory.
 Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segment::Initialize initialize,
                bool memory_may_free) {
@@ -227,7 +230,8 @@ struct Segment::Core {
   SegmentFile file;
   bool writable;
   bool created;
-  // Bit n: this object holds byte n. Needed, because the operating system grants an object the same lock repeatedly.
+  // Bit n: this object holds the lock on byte n. Needed, because the operating system grants an object the same lock
+  // repeatedly.
   std::atomic<std::uint64_t> held_bytes{0};
 
   SegmentHeader& header() { return *static_cast<SegmentHeader*>(file.memory()); }

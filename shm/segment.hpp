@@ -2,7 +2,7 @@
 // and claims. A claim is the exclusive right to one role or lane of the session.
 // Inputs: a name ([A-Za-z0-9_-]), the layout identity of this build, a function that initializes new memory.
 // Outputs: the mapped memory of /dev/shm/yars.UID.NAME; claims on its lock bytes.
-// Errors: /dev/shm is full, the file belongs to another user, or another build made it.
+// Errors: /dev/shm is full, the file belongs to another user, or its layout is not that of this build.
 // Threads: locks belong to the Segment object. The operating system releases them when the process ends.
 // Source: docs/shared_memory.md.
 #pragma once
@@ -24,12 +24,12 @@ namespace yars::shm {
 inline constexpr std::uint64_t kSegmentMagic = 0x314d485353524159U;  // "YARSSHM1" as bytes
 inline constexpr std::size_t kLockBytes = 64;                        // number of lock bytes; byte 0 marks participants
 
-// Header of a segment. It identifies the layout: a program of another build stops before it reads anything else.
+// Header of a segment. It identifies the layout: a program with another layout stops before it reads anything else.
 // The first 32 bytes have the same layout in every version.
 struct SegmentHeader {
   std::atomic<std::uint64_t> magic;  // kSegmentMagic once creation is complete
   std::atomic<std::uint64_t> size;   // [bytes] size of the segment
-  std::atomic<std::uint64_t> hash;   // layout_hash() of all records
+  std::atomic<std::uint64_t> hash;   // layout_hash() of all record types
   std::atomic<std::uint32_t> layout_version;
   std::atomic<std::uint32_t> reserved;
   // Process id of the holder of each lock byte, for error messages only. Only the lock shows that a byte is held.
@@ -83,14 +83,14 @@ extern thread_local CreationStep creation_step;
 // has_name() then returns false. New participants find the file through /proc.
 class Segment {
  public:
-  // Initializes the zeroed memory behind the header. `memory` is the start of the segment, where the header will be.
+  // Initializes the zeroed memory after the header. `memory` is the start of the segment, where the header will be.
   // The creator calls this function before any other process can map the memory.
   using Initialize = void (*)(void* memory);
 
   // Joins the segment, or creates it. `name`: letters, digits, '-' and '_'.
   static error::Expected<Segment> open(const std::string& name, const LayoutIdentity& layout, Initialize initialize);
   // Maps the segment read-only, without participating. Errors: no segment; a leftover without participants; a segment
-  // of another user or of another build.
+  // of another user or with another layout.
   static error::Expected<Segment> open_read_only(const std::string& name, const LayoutIdentity& layout);
 
   Segment(Segment&&) noexcept;

@@ -22,7 +22,7 @@ bool is_number(std::string_view text) {
   return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// Paths of the entries of a folder whose names are numbers. Empty if the folder may not be read.
+// Paths of the entries of a folder that have a number as their name. Empty if the folder may not be read.
 std::vector<std::string> numbered_entries(const std::string& folder) {
   std::vector<std::string> entries;
   const std::unique_ptr<DIR, int (*)(DIR*)> stream(opendir(folder.c_str()), closedir);
@@ -50,8 +50,9 @@ bool was_opened_as(const std::string& target, const std::string& path) {
   return is_number(rest.substr(1, rest.size() - 1 - kTemporary.size()));
 }
 
-// True for a regular file of this user with link count 0. The text "(deleted)" alone does not suffice, because /proc
-// shows it for a file made without a name even after link_as(). Other files, such as pipes, must not be opened.
+// True for a regular file of this user with link count 0. The text "(deleted)" alone does not suffice: until link_as()
+// has opened the file again, /proc shows the removed temporary name of a file that already has its final name.
+// Files that are not regular, such as pipes, must not be opened.
 bool is_own_and_nameless(const std::string& descriptor) {
   struct stat status {};
   return stat(descriptor.c_str(), &status) == 0 && status.st_nlink == 0 && S_ISREG(status.st_mode) &&

@@ -34,11 +34,11 @@ std::vector<std::string> nameless_files(const std::string& path);
 enum class LockKind { none, read, write };
 
 // Open file of a segment, mapped through Boost.Interprocess. Each object has its own open file description, so that
-// locks belong to the object. Only segment.cpp uses it.
+// locks belong to the object. Only segment.cpp and tests use this class.
 class SegmentFile {
  public:
   enum class Access { read_only, read_write };
-  // open() and create(): nullopt with errno set on failure.
+  // open(), create() and reopen(): nullopt with errno set on failure.
   static std::optional<SegmentFile> open(const std::string& file_name, Access access);
   // Creates a file without a name (O_TMPFILE). It disappears if its creator dies. Where the system has no O_TMPFILE,
   // the file has the name `file_name`.NUMBER.tmp with a random number.

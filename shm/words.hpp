@@ -1,6 +1,6 @@
 // Records in shared memory as atomic 64-bit words, moved 16 bytes at a time on x86-64.
 // Inputs: trivially copyable records with a size that is a multiple of 8 bytes (concept Record).
-// Threads: one writer and any readers of the same words have no data race.
+// Threads: one writer and any number of readers of the same words have no data race.
 // Source: Intel SDM vol. 3, 9.2.2 (order of loads and stores); docs/decisions/0005.
 #pragma once
 
@@ -61,7 +61,7 @@ inline void wide_move(void* to, const void* from) {
 // `Access` is the policy class with which a container loads and stores words. Tests substitute a policy that stops the
 // writer after every store and runs the writer before every load of the reader.
 // A record of variable length declares `std::size_t used_bytes(const Record&)` in its own namespace. Only that many
-// leading bytes are copied.
+// leading bytes, rounded up to whole words, are copied.
 
 inline constexpr std::size_t kCacheLine = 64;  // [bytes] alignment against false sharing (two writers per cache line)
 
@@ -151,7 +151,7 @@ void store_text(AtomicWord* words, std::size_t count, std::string_view text) {
   }
 }
 
-// Text stored by store_text().
+// Reads text that store_text() has stored.
 inline std::string load_text(const AtomicWord* words, std::size_t count) {
   std::string text(count * sizeof(Word), '\0');
   load_words(words, text.data(), count);

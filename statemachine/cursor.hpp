@@ -1,6 +1,6 @@
 // Cursor on the radar picture, and the sequence points (numbered points of the route) that are drawn on the picture.
 // Inputs: TDC deflection, frame (apex and up direction) of the picture, ownship, navigator errors, route.
-// Outputs: ground position, magnetic bearing and range of the cursor; the points drawn.
+// Outputs: the cursor's ground position, its magnetic bearing and ground range from the aircraft; the points drawn.
 // Units: degrees, nautical miles.
 #pragma once
 
@@ -18,7 +18,7 @@ namespace yars::statemachine {
 // the selected navigator gives this position.
 // After a change of range or a jump to a distant point the cursor may lie outside the display. The TDC then moves the
 // cursor to the edge of the display first.
-void deflect(Step& step);               // TDC deflection [-1, 1]; stays until the next event
+void deflect(Step& step);               // TDC deflection [-1, 1], x right, y up; stays until the next TDC event
 void next_cursor_function(Step& step);  // cycles MAP, UPDT, CUE, TGT, MARK; MAP is skipped while SET is on
 
 // Moves the cursor to the displayed position of a point with navigator coordinates `known`. Without a valid ownship the
@@ -29,8 +29,8 @@ void jump_cursor(databuffer::RadarState& state, geo::GeoPoint known, const Input
 bool shows_cursor(const databuffer::RadarState& state);
 
 // One tick: updates the frame, slews the cursor by the TDC, and updates bearing and range. The frame follows the
-// aircraft, unless the picture is frozen or is a map. A cursor without a position starts at the selected point if the
-// display shows that point. Else it starts at half the range ahead, or in the centre of the map. Requires a valid
+// aircraft, unless the picture is frozen or is a patch map. A cursor without a position starts at the selected point if
+// the display shows that point. Else it starts at half the range ahead, or in the centre of the map. Requires a valid
 // ownship.
 void advance_cursor(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
@@ -50,7 +50,8 @@ void select_first_sequence_point(databuffer::RadarState& state, const Parameters
 // The selected point of the route, or the designated target if that is selected; nullopt if neither is selected.
 std::optional<radar::RoutePoint> selected_point(const databuffer::RadarState& state, const Parameters& parameters);
 
-// Fills `points` with at most five points: the selected point, the designated target, and the nearest others in range.
+// Fills `points` with at most five points: the selected point, the designated target, and the nearest others within the
+// display range of the aircraft.
 // Declutter keeps targets, target offsets and the selected point. Each call computes a geodesic for every point of the
 // route. Therefore draw_points is called on changes, and otherwise every 20 ticks.
 void draw_points(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);

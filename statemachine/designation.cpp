@@ -103,10 +103,11 @@ using geo::Bearing;
 
 constexpr double kTurnRate_dps = 45.0;  // turn of the line at full TDC deflection: 180 deg in 4 s
 constexpr double kGravity_mps2 = 9.80665;
-constexpr double kCapture_s = 15.0;    // decay time of the offset; intercept angle: atan(offset / (speed * kCapture_s))
+// Decay time of the aircraft's offset from the line. Intercept angle: atan(offset / (speed * kCapture_s)).
+constexpr double kCapture_s = 15.0;
 constexpr double kTurn_s = 5.0;        // time constant of the turn to the wanted track
 constexpr double kMaxBank_deg = 60.0;  // larger commands are clamped
-constexpr double kMinSpeed_mps = 1.0;  // below this speed the track has no direction, and the bank is 0
+constexpr double kMinSpeed_mps = 1.0;  // below this ground speed the track has no direction, and the bank is 0
 
 SteeringLine line_of(const RadarState& state) {
   return static_cast<SteeringLine>(state.steering_line);
@@ -116,7 +117,7 @@ void put_line(RadarState& state, SteeringLine line) {
   state.steering_line = static_cast<std::uint8_t>(line);
 }
 
-// Geodesic from the aircraft to the target, at their displayed positions.
+// Geodesic from the aircraft's true position to the displayed position of the target.
 geo::GeodesicInverse sight_of_target(const RadarState& state, const Inputs& inputs) {
   const auto navigator = databuffer::selected_navigator_position(inputs.ownship, inputs.nav, state);
   return geo::geodesic_inverse(navigator.truth,
@@ -217,8 +218,8 @@ void cue(RadarState& state, geo::GeoPoint known) {
 // drifts moves the symbols. So after a jump to a point, the point's symbol is soon some metres off the cursor.
 constexpr double kUnderCursor = 2.0;
 
-// The point of the route with its symbol under the cursor; nullptr if there is none. Of several, the selected point is
-// preferred, then the nearest.
+// The point of the route whose drawn symbol is under the cursor; nullptr if there is none. Of several, the selected
+// point is preferred, then the point nearest to the cursor.
 const radar::RoutePoint* route_point_under_cursor(const Step& step) {
   const RadarState& state = step.state;
   const auto plane = plane_of(state, step.inputs, step.parameters.view);

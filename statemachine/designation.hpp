@@ -52,9 +52,9 @@ void steer_line_of_sight(databuffer::RadarState& state, const Inputs& inputs);
 // One tick: updates the line of sight, or turns a slewing line by the TDC. Removes the line when there is no target.
 void advance_steering_line(databuffer::RadarState& state, const Inputs& inputs);
 
-// Sets the steering of `outputs`: azimuth [deg] of the target from the ground track, right positive. For a fixed line:
-// bank angle [deg], right wing down positive, that turns the aircraft onto the line. Requires a designated target and a
-// valid ownship.
+// Sets approach heading [deg, true] and steering of `outputs`. Steering: azimuth [deg] of the target from the ground
+// track, right positive. For a fixed line: bank angle [deg], right wing down positive, that turns the aircraft onto the
+// line. Requires a designated target and a valid ownship.
 void put_steering(databuffer::Outputs& outputs, const databuffer::RadarState& state, const Inputs& inputs);
 
 // CUE, TGT and MARK at the cursor, in coordinates of the selected navigator. They have no effect without a valid
@@ -64,7 +64,7 @@ void cue_sensor(Step& step);
 // Designates a target and cues the sensor to it. If the symbol of a point of the route is under the cursor, that point
 // becomes the target. Refused if no name is free.
 void designate_target(Step& step);
-// Keeps the last ten marks.
+// Stores a mark. If there are ten already, drops the oldest.
 void store_mark(Step& step);
 
 // The designated target as a sequence point; nullopt if there is no target.

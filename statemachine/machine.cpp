@@ -23,9 +23,9 @@ namespace {
 using databuffer::Outputs;
 using databuffer::RadarState;
 
-// Slant range, true bearing and depression of the target. They are measured from the true position of the aircraft to
-// the ground position at which the video shows the target. A target whose elevation stayed unknown is taken to be at
-// sea level. Mean sea level counts as the ellipsoid (docs/conventions.md).
+// Slant range, true bearing, and depression (below the horizontal, positive down) of the target. They are measured
+// from the true position of the aircraft to the ground position at which the video shows the target. A target whose
+// elevation stayed unknown is taken to be at sea level. Mean sea level counts as the ellipsoid (docs/conventions.md).
 void put_ranging(Outputs& outputs, const RadarState& state, const Inputs& inputs) {
   const databuffer::Ownship& ownship = inputs.ownship;
   const auto navigator = databuffer::selected_navigator_position(ownship, inputs.nav, state);
@@ -76,7 +76,8 @@ namespace {
 // hardly changes the nearest points. Each call computes a geodesic for every point of the route.
 constexpr std::int64_t kTicksBetweenPoints = 20;
 
-// Begins an epoch (after a jump in position or time): cancels the map, restarts the scan, removes cursor and message.
+// Begins an epoch (after a jump in position or time): cancels a commanded map, restarts the scan, removes cursor and
+// message.
 void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.epoch = inputs.epoch;
   cancel_map(state, inputs);

@@ -26,7 +26,7 @@ void put_recall(RadarState& state, Recall recall) {
   state.recall = static_cast<std::uint8_t>(recall);
 }
 
-// True in patch mode, also while A/A or ranging uses the radar.
+// True if patch map is the radar mode of A/G, even while A/A or A/G ranging uses the radar.
 bool on_patch(const RadarState& state) {
   return state.ground_mode == static_cast<std::uint8_t>(Mode::patch);
 }

@@ -1,7 +1,7 @@
 // Patch maps in the radar state: command, completion, cancellation, freeze, recall and storage.
 // Inputs: cursor, ownship, model status, records of maps.
-// Outputs: map command; ids of NEW (newest map), OLD (the map before), STORE (stored by the pilot) and the map shown;
-//   messages.
+// Outputs: map command; ids of NEW (newest map), OLD (last map of an earlier command, or a map that was stored),
+//   STORE (stored by the pilot) and the map shown; messages.
 #pragma once
 
 #include <cstdint>
@@ -35,15 +35,17 @@ std::uint64_t map_to_show(const databuffer::RadarState& state);
 // Command, completion and cancellation of maps.
 // Source: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 
-// TDC release with cursor MAP: commands a map at the cursor. Refused with the reason if a radar limit forbids the map.
+// TDC release with cursor MAP: commands a map at the cursor. Refused with the reason if a radar limit forbids the map,
+// or if no window fits the blank selection.
 void command_map(Step& step);
 
 // Cancels the commanded map: a new request number makes the model's result obsolete. Position and window in the state
 // become those of the newest map, because in patch mode the radar model repeats the map at this position.
 void cancel_map(databuffer::RadarState& state, const Inputs& inputs);
 
-// Takes a completed map of the model. The commanded map becomes NEW, and the former NEW becomes OLD. take_map then
-// returns true, and the caller enters patch mode. A re-map of the patch replaces NEW. Any other map is ignored.
+// Takes a completed map of the model. The commanded map becomes NEW; the stored map, or without one the former NEW,
+// becomes OLD. take_map then returns true, and the caller enters patch mode. A re-map of the patch replaces NEW. Any
+// other map is ignored. If the model could not make the commanded map, cancels the command and shows the reason.
 bool take_map(databuffer::RadarState& state, const Inputs& inputs);
 
 // While the radar model cannot re-map the patch, shows the model's reason as a message.

@@ -36,7 +36,7 @@ void show_menu(RadarState& state, bool on) {
   state.mode = on ? static_cast<std::uint8_t>(Mode::menu) : state.resume_mode;
 }
 
-// Mode change by the pilot: sets the range by height too (docs/spec/pilots_interface.md#rule-1).
+// Mode change by the pilot: also sets the range by the aircraft's height (docs/spec/pilots_interface.md#rule-1).
 void change_mode(Step& step, Mode mode) {
   if (mode == running_mode(step.state)) return;
   cancel_map(step.state, step.inputs);

@@ -7,7 +7,7 @@
 namespace yars::statemachine {
 
 void switch_power(Step& step);
-void next_mode(Step& step);      // PB 6: cycles RBM, HRM, BCN, PVU
+void next_mode(Step& step);      // PB 6: cycles RBM, HRM, BCN (beacons), PVU
 void select_mode(Step& step);    // hands-on control: selects RBM, HRM, BCN or PVU
 void leave_patch(Step& step);    // back to the HRM PPI; keeps the range
 void select_master(Step& step);  // A/G resumes its last mode

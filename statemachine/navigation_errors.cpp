@@ -192,7 +192,7 @@ bool continuous(const RadarState& state) {
   return running_mode(state) == radar::Mode::pvu && power_of(state) == radar::Power::operate;
 }
 
-// Radar velocity minus navigator velocity.
+// Velocity measured by the radar minus velocity of the mission navigator.
 Difference difference(const RadarState& state, const Inputs& inputs) {
   const ModelStatus& model = inputs.model;
   const databuffer::Nav& nav = inputs.nav;

@@ -1,6 +1,7 @@
 // Navigation errors of the mission navigator and the INS: initial values, drift, correction by UPDT, PVU and IPVU.
 // Inputs: instructor events, cursor, velocity measurements of the model, configuration.
-// Outputs: position error [m] and velocity error [m/s] of each navigator; the update values on the display.
+// Outputs: position error [m] and velocity error [m/s] of each navigator, which are added to its position and velocity;
+//   for the display, the offset of UPDT and the velocity differences of PVU and IPVU; magnetic variation.
 // Source: docs/spec/physics.md#navigation-errors
 #pragma once
 
@@ -8,15 +9,16 @@
 
 namespace yars::statemachine {
 
-// Navigation errors displace only the symbols. Ownship and video use the true position.
-void put_position_error(Step& step);  // `nav error`: [ft] north, east
-void put_drift(Step& step);           // `nav drift`: [ft/s] north, east
+// A position error displaces the symbols of points, and the coordinates that the navigator assigns to ground positions.
+// Ownship and video use the true position. Events with values that are not finite change nothing.
+void put_position_error(Step& step);  // `nav error`: position error [ft] north, east
+void put_drift(Step& step);           // `nav drift`: velocity error [ft/s] north, east
 
-// Errors at the start of a session, from the configuration.
+// Errors of both navigators at the start of a session, from the configuration.
 void put_initial_errors(databuffer::RadarState& state, const radar::NavigationConfiguration& navigation);
 
-// One tick of drift. Once per second a random walk changes the velocity errors of both navigators by the same amount,
-// because the mission navigator is the INS with corrections.
+// One tick: the velocity errors change the position errors. Once per second a random walk changes the velocity errors
+// of both navigators by the same amount, because the mission navigator is the INS with corrections.
 void advance_navigators(databuffer::RadarState& state, std::int64_t tick, const Parameters& parameters);
 
 // Magnetic variation [deg], east positive: from the navigator, else the geomagnetic model, else the configuration.
@@ -29,8 +31,8 @@ databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
 // Source: docs/spec/pilots_interface.md#rule-13.
 
 // TDC release: corrects the navigator's position so that the selected point is displayed at the cursor. The release has
-// an effect only while the display shows the offset of advance_update(). With INS, INV replaces the offset while the
-// cursor position is too old.
+// an effect only while the display shows the offset of advance_update(). With the INS selected, INV replaces the offset
+// if the cursor was last moved too long ago.
 void accept_update(Step& step);
 
 // One tick: offset north and east [m] from the displayed selected point to the cursor, and the seconds left for an INS
@@ -40,9 +42,9 @@ void advance_update(databuffer::RadarState& state, const Inputs& inputs, const P
 // PVU and IPVU: correct the velocity of the mission navigator by radar measurements.
 // Source: docs/spec/pilots_interface.md#rule-16.
 
-// One tick: takes a new velocity measurement of the model and corrects the navigator once per period. Shows the
-// differences between radar and navigator [m/s]: along and across the ground track, and vertical. IPVU shows them for
-// 10 s, PVU while the mode runs.
+// One tick: takes the radar model's new velocity measurement, if there is one, and corrects the mission navigator once
+// per configured period. Shows radar velocity minus navigator velocity [m/s]: along the ground track, across it (right
+// positive) and vertical (up positive). IPVU shows these differences for 10 s, PVU while the mode runs.
 void advance_velocity_update(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 }  // namespace yars::statemachine

@@ -9,7 +9,7 @@ namespace yars::statemachine {
 
 namespace {
 constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // a map fills the display; its centre is 0, 0
-constexpr double kDisplayUnits = 480.0;                             // along each edge of the display
+constexpr double kDisplayUnits = 480.0;                             // along the longer edge of the display
 }  // namespace
 
 double PicturePlane::units_between(DisplayPoint a, DisplayPoint b) const {

@@ -21,10 +21,10 @@ struct DisplayPoint {
 
 // Projection of the display: geodesic distance and azimuth from an apex, plotted on a plane (azimuthal equidistant).
 struct PicturePlane {
-  geo::GeoPoint apex;
-  geo::Bearing up;    // direction at the apex that is upward on the display
-  geo::Length unit;   // ground distance of 1 on the display: the selected range, or the window of the map
-  geo::Length ahead;  // distance of the origin from the apex, upward
+  geo::GeoPoint apex;  // below the aircraft: now; for a frozen picture or a map, when it was frozen or begun
+  geo::Bearing up;     // direction at the apex that is upward on the display
+  geo::Length unit;    // ground distance of 1 on the display: the selected range, or the window of the map
+  geo::Length ahead;   // distance of the origin from the apex, upward
   // Limits of the display, in multiples of `unit`.
   radar::ViewConfiguration view;
 
@@ -40,8 +40,8 @@ struct PicturePlane {
     return point.x >= view.width_min && point.x <= view.width_max && point.y >= view.height_min &&
            point.y <= view.height_max;
   }
-  // Distance between two positions on the display, in display units. A display unit is 1/480 of the display's edge. It
-  // is not PicturePlane::unit.
+  // Distance between two positions on the display, in display units. A display unit is 1/480 of the display's longer
+  // edge. It is not PicturePlane::unit.
   double units_between(DisplayPoint a, DisplayPoint b) const;
 };
 

@@ -19,7 +19,7 @@ bool is_kind(const InputEvent& event, EventKind kind) {
   return event.kind == static_cast<std::uint16_t>(kind);
 }
 
-// The state changes only by events that are done.
+// True if none of the events changed a setting of the radar: only events with kEventDone do.
 bool all_without_change(std::span<const std::uint32_t> effects) {
   return std::ranges::find(effects, databuffer::kEventDone) == effects.end();
 }
@@ -31,7 +31,8 @@ std::optional<std::string> reason_dead(const AppliedSequence& applied, std::size
   return std::nullopt;
 }
 
-// True if a later event has replaced the message: one that was refused, or a TDC release, which may store a mark.
+// True if a later event may have replaced the message: a refused event shows its reason, and a TDC release may store a
+// mark, which shows the mark's number.
 bool message_is_replaced(const AppliedSequence& applied, std::size_t index) {
   for (std::size_t later = index + 1; later < applied.events.size(); ++later) {
     const bool done = applied.effects[later] == databuffer::kEventDone;
@@ -43,7 +44,8 @@ bool message_is_replaced(const AppliedSequence& applied, std::size_t index) {
 
 std::optional<std::string> reason_refused(const AppliedSequence& applied, std::size_t index) {
   const InputEvent& event = applied.events[index];
-  // The reasons for an unknown point and for the recorder do not depend on the other events.
+  // The reasons for an unknown point and for the recorder do not depend on the other events. PB 12, for the
+  // recorder, is the only button that can be refused.
   if (is_kind(event, EventKind::sequence_point)) return no_such_point(text::text_of(event.text));
   if (is_kind(event, EventKind::push_button)) return std::string(recorder_problem(applied.recorder_present));
   const std::string message(text::text_of(applied.after.message));

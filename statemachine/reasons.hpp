@@ -1,4 +1,4 @@
-// Reasons why events that were sent together were refused or had no effect.
+// Reasons why events that were sent together were refused or had no effect (were dead).
 // Inputs: the events with their effects; the states before the first and after the last event. The states between are
 // not known.
 // Output: the reason of one event, only where it is certain.

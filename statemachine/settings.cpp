@@ -17,7 +17,7 @@ namespace {
 using databuffer::RadarState;
 using geo::Length;
 
-constexpr std::uint8_t kBlankWindow = 255;  // value of window_index for a blank window
+constexpr std::uint8_t kBlankWindow = 255;  // value of window_index while no window is selected
 constexpr double kElevationStep_deg = 0.5;  // docs/spec/pilots_interface.md#elevation: the keys [ and ]
 
 void choose_range(Step& step, std::size_t index) {
@@ -36,7 +36,8 @@ void put_elevation(Step& step, double elevation_deg) {
   step.state.antenna_elevation_deg = std::clamp(elevation_deg, -limit_deg, limit_deg);
 }
 
-// Elevation of the route point nearest to the aircraft; nullopt if there is no point or its elevation is unknown.
+// Elevation [m MSL] of the route point nearest to the aircraft; nullopt if there is no point or the nearest one's
+// elevation is unknown.
 std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownship, const Parameters& parameters) {
   const geo::GeoPoint aircraft{ownship.latitude_deg, ownship.longitude_deg};
   const radar::RoutePoint* nearest = nullptr;
@@ -51,13 +52,15 @@ std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownsh
   return nearest->elevation_m;
 }
 
-// Reading of a radar altimeter, from the radar model's height above ground; NaN above the altimeter's limit.
+// Reading that a radar altimeter would have, from the radar model's height above ground. NaN if this height is unknown
+// or above the altimeter's limit.
 double terrain_clearance_m(const Inputs& inputs) {
   constexpr double kAltimeterLimit_m = 1524.0;  // 5,000 ft: docs/spec/pilots_interface.md#rule-1
   return inputs.height_above_ground_m <= kAltimeterLimit_m ? inputs.height_above_ground_m : kUnknown;
 }
 
-// Height that selects the range: the first known height of docs/spec/pilots_interface.md#rule-1.
+// Height that selects the range: above the ground by the radar altimeter, else above the nearest route point, else MSL.
+// Source: docs/spec/pilots_interface.md#rule-1.
 Length height_for_range(const RadarState& state, const Inputs& inputs, const Parameters& parameters) {
   const databuffer::Ownship& ownship = inputs.ownship;
   const double radar_altitude_m =
@@ -104,7 +107,7 @@ void step_elevation(Step& step) {
 }
 
 void set_range_index(RadarState& state, std::size_t index, const Parameters& parameters) {
-  // The state may be from an earlier run with more ranges. Its index may then exceed this table.
+  // The state may be from an earlier run with more ranges. Its index may then exceed ranges_nm.
   index = std::min(index, parameters.ranges_nm.size() - 1);
   const double range_nm = parameters.ranges_nm[index];
   if (range_nm != state.range_nm) ++state.scan_restart;
@@ -188,7 +191,7 @@ void toggle_recorder(Step& step) {
   ++step.state.vtr_request;
 }
 
-// The VTR box shows the status of the recorder, not the request.
+// The box around the legend VTR shows whether the recorder writes, not whether the pilot requested it.
 void advance_recorder(databuffer::RadarState& state, const Inputs& inputs) {
   const bool was_writing = has(state, databuffer::kVtr);
   set_flag(state, databuffer::kVtr, inputs.recorder_present && inputs.recorder_writing);

@@ -14,8 +14,8 @@ void range_up(Step& step);
 void range_down(Step& step);
 void next_scan_width(Step& step);  // FULL, HALF, QTR, FULL
 void step_window(Step& step);      // next larger (at most the range) or smaller window; below the smallest: blank
-void set_elevation(Step& step);    // absolute [deg], clamped to the limit of the antenna
-void step_elevation(Step& step);   // 0.5 deg up or down for each step of the event
+void set_elevation(Step& step);    // [deg] above the horizontal; clamped to the limits of the antenna
+void step_elevation(Step& step);   // 0.5 deg up or down for each step of the event; the same limits
 
 // Selects the range with this index. A window larger than the range is replaced by the largest window that fits.
 void set_range_index(databuffer::RadarState& state, std::size_t index, const Parameters& parameters);
@@ -32,7 +32,7 @@ std::string_view recorder_problem(bool recorder_present);
 // Switches and levels. Cyclic settings wrap around; levels stop at their ends.
 // Source: docs/spec/pilots_interface.md#buttons, #controls, #rule-9, #rule-19, #rule-22.
 void toggle_declutter(Step& step);
-void cycle_gain(Step& step);    // 3 to 0, then 3
+void cycle_gain(Step& step);    // 3, 2, 1, 0, 3
 void toggle_looks(Step& step);  // ML1, ML2
 void brightness_up(Step& step);
 void brightness_down(Step& step);
@@ -41,10 +41,10 @@ void toggle_stabilizing(Step& step);  // STAB, PROG
 void toggle_recorder(Step& step);     // rule 22: sends a request; refused with NO RECORDER or VTR FULL
 void advance_recorder(databuffer::RadarState& state, const Inputs& inputs);  // one tick: VTR on while recording
 void toggle_ipvu(Step& step);
-void toggle_sniff(Step& step);  // rules 9, 19: SNIFF on cancels the map in progress and freezes HRM
-void next_channel(Step& step);  // 1 to 8, then 1
-void next_band(Step& step);     // A to E, then A
-void select_navigator(Step& step);
-void switch_altimeter(Step& step);
+void toggle_sniff(Step& step);      // rules 9, 19: SNIFF on cancels the map in progress and freezes HRM
+void next_channel(Step& step);      // 1 to 8, then 1
+void next_band(Step& step);         // A to E, then A
+void select_navigator(Step& step);  // mission navigator, INS, or toggle
+void switch_altimeter(Step& step);  // radar altimeter: working or failed
 
 }  // namespace yars::statemachine

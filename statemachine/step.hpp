@@ -30,7 +30,7 @@ struct WindowLimits;
 
 namespace yars::statemachine {
 
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  // an unknown number of a record
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  // in a record: the value is unknown
 
 // Number of map records in Inputs: the pilot's maps NEW, OLD and STORE, and the newest map of the radar model.
 inline constexpr std::size_t kMaxMaps = 4;
@@ -46,8 +46,9 @@ struct Inputs {
   bool recorder_failed = false;   // a recorder is present and has stopped at a problem such as a full disk
   databuffer::Ownship ownship{};
   databuffer::Nav nav{};
-  double field_variation_deg = kUnknown;  // east positive; NaN = no geomagnetic model
-  // Ownship's height above the terrain, by the radar model. Used if ownship has no radar altimeter. NaN = unknown.
+  double field_variation_deg = kUnknown;  // magnetic variation, east positive; NaN = no geomagnetic model
+  // Aircraft's height above the ground below it, by the radar model; NaN = unknown. Used if the source of `ownship` has
+  // no radar altimeter.
   double height_above_ground_m = kUnknown;
   databuffer::ModelStatus model{};
   // Records of the maps named by the state, and of the model's newest map, in any order; id 0 = empty slot.
@@ -75,10 +76,10 @@ struct Parameters {
         height_ranges(whole.height_ranges) {}
 
   const std::vector<double>& ranges_nm;        // [NM] selectable ranges, ascending
-  const std::vector<double>& scan_widths_deg;  // [deg] FULL, HALF, QTR
-  const std::vector<double>& windows_nm;       // [NM] selectable windows of patch maps
-  double elevation_limit_deg;                  // [deg] limit of the antenna elevation, up and down
-  double start_elevation_deg;                  // [deg] antenna elevation at power-up
+  const std::vector<double>& scan_widths_deg;  // [deg] whole widths of FULL, HALF, QTR
+  const std::vector<double>& windows_nm;       // [NM] selectable windows (sides) of patch maps, ascending
+  double elevation_limit_deg;                  // [deg] limit of the antenna elevation above and below the horizontal
+  double start_elevation_deg;                  // [deg] antenna elevation at power-up, above the horizontal
   const radar::ViewConfiguration& view;
   radar::MapLimits map_limits;
   const radar::NavigationConfiguration& navigation;
@@ -117,7 +118,7 @@ inline radar::Mode running_mode(const databuffer::RadarState& state) {
   return static_cast<radar::Mode>(state.resume_mode);
 }
 
-// Ground position of the cursor.
+// True ground position under the cursor; may be NaN without kCursorValid.
 inline geo::GeoPoint cursor_of(const databuffer::RadarState& state) {
   return {state.cursor_latitude_deg, state.cursor_longitude_deg};
 }

@@ -137,7 +137,7 @@ constexpr std::array kButtons{
 };
 
 // Source: docs/spec/pilots_interface.md#controls. The action of a TDC release depends on the cursor function.
-// In A/A and ranging the display may still show a map. A TDC release acts on that map only while SET is on.
+// In A/A and ranging the display may still show a map. A TDC release acts on that map if SET is on, else it is dead.
 // TDC deflection is stored in every mode with power on, so that its return to 0 is not lost.
 constexpr std::array kControls{
     ControlRow{EventKind::tdc, kRadar, kAlways, deflect},

@@ -49,13 +49,13 @@ inline constexpr Conditions kSniffOff = 1U << 3;
 inline constexpr Conditions kOperating = 1U << 4;  // power OPR
 inline constexpr Conditions kSetOff = 1U << 5;     // SET function (cursor functions on a frozen map) off
 inline constexpr Conditions kSetOn = 1U << 6;
-inline constexpr Conditions kHasMap = 1U << 7;          // a map has been made
-inline constexpr Conditions kMapShown = 1U << 8;        // the display shows a map
+inline constexpr Conditions kHasMap = 1U << 7;          // a patch map has been made
+inline constexpr Conditions kMapShown = 1U << 8;        // the display shows a patch map
 inline constexpr Conditions kCursorIsUpdate = 1U << 9;  // cursor function UPDT
 inline constexpr Conditions kCursorIsCue = 1U << 10;
 inline constexpr Conditions kCursorIsTarget = 1U << 11;
 inline constexpr Conditions kCursorIsMark = 1U << 12;
-inline constexpr Conditions kLineSlews = 1U << 13;  // the TDC turns the pattern steering line
+inline constexpr Conditions kLineSlews = 1U << 13;  // the TDC turns the pattern steering line to the target
 
 using Action = void (*)(Step&);
 

@@ -21,7 +21,7 @@ inline constexpr const char* kInstance = ":=";
 error::Expected<ParsedText> parse_messages(std::string_view text, const std::string& name);
 
 // True if the text is in the message syntax. Only its beginning, after white space and comments, is examined. A text in
-// the message syntax begins with #, or with a name before : or :=. A GUF text begins with the parenthesis of a form.
+// the message syntax begins with #, or with a name before : or :=. Any other text counts as GUF.
 bool is_in_messages(std::string_view text);
 
 // The form ( lat-long N 37 30.5 ) for the text "N37@30.5". The form's slots have the location `state.token`. Throws

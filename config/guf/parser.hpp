@@ -21,7 +21,7 @@ inline constexpr std::size_t kMaxTextBytes = 1 << 20;  // [bytes] one file
 inline constexpr int kMaxTokens =
     200'000;                          // tokens of one text with its includes; a token takes about 200 bytes of tree
 inline constexpr int kMaxDepth = 64;  // nested brackets
-inline constexpr std::size_t kMaxWarnings = 200;  // warnings of one configuration; further ones are dropped
+inline constexpr std::size_t kMaxWarnings = 200;  // warnings about one file; further ones are dropped
 
 struct ParsedText {
   std::vector<Slot> arguments;        // top-level arguments: those outside all parentheses, in order
@@ -61,7 +61,8 @@ double number_of(std::string_view text, const ScanState& state);
 int position_of(std::string_view text, const ScanState& state);        // `text`: such as ":12"
 std::string string_of(std::string_view text, const ScanState& state);  // `text`: with its quotes and escapes
 
-// The first 40 bytes of the text, for errors. A byte outside printable ASCII becomes its code, such as <0x07>.
+// The text for errors: its first 40 bytes, and "..." in place of more. A byte outside printable ASCII becomes its code,
+// such as <0x07>.
 std::string printable(std::string_view text);
 
 // The value of ( name arguments ): a form, or a list for the name `guf`.

@@ -57,7 +57,8 @@ struct Slot {
 // Description of a value for errors: "the number 12", "the form Window", "a list of 3".
 std::string description(const Value& value);
 
-// Decimal text that reads back as the same double, without superfluous digits. No exponent in [1e-4, 1e16).
+// Decimal text that reads back as the same double, without superfluous digits. Zero, and numbers with a magnitude
+// in [1e-4, 1e16), have no exponent.
 std::string number_text(double value);
 
 // The text as a GUF string, with quotes and escapes.

@@ -192,8 +192,9 @@ std::vector<SlotSchema> axis_slots() {
            [](ConfigurationBuilder& builder, int index) {
              builder.device_axis.use = static_cast<radar::AxisUse>(index);
            }},
-       .purpose = "tdcX, tdcY: TDC, right and up positive; elevation: absolute antenna elevation; directions: each "
-                  "end acts as a button; lever: each step is an event; left out: tdcX"},
+       .purpose =
+           "tdcX, tdcY: TDC, right and up positive; elevation: antenna elevation against the horizon; directions: each "
+           "end acts as a button; lever: each step is an event; left out: tdcX"},
       raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: as the device reports"),
       raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: as the device reports"),
       raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: midway between low and high"),

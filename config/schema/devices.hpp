@@ -14,14 +14,15 @@
 namespace yars::config {
 
 // Spellings:
-//   BTN_TRIGGER, ABS_HAT0X: a name of linux/input-event-codes.h
+//   BTN_TRIGGER, ABS_HAT0X: a name of linux/input-event-codes.h that devices.cpp lists
 //   button 17: the 17th button of a joystick; the first 16 have codes from 0x120, further ones from 0x2c0
 //   0x12c, 300: the code itself
 
-std::optional<std::uint16_t> button_code(std::string_view text);  // [1, 0x2ff]
-std::optional<std::uint16_t> axis_code(std::string_view text);    // [0, 0x3f]
+std::optional<std::uint16_t> button_code(std::string_view text);  // code in [1, 0x2ff]
+std::optional<std::uint16_t> axis_code(std::string_view text);    // code in [0, 0x3f]
 
-// The most readable text for a code. button_code() and axis_code() convert this text back to the same code.
+// The most readable text for a code. button_code() and axis_code() convert this text back to the same code, if the code
+// is in the interval stated there.
 std::string button_name(std::uint16_t code);
 std::string axis_name(std::uint16_t code);
 

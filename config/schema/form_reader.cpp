@@ -152,7 +152,7 @@ std::vector<FormReader::MatchedSlot> FormReader::match_slots(const Form& form, c
 }
 
 // Schema of a slot. `index`: number of the argument in its form, from 1. If the slot has no schema, the function warns
-// and returns null. Throws ParseError for a position behind the last slot of the form.
+// and returns null. Throws ParseError for `is=`, and for a position greater than the number of slots.
 const SlotSchema* FormReader::row_of(const Slot& slot, int index, const Form& form, const KnownForm& known) {
   const FormSchema& schema = *known.schema;
   if (slot.name.empty()) {

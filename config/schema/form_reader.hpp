@@ -2,7 +2,8 @@
 // Inputs: the top-level arguments of the text, which must be forms.
 // Outputs: the builder; warnings for old spellings, unknown forms and slots, and unused slots (validated, no effect).
 // Errors: ParseError with the location of the value.
-// Order: forms are read in the order of the text; a later value replaces an earlier one.
+// Order: forms are read in the order of the text. A later value of a slot replaces the earlier one. The forms Devices,
+// Materials and MgDbase add to what earlier forms gave.
 #pragma once
 
 #include <optional>

@@ -24,7 +24,7 @@ std::vector<SlotSchema> red_green_blue() {
           fraction_slot("blue", {YARS_FIELD(color.blue)}, "fraction of blue")};
 }
 
-// RGB of a hue [deg] in [0, 360] (red 0, green 120, blue 240), and saturation and value in [0, 1].
+// RGB of a colour given by hue in [0, 360] (red 0, green 120, blue 240), saturation and value, both in [0, 1].
 radar::Rgb rgb_from_hsv(double hue_deg, double saturation, double value) {
   // A channel equals `value` within 60 degrees of channel_hue_deg. Between 60 and 120 degrees the channel falls
   // linearly to value * (1 - saturation), and is constant beyond.

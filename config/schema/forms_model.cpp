@@ -155,7 +155,7 @@ constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellips
 constexpr std::array<std::string_view, 3> kInterpolations{"nearest", "bilinear", "cubic"};
 constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosecant-squared"};
 
-// The presets of radar::fidelity_names(), and `auto`, with which radar-model selects among the presets by its load.
+// The presets of radar::fidelity_names(), and `auto`, with which radar-model selects a preset by its processor load.
 constexpr std::array<std::string_view, 6> kPresets{"1996", "draft", "standard", "fine", "reference", "auto"};
 
 int preset_of(const ConfigurationBuilder& builder) {

@@ -27,8 +27,8 @@ bool is_point(const radar::PointName& name) {  // false: an offset
 }
 
 // Rules of a point: its name is valid and occurs once in the route, and its coordinates are given. Each number belongs
-// to one steer point, initial point or target; offsets share it. If the file gives the kind, the name fits that kind: a
-// name such as "2" fits a steer point or an initial point, and a name with a dot fits one kind only.
+// to one steer point, initial point or target; its offsets have the same number. If the file gives the kind, the name
+// fits that kind: a name such as "2" fits a steer point or an initial point, and a name with a dot fits one kind only.
 std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
   const auto name = radar::point_name(builder.point.name);
   if (!name) {
@@ -79,9 +79,9 @@ void begin_route(ConfigurationBuilder& builder) {
   builder.points_without_kind.clear();
 }
 
-// Sorts the points by number. In this order, the last steer point before each target becomes an initial point.
-// Exceptions: the file states the kind of that steer point, or states another initial point between the previous target
-// and this target. The order of the route itself does not change.
+// Sorts the points other than offsets by number. In this order, the last steer point before each target becomes an
+// initial point. Exceptions: the file states the kind of that steer point, or states another initial point between the
+// previous target and this target. The order of the route itself does not change.
 void derive_initial_points(ConfigurationBuilder& builder) {
   std::vector<radar::RoutePoint*> points;
   for (radar::RoutePoint& point : builder.radar.route) {

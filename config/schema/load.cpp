@@ -27,7 +27,8 @@ constexpr int kMaxIncludeDepth = 8;
 constexpr int kMaxIncludes = 64;  // includes of one configuration; a repeated file counts again
 
 // Text of a regular file. Throws ParseError if the file cannot be read or is larger than kMaxTextBytes. Also throws if
-// the path leads to anything else: reading a pipe or a device could block or never end. `subject`: subject of errors.
+// the path leads to anything else: reading a pipe or a device could block or never end. `subject`: with what an error
+// begins, the file or the location of its include.
 std::string text_of_file(const fs::path& path, const std::string& subject) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
@@ -54,11 +55,12 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 
 // Reads a file and its includes as one tree of GUF.
 // `( include "part.guf" )` is replaced by all arguments of that file. An include that is the value of `:name`
-// or of `:2` needs a file with exactly one argument.
-// The path in an include is relative to the including file. The file must be in the folder of the first file or below.
-// If the first file is in the message syntax (config/guf/messages.hpp), so are the files that it includes. The whole
-// tree is then translated to GUF.
-// Throws ParseError if a file cannot be read, includes itself or is outside the folder, or if a limit is exceeded.
+// or of `:2` needs a file with exactly one argument, without name or position.
+// The path in an include is relative to the including file. The included file must be in the folder of the first file
+// or below. If the first file is in the message syntax (config/guf/messages.hpp), all included files are read in that
+// syntax, and the whole tree is then translated to GUF.
+// Throws ParseError if a file cannot be read, has an invalid syntax, includes itself or is outside the folder, or if a
+// limit is exceeded.
 class TreeReader {
  public:
   ParsedText read(const fs::path& path) {
@@ -160,7 +162,7 @@ class TreeReader {
 
   fs::path root_;
   std::vector<fs::path> open_files_;  // canonical paths of the open files, the first file first
-  bool in_messages_ = false;          // true: the first file and its includes are in the message syntax
+  bool in_messages_ = false;          // true: the first file and its includes are read in the message syntax
   int includes_ = 0;
   ParsedText result_;
 };
@@ -175,8 +177,8 @@ error::Expected<ParsedText> read_tree(const fs::path& path) {
   }
 }
 
-// The GUF tree of a text in memory. In a GUF text, includes are not replaced. In the message syntax an include is an
-// error.
+// The GUF tree of a text in memory. Includes of a GUF text stay forms named `include`. An include in the message syntax
+// is an error.
 error::Expected<ParsedText> tree_of_text(std::string_view text, const std::string& name) {
   if (!is_in_messages(text)) return parse_text(text, name);
   auto messages = parse_messages(text, name);
@@ -201,7 +203,7 @@ error::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
   return loaded;
 }
 
-// Replaces old names of forms and slots by the names in the schema, and makes paths relative to the new folder.
+// Replaces old names of forms and slots by the names in the schema, and rewrites relative paths for the new folder.
 class Modernizer {
  public:
   explicit Modernizer(const fs::path& folder) : folder_((fs::current_path() / folder / "").lexically_normal()) {}

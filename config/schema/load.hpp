@@ -1,6 +1,6 @@
 // Loader and converter of configuration files, which are in GUF (docs/configuration.md) or in the message syntax of
 // 1996 (config/guf/messages.hpp).
-// Inputs: a file with its includes; or a text in memory, whose includes are not read.
+// Inputs: a file with its includes; or a text in memory, of which the loader does not read the included files.
 // Outputs: a RadarConfiguration, or the text of one equivalent GUF file; warnings.
 // Errors: the file, the line and column of a wrong value, what was expected and what was found.
 // Limits: includes nested 8 files deep, the first file counted; 64 includes; 1 MiB per file. Included files must lie in
@@ -19,7 +19,7 @@ namespace yars::config {
 
 struct LoadedConfiguration {
   radar::RadarConfiguration radar;
-  std::vector<std::string> warnings;  // old spellings, unknown forms and slots, unused slots
+  std::vector<std::string> warnings;  // such as: old spellings, unknown forms and slots, values without effect
 };
 
 // The configuration of a file. An empty path gives the built-in defaults.
@@ -31,20 +31,21 @@ error::Expected<LoadedConfiguration> load_configuration_text(std::string_view te
 // Like load_configuration(), but writes the warnings to the log.
 error::Expected<radar::RadarConfiguration> load_program_configuration(const std::filesystem::path& path);
 
-// A configuration as one GUF file: the message syntax is translated, includes are inserted, old names are replaced.
+// A configuration as one GUF file: the message syntax is translated, included files are inserted, and old names are
+// replaced.
 // The file gives the same configuration as the original. Slots that the original omits stay omitted. Comments are lost.
 struct ConvertedConfiguration {
   std::string text;
   std::vector<std::string> warnings;  // warnings about the original
 };
 
-// Converts a file. `folder` is where the caller stores the text; empty: the current folder. Paths in the text are
-// relative to `folder`. Errors: those of load_configuration(), or a result that exceeds the limits of one file.
+// Converts a file. `folder` is where the caller stores the text; empty: the current folder. Relative paths change so
+// that they start from `folder`. Errors: those of load_configuration(), and a text that exceeds the limits of one file.
 error::Expected<ConvertedConfiguration> convert_configuration(const std::filesystem::path& path,
                                                               const std::filesystem::path& folder);
 
-// Like convert_configuration(), but from a text in memory, whose paths do not change. Errors and warnings name the text
-// `name`.
+// Like convert_configuration(), but from a text in memory; the paths in it do not change, and its includes are not
+// inserted. Errors and warnings use `name` as the name of the file.
 error::Expected<ConvertedConfiguration> convert_configuration_text(std::string_view text, const std::string& name);
 
 }  // namespace yars::config

@@ -14,14 +14,14 @@ namespace yars::config {
 
 namespace {
 
-constexpr std::string_view kAnyOwner = "*";
-constexpr std::string_view kOutermost;  // empty: outside all braces
+constexpr std::string_view kAnyOwner = "*";  // inside any form, or outside all braces
+constexpr std::string_view kOutermost;       // empty: outside all braces
 
 // Keywords that have another name in GUF. All other keywords have the same name there.
 // Source: sample in section 4.3.1 of the 1996 report; forms of its tables 4 to 26.
 struct Row {
   std::string_view keyword;
-  std::string_view owner;  // form that contains the keyword; kOutermost: no form
+  std::string_view owner;  // GUF name of the form that contains the keyword, or one of the constants above
   std::string_view guf_name;
 };
 
@@ -39,7 +39,7 @@ constexpr std::array kForms{Row{"Radar", kAnyOwner, "System"},
 
 constexpr std::array kSlots{Row{"samplesPerSweep", kAnyOwner, "samples"}, Row{"mode", "Window", "bmode"}};
 
-// The GUF name of a keyword inside a form; empty: the same name.
+// The GUF name of a keyword inside the form `owner`, by the first row that fits; empty: no row fits.
 template <std::size_t count>
 std::string_view renamed_keyword(const std::array<Row, count>& rows, std::string_view keyword, std::string_view owner) {
   const auto row = std::find_if(rows.begin(), rows.end(), [&](const Row& one) {
@@ -49,7 +49,8 @@ std::string_view renamed_keyword(const std::array<Row, count>& rows, std::string
 }
 
 // Name of the GUF form for `keyword: { ... }` inside the form `owner`; empty: the keyword names no form of GUF. For
-// example `Display` is Window in a radar, and RbmDisplay in a real beam map. An empty `owner` means outside all braces.
+// example `Display` is Window in the form System, and RbmDisplay in RealBeamMode. An empty `owner` means outside all
+// braces.
 std::string_view form_of_keyword(std::string_view keyword, std::string_view owner) {
   const std::string_view renamed = renamed_keyword(kForms, keyword, owner);
   if (!renamed.empty()) return renamed;
@@ -65,7 +66,7 @@ std::string_view slot_of_keyword(std::string_view keyword, std::string_view owne
 
 // A keyword of a form can be a slot of an inner form: scanBars of RealBeamMode is a slot of its RbmAntenna.
 struct InnerForm {
-  std::string_view slot;  // slot of the owner with the inner form; empty: the keyword is a slot of the owner itself
+  std::string_view slot;  // slot of `owner` whose value is the inner form; empty: there is no inner form
   std::string_view form;  // name of the inner form
 };
 InnerForm inner_form_of_keyword(std::string_view keyword, std::string_view owner) {
@@ -92,7 +93,7 @@ std::string described(const Slot& argument) {
   return form != nullptr && form->name == kBraces ? "values in braces" : description(argument.value);
 }
 
-// Throws if braces contain both messages and values without a keyword. Such a value would have no slot.
+// Throws if the same braces contain messages and also values without a keyword. Such a value would have no slot.
 void reject_mixture(const Slots& arguments) {
   const auto value = std::find_if(arguments.begin(), arguments.end(), is_value_alone);
   const auto message = std::find_if_not(arguments.begin(), arguments.end(), is_value_alone);
@@ -161,7 +162,7 @@ class Translator {
   }
 
  private:
-  // The form of a message. An unknown form keeps its keyword; FormReader warns about it.
+  // The form of a message. A form that GUF lacks has the keyword as its name; FormReader later warns about that form.
   Value form_of(Slot& message, std::string_view owner) {
     const std::string_view name = form_of_keyword(message.name, owner);
     Slots* arguments = arguments_in_braces(message.value);

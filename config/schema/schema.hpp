@@ -1,9 +1,10 @@
 // Table of the forms and slots of GUF, the language of the configuration files (docs/configuration.md). A form, such as
 // ( Window :width 480 ), is a value of one kind. A slot, such as :width 480, is one named value of a form.
-// Inputs: rows from forms_*.cpp and devices.cpp. A row has name, unit, range, purpose and the field that it writes.
-// Outputs: the row of a name; the kind of value of a slot as text; ConfigurationBuilder, which the slots write into.
-// Units: a slot has the unit of its row. The field has the unit that the field's name states (NumberSlot converts).
-// Errors: a violated rule between slots returns a ConstraintViolation.
+// Inputs: rows for forms and slots, from forms_*.cpp and devices.cpp. The row of a slot has name, unit, range, purpose
+// and the field that the slot writes.
+// Outputs: the row of a name; the kind of value of a slot as text; ConfigurationBuilder, which has the fields.
+// Units: a slot's value has the unit of its row. The field has the unit in the field's name (NumberSlot converts).
+// Errors: a violated rule between slots, such as minimum below maximum, gives a ConstraintViolation.
 // Source: names and positions are from tables 4 to 26 of the 1996 report. Slots added later have later positions.
 #pragma once
 
@@ -96,8 +97,8 @@ struct ConfigurationBuilder {
 
   radar::RadarConfiguration& whole;
   Sections radar;
-  int window_height_pixels;  // equal to the width: the display is square
-  // [pixels] Edge of a patch map, as the slots samples and width of SarMode give it; 0: the form omits the slot.
+  int window_height_pixels;  // as the file gives it; must equal the width, because the display is square
+  // [pixels] Edge of a patch map: in the slot samples and in the slot width of SarMode. 0: the form omits that slot.
   int map_samples;
   int map_sweeps;
   std::string scene_folder{};  // slot path of MgDbase
@@ -144,12 +145,12 @@ struct BooleanSlot {
 struct TextSlot {
   std::string& (*of)(ConfigurationBuilder&) = nullptr;
 };
-struct PathSlot {  // a path relative to the file that contains it
+struct PathSlot {  // a path; if relative, from the folder of the configuration file that contains it
   std::string& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct AngleSlot {  // degrees, or a lat-long form
   double& (*of)(ConfigurationBuilder&) = nullptr;
-  bool latitude = true;
+  bool latitude = true;  // false: longitude
 };
 struct ChoiceSlot {
   std::span<const std::string_view> words;
@@ -179,7 +180,7 @@ struct SymmetricSlot {  // two numbers, -limit and limit
   double& (*of)(ConfigurationBuilder&) = nullptr;
 };
 struct FormSlot {
-  std::vector<std::string_view> accepted;
+  std::vector<std::string_view> accepted;          // names of the forms that the slot accepts
   std::vector<std::string_view> printed;           // accepted forms that are printed, in this order
   bool many = false;                               // true: one form or a list of forms; false: one form
   void (*store)(ConfigurationBuilder&) = nullptr;  // called after each form: copies its value to the slot's field
@@ -213,7 +214,7 @@ struct FormSchema {
   std::string_view base{};  // form that this form extends; empty: none
   std::string_view purpose{};
   std::vector<SlotSchema> slots{};  // in the order of their positions; the slots of the base first
-  bool part_of_value = false;       // occurs only inside a slot, such as a colour, an angle or a point
+  bool part_of_value = false;       // true: occurs only as the value of a slot, as a colour, an angle or a Point does
   std::string_view old_name{};
   void (*begin)(ConfigurationBuilder&) = nullptr;  // called before the slots are read
   std::optional<ConstraintViolation> (*check)(const ConfigurationBuilder&) = nullptr;  // validates the form
@@ -242,7 +243,8 @@ Found<SlotSchema> find_slot(const FormSchema& form, std::string_view name);
 // The slot name that is nearest to a misspelled name by edit distance. Empty: no slot name is within a distance of 2.
 std::string_view nearest_slot(const FormSchema& form, std::string_view name);
 
-// True if a value of the slot changes the configuration.
+// True if the slot, or a slot of one of the forms in it, stores its value in the configuration. False: the value is
+// validated, but has no effect.
 bool is_used(const SlotSchema& slot);
 
 // The kind of value and the range, for errors and the manual: "a number in [0, 60] deg".

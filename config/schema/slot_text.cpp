@@ -257,7 +257,8 @@ std::string use_of(const FormSchema& form, const SlotSchema& slot) {
   return is_used(slot) || form.part_of_value ? "" : "; read, not used";
 }
 
-// Default of a slot as text. Empty: the slot contains forms, is unused, or its form is part_of_value (schema.hpp).
+// Default of a slot as text. Empty: the slot contains forms, is unused, has an unknown default (NaN), or its form is
+// part_of_value (schema.hpp).
 std::string default_text(const FormSchema& form, const SlotSchema& slot) {
   return form.part_of_value ? std::string() : slot_text(*new_builder(), slot);
 }

@@ -1,7 +1,7 @@
 // Reads one value of a configuration file into the field of its slot. Prints slots, configurations and the manual.
 // Inputs: a row of schema.hpp, and a value of the syntax tree or a configuration.
 // Outputs: the field of the slot; GUF text that reads back as an equal configuration; Markdown.
-// Units: the value has the unit that its row states. The field has the unit in its name; NumberSlot converts.
+// Units: the value has the unit in the slot's row. The field has the unit in the field's name; NumberSlot converts.
 // Errors: ParseError with location, kind and range of the slot, and the value found.
 #pragma once
 
@@ -22,8 +22,8 @@ void read_simple(ConfigurationBuilder& builder, const SlotSchema& slot, const Va
 // Throws ParseError for a latitude with E or W, a longitude with N or S, or an angle out of range.
 void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, const Location& where);
 
-// The value of a slot as GUF text. Empty: the slot is unused or contains forms, or its value is unknown (NaN, or a
-// negative index of a ChoiceSlot).
+// The value of a slot as GUF text. Empty: the slot is unused (it writes no field) or contains forms, or its value is
+// unknown (NaN, or a negative index of a ChoiceSlot).
 std::string slot_text(ConfigurationBuilder& builder, const SlotSchema& slot);
 
 // A configuration as GUF text, which reads back as an equal configuration. The text omits unused slots, slots with an
@@ -34,7 +34,7 @@ std::string print_configuration(const radar::RadarConfiguration& configuration);
 // not printed follow as comments.
 std::string print_explained(const radar::RadarConfiguration& configuration);
 
-// The form Devices with the given device maps, as GUF text.
+// The form Devices as GUF text. Each radar::Device states what the buttons and axes of one input device do.
 std::string print_devices(const std::vector<radar::Device>& devices);
 
 // Manual of all forms in Markdown, one table for each form: position, slot, value, default, purpose.

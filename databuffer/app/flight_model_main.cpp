@@ -9,11 +9,11 @@ namespace {
 
 using namespace yars;
 
-// Priority of a flight model's ownship lane. The radar uses the lane of the highest priority that delivers records.
-// Other programs may choose a higher or lower priority.
+// Priority of a flight model's ownship lane. Of the lanes that deliver records, the radar uses the one of the highest
+// priority. Other programs may choose a higher or lower priority.
 constexpr std::uint32_t kPriority = 10;
-// Priority of the ownship lane of a bridge: a source that receives the UDP packets of another program. While packets
-// arrive, the radar follows the bridge; otherwise it follows a flight model in the same session.
+// Priority of the ownship lane of a bridge: a source that receives the UDP packets of another program. While
+// reports of the aircraft arrive, the radar follows the bridge; else it follows a flight model in the same session.
 constexpr std::uint32_t kBridgePriority = 20;
 
 template <class Shell>
@@ -22,7 +22,7 @@ error::Expected<void> fly(databuffer::Session& session, databuffer::TickLoop& lo
     shell.step(*due);
     loop.done(*due);
     if (due->skipped > 0)
-      session.note(databuffer::NoteKind::late_tick, "flight-model skipped " + std::to_string(due->skipped));
+      session.note(databuffer::NoteKind::late_tick, "flight-model skipped " + std::to_string(due->skipped) + " ticks");
   }
   return loop.outcome();
 }

@@ -46,8 +46,9 @@ class FlightShell {
   // While the radar uses another lane, moves this model to the ownship of that lane. Exceptions: that ownship is stale,
   // or this lane has the higher priority.
   void stand_by(const TickLoop::Due& due);
-  // Continues the flight of an earlier process from the last ownship in ModelStatus. Condition: that ownship is from a
-  // source of the same name, in this epoch, and at most 10 s of sim time old. False: not continued.
+  // Continues the flight of an earlier process from the last ownship in ModelStatus (a record of the radar model).
+  // Conditions: not lockstep; that ownship is from a source of the same name, in this epoch, and at most 10 s of sim
+  // time old. False: not continued.
   bool resume(const TickLoop::Due& due);
 
   Session* session_;
@@ -68,10 +69,11 @@ error::Expected<UdpSocket> open_socket(const bridges::BridgeSource& source);
 
 // Publishes the aircraft that an external program flies, and the surface traffic that it reports.
 // The external program has its own clock. The external program continues while the session is frozen, and the rate of
-// the session's clock does not affect it. A position that changed during a freeze counts as a jump, which needs a new
-// epoch. The bridge refuses a repositioning, because only the external program can move its aircraft. Publishing stops
-// when no packet has arrived for longer than the extrapolation limit of the bridge. The lane is then stale, and the
-// radar uses another lane until packets arrive again.
+// the session's clock does not affect it. If the position after a freeze is too far from the one before (JumpGuard in
+// receivers.hpp), the radar model begins a new epoch. The bridge refuses a repositioning, because only the external
+// program can move its aircraft. Ownship and nav are no longer published when no report of the aircraft has arrived for
+// longer than the extrapolation limit of the bridge. The lane is then stale, and the radar uses another lane until
+// reports arrive again.
 // Traffic is published unless another program has the traffic role when the bridge starts.
 class BridgeShell {
  public:

@@ -1,7 +1,7 @@
 // Bridge: decoder and encoder of the protocol by which an external program flies the aircraft. SenderGate: choice
 // of one sender among several.
 // Inputs: datagrams with sender and arrival time.
-// Outputs: validated samples of the aircraft, tracked entities, datagrams to send.
+// Outputs: validated samples of the aircraft, other entities (traffic), datagrams to send.
 // Errors: a refused datagram returns an Error with the reason.
 // Threads: one thread per object. A Bridge opens no socket and reads no clock.
 #pragma once
@@ -25,7 +25,8 @@ struct Sender {
   friend bool operator==(const Sender&, const Sender&) = default;
 };
 
-// Silence [s] after which another sender may take over. It equals the time for which an ownship lane counts as fresh.
+// Silence [s] after which another sender may take over. It equals the time for which the aircraft's state in a
+// lane counts as fresh.
 inline constexpr geo::Duration kSenderSilence = geo::Duration::seconds(0.5);
 
 // Lets one sender at a time fly the aircraft: the sender of the last accepted report, until that sender has been silent

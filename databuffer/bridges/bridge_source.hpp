@@ -32,7 +32,7 @@ class RefusalNotes {
   std::optional<geo::Duration> written_;
 };
 
-// Aircraft and traffic of a DIS exercise. One entity flies the aircraft, and all others are traffic. The aircraft is
+// Aircraft and traffic of a DIS exercise. One entity is the aircraft, and all others are traffic. The aircraft is
 // the configured entity. Without a configured entity it is the first air platform received. If that platform is
 // deactivated or silent for kEntityTimeout, the next air platform received becomes the aircraft.
 class DisBridge final : public Bridge {
@@ -72,7 +72,7 @@ struct BridgeSource {
   bool requests_data = false;  // true: host and port receive requests; false: they are the address to listen on
 };
 
-// True if the text begins with the name of a bridge.
+// True if the text before the first colon is the name of a bridge.
 bool names_bridge(std::string_view text);
 
 // Parses the text and makes the bridge that it names. Each error is a usage error (Error::bad_usage).

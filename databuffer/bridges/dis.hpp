@@ -3,10 +3,11 @@
 // Inputs: datagrams of IEEE 1278.1 (1995, 1998, 2012) of any exercise, big-endian; 144 bytes, and 16 bytes for each
 // articulation parameter.
 // Outputs: position, attitude and velocity by entity, dead reckoned (extrapolated); a Traffic record.
-// Frame: location is ECEF [m]. Orientation is three turns from the ECEF to the body axes: psi about z, theta about y,
-// phi about x [rad]. Velocity [m/s] is in ECEF axes, or in body axes for dead reckoning algorithms 6 to 9.
+// Frame: location is ECEF (Earth-centred, Earth-fixed) [m]. Orientation is three successive turns from the ECEF to the
+// body axes: psi about z, theta about y, phi about x [rad]. Velocity [m/s] is in ECEF axes, or in body axes for dead
+// reckoning algorithms 6 to 9.
 // Accuracy: height above the ellipsoid is used as altitude above mean sea level (docs/conventions.md). The height of
-// mean sea level above the ellipsoid, -107 m to +86 m, is not corrected.
+// mean sea level above the ellipsoid, -107 m to +86 m, is neglected.
 // Errors: a malformed PDU, or a value out of range, is refused with a reason.
 // Source: docs/spec/formats.md#dis.
 #pragma once
@@ -54,7 +55,7 @@ struct EntityState {
 // Decodes one PDU. The length field must equal the length of the datagram.
 error::Expected<EntityState> decode_entity_state(memory::Bytes packet);
 
-// True for a well-formed PDU of another type, which is ignored without a refusal.
+// True for a well-formed PDU of a type other than Entity State, which is ignored without a refusal.
 bool is_other_pdu(memory::Bytes packet);
 
 // Silence after which an entity counts as gone: the standard's heartbeat of 5 s times its time-out factor of 2.4.
@@ -73,12 +74,15 @@ struct TrackedEntity {
 
 // Last report of each entity of a DIS exercise, by id. A report is dead reckoned until kEntityTimeout after its
 // arrival. `now` is the time of any clock that does not go back. A new entity is refused when the table holds
-// kMaxEntities. A report that is not newer than the last report of its entity is refused (StampOrder).
+// kMaxEntities that have reported within kEntityTimeout. A report that is not newer than the last report of its entity
+// is refused (StampOrder).
 class EntityTable {
  public:
-  // Stores the report. Returns the reason if the report is refused, else nullopt.
+  // Stores the report; if `deactivated`, removes the entity instead. Returns the reason if the report is refused, else
+  // nullopt.
   std::optional<std::string> update(const EntityState& state, geo::Duration now);
-  // Entities that have reported within kEntityTimeout, by ascending id.
+  // Entities that have reported within kEntityTimeout, by ascending id. An entity whose extrapolation leaves the ranges
+  // of Ownship is omitted.
   std::vector<TrackedEntity> at(geo::Duration now) const;
   void forget(EntityId id) { entries_.erase(id); }
 
@@ -100,7 +104,7 @@ inline constexpr double kVehicleCrossSection_m2 = 200.0, kVehicleHeight_m = 3.0;
 inline constexpr double kShipCrossSection_m2 = 15'000.0, kShipHeight_m = 15.0;
 
 // Surface traffic of an exercise: its platforms on land and on the sea. PDUs contain no cross section; the constants
-// above are used. `near`: position of the aircraft. If there are more than kMaxTraffic entities, those farthest
+// above are used. `near`: position of the aircraft. If there are more than kMaxTraffic such platforms, the farthest
 // from the aircraft are left out. The caller sets epoch and source_time_ns.
 Traffic surface_traffic(std::span<const TrackedEntity> entities, geo::GeoPoint near);
 

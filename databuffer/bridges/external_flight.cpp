@@ -13,7 +13,7 @@
 
 namespace yars::databuffer::bridges {
 
-// Time from `before` to `stamp`. If stamps wrap, the shorter of the two possible times.
+// Time from `before` to `stamp`, negative if `stamp` is older. If stamps wrap, the shorter of the two possible times.
 geo::Duration StampOrder::since(geo::Duration before, geo::Duration stamp) const {
   const double difference_s = (stamp - before).seconds();
   return geo::Duration::seconds(period_ ? std::remainder(difference_s, period_->seconds()) : difference_s);
@@ -30,14 +30,14 @@ std::optional<std::string> StampOrder::order_fault(geo::Duration stamp) {
   if (ahead > geo::Duration()) return accept();
   const std::string found = "stamp " + text::text_of_number(stamp.seconds()) + " s ";
   if (ahead == geo::Duration()) return found + "for the second time";
-  const std::string after = "after " + text::text_of_number(last_->seconds()) + " s";
+  const std::string after = "after stamp " + text::text_of_number(last_->seconds()) + " s";
   if (ahead >= -kMaxPacketDelay) return found + after;
   if (restarted_) {
     const geo::Duration after_restart = since(*restarted_, stamp);
     if (after_restart > geo::Duration() && after_restart <= kMaxPacketDelay) return accept();
   }
   restarted_ = stamp;
-  return found + after + ", the first after a possible restart of the sender";
+  return found + after + "; the sender may have restarted, so reports from this stamp on are accepted next";
 }
 
 namespace {
@@ -102,7 +102,7 @@ error::Expected<ExternalSample> checked_sample(std::string_view source, const Re
   ownship.radar_altitude_m = std::numeric_limits<double>::quiet_NaN();
   source.copy(ownship.source, sizeof ownship.source - 1);
   if (const auto refusal = validate(ownship))
-    return error::fail(std::string(source), "a flight within range", *refusal);
+    return error::fail(std::string(source), "position, attitude and velocity within their limits", *refusal);
   sample.rates = rates;
   sample.acceleration_mps2 = acceleration_mps2;
   return sample;
@@ -153,7 +153,7 @@ Flown flown(const geo::Vector3& v, const geo::Vector3& a, const geo::Vector3& w,
   const double half = std::sin(0.5 * x) / x;
   const double s1 = std::sin(x) / x;
   const double c2 = 2.0 * half * half;   // (1 - cos x) / x^2
-  const bool slow = std::abs(x) < 0.02;  // series below: omitted terms are under 2e-10 of the first
+  const bool slow = std::abs(x) < 0.02;  // then series; omitted terms are under 2e-10 of the first
   const double s3 = slow ? 1.0 / 6.0 - x * x / 120.0 : (1.0 - s1) / (x * x);   // (x - sin x) / x^3
   const double c4 = slow ? 1.0 / 24.0 - x * x / 720.0 : (0.5 - c2) / (x * x);  // (x^2 / 2 - 1 + cos x) / x^4
   // The sum of a vector along w, a multiple of u, and a vector perpendicular to w and u.
@@ -201,7 +201,8 @@ constexpr geo::Duration kMaxRateInterval = geo::Duration::seconds(1.0);
 // [m] The aircraft counts as stationary if its reported speed, times the time for which its position is unchanged,
 // exceeds this distance. The distance exceeds two position steps of the coarsest source (JSBSim, seven digits: 11 m).
 constexpr double kStationaryProof_m = 25.0;
-// [deg] Maximum difference of an angle that is blended. Blending a larger difference would visibly roll the picture.
+// [deg] Maximum difference of an angle that is blended. Blending a larger one would show a turn that the
+// aircraft did not make.
 constexpr double kMaxBlendedAngle_deg = 30.0;
 // Maximum time by which a requested time may precede the last report. A tick that is processed late can request a time
 // before a report that has already arrived.

@@ -1,9 +1,9 @@
-// Aircraft flown by an external program: checks of its reports, dead reckoning (extrapolation of the last report), and
-// blending between reports.
-// Inputs: reports with their arrival times, 5 to 400 per second.
+// Aircraft flown by an external program: checks of that program's reports, dead reckoning (extrapolation of the last
+// report), and blending between reports.
+// Inputs: reports with their arrival times.
 // Outputs: position, attitude and velocity at any requested time.
 // Units: degrees, metres, seconds, as in Ownship.
-// Frame: WGS84; velocities and accelerations north, east, down.
+// Frame: WGS84; altitude above mean sea level; velocities and accelerations north, east, down.
 // Errors: a report with a value out of range is refused; the error names the field.
 // Threads: one thread per object. No function reads a clock.
 #pragma once
@@ -24,10 +24,10 @@ namespace yars::databuffer::bridges {
 // Maximum delay [s] of a packet in the network. Packets of a restarted sender can be refused for up to this time.
 inline constexpr geo::Duration kMaxPacketDelay = geo::Duration::seconds(2.0);
 
-// Checks the order of packets by the time stamps of their sender. A stamp equal to the last one means a duplicate. A
-// stamp at most kMaxPacketDelay older means that the packet arrived out of order. A stamp more than kMaxPacketDelay
-// older indicates a restarted sender. Its packets are accepted from the second one on, so that one stray packet has no
-// effect.
+// Checks the order of packets by the time stamps of their sender. A packet whose stamp equals the last accepted stamp
+// is a duplicate; one whose stamp is at most kMaxPacketDelay older arrived out of order. Both are refused. A stamp more
+// than kMaxPacketDelay older indicates a restarted sender, whose packets are accepted from the second one on, so that
+// one stray packet has no effect.
 class StampOrder {
  public:
   // `period`: stamps wrap to zero at this value; without it they do not wrap.
@@ -57,7 +57,8 @@ struct ExternalSample {
   Ownship ownship{};
   std::optional<AttitudeRates> rates;
   std::optional<geo::Vector3> acceleration_mps2;  // derivative of the velocity: north, east, down; nullopt: unknown
-  // Turn rate [rad/s] of velocity and acceleration: north, east, down. Zero: their directions are constant.
+  // Turn rate vector [rad/s] of velocity and acceleration (right-hand rule): north, east, down. Zero: their directions
+  // are constant.
   geo::Vector3 turn_radps{};
 };
 
@@ -75,8 +76,8 @@ inline constexpr double kMaxAcceleration_mps2 = 1'000.0;
 
 // Checks a reading and converts it to a sample. `source`: name in the record, at most 15 characters. Heading may be
 // -360 to 720 deg and longitude -180 to 360 deg; both are wrapped. Rates and acceleration must be within
-// kMaxAttitudeRate_dps and kMaxAcceleration_mps2. All other values must be in the ranges of Ownship. The error names
-// the field.
+// kMaxAttitudeRate_dps and kMaxAcceleration_mps2. All other values must be in the ranges of Ownship; pitch and roll may
+// exceed them by 1e-4 deg and are clamped. The error names the field.
 error::Expected<ExternalSample> checked_sample(std::string_view source, const Reading& reading,
                                                const std::optional<AttitudeRates>& rates = std::nullopt,
                                                const std::optional<geo::Vector3>& acceleration_mps2 = std::nullopt);
@@ -101,11 +102,12 @@ inline constexpr geo::Length kJumpDistance = geo::Length::metres(300.0);
 
 // Position, attitude and velocity of an external aircraft between its reports.
 // Each report is dead reckoned with its own rates and acceleration. A report without them uses values measured between
-// reports at least 80 ms apart. The difference between a new report and the current output decays with kBlendTime, so
-// that the output has no steps. A difference above kJumpDistance is a jump and applies at once. If the position stays
-// constant in spite of a velocity, the external program counts as paused, and the aircraft stands still.
+// reports 80 ms to 1 s apart. The difference between a new report and the current output decays with kBlendTime, so
+// that the output has no steps. A position difference above kJumpDistance is a jump: the output takes the new
+// report at once. An angle difference above 30 deg applies at once, too. If the position stays constant in spite of a
+// velocity, the external program counts as paused, and the aircraft stands still.
 //
-// Accuracy: reports arrive 5 to 400 times a second, up to J [s] late, with gaps T [s]. In a turn with velocity v,
+// Accuracy: reports arrive 5 to 400 times a second, up to J [s] late, at most T [s] apart. In a turn with velocity v,
 // acceleration a and turn rate w, the output is within B = |v| J + a w T^3 / 6 + 1 m of the true position. The distance
 // that the output moves in 20 ms has an error below 0.08 B (tests/databuffer/bridges/external_flight_test.cpp).
 class ExternalFlight {
@@ -116,13 +118,13 @@ class ExternalFlight {
   // `received`: arrival time, which does not go back.
   void receive(const ExternalSample& sample, geo::Duration received);
   // Output at `moment`, which may be slightly before the last report. nullopt: no report has arrived, the last report
-  // is older than the limit, or the output is outside the ranges of Ownship.
+  // is older than the extrapolation limit, or the output is outside the ranges of Ownship.
   std::optional<flight::FlightSample> at(geo::Duration moment) const;
 
   int jumps() const { return jumps_; }
 
  private:
-  // Remaining difference between the output and the dead-reckoned last report.
+  // Output minus dead-reckoned last report.
   struct Difference {
     double north_m = 0.0, east_m = 0.0, up_m = 0.0;
     double north_mps = 0.0, east_mps = 0.0, down_mps = 0.0;

@@ -1,6 +1,6 @@
 // Decoders of flight simulator packets: FlightGear, JSBSim and X-Plane.
 // Inputs: one UDP datagram at a time.
-// Outputs: a checked ExternalSample, or nullopt while a state is incomplete; for X-Plane also requests.
+// Outputs: a checked ExternalSample, or nullopt for a label line or an incomplete state; for X-Plane also requests.
 // Frame: geodetic latitude, altitude above mean sea level, true heading, velocity north, east, down.
 // Errors: a datagram with another format, or with values out of range, is refused with a reason.
 // Source: docs/spec/formats.md#flightgear, #jsbsim and #xplane.
@@ -67,7 +67,7 @@ class JsbsimBridge final : public Bridge {
     Sender sender;
     JsbsimColumns columns;
   };
-  static constexpr std::size_t kMaxSenders = 8;  // number of senders with stored labels; keep() drops the oldest
+  static constexpr std::size_t kMaxSenders = 8;  // maximum number of senders with stored labels
 
   void keep(const JsbsimColumns& columns);
   const JsbsimColumns* columns() const;  // columns of the current sender; nullptr: unknown

@@ -1,5 +1,5 @@
 /* Client of a running YARS session on Linux, in C99 with the __atomic functions of GCC or clang.
- * Inputs: ownship, nav, surface traffic, input events. Outputs: radar state, model status, outputs, sweeps, frames.
+ * Inputs: ownship, nav, surface traffic, input events. Outputs: records of the radar; sweeps; frames.
  * Use: include this header before any system header, because it defines _GNU_SOURCE. yars_segment.h and yars_records.h
  * (the records) lie beside it. docs/attach.md shows its use. docs/shared_memory.md describes the segment.
  * Errors: on failure, a function that attaches, claims, publishes or pushes returns -1 and fills yars_session.error.
@@ -16,7 +16,7 @@
 
 #include "yars_segment.h"
 
-/* Position of a reader in the ring of sweeps. {0} begins with the oldest sweep in the segment. */
+/* Position of a reader in the ring of sweeps. A cursor of zeros begins with the oldest sweep in the segment. */
 typedef struct {
   uint64_t next; /* number of the next sweep to read */
   uint64_t lost; /* number of sweeps that were damaged, or overwritten before this reader read them */
@@ -69,7 +69,7 @@ static inline int64_t yars_monotonic_ns(void) {
   return (int64_t)now.tv_sec * 1000000000 + now.tv_nsec;
 }
 
-/* Writes the present time as this program's heartbeat, for `yars status`. Call it about once a second. */
+/* Writes the CLOCK_MONOTONIC time as this program's heartbeat, for `yars status`. Call it about once a second. */
 static inline void yars_heartbeat(const yars_session* s) {
   if (s->process >= 0)
     yars_store(yars_word(s, YARS_AT_PROCESSES + 40 * (size_t)s->process), (uint64_t)yars_monotonic_ns());
@@ -88,7 +88,7 @@ static inline void yars_enter_table(yars_session* s, const char* program) {
   __atomic_store_n((int32_t*)(void*)(s->memory + entry + 8), (int32_t)getpid(), __ATOMIC_RELEASE);
 }
 
-/* 1 for a valid session name. The name is part of a path, so that it must not contain slashes or dots. */
+/* 1 for a valid session name. The name is part of a path, and so must not contain slashes or dots. */
 static inline int yars_is_session_name(const char* name) {
   const char* const allowed = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-_";
   const size_t length = strlen(name);
@@ -128,7 +128,7 @@ static inline size_t yars_nav_at(int lane) {
   return YARS_AT_NAV + (size_t)lane * YARS_VALUE_SIZE(sizeof(yars_nav));
 }
 
-/* Withdraws the published values, releases all claims and leaves the session. */
+/* Withdraws the published ownship, nav and traffic, releases all claims and leaves the session. */
 static inline void yars_detach(yars_session* s) {
   if (s->memory == NULL) return;
   if (s->ownship_lane >= 0) {
@@ -177,8 +177,8 @@ static inline uint32_t yars_epoch(const yars_session* s) {
 }
 
 /* ---- Feeding ---- */
-/* Claims a free lane for ownship and nav. Returns its index, or -1. The radar uses the lane of the highest priority
- * among those that were updated in the last 0.5 s. */
+/* Claims a free lane for ownship and nav. Returns the lane's index, or -1. The radar uses the lane with the greatest
+ * `priority` among those that were updated in the last 0.5 s. */
 static inline int yars_claim_ownship_lane(yars_session* s, uint32_t priority) {
   s->ownship_lane = yars_claim(s, YARS_FIRST_OWNSHIP_BYTE, YARS_OWNSHIP_LANES);
   if (s->ownship_lane < 0) return yars_fail(s, "ownship lane", "all are taken; `yars status` names the holders");
@@ -202,7 +202,7 @@ static inline int yars_publish_nav(yars_session* s, const yars_nav* nav) {
 }
 
 /* Claims the traffic role, which only one program can hold. Each yars_publish_traffic() sends all ships and vehicles.
- * Between two calls the radar extrapolates each of them by its velocity, for at most 12 s. */
+ * Between two calls the radar extrapolates each of them by its velocity. 12 s after the last call it removes them. */
 static inline int yars_claim_traffic(yars_session* s) {
   if (yars_claim(s, YARS_TRAFFIC_BYTE, 1) < 0)
     return yars_fail(s, "traffic", "another program sends it; `yars status` names the holder");
@@ -217,8 +217,8 @@ static inline int yars_publish_traffic(yars_session* s, const yars_traffic* traf
   return 0;
 }
 
-/* Input lane: the cache line of the source (count of pushed events, count of dropped events, a cursor that only C++
- * uses, name), the cache line of the consumer (count of popped events), then the records. Offsets in bytes. */
+/* Input lane: the cache line of the source (count of pushed events, count of dropped events, a word that only the C++
+ * programs use, name), the cache line of the consumer (count of popped events), then the records. Offsets in bytes. */
 #define YARS_INPUT_STRIDE \
   (2 * YARS_LINE + (YARS_INPUT_DEPTH * sizeof(yars_input_event) + YARS_LINE - 1) / YARS_LINE * YARS_LINE)
 #define YARS_INPUT_DROPPED 8
@@ -230,7 +230,7 @@ static inline size_t yars_input_at(int lane) {
   return YARS_AT_INPUT + (size_t)lane * YARS_INPUT_STRIDE;
 }
 
-/* Claims an input lane without a sender and without unread events. Returns its index, or -1. `source`: name of the
+/* Claims an input lane that has no sender and no unread events. Returns the lane's index, or -1. `source`: name of the
  * sender, at most 23 characters. */
 static inline int yars_claim_input_lane(yars_session* s, const char* source) {
   for (int lane = 0; lane < YARS_INPUT_LANES; ++lane) {
@@ -270,7 +270,8 @@ static inline int yars_push_event(yars_session* s, const yars_input_event* event
   return 0;
 }
 
-/* ---- Reading. Each function returns 1 if there is a value, 0 if there is none. ---- */
+/* ---- Reading. The first three functions return 1 for a whole record; 0 if there is none, or if its writer changed it
+ * during each of 9 attempts. ---- */
 static inline int yars_read_radar_state(const yars_session* s, yars_radar_state* state) {
   return yars_read(s, YARS_AT_RADAR_STATE, state, sizeof *state);
 }
@@ -283,8 +284,9 @@ static inline int yars_read_model_status(const yars_session* s, yars_model_statu
   return yars_read(s, YARS_AT_MODEL_STATUS, status, sizeof *status);
 }
 
-/* Reads the newest frame of a radar-display with --publish. Returns 1 if its id differs from `after`, else 0. If
- * `after` is 0, any frame is read. `pixels`: buffer of YARS_MOST_FRAME_BYTES. It gets the rows from the top, without
+/* Reads the newest frame of a radar-display with --publish. Returns 1 if its id differs from `after`; with 0 as `after`
+ * any id differs. Returns 0 if there is no such frame, or if it was overwritten during each of 8 attempts; `frame` and
+ * `pixels` are then unspecified. `pixels`: buffer of YARS_MOST_FRAME_BYTES, which gets the rows from the top, without
  * padding. A pixel has 4 bytes: red, green, blue, 255. */
 static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_glass_frame* frame, void* pixels) {
   for (int attempt = 0; attempt < 8; ++attempt) {
@@ -306,8 +308,9 @@ static inline int yars_read_frame(const yars_session* s, uint64_t after, yars_gl
   return 0;
 }
 
-/* Reads the next sweep and advances the cursor. Returns 0 if there is no new sweep; `sweep` is then unspecified. The
- * ring has the last 1023 sweeps, which is some seconds. cursor->lost counts overwritten and damaged sweeps. */
+/* Reads the next sweep and advances the cursor. Returns 0 if there is no new sweep, or if 9 attempts failed; `sweep` is
+ * then unspecified. The ring has the last 1023 sweeps: those of a few seconds of scanning. cursor->lost counts
+ * overwritten and damaged sweeps. */
 static inline int yars_read_sweep(const yars_session* s, yars_sweep_cursor* cursor, yars_sweep* sweep) {
   for (int attempt = 0; attempt < 9; ++attempt) {
     const uint64_t end = yars_load(yars_word(s, YARS_AT_SWEEPS));

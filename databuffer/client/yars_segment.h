@@ -113,8 +113,8 @@ static inline void yars_withdraw(const yars_session* s, size_t value_at) {
   yars_store(state, yars_next_version(state) << 1);
 }
 
-/* Returns 1 if `record` is the last value. Returns 0 if there is no value, or if the writer changed it during each of 9
- * attempts; `record` is then unspecified. */
+/* Copies the last value to `record` and returns 1. Returns 0 if there is no value, or if the writer changed it during
+ * each of 9 attempts; `record` is then unspecified. */
 static inline int yars_read(const yars_session* s, size_t value_at, void* record, size_t bytes) {
   for (int attempt = 0; attempt < 9; ++attempt) {
     const uint64_t state = yars_load(yars_word(s, value_at));
@@ -129,7 +129,7 @@ static inline int yars_read(const yars_session* s, size_t value_at, void* record
 }
 
 /* ---- Locks on bytes of the segment's file. Each open() makes an open file description, which owns its locks. ---- */
-/* `kind`: F_RDLCK, F_WRLCK or F_UNLCK. Returns 0, or -1 if another open file description has the lock. */
+/* `kind`: F_RDLCK, F_WRLCK or F_UNLCK. Returns 0, or -1 if another open file description has a conflicting lock. */
 static inline int yars_lock(const yars_session* s, int byte, short kind) {
   struct flock lock;
   memset(&lock, 0, sizeof lock);
@@ -145,7 +145,8 @@ static inline void yars_set_holder(const yars_session* s, int byte, int32_t pid)
   __atomic_store_n((int32_t*)(void*)(s->memory + 32) + byte, pid, __ATOMIC_RELEASE);
 }
 
-/* Claims the first free byte of a block. Returns its index in the block, or -1. */
+/* Claims the first free one of the `count` bytes from `first_byte`. Returns its index among these bytes; -1: none is
+ * free. */
 static inline int yars_claim(const yars_session* s, int first_byte, int count) {
   for (int i = 0; i < count; ++i)
     if (yars_lock(s, first_byte + i, F_WRLCK) == 0) {

@@ -56,7 +56,7 @@ class Leg {
 
   struct Fix {
     geo::Length along;    // distance from the start to the foot of the perpendicular; negative before the start
-    geo::Length across;   // distance from the leg, right positive
+    geo::Length across;   // distance of the aircraft from the leg, positive to the right of it
     geo::Bearing course;  // direction parallel to the leg, at the position of the aircraft
   };
   // Position relative to the leg, to 1 mm. `near`: distance along the leg at which the iteration starts, such as the
@@ -89,7 +89,7 @@ struct Motion {
 
 struct Attitude {
   geo::Bearing heading;  // direction of the nose
-  geo::Angle pitch;      // nose up positive
+  geo::Angle pitch;      // of the nose above the horizontal
   geo::Angle roll;       // right wing down positive
 };
 
@@ -101,7 +101,7 @@ geo::Speed speed_at_altitude(const Motion& motion, geo::Speed surface);
 // Attitude with the nose along the flight path and the given roll.
 Attitude coordinated_attitude(const Motion& motion, geo::Angle roll);
 
-// Records of a motion and an attitude. `source`: at most 15 characters are kept.
+// Records of a motion and an attitude. A `source` of more than 15 characters is cut to 15.
 FlightSample sample_of(const Motion& motion, const Attitude& attitude, std::string_view source);
 
 }  // namespace yars::databuffer::flight

@@ -75,7 +75,7 @@ constexpr double kClimbGain_per_s = 0.1;
 constexpr double kMaxLeadTurn_deg = 120.0;  // [deg] maximum turn in lead(); the tangent length diverges at 180 deg
 // Bank for planning turns. The margin to kBankLimit allows corrections for roll-in and for changes of speed.
 constexpr geo::Angle kPlannedBank = geo::Angle::degrees(27.0);
-constexpr double kCaptureTime_s = 8.0;      // [s] time constant with which the distance decays near the leg
+constexpr double kCaptureTime_s = 8.0;      // [s] time constant of the decay of a small distance from the leg
 constexpr double kTrackGain_per_s = 0.3;    // [1/s] turn rate per track error; its inverse exceeds the 2 s of a roll-in
 constexpr double kMaxIntercept_deg = 90.0;  // [deg] maximum of intercept()
 // [deg] Track error beyond which a turn in progress keeps its direction, even if the other direction is shorter.

@@ -50,8 +50,8 @@ inline constexpr double kAcceleration_mps2 = 2.0;  // limit of the rate of chang
 // Guidance: far from the leg, the aircraft approaches it at a right angle, then on a circular arc. Near the leg, the
 // commanded angle between track and leg is proportional to the distance from the leg.
 // The commanded turn rate is proportional to the difference of commanded and actual track, within kBankLimit.
-// After a repositioning the aircraft flies to the end of the nearest leg.
-// After the last waypoint of an open route it continues straight ahead.
+// After a repositioning the aircraft flies directly to the end of the nearest leg.
+// After the last waypoint of an open route the aircraft continues straight ahead.
 class RouteFlight final : public FlightModel {
  public:
   explicit RouteFlight(Route route);

@@ -15,7 +15,8 @@
 namespace yars::databuffer::flight {
 
 // Row of a track file. Rows are comma-separated, below a header row with these columns in any order:
-//   time [s], lat, lon [deg WGS84], alt_ft [ft above mean sea level], heading [deg true], pitch, roll [deg].
+//   time [s], lat, lon [deg WGS84], alt_ft [ft above mean sea level], heading [deg true],
+//   pitch [deg, nose up positive], roll [deg, right wing down positive].
 // Other columns are ignored. Times ascend. `#` begins a comment. Ranges: time [0, 1e9] s, alt_ft [-3000, 600000],
 // heading [-180, 360].
 // A last line `loop` repeats the track from its first row. First and last row should then have the same position.
@@ -36,8 +37,8 @@ error::Expected<Track> parse_track(std::string_view text, std::string_view name)
 
 // Flies a recorded track. Between two rows the point below the aircraft follows the geodesic at constant speed, and
 // the climb rate is constant.
-// Attitude is interpolated linearly. Heading and roll turn in the shorter direction.
-// The angle between heading and geodesic is interpolated, so that the interpolation is valid near the poles.
+// Pitch, roll, and the angle from the geodesic to the heading are interpolated linearly. Roll and this angle change in
+// the shorter direction. The angle replaces the heading, so that the interpolation is valid near the poles.
 // Ground speed is the distance between the rows, scaled to the aircraft's altitude, divided by their time difference.
 // After the last row the position stays and the velocity is 0. With `loop` the track repeats instead.
 // reposition() always returns false. resume() continues at last.flight_time_s + gap. It returns false if flight_time_s

@@ -16,8 +16,8 @@
 
 namespace yars::radar {
 
-// Direction of motion over ground, which is the axis of the scan and of the display. Below 1 m/s the result is
-// `heading`, because noise then dominates the direction of the velocity.
+// Direction of motion over ground, which points up on the display. Below 1 m/s the result is `heading`, because noise
+// then dominates the direction of the velocity.
 geo::Bearing ground_track(geo::Speed north, geo::Speed east, geo::Bearing heading);
 
 }  // namespace yars::radar

@@ -62,7 +62,7 @@ def layout_of(program, chapters):
 
 
 def with_part(name, text, part):
-    """(text of the file with `part` between its marks, the text between them before). StaleError if a mark is absent."""
+    """(text of the file with `part` between its marks, the old text between them). StaleError if a mark is absent."""
     begin, end = MARKS[name]
     before, found, rest = text.partition(begin)
     inside, closed, after = rest.partition(end)

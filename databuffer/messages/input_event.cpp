@@ -13,8 +13,8 @@ namespace yars::databuffer {
 
 namespace {
 
-// Limits of the position error (about 100 NM) and velocity error (drift, 305 m/s) that an instructor injects into a
-// navigator.
+// Limits of the position error (about 100 NM) and velocity error (drift, 305 m/s), north and east each, that an
+// instructor injects into a navigator.
 constexpr double kMaxInjectedError_ft = 600'000.0;
 constexpr double kMaxInjectedDrift_fps = 1'000.0;
 

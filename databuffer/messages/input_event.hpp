@@ -1,7 +1,7 @@
 // Input event of a pilot, panel or program: validation and text form. input_event_record.idl defines the record.
 // Inputs: the record from an input lane, or a text such as `tdc 0.5 0`.
 // Outputs: the first fault of a record; the event parsed from a text; the text of an event.
-// Units: degrees, feet and feet per second as stated per kind; times [ns].
+// Units: degrees (antenna elevation above the horizontal), feet and feet per second as stated per kind; times [ns].
 // Errors: a text that matches no form is an Error with the valid forms of its verb.
 // Source: docs/spec/pilots_interface.md#controls.
 #pragma once

@@ -1,5 +1,5 @@
-// Table of the fields of all records in the segment, by name. layout_json() writes this table for programs in other
-// languages.
+// Table of the records in records.idl with the name, offset, type, unit and range of each field. layout_json() writes
+// this table for programs in other languages.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@ namespace yars::databuffer {
 struct RecordField {
   std::string_view name;
   std::size_t offset;     // [bytes] from the beginning of the record
-  std::size_t size;       // [bytes]
+  std::size_t size;       // [bytes] of the whole field; of an array, all entries
   std::string_view type;  // "double", "uint8", "char[16]", "Mark[10]"
   std::string_view unit;  // "deg", "m/s"; empty: no unit
-  double min, max;        // range, both ends valid; -infinity, +infinity: no limit
+  double min, max;        // range, both ends valid; -infinity or +infinity: no limit on that side
 };
 
 struct RecordFields {

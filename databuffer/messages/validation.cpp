@@ -6,7 +6,7 @@
 #include "databuffer/messages/record_checks.hpp"
 
 // check_fields() is generated from the ranges in the IDL. This file checks the fields whose range applies only under a
-// condition, such as a flag of the record. The IDL marks these fields with @by_hand.
+// condition on another field, such as a flag. The IDL marks these fields with @by_hand.
 namespace yars::databuffer {
 
 namespace {

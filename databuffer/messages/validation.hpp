@@ -1,9 +1,11 @@
 // Validation of the records that other processes write (trust boundary). input_event.hpp validates input events.
 // Outputs: the first fault as text (field, expected value, found value); nullopt for a valid record.
-// Use: validate() repairs nothing. The reader keeps its last valid record and counts the refusal.
+// Use: validate() repairs nothing. The reader skips the record, so that its last valid one stays in use, and reports
+// the refusal.
 // Ranges: as in the IDL files; both ends are valid. Heading 360 and longitude +-180 are valid, because rounding gives
-// them. Every reader wraps these values. Heading 360.0001 is refused. NaN is valid in fields with the annotation @nan,
-// and in cursor fields of a RadarState without kCursorValid.
+// them. Every reader wraps these values. Heading 360.0001 is refused. NaN is valid in fields with the annotation @nan
+// or without a range, in the cursor fields of a RadarState without kCursorValid, and in the reposition fields of a
+// ClockState whose reposition latitude is NaN.
 #pragma once
 
 #include "databuffer/messages/input_event.hpp"

@@ -108,7 +108,7 @@ error::Expected<TickLoop> TickLoop::create(Session& session, LockstepRole role, 
   loop.first_in_chain_ = before >= loop.role_;
   const std::int64_t done = shared.done_tick[loop.role_].load(std::memory_order_acquire);
   if (done < -1 || done > kMaxTick)
-    return error::fail("--lockstep", "a last tick of -1 or more", std::to_string(done),
+    return error::fail("--lockstep", "a last tick of -1 to " + std::to_string(kMaxTick), std::to_string(done),
                        "the session is damaged: end its programs and start it again");
   loop.next_tick_ = done + 1;
   return loop;

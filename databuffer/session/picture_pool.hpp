@@ -1,8 +1,8 @@
 // Pools of pictures in the segment, addressed by id: patch maps, and frames of the display.
 // Inputs: a PatchMap or GlassFrame with its pixels.
 // Outputs: a whole picture by id, or the newest frame.
-// Errors: false if no slot has the id, or if the writer replaced the picture during the copy. Records are not validated
-//   here.
+// Errors: reading gives false if no slot has the id, or if the writer replaced the picture during the copy. Writing a
+//   map gives false if no slot may be overwritten. Records are not validated here.
 // Threads: one writer and any number of readers; none waits. If the writer is killed, readers find no partial picture.
 // Source: docs/shared_memory.md.
 #pragma once
@@ -25,7 +25,7 @@ namespace yars::databuffer {
 // the id. Ids count up and are never reused. A slot with an id greater than the id to be written is damaged. The
 // writer fills such a slot first. Ids above kLatestPictureId (2^53) are invalid.
 
-// Greatest valid id in the pool; 0: the pool is empty. A restarted writer continues with greater ids.
+// Greatest valid id in the pool; 0: no slot has a valid id. A restarted writer continues with greater ids.
 template <class Access, class Slots>
 std::uint64_t greatest_id(const Slots& slots) {
   std::uint64_t greatest = 0;
@@ -51,8 +51,8 @@ bool still_holds(const Slot& slot, std::uint64_t id) {
   return Access::load(slot.id, std::memory_order_relaxed) == id;
 }
 
-// Slot for the picture with the id `next`: an empty or damaged slot, else the slot of the oldest picture. nullptr: the
-// ids of all slots are in `keep`.
+// Slot for the picture with the id `next`: an empty or damaged slot, else the slot of the oldest picture. Slots with an
+// id in `keep` are left out. nullptr: the ids of all slots are in `keep`.
 template <class Access, class Slots>
 auto slot_to_fill(Slots& slots, std::uint64_t next, std::span<const std::uint64_t> keep) -> decltype(&slots[0]) {
   decltype(&slots[0]) chosen = nullptr;
@@ -96,8 +96,9 @@ inline std::size_t patch_bytes(const PatchMap& map) {
   return edge * edge;
 }
 
-// Writes a map with its id and patch_bytes(map) bytes over the oldest map that is not in `keep`. `keep` holds the ids
-// that the radar state names or may name next, and the id of the writer's last map. False: `keep` has all slots' ids.
+// Writes a map and at most patch_bytes(map) bytes of pixels to the slot that slot_to_fill() chooses. `keep` holds the
+// ids that the radar state names or may name next, and the id of the writer's last map. False: the ids of all slots are
+// in `keep`.
 template <class Access = shm::PlainAccess>
 bool publish_patch(SessionLayout& layout, const PatchMap& map, std::span<const std::uint8_t> pixels,
                    std::span<const std::uint64_t> keep) {
@@ -141,7 +142,8 @@ inline std::size_t frame_bytes(const GlassFrame& frame) {
   return 4 * width * std::min(frame.height, kMaxFramePixels);
 }
 
-// Writes a frame over the oldest one. `frame.id` is greater than all earlier ids; `pixels` has frame_bytes(frame).
+// Writes a frame to an empty or damaged slot, else over the oldest frame. `frame.id` must be greater than all earlier
+// ids. `pixels` has frame_bytes(frame) bytes; further bytes are left out.
 template <class Access = shm::PlainAccess>
 void publish_frame(SessionLayout& layout, const GlassFrame& frame, std::span<const std::uint8_t> pixels) {
   FrameSlot* slot = slot_to_fill<Access>(layout.frames, frame.id, {});

@@ -48,7 +48,7 @@ class Session {
   const SessionLayout& layout() const;
 
   error::Expected<Claim> claim(Role role);                            // an error names the holder's pid and program
-  error::Expected<Claim> claim_ownship_lane(std::uint32_t priority);  // higher wins; clears the lane's old values
+  error::Expected<Claim> claim_ownship_lane(std::uint32_t priority);  // the greatest priority wins; clears old records
   error::Expected<Claim> claim_input_lane(std::string_view source);
 
   bool role_is_held(Role role) const;         // true if this or another process holds the role
@@ -67,9 +67,10 @@ class Session {
   // stays in use. A process that opens a session without a valid clock sets the clock to 0 in a new epoch.
   ClockState clock() const;
   std::int64_t sim_time_ns() const;
-  // True if CLOCK_MONOTONIC of this process differs by more than 1 s from that of state-machine, else of radar-model. A
-  // Linux time namespace, as of a container, has this effect. A clock that this process sets would then be wrong. False
-  // also if the difference is unknown: no such role runs, or its heartbeat stands still. Waits at most 0.2 s.
+  // True if CLOCK_MONOTONIC of this process differs by more than 1 s from that of state-machine (of radar-model if no
+  // state-machine runs). A Linux time namespace, as of a container, has this effect. A session clock that this process
+  // sets would then be wrong. False also if the difference is unknown: neither role runs in another process, or the
+  // role's heartbeat stands still. Waits at most 0.2 s.
   bool has_foreign_clock() const;
   // Reason why the clock in the segment is invalid; nullopt: the clock is valid. A clock with a base time more than 1 s
   // in the future is invalid.

@@ -87,7 +87,7 @@ struct Lockstep {
 };
 
 // Slot of a patch map. The writer clears the id, writes, and stores the new id last. A reader copies between two loads
-// of the same id. progress_permille is always 1000.
+// of the same id. progress_permille of a written slot is always 1000.
 struct PatchSlot {
   std::atomic<std::uint64_t> id;  // 0: empty, or being written
   std::atomic<std::uint32_t> epoch;

@@ -105,8 +105,8 @@ std::optional<std::string> SessionState::clock_problem() const {
   return inspect_clock(present);
 }
 
-// In a time namespace, CLOCK_MONOTONIC of this process may be behind that of the session's programs. So the present
-// time is the later of this process's clock and the heartbeat of leading_entry().
+// In a time namespace, CLOCK_MONOTONIC of this process may show an earlier time than in the session's other programs.
+// So the later of this process's CLOCK_MONOTONIC and the heartbeat of leading_entry() counts as the present time.
 std::optional<std::string> SessionState::inspect_clock(const ClockState& state) const {
   if (auto refusal = validate(state)) return refusal;
   const std::int64_t base_ns = state.base_monotonic_ns;

@@ -64,7 +64,7 @@ class Claim {
 
 // Maximum number of attempts to read or lock the clock, 1 ms apart. `yars sim` holds the lock for much less than 0.2 s.
 inline constexpr int kClockAttempts = 200;
-// [ns] Time by which two readings of CLOCK_MONOTONIC may differ. Readings of two time namespaces differ by more.
+// [ns] A greater difference between the CLOCK_MONOTONIC of two processes means that they are in two time namespaces.
 inline constexpr std::int64_t kClockTolerance_ns = 1'000'000'000;
 
 // [ns] Interval of the checks in Session::heartbeat(): name of the segment file, entry in the process table.
@@ -149,7 +149,7 @@ struct SessionState {
   std::array<log::RepeatFilter, kNoteKinds> note_filters = filters();
   std::mutex clock_mutex;  // protects clock and last_valid_clock
   shm::LatestReader<ClockState> clock;
-  ClockState last_valid_clock{};  // last valid clock
+  ClockState last_valid_clock{};
 };
 
 }  // namespace yars::databuffer

@@ -59,7 +59,8 @@ class Validated {
   Refusal refusal_;
 };
 
-// Current record of a slot; nullopt if the slot is empty or the record is invalid.
+// Current record of a slot; nullopt if the slot is empty, if the record is invalid, or if the writer changed the slot
+// during every attempt to read it.
 template <class T>
 std::optional<T> read_valid(const shm::LatestValue<T>& slot) {
   T value{};
@@ -78,7 +79,8 @@ std::optional<T> read_to_resume(const shm::LatestValue<T>& slot, Session& sessio
   return std::nullopt;
 }
 
-// Reader of the patch maps that one program needs. The caller stores the records. Each map is read once.
+// Reader of the patch maps that one program needs. The caller stores the records. A map that was read is not read again
+// while its id stays in `wanted`.
 class WantedMaps {
  public:
   // `name`: beginning of the flight recorder's line about an invalid map.

@@ -22,10 +22,10 @@
 namespace yars::display {
 
 // Schedule of frames: one frame for each step of `every_s` seconds of sim time. The number of a step is its sim time
-// divided by `every_s`, so that a restarted display continues the numbers.
+// divided by `every_s`, rounded down, so that a restarted display continues the numbers.
 class FrameSteps {
  public:
-  explicit FrameSteps(double every_s) : every_ns_(std::llround(every_s * 1e9)) {}  // > 0
+  explicit FrameSteps(double every_s) : every_ns_(std::llround(every_s * 1e9)) {}  // every_s > 0
 
   // Returns true at the first call in each step, also after a jump back in time (a new epoch).
   bool is_due(std::int64_t sim_time_ns) {
@@ -34,8 +34,10 @@ class FrameSteps {
     step_ = step;
     return true;
   }
+  // Number of the step of the last is_due(); -1 before the first call.
   std::int64_t number() const { return step_; }
-  // Number of the final picture, painted at `sim_time_ns`. Between two steps it is the number of the next step.
+  // Number of the final picture, painted at `sim_time_ns`. Unless a step begins exactly then, it is the
+  // number of the next step.
   std::int64_t last_number(std::int64_t sim_time_ns) const { return (sim_time_ns + every_ns_ - 1) / every_ns_; }
 
  private:
@@ -44,10 +46,11 @@ class FrameSteps {
 };
 
 // Writes pictures as frame_NNNNNN.png. A reader never finds a partial file. A failed write leaves the folder
-// unchanged, with one exception: on a full disk the oldest frames are removed to make space, until `keep` - 1 are left.
+// unchanged, with one exception: on a full disk, and if `keep` is not 0, the oldest frames are removed to make space,
+// until `keep` - 1 are left.
 class FrameWriter {
  public:
-  // Makes the folder, mode 0700. `keep`: number of newest frames that stay in the folder, frames of earlier runs
+  // Makes a missing folder, mode 0700. `keep`: number of newest frames that stay in the folder, frames of earlier runs
   // included; 0: all. Error: the folder cannot be made or used.
   // If the folder is moved or replaced later, the next write makes or opens a folder at the path `folder`, with the
   // same checks.
@@ -79,9 +82,10 @@ class FramePublisher {
   // Marks the current picture of the display as not yet published.
   void note_painted() { unpublished_ = true; }
   // Publishes pictures that have arrived from the GPU. If the current picture is not yet published, starts its readback
-  // (copy from the GPU). Never waits. Call work() after each update. `size`: edge of the display [pixels].
+  // (copy from the GPU); if `size` exceeds kMaxFramePixels, logs one warning instead. Never waits. Call work() after
+  // each update. `size`: edge of the display [pixels].
   void work(host::Display& mpd, int size);
-  // Publishes the current picture. Waits for the GPU.
+  // Publishes the pictures whose readback has begun, then the current picture. Waits for the GPU.
   void publish_at_once(host::Display& mpd);
 
  private:

@@ -34,8 +34,8 @@ struct DisplayOptions {
 };
 
 constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // minimum interval: at most 60 redraws per second
-// Interval of updates without a window. At clock rate 1, a frame follows its step (FrameSteps) by about 10 ms at most.
-// No sweep is lost, because the session's ring keeps sweeps for 5 s.
+// Interval of updates without a window. If sim time runs at the rate of real time, a frame follows the begin of its
+// step (FrameSteps) by about 10 ms at most. No sweep is lost, because the session's ring keeps sweeps for 5 s.
 constexpr std::chrono::milliseconds kHeadlessInterval{10};
 
 // Display without a window: paints when a picture is due for the folder or the segment.

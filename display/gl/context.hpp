@@ -43,7 +43,8 @@ struct KeyEdge {
   bool pressed = false;
 };
 
-// Events of the window since the last call of take_input(). Clicks are positions in display units (draw_list.hpp).
+// Events of the window since the last call of take_input(). Clicks are positions in display units (draw_list.hpp). A
+// click beside the display has a coordinate outside 0..480.
 struct WindowInput {
   std::vector<KeyEdge> keys;
   std::vector<Point> clicks;
@@ -66,8 +67,8 @@ class Window : public Context {
 };
 
 // Opens a window. `size`: width and height of the window [GLFW screen coordinates].
-// Errors: the environment has neither DISPLAY nor WAYLAND_DISPLAY, or no OpenGL 3.3. The error names the options of
-// radar-display that need no window.
+// Errors: the environment has neither DISPLAY nor WAYLAND_DISPLAY, or no window with OpenGL 3.3 can be opened. The
+// error names the options with which radar-display needs no window.
 error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size);
 
 }  // namespace yars::display::gl

@@ -44,7 +44,8 @@ struct Display::State {
         view(parameters.view),
         framebuffer(size) {}
 
-  // True if the framebuffer already shows these inputs and the symbols in `list`.
+  // True if the framebuffer already shows these inputs and the symbols in `list`. The video may be displaced by less
+  // than kVisibleShift.
   bool is_shown(const Shown& wanted) const {
     return shown && shown->size == wanted.size && shown->video == wanted.video && shown->map == wanted.map &&
            shown->brightness == wanted.brightness && shown->contrast == wanted.contrast &&
@@ -114,7 +115,7 @@ int Display::size() const {
 
 bool Display::draw(const DisplayInput& input) {
   State& state = *state_;
-  // Stored sweeps of another mode are not shown.
+  // Sweeps stored in a mode other than the radar state's are not shown.
   const bool video = shows_video(input.state) && state.store.mode() == input.state.mode;
   State::Shown wanted;
   wanted.video_version = state.store.version();

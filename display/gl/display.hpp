@@ -1,6 +1,6 @@
 // Radar display in OpenGL: stores sweeps and patch maps, and draws them with the symbology.
 // Inputs: sweeps, patch maps, DisplayInput.
-// Outputs: a square picture in a framebuffer object (render target in GPU memory) of the display. The picture can be
+// Outputs: a square picture in a framebuffer object (render target in GPU memory) that Display owns. The picture can be
 // read back as RGB, or copied to the current framebuffer.
 // Units: sizes in pixels.
 // Threads: an OpenGL context (context.hpp) must be current for the lifetime of an object.
@@ -34,7 +34,7 @@ class Display {
   void resize(int size);
   int size() const;
 
-  // Draws the picture. Returns false, without drawing, if the picture already shows this input.
+  // Draws the picture. Returns false, without drawing, if a new picture would not differ visibly from the present one.
   bool draw(const DisplayInput& input);
 
   imageio::Image read() const;  // RGB

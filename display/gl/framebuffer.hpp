@@ -57,8 +57,9 @@ class Readback {
 
   // Begins a copy. Returns false if two copies are already pending.
   bool start(const Framebuffer& picture, std::int64_t tick, std::int64_t sim_time_ns);
-  // Take the oldest pending copy. False: no copy is pending or ready, or the driver failed. A failed copy is discarded.
-  // take_when_ready() waits at most 10 s. The memory of `picture.pixels` is reused.
+  // Both move the oldest pending copy to `picture`, whose memory is reused. take_when_ready() waits at most 10 s.
+  // False: no copy is pending, the copy is not ready yet (take_if_ready() only), or the driver failed. A failed copy is
+  // discarded; `picture` is then unspecified.
   bool take_if_ready(Picture& picture);
   bool take_when_ready(Picture& picture);
 
@@ -77,7 +78,7 @@ class Readback {
   std::size_t first_ = 0, count_ = 0;  // index of the oldest pending copy; number of pending copies
 };
 
-// Draws a picture into the current framebuffer without scaling.
+// Copies the content of a Framebuffer into the current framebuffer without scaling.
 class PicturePass {
  public:
   PicturePass();
@@ -85,7 +86,7 @@ class PicturePass {
   PicturePass(const PicturePass&) = delete;
   PicturePass& operator=(const PicturePass&) = delete;
 
-  // `left`, `bottom`: lower left corner of the picture in the framebuffer [pixels].
+  // `picture`: source. `left`, `bottom`: lower left corner of the copy in the current framebuffer [pixels].
   void draw(const Framebuffer& picture, int left, int bottom);
 
  private:

@@ -120,7 +120,7 @@ HostStateGuard::~HostStateGuard() {
   glBindBuffer(GL_PIXEL_PACK_BUFFER, name_of(pack_buffer_));
   glBindVertexArray(name_of(vertex_array_));
   glBindBuffer(GL_ARRAY_BUFFER, name_of(array_buffer_));
-  // A program that the host deleted while it was current ceased to exist when the display bound its own program.
+  // A shader program that the host deleted while it was current ceased to exist when the display bound another one.
   glUseProgram(glIsProgram(name_of(program_)) != GL_FALSE ? name_of(program_) : 0);
   glBindFramebuffer(GL_READ_FRAMEBUFFER, name_of(read_framebuffer_));
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, name_of(draw_framebuffer_));

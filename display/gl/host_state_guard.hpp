@@ -24,7 +24,7 @@ class HostStateGuard {
 
  private:
   static constexpr std::size_t kUnits = 2;         // texture units that the display uses
-  static constexpr std::size_t kDrawBuffers = 8;   // minimum of GL_MAX_DRAW_BUFFERS in OpenGL 3.3
+  static constexpr std::size_t kDrawBuffers = 8;   // every OpenGL 3.3 has at least this number of draw buffers
   static constexpr std::size_t kEnables = 20;      // size of kEnable in host_state_guard.cpp
   static constexpr std::size_t kPixelNumbers = 8;  // size of kPixelNumber in host_state_guard.cpp
   struct Unit {

@@ -18,8 +18,8 @@ constexpr int kFloatsPerWedge = 10;
 // The number 240 in the shaders is half of kDisplayUnits.
 // kMargin: each wedge is drawn wider by kMargin on either side, so that no gap is visible between adjacent wedges.
 // A gap arises because the apex of a wedge is the aircraft's position, and the aircraft moves between two sweeps.
-// The gap is 0.22 units in a Doppler beam sharpened scan at 4.7 NM range and 250 m/s ground speed.
-// In the overlap the newer wedge is on top. A margin larger than needed would blur the edges of the newest wedges.
+// The gap is 0.22 display units in a Doppler beam sharpened scan at 4.7 NM range and 250 m/s ground speed.
+// In the overlap the newer wedge is on top. A margin larger than needed would visibly widen the newest wedges.
 constexpr const char* kVideoVertex = R"(#version 330 core
 layout(location = 0) in vec2 apex;
 layout(location = 1) in vec4 edges;

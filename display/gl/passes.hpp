@@ -48,13 +48,14 @@ class MapPass {
   MapPass(const MapPass&) = delete;
   MapPass& operator=(const MapPass&) = delete;
 
-  // `pixels`: size x size, row 0 at the top. Ignored: id 0, size 0, too few pixels, an id that is already stored.
+  // `pixels`: video levels, size x size, row 0 at the top. Ignored: id 0, size 0, too few pixels, an
+  // id that is already stored.
   void add(std::uint64_t id, std::uint32_t size, std::span<const std::uint8_t> pixels);
   // Deletes all maps with other ids.
   void keep(std::span<const std::uint64_t> ids);
   bool has(std::uint64_t id) const;
 
-  // `display_size`: edge of the display [pixels].
+  // Draws nothing if the id is not stored. `display_size`: edge of the display [pixels].
   void draw(std::uint64_t id, const LightTexture& light, const Color& color, int display_size);
 
  private:
@@ -74,7 +75,7 @@ class MapPass {
 
 // Draws a DrawList over the video: the gray scale, then the layers. A layer has plates (black rectangles), halos (black
 // margins of strokes) and strokes. Strokes have round ends. Edges of strokes and halos are antialiased over one pixel
-// at any display size: the alpha of a pixel depends on its distance from the segment.
+// at any display size: the alpha of a pixel depends on its distance from the stroke's centre line.
 class OverlayPass {
  public:
   OverlayPass();

@@ -20,7 +20,7 @@ class LightTexture {
   LightTexture& operator=(const LightTexture&) = delete;
 
   void set(const std::array<float, 256>& light);  // index: video level
-  void bind(int unit) const;                      // binds a texture 256 texels wide, 1 high
+  void bind(int unit) const;                      // binds the texture, 256 texels wide, 1 high
 
  private:
   std::uint32_t texture_ = 0;

@@ -239,8 +239,8 @@ void DrawList::polygon(std::span<const Point> corners, bool dashed) {
 
 void DrawList::thin_arc(Point center, float radius, float from_deg, float to_deg) {
   // A chord of c = 8 units deviates from an arc of radius r by c^2 / (8 r). At r = 100 units, the first of four arcs,
-  // this is 0.08 units. At the smallest spacing, 0.05 of the range, the first arc has r = 20 units and deviates by 0.4
-  // units. 57.3 deg is 1 rad.
+  // this is 0.08 units. At a spacing of 0.05 of the range, the first arc has r = 20 units and deviates by 0.4 units.
+  // 57.3 deg is 1 rad.
   const int sides = std::max(2, static_cast<int>(radius * (to_deg - from_deg) / 57.3F / 8.0F));
   Point last = on_circle(center, radius, from_deg);
   for (int i = 1; i <= sides; ++i) {

@@ -1,7 +1,7 @@
 // Draw list of the display: line segments, filled rectangles and video steps, in layers, without OpenGL.
 // Inputs: drawing calls in display units.
 // Outputs: plain data by layer; boxes occupied by texts, scales and symbols, which label_layout.hpp reads.
-// Units: display units. The edge of the square is 480 units. Origin upper left, x right, y down.
+// Units: display units. The display is a square with an edge of 480 units. Origin upper left, x right, y down.
 // Accuracy: coordinates of strokes and occupied boxes are rounded to 1/8 unit, so that the list usually stays equal
 //   during a motion that is too small to see.
 // Threads: one thread at a time.
@@ -82,7 +82,7 @@ void stroke_text(std::string_view text, StrokeSink& sink);
 // Width from the left edge of the first glyph to the right edge of the last [cap heights].
 float text_width(std::string_view text);
 
-// Layers from bottom to top. Within a layer, plates are drawn first, then halos, then strokes.
+// Layers from bottom to top, left column first. Within a layer, plates are drawn first, then halos, then strokes.
 //   grid     range arcs, zero azimuth line        symbols  texts, scales
 //   lines    lines on the ground                  notices  messages
 //   points   points on the ground                 steered  the cursor
@@ -99,7 +99,7 @@ struct Segment {
   friend bool operator==(const Segment&, const Segment&) = default;
 };
 
-// One step of the gray scale, drawn with the light of the video level `video`.
+// One bar of the gray scale that the display shows, drawn as bright as video of the level `video`.
 struct VideoStep {
   Rect rect;
   std::uint8_t video = 0;
@@ -155,7 +155,8 @@ class DrawList {
   // Returns the box of the text, or of its frame if boxed, and records that box as occupied.
   Rect text(std::string_view words, Point at, const TextStyle& style = {}, BoxKind kind = BoxKind::text);
   void occupy(std::string_view name, const Rect& rect, BoxKind kind);  // records a box as occupied
-  // Adds a black plate behind each fixed text that a stroke of the layers `lines` or `points` crosses.
+  // Adds a black plate behind each text (BoxKind::text) that a stroke of the layers `lines` or `points` crosses or
+  // nearly touches.
   void blank_behind_texts();
 
   const LayerContent& content(Layer layer) const { return layers_[static_cast<std::size_t>(layer)]; }

@@ -19,8 +19,8 @@ namespace yars::display {
 namespace {
 
 constexpr float kSymbolRadius = 6.0F;  // [display units] radius of a point's symbol
-// [display units] Distances of the inner and outer ends of the cursor's arms from its centre. A point's symbol fits
-// between the inner ends.
+// [display units] Distances of the inner and outer ends of the cursor's arms from its centre. The circle or square of a
+// point fits between the inner ends.
 constexpr float kGapInside = 7.0F, kArm = 16.0F;
 // [display units] Minimum distance from a symbol to a text: kMarginDrawn if the last picture had the symbol's name,
 // else kMarginNew. Without this hysteresis the symbol could blink.

@@ -1,4 +1,5 @@
-// Ground symbols: cursor, sequence points with their names, window outline of a map, pattern steering line (PSL).
+// Ground symbols: cursor, sequence points with their names, window outline of a map, and pattern steering line (PSL), a
+// line that shows from which direction the target is approached.
 // Inputs: DisplayInput, view and frame (plan_view.hpp), route, labels of the last picture.
 // Outputs: strokes and occupied boxes in a draw list; labels for label_layout.hpp.
 // Frame: the cursor is drawn at its true ground position, as is the video. Points and target are displaced from their
@@ -28,9 +29,9 @@ void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFram
 // Draws the window of the commanded patch map while the map forms: a square with two sides along the line of sight.
 void draw_window_outline(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list);
 
-// Display positions of the sequence points in RadarState::points, in the same order. nullopt: the point is not drawn,
-// because it is outside the display or its symbol would cover a text or a scale without gaps (BoxKind::solid). The
-// selected point is always drawn if it is on the display.
+// Display positions of the sequence points in RadarState::points, in the same order. nullopt: the entry has no point,
+// or the point is not drawn, because it is outside the display or its symbol would be on or too near a text or a scale
+// without gaps (BoxKind::solid). The selected point is always drawn if it is on the display.
 using PlacedPoints = std::array<std::optional<Point>, radar::kMaxPointsDrawn>;
 PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                           const LabelMemory& labels, const DrawList& list);

@@ -27,7 +27,7 @@ constexpr Clearance kNewPosition{3.5F, 2.0F, 2.0F, false}, kLastResort{3.5F, 2.0
 constexpr Clearance kMoveNearer{7.0F, 3.0F, 3.0F, false};
 constexpr float kEdgeAllowance = 1.5F;  // [units] reduces the clearance from the edge of the display
 constexpr float kBesideText = 3.0F;     // [units] extra clearance beside another text; closer texts read as one word
-constexpr float kAroundSymbol = 2.0F;   // [units] extra clearance from another point; a closer label seems to name it
+constexpr float kAroundSymbol = 2.0F;   // [units] extra clearance from another point; a closer label seems its name
 
 struct Position {
   Point offset;  // [units] vector from the anchor to the reference point of the text
@@ -164,7 +164,7 @@ class Search {
   // with gaps (BoxKind::scale). With `crosses_symbols` it may also cross points, solid scales, the window outline and
   // the steering line. Points and texts close to the gap between the anchor and the start of the line are ignored.
   // Close means within 1.5 units for a kept position, 1 unit for a new one, and 0.5 units for a move nearer the symbol.
-  // A kept position is therefore lost later.
+  // A kept position therefore stays free more easily than a new one.
   bool line_is_clear(const Position& position, const Clearance& clearance) const {
     const Segment own = line(position);
     for (const OccupiedBox& box : list_.occupied()) {

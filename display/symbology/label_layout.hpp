@@ -6,7 +6,7 @@
 // A label stands in one of eight positions around its symbol, or farther out at the end of a leader line. A label
 // without a free position is omitted. A label keeps its position from picture to picture while the position is clear.
 // A label moves nearer its symbol only to a position with more clearance than a new label needs. The same labels, list
-// and memory give the same positions. A second call with the updated memory gives these positions again.
+// and memory give the same positions. So do the same labels and list with the memory that the first call has updated.
 // Units: display units.
 #pragma once
 
@@ -21,7 +21,7 @@
 
 namespace yars::display {
 
-// A heading stands farther from its symbol than a name.
+// Name of a point, or heading of the steering line. A heading stands farther from its symbol than a name.
 enum class LabelRole : std::uint8_t { name, heading };
 
 struct Label {
@@ -64,7 +64,7 @@ class LabelMemory {
   std::size_t count_ = 0;
 };
 
-// Adds the labels to `list` and replaces `memory` by their positions.
+// Adds all labels that have a free position to `list`, and replaces `memory` by these positions.
 void place_labels(std::span<const Label> labels, LabelMemory& memory, DrawList& list);
 
 }  // namespace yars::display

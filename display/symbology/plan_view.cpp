@@ -58,7 +58,7 @@ double displacement_units(const PlanView& view, const ViewFrame& drawn, const Vi
 namespace {
 
 constexpr double kMinRange_m =
-    geo::kMetresPerNauticalMile;  // used while the state has no range, to avoid a division by 0
+    geo::kMetresPerNauticalMile;  // used while RadarState has no range, to avoid a division by 0
 
 }  // namespace
 

@@ -33,14 +33,14 @@ struct DisplayInput {
   databuffer::PatchMap map{};     // map with the id state.map_shown; another id: that map could not be read
   bool state_machine_alive = true;
   bool model_alive = true;
-  bool ownship_fresh = true;  // a source delivers ownship
+  bool ownship_fresh = true;  // a source still delivers the position and motion of the aircraft
 };
 
 // Position, orientation and scale of a picture on the ground.
 struct ViewFrame {
   geo::GeoPoint apex;
   geo::Bearing up;       // true bearing that points up: ground track, or line of sight of a map
-  double range_m = 0.0;  // selected range, or window of a map
+  double range_m = 0.0;  // selected range, or side length of a patch map
 };
 
 // Projection from polar coordinates about the apex to display units. Source: docs/spec/pilots_interface.md#view.
@@ -49,8 +49,7 @@ class PlanView {
   // Fits the configured width and height, in fractions of the selected range, into the square with equal scales.
   // By default the apex is 40 units above the middle of the lower edge, and the range is 400 units long.
   explicit PlanView(const radar::ViewConfiguration& view);
-  // The window of the map fills the square. The apex is below the lower edge if it is more than half a
-  // window from the centre.
+  // The map fills the square. The apex is below the lower edge if it is more than half a window from the map's centre.
   explicit PlanView(const databuffer::PatchMap& map);
 
   Point apex() const { return apex_; }

@@ -166,7 +166,7 @@ void PolarStore::erase_if(Predicate gone) {
   });
 }
 
-// Erases covered sweeps whose near point is inside the swept sector, as seen from `apex`, the position of the aircraft.
+// Erases covered sweeps whose near point (near_ecef) is inside the swept sector, seen from the aircraft at `apex`.
 // As the aircraft flies, the azimuth of ground beyond the near point changes more slowly than that of the near point.
 // The scan has therefore swept that ground, too.
 void PolarStore::erase_swept(geo::GeoPoint apex) {

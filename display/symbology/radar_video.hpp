@@ -1,5 +1,5 @@
 // Radar video on the display: light (0..1) of the eight grays, and a store of sweeps in polar coordinates.
-// Inputs: sweeps of the model; brightness and contrast of the pilot.
+// Inputs: sweeps from radar-model; brightness and contrast as the pilot sets them.
 // Outputs: table of light by video level; stored sweeps with their video, sorted by azimuth.
 // Source: docs/spec/pilots_interface.md#sweeps, docs/spec/pilots_interface.md#video
 #pragma once
@@ -45,22 +45,22 @@ struct StoredSweep {
 enum class Insertion : std::uint8_t { ignored, first, before_first, after_last, between, replaced };
 
 // Sweeps of one mode and epoch (the picture), sorted by true azimuth. The order begins opposite to the first sweep.
-// A sweep of another mode or epoch starts a new picture. Blank sweeps, and wedges of no width or wider than 45 deg, are
-// not stored.
-// A blank sweep with the flag kSweepScanEnd still ends its scan.
-// A new wedge covers stored sweeps with their middle inside the new wedge. Covered sweeps are drawn below newer sweeps.
+// A sweep of another mode or epoch starts a new picture. Sweeps that are blank, have no position, range or width, or
+// are wider than 45 deg, are not stored.
+// A blank sweep of this picture with the flag kSweepScanEnd still ends its scan.
+// A new wedge covers the stored sweeps whose middle azimuth is inside it. Covered sweeps are drawn below newer sweeps.
 // They are not erased at once, because equal azimuth is not equal ground while the aircraft moves.
 // A covered sweep is erased
 // (1) when the current scan has swept the ground of the covered sweep beyond kNearFraction of the range, or
 // (2) when a later scan covers the sweep again.
-// Rule 2 does not apply while the store has an uncovered sweep that is two or more scans old. This happens after a
+// Case (2) does not apply while the store has an uncovered sweep that is two or more scans old. This happens after a
 // change to a narrower scan.
 // Sweeps that two complete scans did not renew are erased. A full store drops covered sweeps first, then the oldest.
 class PolarStore {
  public:
   static constexpr int kRows = 2048;             // [sweeps] twice the 1024 sweeps of the session's ring
   static constexpr int kRowSamples = 1024;       // longer sweeps are averaged to at most this many samples
-  static constexpr double kNearFraction = 0.05;  // fraction of the range; rule (1) ignores nearer ground
+  static constexpr double kNearFraction = 0.05;  // fraction of the range; case (1) ignores nearer ground
 
   PolarStore();
   Insertion insert(const databuffer::Sweep& sweep);

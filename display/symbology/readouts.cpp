@@ -19,7 +19,7 @@ namespace {
 constexpr float kFirstButton = 80.0F;  // [units] from the corner to the middle of a side's first button
 constexpr float kButtonPitch = 80.0F;  // [units] distance between buttons
 constexpr float kMargin = 6.0F;        // [units] distance from a text to the edge of the display
-constexpr float kTopRow = 12.0F;       // [units] distance of the middle of top and bottom legends from the edge
+constexpr float kTopRow = 12.0F;       // [units] from the centre line of a top or bottom legend to the edge
 constexpr float kZoneDepth = 44.0F;    // [units] depth of a click zone from the edge
 constexpr float kHalfZone = 34.0F;     // [units] half length of a click zone along the side; no zone covers a corner
 
@@ -226,8 +226,8 @@ void draw_silent(const DisplayInput& input, DrawList& list) {
 
 namespace {
 
-constexpr float kSmallHeight = 9.0F;   // [units] cap height of the differences of IPVU
-constexpr float kLargeHeight = 14.0F;  // [units] cap height of the texts of PVU
+constexpr float kSmallHeight = 9.0F;   // [units] cap height of the velocity differences of IPVU
+constexpr float kLargeHeight = 14.0F;  // [units] cap height of the texts in mode PVU
 
 struct Row {
   const char* name;

@@ -26,8 +26,8 @@ LegendPosition legend_position(int button);
 // `at` is in no zone, for example in the middle, in a corner, between two zones or outside the display.
 std::optional<int> button_at(Point at);
 
-// Draws a number, unless the cursor overlaps it: an arm of the cursor could be read as a digit. An omitted number still
-// occupies its box. The cursor must be drawn before numbers.
+// Draws a number, unless the cursor overlaps it: an arm of the cursor could be read as a digit. The box of an omitted
+// number still counts as occupied, so no label is placed there. The cursor must be drawn before numbers.
 void draw_number(std::string_view words, Point at, const TextStyle& style, DrawList& list);
 
 // Draws the legends of all buttons. A legend is framed if the bit of its button is set in `state.boxed`.
@@ -36,11 +36,12 @@ void draw_legends(const databuffer::RadarState& state, DrawList& list);
 void draw_brightness(const databuffer::RadarState& state, DrawList& list);      // between PB 4 and 5
 void draw_range(const databuffer::RadarState& state, DrawList& list);           // between PB 13 and 14
 void draw_window_size(const databuffer::RadarState& state, DrawList& list);     // above PB 8; blank: no text
-void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // magnetic bearing [deg], range [NM]
-// Position errors of UPDT: north and east components in feet, or in NM if the total error exceeds kUpdateErrorInFeet.
-// INV replaces the errors when the time for an INS update has expired. The remaining seconds are above PB 7.
+void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // magnetic bearing, ground range
+// Position error of UPDT, from the selected sequence point to the cursor: north and east components in feet, or in NM
+// if the total error exceeds kUpdateErrorInFeet. The seconds left for an INS update are above PB 7. When they have
+// passed, INV replaces the error.
 void draw_update_errors(const databuffer::RadarState& state, DrawList& list);
-void draw_map_timer(double seconds, DrawList& list);  // [s]; NaN draws nothing
+void draw_map_timer(double seconds, DrawList& list);  // nothing if not finite
 // Draws "A/A" or "A/G RANGING" in these modes, because no legend names them. Draws nothing in other modes.
 void draw_mode_name(const databuffer::RadarState& state, DrawList& list);
 void draw_freeze(DrawList& list);
@@ -48,10 +49,10 @@ void draw_message(const databuffer::RadarState& state, DrawList& list);
 void draw_banner(std::string_view words, DrawList& list);     // centered, large: STBY
 void draw_silent(const DisplayInput& input, DrawList& list);  // NO OWNSHIP, NO MODEL, NO STATE MACHINE
 
-// Velocity differences: velocity measured by the radar minus velocity of the navigator, in ft/s.
-// Source: docs/spec/pilots_interface.md#rule-16.
+// Velocity differences: velocity measured by the radar minus velocity of the navigator, in ft/s. Components: along the
+// ground track, to the right, up. Source: docs/spec/pilots_interface.md#rule-16.
 
-// IPVU: draws the differences of the last update while the flag kVelocityShown is set.
+// IPVU: draws the differences of the last velocity measurement while the flag kVelocityShown is set.
 void draw_velocity_differences(const databuffer::RadarState& state, DrawList& list);
 
 // PVU: draws the differences in large text, the number of the current beam, and the progress of a map that forms.

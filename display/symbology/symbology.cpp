@@ -40,7 +40,7 @@ constexpr float kCaretLength = 8.0F, kCaretHalf = 4.0F;  // length and half widt
 // Gray scale, in the lower right, outside the +-60 deg sector. [units]
 constexpr Rect kGrayScale{420.0F, 344.0F, 434.0F, 424.0F};
 
-constexpr float kArcHalfSector = 60.0F;      // [deg] the arcs end at the gimbal limit of the antenna
+constexpr float kArcHalfSector = 60.0F;      // [deg] the arcs end this far from the ground track on either side
 constexpr double kDefaultArcSpacing = 0.25;  // fraction of the range
 constexpr double kMinArcSpacing = 0.05;      // fraction of the range; closer arcs would hide the video
 
@@ -181,10 +181,10 @@ struct Format {
   bool scales = false;       // azimuth and elevation scale, carets, pitch ball
   bool limit_balls = false;  // limits of the scan or the map on the azimuth scale
   bool gray_scale = false;
-  bool ground = false;  // cursor with its readout, sequence points, velocity differences of IPVU
+  bool ground = false;  // cursor with readout, sequence points, steering line, UPDT errors, IPVU differences
   bool window_size = false;
   bool mapping = false;   // window outline and map timer
-  bool readouts = false;  // range, brightness
+  bool readouts = false;  // range, brightness, FREEZE
   bool velocity = false;  // velocity differences and current beam of PVU
 };
 
@@ -264,7 +264,7 @@ void draw_scales(const DisplayInput& input, DrawList& list) {
 
 // Sector in azimuth from the aircraft.
 struct Sector {
-  geo::Bearing middle;  // true
+  geo::Bearing middle;  // true bearing
   double half_width_deg = 0.0;
 };
 

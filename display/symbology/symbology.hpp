@@ -1,7 +1,8 @@
 // Symbology of the radar formats (the pictures of the modes): scales, carets, readouts, legends and ground symbols.
 // Inputs: DisplayInput, view and frame (plan_view.hpp); radar configuration; label positions of the last picture.
 // Outputs: a draw list.
-// Units: azimuths are relative to the ground track, elevations and pitch to the horizon [deg].
+// Units: [deg]. Azimuths count from the ground track, right positive; elevations and pitch from the horizontal, up
+//   positive; roll: right wing down positive.
 // Source: docs/spec/pilots_interface.md#symbology
 #pragma once
 
@@ -24,8 +25,8 @@ namespace yars::display {
 
 // Azimuth scale with the antenna caret.
 void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list);
-// Two balls on the azimuth scale at the limits of the scan or map, and two ticks at the edges of the blind zone.
-// The balls may pass the scale's ticks at +-60 deg. They stop at the edge of the display.
+// Two balls on the azimuth scale at the limits of the scan or map, and two ticks at +-`blind_zone_deg`, the edges of
+// the blind zone. The balls may pass the scale's ticks at +-60 deg. They stop at +-115 deg, near the display's edge.
 void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, DrawList& list);
 // Elevation scale with the antenna caret.
 void draw_elevation_scale(double antenna_deg, DrawList& list);
@@ -34,18 +35,18 @@ void draw_elevation_scale(double antenna_deg, DrawList& list);
 enum class AttitudeSource : std::uint8_t { ins, ahrs, invalid };  // ins: round ball; ahrs: square; invalid: crossed out
 void draw_pitch_ball(double pitch_deg, double roll_deg, AttitudeSource source, DrawList& list);
 
-// Spacing of the range arcs as a fraction of the range. `spacing_nm` has the configured spacing [NM] of each range; the
-// last value applies to further ranges. A fraction below 0.05 is doubled until it is at least 0.05. Without a
-// configured spacing the fraction is 0.25.
+// Spacing of the range arcs as a fraction of the range. `spacing_nm` has the configured spacing [NM] for each of the
+// selectable ranges; the last value applies to further ranges. A fraction below 0.05 is doubled until it is at least
+// 0.05. Without a configured spacing > 0 the fraction is 0.25.
 double arc_spacing(double range_nm, std::size_t range_index, std::span<const double> spacing_nm);
 // Arcs at each multiple of the spacing and at the range itself.
 void draw_range_arcs(const PlanView& view, double spacing, DrawList& list);
 void draw_zero_azimuth_line(const PlanView& view, DrawList& list);
 void draw_gray_scale(DrawList& list);
 
-// True when the radar operates and its mode shows sweeps.
+// True with power OPR in a mode that shows sweeps.
 bool shows_video(const databuffer::RadarState& state);
-// True when the radar operates, its mode shows a map, and `input` has that map.
+// True with power OPR in a mode that shows a patch map, if `input` has that map.
 bool shows_map(const DisplayInput& input);
 
 // Sections and values of a configuration that the symbology reads. The configuration must outlive this object.
@@ -64,11 +65,11 @@ struct SymbologyParameters {
   const std::vector<radar::RoutePoint>& route;
 };
 
-// Draws all symbols and texts that power and mode require. STBY draws legends, messages and the word STBY. A text
-// reports a state machine or radar model that is not alive, and a missing ownship. With power OFF only a state machine
-// that is not alive is reported, and nothing else is drawn. `view` and `frame` apply to pictures of sweeps. Pictures
-// of a patch map use the view and frame of the map's record. `labels` has the label positions of the last picture, and
-// is updated.
+// Draws all symbols and texts that power and mode require. With power STBY these are the legends, the message, the name
+// of A/A or A/G ranging, and the word STBY. Texts report a state machine or radar model that is not alive, and a
+// missing ownship. With power OFF only a state machine that is not alive is reported, and nothing else is drawn.
+// `view` and `frame` apply unless a patch map is shown; its picture has the view and frame of `input.map`. `labels` has
+// the label positions of the last picture, and is updated.
 // Pure: the same input and labels give the same list. Repeating the call with the updated labels gives the same list.
 void draw_symbology(const DisplayInput& input, const SymbologyParameters& parameters, const PlanView& view,
                     const ViewFrame& frame, LabelMemory& labels, DrawList& list);

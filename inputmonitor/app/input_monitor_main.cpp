@@ -12,7 +12,8 @@ namespace {
 using namespace yars;
 using error::Expected;
 
-// Built-in device maps, followed by the maps of the configuration. The last map that fits a device applies.
+// Device maps, which assign events to the controls of devices: the built-in maps, then those of the configuration. The
+// last map that fits a device applies.
 Expected<inputmonitor::DeviceMaps> device_maps(const databuffer::ProgramOptions& options) {
   auto built_in = config::load_configuration_text(config::shipped_devices_text(), "config/devices.guf");
   if (!built_in) return tl::unexpected(built_in.error());
@@ -66,8 +67,8 @@ int main(int argc, char** argv) {
   app.option("--source", sources,
              "window, terminal, script:FILE, evdev:PATH[,MAP] or auto (default); may be given several times")
       .repeatable();
-  const databuffer::Option learn =
-      app.option("--learn", learn_path, "path of a device: prompts for its controls and makes a map; needs no session");
+  const databuffer::Option learn = app.option(
+      "--learn", learn_path, "path of a device: prompts for its controls and makes a device map; needs no session");
   app.option("--out", map_file, "file for the map of --learn (else standard output)").needs(learn);
   return databuffer::run_program(argc, argv, app, options, [&] {
     return learn_path.empty() ? run(options, sources) : inputmonitor::learn_device(learn_path, map_file);

@@ -89,8 +89,8 @@ class LearningDialogue {
  public:
   LearningDialogue(DeviceReader& reader, Learning& learning) : reader_(&reader), learning_(&learning) {}
 
-  // Runs until no prompt is left, the device disconnects, or the user quits. Returns true if the device has
-  // disconnected.
+  // Runs until no prompt is left, the device disconnects, the user quits, or a signal stops the program. Returns true
+  // if the device has disconnected.
   bool run() {
     show_prompt();
     while (!learning_->finished() && !ended_ && !databuffer::stop_requested()) {

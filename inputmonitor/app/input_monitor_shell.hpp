@@ -1,8 +1,10 @@
-// Shells of input-monitor. One feeds events into a session; the other makes a device map (--learn).
+// Shells of input-monitor. One feeds events into a session. The other (--learn) makes a device map, which assigns
+// events to the controls of a device.
 // Inputs: an EventSource; for --learn, a device and the commands on standard input.
 // Outputs: events in an input lane; for --learn, a device map as GUF text.
-// Time stamps: each event in the lane has its sim time [ns], its CLOCK_MONOTONIC time [ns] and a sequence number.
-// Errors: a full lane drops the event. The drop is written to the log and to the session's flight recorder.
+// Time stamps: an event in the lane has the sim time [ns] and the CLOCK_MONOTONIC time [ns] at which it was taken from
+// its source, and a sequence number.
+// Errors: an event for a full lane is dropped. The drop is written to the log and to the session's flight recorder.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +20,7 @@
 namespace yars::inputmonitor {
 
 // Runs an event source in a session and pushes its events into the input lane `lane`.
-// Events are pushed on arrival. In lockstep, or with a source that follows sim time, events are pushed once per tick.
+// In lockstep, or with a source that follows sim time, events are pushed once per tick; else on arrival.
 class InputMonitorShell {
  public:
   InputMonitorShell(databuffer::Session& session, std::unique_ptr<EventSource> source, int lane);
@@ -41,7 +43,8 @@ class InputMonitorShell {
 
 // `input-monitor --learn PATH [--out FILE]`: prompts for each control, reads the device and writes its map as GUF.
 // Needs no session. Prompts go to standard error. An empty `file` selects standard output for the map.
-// Errors: the device cannot be read; no control was learned; the device disconnected early; the file cannot be written.
+// Errors: the device cannot be read; no control was learned; the file cannot be written; the device disconnected before
+// the last prompt (the controls learned until then are written).
 error::Expected<void> learn_device(const std::string& path, const std::string& file);
 
 }  // namespace yars::inputmonitor

@@ -47,7 +47,7 @@ class NewFile {
 
   std::string shown() const { return (folder_->path() / name_).string(); }  // target path, for messages
   int descriptor() const;                                                   // -1 after finish()
-  // flush(), place() and finish() report the first failed write.
+  // After a failed write, further writes have no effect, and flush(), place() and finish() report the failure.
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text);
 

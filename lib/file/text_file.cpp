@@ -16,8 +16,8 @@ namespace yars::file {
 
 namespace {
 
-// [bytes] Maximum size of a file, because files are read into memory as a whole. A track of one day at 50 Hz has
-// about this size.
+// [bytes] Maximum size of a file, because files are read into memory as a whole. A track (recorded flight, one position
+// a line) of one day at 50 Hz has about this size.
 constexpr std::uintmax_t kMaxFile_bytes = std::uintmax_t{256} << 20;
 // Maximum number of lines, which bounds the memory of the parsed lines. kMaxFile_bytes alone does not bound it, because
 // a short line takes more memory after parsing than as text.

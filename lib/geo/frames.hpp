@@ -27,7 +27,8 @@ struct GeodeticPosition {
 // Position and height of a finite ECEF vector [m]. The centre of the Earth gives the latitude of a pole.
 GeodeticPosition geodetic_from_ecef(Vector3 ecef);
 
-// Local tangent frame: x east, y north, z up, in metres, at an origin with a height above the ellipsoid.
+// Local tangent frame: x east, y north, z up (normal of the ellipsoid), in metres, at an origin with a height
+// above the ellipsoid.
 class LocalTangentFrame {
  public:
   LocalTangentFrame(GeoPoint origin, HeightAboveEllipsoid height);

@@ -22,7 +22,8 @@ struct GeoPoint {
   double longitude_deg = 0.0;
 };
 
-// Distance between two positions, and the azimuth of the geodesic at each. Both azimuths point away from the start.
+// Distance between two positions, and the azimuth of the geodesic at each. Both azimuths are those of travel
+// from the start to the end.
 struct GeodesicInverse {
   Length distance;
   Bearing azimuth_at_start;

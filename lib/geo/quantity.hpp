@@ -150,7 +150,7 @@ class HeightOver {
 };
 
 using AltitudeMsl = HeightOver<struct MeanSeaLevel>;             // above mean sea level, as in DTED
-using HeightAboveEllipsoid = HeightOver<struct Wgs84Ellipsoid>;  // above WGS84
+using HeightAboveEllipsoid = HeightOver<struct Wgs84Ellipsoid>;  // above the ellipsoid WGS84
 using HeightAboveGround = HeightOver<struct GroundBelow>;        // above the terrain below the point
 
 }  // namespace yars::geo

@@ -119,8 +119,8 @@ struct PngReader {
   ~PngReader() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
-// Returns false after an error of libpng. On an error libpng returns to setjmp() by longjmp(), which calls no
-// destructors. So no local variable may have a destructor.
+// read_header() and read_rows() return false after an error of libpng. On an error libpng returns to setjmp() by
+// longjmp(), which calls no destructors. So no local variable may have a destructor.
 bool read_header(const PngReader& reader, std::FILE* file, int max_side_pixels) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
   png_init_io(reader.png, file);

@@ -35,7 +35,7 @@ struct IndexedImage {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;
-  std::vector<PaletteColour> palette;  // 1 to 256 colours; pixels read from a file may have larger indices
+  std::vector<PaletteColour> palette;  // 1 to 256 colours; a pixel read from a file may have an index outside it
 };
 
 // Writes 8 bits per pixel. The program aborts unless the image has width x height pixels and 1 to 256 colours.

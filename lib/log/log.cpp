@@ -98,7 +98,7 @@ std::shared_ptr<spdlog::logger>& file_logger() {
   return logger;
 }
 
-// Rate limit of all lines of the program.
+// Rate limit of info(), warning() and error(), all lines together.
 struct Filtered {
   std::mutex mutex;
   RepeatFilter filter{10, 200};  // maximum number of lines per window: of one kind, of all kinds

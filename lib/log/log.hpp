@@ -31,7 +31,7 @@ class RepeatFilter {
   struct SuppressedLines {
     std::string line;     // the newest suppressed line
     std::uint64_t count;  // number of suppressed lines
-    std::string text() const { return line + " (and " + std::to_string(count - 1) + " more like it)"; }
+    std::string text() const { return line + " (and " + std::to_string(count - 1) + " more suppressed)"; }
   };
   // Returns the suppressed lines of each kind whose window has ended, and removes the kind. With `all`, every window
   // counts as ended. All evicted kinds together are returned as one kind.
@@ -56,7 +56,7 @@ class RepeatFilter {
 
 // The functions below use the library spdlog. Only log.cpp includes the headers of spdlog.
 inline constexpr std::size_t kLogFileBytes = std::size_t{4} << 20;  // [bytes] a larger file is rotated
-inline constexpr std::size_t kOldLogFiles = 3;  // number of rotated files kept; PROGRAM.1.log is the newest
+inline constexpr std::size_t kOldLogFiles = 3;  // number of rotated files kept; the newest of them is PROGRAM.1.log
 
 // Starts the log on standard error. Levels: trace, debug, info, warning, error, off. False: `level` is none of these.
 bool start(const std::string& program, const std::string& level);

@@ -1,4 +1,4 @@
-// std::vector whose data begin on a cache line (64 bytes), so that no aligned vector load crosses into a second line.
+// std::vector whose data begin at the start of a cache line (64 bytes), so that no aligned SIMD load spans two lines.
 // An allocation of 2 MiB or more requests large memory pages (MADV_HUGEPAGE). With small pages, access along rows and
 // columns of an array of many MiB misses the TLB, the processor's cache of page addresses, more often than the data
 // cache.

@@ -1,5 +1,5 @@
-// The 32-bit hash lowbias32 of counter_rng.hpp for a vector of counts. Each lane (vector element) gets the bits of the
-// scalar hash.
+// The 32-bit hash lowbias32 of counter_rng.hpp for a vector of counts (counter values). Each lane (vector element) gets
+// the bits of the scalar hash.
 // Included once for each target (instruction set) of the library Highway.
 #if defined(YARS_LIB_RANDOM_COUNTER_RNG_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_LIB_RANDOM_COUNTER_RNG_INL

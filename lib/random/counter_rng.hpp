@@ -1,6 +1,6 @@
-// Counter-based random numbers: each number is a pure function of a seed and a count. No state is shared, so any thread
-// may draw any number in any order. Every build draws the same bits. The exception is standard_normal(), which uses log
-// and cos of the C library. Use: pictures and noise, not cryptography.
+// Counter-based random numbers: each is a pure function of a count (the value of a counter), or of a seed and a count.
+// No state is shared, so any thread may draw any number in any order. Every build draws the same bits. The exception is
+// standard_normal(), which uses log and cos of the C library. Use: pictures and noise, not cryptography.
 #pragma once
 
 #include <cmath>
@@ -12,8 +12,8 @@ namespace yars::random {
 // 2^64 / golden ratio, rounded to an odd number. Its multiples modulo 2^64 are spread evenly.
 inline constexpr std::uint64_t kGoldenGamma = 0x9e3779b97f4a7c15U;
 
-// Finalizer of SplitMix64 (the function that mixes the bits of a count), without the last shift. The upper 32 bits of
-// the result are well mixed.
+// Finalizer of SplitMix64 without the last shift. A finalizer is the function that mixes the bits of a count. The upper
+// 32 bits of the result are well mixed.
 // Source: Steele, Lea, Flood 2014, "Fast splittable pseudorandom number generators", function mix64variant13.
 constexpr std::uint64_t splitmix64_rounds(std::uint64_t bits) {
   bits = (bits ^ (bits >> 30U)) * 0xbf58476d1ce4e5b9U;

@@ -54,7 +54,7 @@ double gradient_noise(geo::Vector3 point, std::uint32_t seed) {
                weight_x);
   };
   const double weight_y = fade(in.y);
-  constexpr double kGain = 1.6;  // scales usual extremes to about 1; a change changes all made-up landscapes
+  constexpr double kGain = 1.6;  // scales usual extremes to about 1; another value changes all made-up landscapes
   return kGain * mix(mix(edge(0, 0), edge(1, 0), weight_y), mix(edge(0, 1), edge(1, 1), weight_y), fade(in.z));
 }
 

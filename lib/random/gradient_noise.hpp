@@ -17,12 +17,12 @@ std::uint32_t lattice_hash(std::int32_t x, std::int32_t y, std::int32_t z, std::
 // Gradient noise at a point, about [-1, 1]. The mean is 0, and the value at lattice points is 0.
 double gradient_noise(geo::Vector3 point, std::uint32_t seed);
 
-// Normalized sum of octaves of gradient noise, about [-1, 1]. Each octave has half the wavelength and `persistence`
-// times the amplitude of the previous octave.
+// Sum of at least one octave of gradient noise, divided by the sum of their amplitudes; about [-1, 1]. Each octave has
+// half the wavelength and `persistence` times the amplitude of the previous octave.
 double fractal_noise(geo::Vector3 point, std::uint32_t seed, int octaves, double persistence);
 
-// Ridged sum of octaves, [0, 1], for mountain ridges. An octave is highest where its gradient noise is zero. It is weak
-// where the previous octave is low.
+// Ridged sum of at least one octave, [0, 1], for mountain ridges. An octave is highest where its gradient noise is 0,
+// and weak where the previous octave is low.
 double ridged_noise(geo::Vector3 point, std::uint32_t seed, int octaves);
 
 // 0 below `low`, 1 above `high`, and 3 t^2 - 2 t^3 between `low` and `high`, with t = (value - low) / (high - low).

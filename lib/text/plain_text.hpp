@@ -32,7 +32,7 @@ std::string_view text_of(const char (&field)[N]) {
 
 struct NumberedLine {
   int number = 0;         // counts from 1
-  std::string_view text;  // without comment and without blanks at both ends; never empty
+  std::string_view text;  // without comment and without blanks (ASCII white space) at both ends; never empty
 };
 
 // The lines of `text` that contain more than blanks and a comment. `#` begins a comment.
@@ -45,7 +45,8 @@ std::vector<std::string_view> words_of(std::string_view text);
 // The parts of `text` between separators, each without blanks at both ends. An empty text has one empty field.
 std::vector<std::string_view> fields_of(std::string_view text, char separator);
 
-// The decimal number that `word` consists of, with or without a sign. nullopt if the word is anything else.
+// The decimal number that `word` consists of, with or without a sign. nullopt: the word is anything else, or
+// the number is outside the range of double.
 std::optional<double> finite_number(std::string_view word);
 // The whole number that `word` consists of: digits of the base `base`; for a signed type also a leading '-'. nullopt:
 // the word is anything else, or the number is outside the range of the type.
@@ -56,7 +57,7 @@ std::optional<Whole> whole_number(std::string_view word, int base = 10) {
   if (problem != std::errc{} || end != word.data() + word.size()) return std::nullopt;
   return value;
 }
-// The shortest decimal text from which finite_number() returns the same value.
+// The shortest decimal text from which finite_number() returns the same value; `nan` or `inf` if it is not finite.
 std::string text_of_number(double value);
 
 }  // namespace yars::text

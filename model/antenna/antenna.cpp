@@ -35,7 +35,7 @@ double ScanPattern::edge_deg(int index, int direction) const {
 
 double ScanPattern::turn_deg(int ticks, int direction) const {
   if (turn_ticks == 0) return edge_deg(sweep_ticks, direction);
-  // The rate changes linearly from +rate to -rate, so the path beyond the sector's edge is a parabola.
+  // The rate changes linearly from +rate to -rate, so the azimuth beyond the sector's edge is a parabola over time.
   const double fraction = static_cast<double>(ticks) / turn_ticks;
   const double degrees_per_tick = width_deg / sweep_ticks;
   return edge_deg(sweep_ticks, direction) + direction * degrees_per_tick * turn_ticks * fraction * (1.0 - fraction);
@@ -88,8 +88,8 @@ bool Axis::reached() const {
 }
 
 namespace {
-// Maximum rate [deg/s] at which the scan centre moves, after the ground track or after aim(). It exceeds the turn rate
-// of aircraft. If a scan is slower than the movement of its centre, the left edge of a sweep can lie right of its right
+// Maximum rate [deg/s] at which the scan's centre follows the ground track and aim(). It exceeds the turn rate of
+// aircraft. If a scan is slower than the movement of its centre, the left edge of a sweep can lie right of its right
 // edge.
 constexpr double kMaxCentreRate_dps = 30.0;
 

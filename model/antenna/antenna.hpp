@@ -84,17 +84,18 @@ class Axis {
   double commanded_deg_ = 0.0;
 };
 
-// slewing: moves to the start of a scan. turning: turn-around between passes. pointing: in one direction, by point().
+// slewing: moves to the start of a scan. turning: turn-around between passes. pointing: moves to, or holds, the
+// direction of point().
 enum class Phase : std::uint8_t { parked, slewing, sweeping, turning, pointing };
 
 struct AntennaStep {
   Phase phase = Phase::parked;
-  geo::Bearing left;     // true bearing of the sweep's left edge; valid while sweeping
-  geo::Bearing right;    // true bearing of the sweep's right edge; valid while sweeping
-  geo::Bearing azimuth;  // true bearing of the antenna at the end of the tick
-  geo::Angle elevation;  // above the horizontal
-  int direction = 1;     // +1 clockwise, -1 counter-clockwise
-  int bar = 0;
+  geo::Bearing left;        // true bearing of the sweep's left edge; valid while sweeping
+  geo::Bearing right;       // true bearing of the sweep's right edge; valid while sweeping
+  geo::Bearing azimuth;     // true bearing of the antenna at the end of the tick
+  geo::Angle elevation;     // above the horizontal
+  int direction = 1;        // +1 clockwise, -1 counter-clockwise
+  int bar = 0;              // of the current pass, 0 is the highest; in a turn-around: of the pass before it
   bool reachable = true;    // false: an edge of the sweep is outside the gimbal limits, so the sweep is blank
   bool scan_start = false;  // first sweep of the scan
   bool scan_end = false;    // last sweep of the scan
@@ -102,12 +103,13 @@ struct AntennaStep {
 
 struct Sector {
   double width_deg = 0.0;
-  double offset_deg = 0.0;  // middle of the sector, positive right of scan_centre()
+  double offset_deg = 0.0;  // middle of the sector, positive right of scan_centre(); finite
   double rate_dps = 0.0;    // 0: rate and bars of the configuration; above 0: azimuth rate of a scan with one bar
 };
 
-// Two-axis antenna. It slews to an edge of a sector, then scans the sector, stabilized in space about the scan centre.
-// The beam's direction relative to the scan centre depends only on the tick within the scan and is exactly periodic.
+// Two-axis antenna. It slews to an edge of a sector, then scans the sector about the scan centre. It is stabilized:
+// pitch and roll of the aircraft do not move the beam. Relative to the moving centre of the scan, the edges of the
+// sweeps depend only on the tick within the scan and the direction of the pass, so they repeat exactly.
 // Within a pass, a sweep ends at the edge at which the next sweep begins, also while the aircraft turns.
 class Antenna {
  public:
@@ -133,7 +135,7 @@ class Antenna {
   // sector's middle, else at the left edge. A circular scan always starts at the left edge.
   void restart(const Sector& sector);
   void restart(double width_deg) { restart(Sector{.width_deg = width_deg}); }
-  // Sets the middle of the sector, positive right of scan_centre(). The scan moves there at 30 deg/s at most.
+  // Sets the middle of the sector, positive right of scan_centre(); finite. The scan moves there at 30 deg/s at most.
   void aim(double offset_deg) { offset_deg_ = offset_deg; }
   // Holds the antenna until the next restart() or point().
   void park();

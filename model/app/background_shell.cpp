@@ -8,13 +8,13 @@ namespace yars::model {
 
 namespace {
 
-// [m] Margin of a request beyond the needed region. The next request starts when the aircraft has used half of the
-// margin, so the current view is complete while the next view loads. A smaller margin means more loads, a larger margin
-// more memory.
+// [m] Margin of a request beyond the needed region. The next request starts when the aircraft has moved by half of the
+// margin, so the current view still covers the needed region while the next view loads. A smaller margin means more
+// loads, a larger margin more memory.
 constexpr double kRegionMargin_m = 20'000.0;
 
 // True if the requested region has the detail of `region` and contains it with half of the margin. The requested radius
-// must also be at most two margins larger.
+// must also exceed that of `region` by two margins at most.
 bool still_covers(const terrain::TerrainRegion& requested, const terrain::TerrainRegion& region) {
   if (region.detail != requested.detail) return false;
   if (region.radius_m > requested.radius_m || region.radius_m + 2.0 * kRegionMargin_m < requested.radius_m)

@@ -1,5 +1,5 @@
 // Background workers of radar-model: terrain loader, scene loader, patch map maker.
-// Inputs: regions of terrain [m], pending patch maps; stores that read files.
+// Inputs: terrain regions (each a circle and its detail), pending patch maps; stores that read files.
 // Outputs: immutable terrain and scene views; pictures of patch maps; problems as text.
 // Threads: a worker has a thread of its own, and requests return at once. A synchronous worker (lockstep, tests) has no
 // thread, and requests block. All public functions are called from the thread of the tick loop.
@@ -32,8 +32,9 @@ class TerrainLoader {
   TerrainLoader(const TerrainLoader&) = delete;
   TerrainLoader& operator=(const TerrainLoader&) = delete;
 
-  // Requests a region with a margin of 20 km, unless the previous request still covers the region. The new request
-  // replaces the previous request. A synchronous loader blocks until the region is loaded.
+  // Requests a region with a margin of 20 km, replacing the previous request. No effect while the previous request has
+  // the same detail, still contains the region with half of the margin and is not much larger. A synchronous loader
+  // blocks until the region is loaded.
   void request(const terrain::TerrainRegion& region);
   // Latest view; empty at first, never null.
   terrain::TerrainViewPointer view() const;
@@ -110,13 +111,13 @@ class PatchMaker {
     std::uint64_t id = 0;
     std::int64_t start_tick = 0;
     std::uint32_t size = 0;            // [pixels] edge of the picture
-    double elevation_msl_m = 0.0;      // elevation of the map plane
+    double elevation_msl_m = 0.0;      // of the level plane onto which the ground is mapped
     double up_deg = 0.0;               // true bearing that points up in the picture
     double distance_m = 0.0;           // over ground, from the aircraft to the centre
     double squint_deg = 0.0;           // angle from the ground track to the centre, positive to the right
     bool blind = false;                // part of the picture is in the blind zone and blank
     bool ready = true;                 // false: some terrain was not loaded
-    std::vector<std::uint8_t> pixels;  // video, size x size
+    std::vector<std::uint8_t> pixels;  // video, size x size, row 0 at the far edge
   };
 
   // Requests the picture of a map. `traffic`: moving targets at the start of the map's formation.
@@ -143,7 +144,7 @@ class PatchMaker {
   std::condition_variable wake_;
   std::optional<Job> pending_;
   std::optional<Picture> done_;       // newest complete picture
-  std::optional<Picture> delivered_;  // picture that finished() returned
+  std::optional<Picture> delivered_;  // newest picture that finished() has taken from done_
   std::vector<std::string> problems_;
   std::atomic<bool> ending_{false};
   std::atomic<bool> superseded_{false};

@@ -131,7 +131,7 @@ void RadarModelShell::latch_fidelity() {
   fidelity_.name.copy(tick_.fidelity, sizeof tick_.fidelity - 1);
 }
 
-// Fidelity `automatic`: the load of a scan selects the preset of the next scan.
+// Fidelity `automatic`: the processor load of a scan selects the preset of the next scan. `rate`: sim time / real time.
 void RadarModelShell::govern(double elapsed_s, double rate) {
   scan_time_s_ += elapsed_s * rate;
   ++scan_ticks_;
@@ -154,8 +154,8 @@ void RadarModelShell::latch_command() {
   referenced_maps_ = {state.map_newest, state.map_old, state.map_stored, state.map_shown};
 }
 
-// The first tick publishes the latched traffic even if it is unchanged, because the ring may still have the traffic of
-// a previous process.
+// If the ring was used by a previous process, the first tick publishes the latched traffic even if it is unchanged:
+// the last record of the ring applies, and would be that of the previous process.
 void RadarModelShell::latch_traffic() {
   auto& ring = session_->layout().traffic_latched;
   const bool changed = traffic_.refresh(session_->layout(), tick_.tick, tick_.sim_time_ns, tick_.epoch);

@@ -70,13 +70,13 @@ class RadarModelShell {
   std::uint64_t requested_map_ = 0;  // id and start tick of the last requested map
   std::int64_t requested_map_tick_ = -1;
   databuffer::Validated<databuffer::RadarState> radar_state_;
-  std::array<std::uint64_t, 4> referenced_maps_{};  // ids in the radar state; their pictures are kept in the pool
-  std::uint64_t refused_ = 0;                       // number of refused radar states
+  std::array<std::uint64_t, 4> referenced_maps_{};  // ids of maps that the radar state names; the segment keeps them
+  std::uint64_t refused_ = 0;                       // refused radar states, plus inputs that previous processes refused
   std::uint64_t previous_late_ticks_ = 0;           // ticks that previous processes skipped
   double load_ = 0.0;                               // processor time per tick / 5 ms, smoothed
   kernel::FidelityGovernor governor_;
   radar::Fidelity fidelity_;                          // selected by the governor, or configured
-  double scan_time_s_ = 0.0;                          // processor time of the current scan, times the clock's rate
+  double scan_time_s_ = 0.0;                          // processor time of the current scan, multiplied by clock rate
   std::uint32_t scan_ticks_ = 0, governed_scan_ = 0;  // ticks and number of the current scan
   bool first_tick_ = true;
 };

@@ -2,7 +2,7 @@
 // them in the order of declaration.
 // Inputs: PatchInputs, and the members of PatchData that earlier stages filled. Outputs: further members of PatchData;
 // the last stage fills PatchData::picture.
-// A void returns no power.
+// Ground without a known elevation (a void) returns no power.
 // Threads: one caller at a time; stages run on the executor's threads. Results have equal bits for any number of
 // threads.
 // Source: docs/radar_maths.md, "Patch maps".
@@ -19,13 +19,13 @@ class Algorithm {
   Algorithm& operator=(const Algorithm&) = delete;
   virtual ~Algorithm() = default;
 
-  // Number of cells of the polar grid per pixel, equal in range and in azimuth.
+  // Number of cells of the polar grid (ground range by azimuth) per side of a pixel, equal in both directions.
   virtual int cells_per_pixel() const = 0;
   // True if crests between two rows of the grid raise the horizon.
   virtual bool uses_crests() const = 0;
 
-  // Begins a map. Call it before the first stage, after geometry, grid and tiles of `data` are set. `data` must outlive
-  // the map. The state of an earlier or abandoned map is discarded.
+  // Begins a map. Call it before the first stage, after geometry, grid and tiles of `data` are set. `data` must exist
+  // until the last stage has run. The state of an earlier map, complete or abandoned, is discarded.
   virtual void begin(const PatchData& data) = 0;
   // Stage `terrain`: reads the terrain that only this algorithm needs. PatchFormation has filled surface, crests and
   // horizon.

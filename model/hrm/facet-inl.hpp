@@ -1,4 +1,4 @@
-// Scene triangles on the polar grid, one per lane: corners, planes, orientation towards the radar.
+// Scene triangles on the polar grid, one per vector lane: corners, planes, orientation towards the radar.
 // Included once for each target (instruction set) of the library Highway.
 #if defined(YARS_MODEL_HRM_FACET_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_HRM_FACET_INL
@@ -26,15 +26,15 @@ using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// Facing is the cosine of the angle between a normal and the direction to the radar. A facet is shaded only if the
-// facing of a vertex differs from the facing of the facet by more than this.
+// Facing is the cosine of the angle between a normal and the direction to the radar. shading() differs from 1 only if
+// the facing of a vertex differs from the facing of the facet by more than this.
 constexpr float kSmooth = 0.02F;
 
 HWY_INLINE Floats set(float value) {
   return hn::Set(Tag(), value);
 }
 
-// Corner of a triangle: column and row of the polar grid, height above the map plane [m].
+// Corner of a triangle: fractional column and row of the polar grid, height above the map plane [m].
 struct Corner {
   Floats column, row, height;
 };
@@ -84,7 +84,8 @@ class Edges {
   }
 
  private:
-  // Change per column. NaN or infinite for an edge of constant column, which at() does not use if left <= x < right.
+  // Change per column. NaN or infinite for an edge of constant column, which at() does not use if x is at least the
+  // left corner's column and less than the right corner's.
   HWY_INLINE Floats slope(const Corner& begin, const Corner& end) const {
     return hn::Div(hn::Sub(end.*coordinate_, begin.*coordinate_), hn::Sub(end.column, begin.column));
   }
@@ -99,7 +100,7 @@ struct Facet {
   Floats area;                      // twice the area seen from above [grid cells]; positive: the triangle faces up
   Floats across, ahead;             // horizontal components of the normal: to the right, away from the radar
   Floats towards;                   // component of the normal towards the radar
-  Floats length;                    // length of the normal
+  Floats length;                    // length of the normal [m^2]
   Floats value, by_column, by_row;  // plane: height [m] = value + by_column * column + by_row * row
   Mask steep;                       // true for walls
 };
@@ -130,7 +131,8 @@ HWY_INLINE Facet facet_of(const Corner& a, const Corner& b, const Corner& c, con
 }
 
 // Factor on gamma: mean of `a`, `b`, `c`, the facings of the vertex normals, divided by the facing of the facet. It is
-// at most physics::kMaxShading. It is 1 for a facet that faces away or differs little from its vertices (kSmooth).
+// clamped to [0, physics::kMaxShading]. It is 1 for a facet that faces away from the radar, and for a facet whose
+// facing differs little from those of its vertices (kSmooth).
 HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
   const Tag d;
   const auto facing = hn::Div(facet.towards, facet.length);
@@ -144,8 +146,8 @@ HWY_INLINE Floats shading(Floats a, Floats b, Floats c, const Facet& facet) {
 }
 
 // Gamma of walls, raised by the cardinal effect (stronger return of walls that face the radar). The effect depends on
-// the horizontal angle between the normal of a wall and the line of sight. `cardinal`: effect at
-// angle 0, relative to gamma.
+// the horizontal angle between the normal of a wall and the line of sight. `cardinal`: effect at angle 0, relative to
+// gamma.
 HWY_INLINE Floats wall_gamma(const CardinalShape& shape, const Facet& facet, Floats gamma, Floats cardinal) {
   const Tag d;
   const SignedTag di;
@@ -159,7 +161,7 @@ HWY_INLINE Floats wall_gamma(const CardinalShape& shape, const Facet& facet, Flo
   const auto high = hn::GatherIndex(d, shape.effect.data() + 1, i);
   const auto effect =
       hn::Add(low, hn::Mul(hn::Sub(hn::Min(position, hn::Add(last, set(1.0F))), floored), hn::Sub(high, low)));
-  // The effect is limited to walls that face the radar.
+  // Walls that face away from the radar get no cardinal effect.
   const auto faces_radar = hn::Lt(facet.ahead, hn::Zero(d));
   return hn::Mul(gamma, hn::Add(set(1.0F), hn::IfThenElseZero(faces_radar, hn::Mul(cardinal, effect))));
 }

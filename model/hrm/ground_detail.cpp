@@ -72,7 +72,8 @@ void shape(std::vector<float>& table, double contrast) {
 
 GroundTexture::GroundTexture(double contrast, double pixel_m)
     : pixel_m_(pixel_m), texels_per_metre_(0.0F), edge_(kFinestEdge) {
-  // A texel is at least half a pixel, because a finer texture would alias. The smallest texture is one block.
+  // A texel is at least half the spacing of the positions, because a finer texture would alias. The smallest texture
+  // has one block (kDetailBlock texels per side).
   double texel_m = kFinestTexel_m;
   while (texel_m < 0.5 * pixel_m && edge_ > simd::kDetailBlock) {
     texel_m *= 2.0;

@@ -1,8 +1,9 @@
-// Synthetic texture of the ground's reflectivity: features that terrain posts do not resolve (fields, tracks, stones).
+// Synthetic texture of the ground's reflectivity: features that terrain posts do not resolve (fields, paths, stones).
 // Inputs: positions on the earth. Output: a factor on gamma (sigma0 = gamma * sin(grazing angle)) with mean 1.
 // The factor depends only on the position, so it is equal from every direction and in every look.
 // The factor is the product of two samples of one periodic texture. The second sample is at rotated and scaled
-// coordinates, which hides the period. Texels (elements of the texture) are larger if pixels are larger.
+// coordinates, which hides the period. A texel (element of the texture) is 4 m wide, or wider if positions are more
+// than 8 m apart.
 // Source: docs/spec/physics.md#multi-look.
 #pragma once
 
@@ -14,14 +15,14 @@
 
 namespace yars::model::hrm {
 
-// Texture of the ground for one pixel size.
+// Texture of the ground for one spacing of positions.
 class GroundTexture {
  public:
   // `contrast`: standard deviation of the natural logarithm of the factor. `pixel_m`: spacing of the positions.
   GroundTexture(double contrast, double pixel_m);
 
   double pixel_m() const { return pixel_m_; }
-  double texel_m() const { return 1.0 / static_cast<double>(texels_per_metre_); }  // half the shortest wavelength
+  double texel_m() const { return 1.0 / static_cast<double>(texels_per_metre_); }  // half the wave of the finest octave
   // gamma[i] *= factor at position i. Up to terrain::kRunSlack entries beyond the last one are read and written.
   void modulate(const terrain::PositionRun& positions, float* gamma) const;
 

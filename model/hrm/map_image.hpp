@@ -1,5 +1,5 @@
 // Picture of a patch map: power per pixel, blind zone, speckle, thermal noise, video.
-// Frame: square, row 0 at the far edge, columns from left to right of the line of sight.
+// Frame: square, row 0 at the far edge, column 0 at the left edge as seen from the aircraft.
 // Units: power is a gamma (sigma0 = gamma * sin(grazing angle)). Level ground of this gamma at the map's centre would
 // return as much as the pixel.
 // Output: 8-bit video, 0 black to 255 white.
@@ -32,15 +32,15 @@ struct MapImage {
   bool blind = false;  // true if any pixel is blind
 };
 
-// Cross section [m^2] of a pixel of level ground with gamma 1 at the centre. MapImage::power is the cross section of a
-// pixel divided by this value.
+// Cross section [m^2] of a pixel of level ground with gamma 1 at the map's centre. MapImage::power is the cross section
+// of a pixel divided by this value. `pixels`: number of pixels per side.
 double unit_return_m2(const PatchGeometry& geometry, int pixels);
 
 // Interpolates rows [first, last) of the map bilinearly from cross sections on the polar grid.
 void draw_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const float* cross_section_m2, int first,
                      int last, MapImage& image);
 
-// Sets pixels in the blind zone about the ground track to -1. Call it after all power is added.
+// Sets pixels in the blind zone (about the ground track, ahead and astern) to -1. Call it after all power is added.
 void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
                       const radar::HighResolutionConfiguration& configuration, MapImage& image);
 
@@ -51,7 +51,7 @@ void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
 // Source: Goodman, "Statistical properties of laser speckle patterns" (1975); docs/spec/physics.md#speckle.
 class Speckle {
  public:
-  // `size`: pixels per side; `looks` in [1, 16]. `seed` and `map` are the key of the noise.
+  // `size`: pixels per side; `looks` in [1, 16]. `seed` and `map` (number of the map) select the speckle.
   Speckle(int size, int looks, std::uint64_t seed, std::uint32_t map);
 
   // Returns the speckle factors of one row of pixels, valid until the next call. Call it with ascending rows.
@@ -69,14 +69,15 @@ class Speckle {
   int size_, looks_;
   std::uint64_t seed_;
   std::uint32_t map_;
-  bool finer_;  // pixels are smaller than cells
+  bool finer_;  // pixels are smaller than resolution cells
   std::size_t pitch_;
   // CellWeights of each pixel of a row, as arrays.
   std::vector<std::int32_t> cell_;
   std::vector<float> first_, second_;
-  std::vector<float> cells_;       // one row of cells: real parts, then imaginary parts
-  std::vector<float> near_, far_;  // two rows of cells, interpolated to pixels; by look: real, imaginary
-  int drawn_row_ = -2;             // row of cells in far_
+  std::vector<float> cells_;  // one row of cells: real parts, then imaginary parts
+  // Two rows of cells, interpolated to pixels: the earlier one (near_) and the next (far_). By look: real, imaginary.
+  std::vector<float> near_, far_;
+  int drawn_row_ = -2;  // row of cells in far_; -2: none
   std::vector<float> intensity_;
 };
 
@@ -91,7 +92,7 @@ double noise_gamma(const radar::HighResolutionConfiguration& configuration, geo:
 struct MapNoise {
   double thermal = 0.0;    // gamma of thermal noise, from noise_gamma()
   int looks = 1;           // number of independent looks
-  std::uint32_t map = 0;   // number of the map; seed and number are the key of the noise
+  std::uint32_t map = 0;   // number of the map; equal seed and number give equal speckle
   std::uint64_t seed = 1;  // from the configuration
   bool with_speckle = true;
 };

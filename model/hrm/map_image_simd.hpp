@@ -14,7 +14,7 @@ namespace yars::model::hrm::simd {
 // One row of the map and its position relative to the aircraft.
 struct MapRow {
   int columns = 0;             // pixels
-  float first_right_m = 0.0F;  // position of pixel 0, to the right of the line of sight to the centre
+  float first_right_m = 0.0F;  // centre of pixel 0, to the right of the line of sight to the map's centre
   float pixel_m = 0.0F;
   float ahead_m = 0.0F;  // from the aircraft to the row, along that line of sight
   float scale = 1.0F;    // factor on the cross section per square metre
@@ -63,6 +63,7 @@ struct WeightedField {
   float weight;
 };
 // mean[i] = mean over the looks of |near.weight * near.numbers[i] + far.weight * far.numbers[i]|^2, complex numbers.
+// `near` and `far`: the rows of cells before and after the row of pixels, in order of row number.
 void intensity(std::size_t count, int looks, WeightedField near, WeightedField far, float* mean);
 
 }  // namespace yars::model::hrm::simd

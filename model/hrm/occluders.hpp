@@ -1,6 +1,6 @@
 // Shadows of scene triangles by ray casting: a triangle that crosses the ray from the radar to a point hides the point.
 // Used by reference.hpp.
-// Frame: origin at the radar; x to the right of the line of sight to the map, y ahead, z up [m]. Rays are straight.
+// Frame: origin at the radar; y horizontal towards the map's centre, x to the right of y, z up [m]. Rays are straight.
 // Accuracy: double precision. A triangle 2 cm or less in front of a point does not hide the point.
 // Acceleration: a direction from the radar is a point (x/y, z/y). Each cell of a grid over these points lists the
 // triangles that may cover the cell.

@@ -1,7 +1,8 @@
 // Data of one patch map in formation, which the stages of every algorithm read and write.
 // Inputs of a map: order, terrain, scene, traffic. Results: polar grid, ground and horizons on the grid, image (power),
 // picture (video).
-// Units: metres; heights above the map plane; horizons are tangents of elevation; power as in map_image.hpp.
+// Units: metres; heights above the map plane; horizons are tangents of elevation angles, positive above the
+// aircraft's horizontal plane; power as in map_image.hpp, but brightness 0 to 1 with the algorithm `report_1996`.
 // Threads: stages run one after the other; within a stage, threads write disjoint strips or rows.
 #pragma once
 
@@ -21,8 +22,8 @@
 
 namespace yars::model::hrm {
 
-// Terrain, scene and traffic of a map. The terrain views `window` and `path` cover the regions that patch_need()
-// returns.
+// Terrain, scene and traffic of a map. The terrain views `window` (the map and its surroundings) and `path` (from the
+// aircraft to the map) cover the regions that patch_need() returns.
 struct PatchEnvironment {
   terrain::TerrainViewPointer window;
   terrain::TerrainViewPointer path;
@@ -68,7 +69,7 @@ struct PatchData {
   PolarArray<SurfacePoint> surface;       // by PolarGrid::at()
   CrestsBetweenRows crests;               // kinds of crests to compute
   PolarArray<float> crest_m;              // as in GroundArrays::crest_m; used if crests.any() is true
-  PolarArray<float> horizon;              // by column: greatest tangent of the ground before row 0
+  PolarArray<float> horizon;              // by column: greatest tangent of the ground nearer than the grid's row 0
   MapImage image;
   std::vector<std::uint8_t> picture;  // 8-bit video, row 0 at the far edge
 };

@@ -101,7 +101,8 @@ void PatchFormation::Work::begin_map() {
   algorithm->begin(data);
 }
 
-// Sets the polar grid of the window, smooths the ground below the grid, and resizes the arrays.
+// Sets the polar grid of the window and resizes the arrays. If the fidelity says so, also smooths the ground below the
+// grid and makes its texture.
 void PatchFormation::Work::lay_grid() {
   const PolarGrid& grid = data.grid;
   const terrain::TerrainViewPointer posts = inputs.environment.window;

@@ -1,6 +1,7 @@
 // Formation of one patch map (high resolution map), stage by stage.
 // Inputs: a PatchOrder, terrain of the window and of the path to it, scene, traffic.
-// Outputs: a square picture of 8-bit video, row 0 at the far edge, and the power before speckle and noise.
+// Outputs: a square picture of 8-bit video, row 0 at the far edge, and the image before speckle and noise: power, or
+// brightness with the algorithm `report_1996`.
 // Use: begin(), set_environment(), then advance() until state() is `done`. A map may be abandoned by calling begin()
 // again. Determinism: equal inputs give equal bits, for any number of threads. Threads: one caller at a time; stages
 // run on the executor's threads. The stages that differ between algorithms are functions of hrm::Algorithm
@@ -37,14 +38,16 @@ class PatchFormation {
 
   PatchNeed begin(const PatchOrder& order);  // returns the terrain to load; any state -> database
   void set_environment(
-      const PatchEnvironment& environment);  // sets the inputs; database -> processing; aborts in another state
-  void advance();                            // runs one stage; after `map`: -> output; after `video`: -> done
+      const PatchEnvironment& environment);  // sets the inputs; database -> processing; another state: ends the program
+  // Runs one stage; after `map`: -> output; after `video`: -> done. Other states than processing and output: no effect.
+  void advance();
   PatchState state() const;
   int stages_done() const;  // number of kPatchStages that are complete
 
   // Valid in state `done`: 8-bit video, row 0 at the far edge, 0 black to 255 white.
   const std::vector<std::uint8_t>& picture() const;
-  // Valid after the stage `map`: power before speckle and noise, in the unit of map_image.hpp.
+  // Valid after the stage `map`: power before speckle and noise, in the unit of map_image.hpp. With the algorithm
+  // `report_1996`: brightness 0 to 1 before noise.
   const MapImage& image() const;
   const PatchGeometry& geometry() const;  // valid after set_environment()
   geo::Duration formation() const;        // time in which the synthetic array is formed

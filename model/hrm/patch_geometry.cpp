@@ -94,7 +94,7 @@ constexpr double kMinSine = 0.02;
 
 constexpr double kCellsPerNode = 2.0;    // [grid cells] node spacing of the smoothed ground
 constexpr double kPixelsPerPost = 3.0;   // [pixels] closer posts need no smoothing: such small facets are invisible
-constexpr int kReferenceParts = 10;      // minimum number of nodes per post interval, for `reference`
+constexpr int kReferenceParts = 10;      // minimum number of nodes per post interval, for the algorithm `reference`
 constexpr int kOutlineSteps = 8;         // intervals between outline positions along each edge of the polar grid
 constexpr double kOutlineMargin = 0.01;  // margin about the bounding box of the polar grid [fraction of its size]
 
@@ -153,8 +153,8 @@ Relief relief_of(const PatchGeometry& geometry, const terrain::TerrainView& grou
 }
 
 // Greatest distance [m] before the window's near edge from which a tile casts shadow across that edge. Tiles too low to
-// extend the margin are skipped first, because geometry.point_of() computes a geodesic. `tangent`: tangent of the
-// grazing angle.
+// extend the margin are skipped first, because geometry.point_of() is slow: it computes a geodesic. `tangent`: tangent
+// of the grazing angle.
 double shadow_margin_m(const PatchGeometry& geometry, const std::vector<const scene::Tile*>& tiles, double tangent) {
   const double half_m = 0.5 * geometry.window_m();
   double margin_m = 0.0;

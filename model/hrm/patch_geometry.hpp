@@ -2,7 +2,7 @@
 // Polar grid: rows are ground range, columns are azimuth.
 // Units: metres, radians; heights above mean sea level or above the map plane, as named.
 // Frame: azimuthal equidistant projection about the aircraft, which keeps distance and bearing from the aircraft. It is
-// turned so that the bearing of the map's centre points up.
+// turned so that the bearing of the map's centre points up on the map.
 // Accuracy: position_of() inverts point_of() within 1 mm, at the poles and across the antimeridian too.
 // Source: docs/radar_maths.md, "Patch maps"; docs/spec/physics.md#layover.
 #pragma once
@@ -37,7 +37,7 @@ struct PatchOrder {
   geo::Length window;        // side of the square that the map covers
   int looks = 2;             // number of averaged looks
   geo::Duration sim_time{};  // start of the formation
-  std::uint32_t map = 0;     // number of the map; part of the key of the noise
+  std::uint32_t map = 0;     // number of the map; selects the noise, together with the seed
   std::uint8_t band = 0;
   std::uint8_t channel = 1;
 };
@@ -51,8 +51,8 @@ struct MapPoint {
 
 // Position and orientation of a patch map. The map plane is azimuthal equidistant about the aircraft, so lines of sight
 // are straight lines on the plane. In code, `ahead_m` is up_m + distance_m(): the coordinate from the aircraft towards
-// the centre. The map plane has the centre's elevation and curves with the effective earth. Heights without "msl" are
-// above the map plane.
+// the centre. The map plane has the centre's elevation and curves with the effective earth. Heights are above the map
+// plane if neither name nor comment says otherwise.
 class PatchGeometry {
  public:
   // `elevation_m` [m MSL]: ground at the centre, which becomes the height of the map plane.
@@ -69,13 +69,14 @@ class PatchGeometry {
   double altitude_m() const { return altitude_m_; }    // of the aircraft, above mean sea level
   const physics::EffectiveEarth& earth() const { return earth_; }
 
-  // Height [m] of the aircraft above the map plane at a distance over ground. The curvature lowers the plane there.
+  // Height [m] of the aircraft above the map plane's point at a distance over ground, along the vertical at the
+  // aircraft. The earth's curvature lowers the point.
   double above_plane_m(double distance_m) const { return altitude_m_ - plane_msl_m_ + earth_.drop_m(distance_m); }
   // Height [m] of the aircraft above the local horizontal plane at the map plane's point at a distance over ground. If
   // the point is raised, its slant range decreases in proportion to this height (layover).
   double above_level_m(double distance_m) const { return altitude_m_ - plane_msl_m_ - earth_.drop_m(distance_m); }
   // Height [m] above the map plane of a line of sight at a distance over ground. `tangent`: tangent of the line's
-  // elevation, as physics::EffectiveEarth defines it for heights above mean sea level.
+  // elevation angle against the horizontal at the aircraft, positive up.
   double height_on_sight_m(double distance_m, double tangent) const;
   double slant_range_m() const;  // from aircraft to centre
   double sin_grazing() const;    // sine of the grazing angle at the centre
@@ -92,7 +93,8 @@ class PatchGeometry {
 };
 
 // Distance over ground [m] of the point on the map plane at the slant range of a scatterer (layover, foreshortening).
-// `height_m`: the scatterer above the plane; `above_level_m`: PatchGeometry::above_level_m(distance_m).
+// `distance_m`: distance over ground of the scatterer; `height_m`: height of the scatterer above the plane;
+// `above_level_m`: PatchGeometry::above_level_m(distance_m).
 // Formula: d'^2 = d^2 + height * (height - 2 * above_level). 0 if no point of the plane is that near. The formula
 // neglects the ratio of height to earth radius, which is 0.1 % for a height of 9 km.
 double laid_over_m(double distance_m, double height_m, double above_level_m);
@@ -101,8 +103,9 @@ double laid_over_m(double distance_m, double height_m, double above_level_m);
 // floats fills a cache line and a 512-bit vector. Do not change the number, because loops and indices rely on 16.
 inline constexpr int kStripColumns = 16;
 
-// Grid on which a patch map is computed. Columns are evenly spaced in the tangent of their bearing relative to the
-// centre. Rows are evenly spaced in distance over ground. Shadow and layover act within one column.
+// Grid on which a patch map is computed. Columns are evenly spaced in the tangent of their bearing relative to that of
+// the map's centre. Rows are evenly spaced in distance over ground, row 0 nearest to the aircraft. Shadow and layover
+// act within one column.
 struct PolarGrid {
   int columns = 0;  // a multiple of kStripColumns
   int rows = 0;
@@ -113,7 +116,7 @@ struct PolarGrid {
   double centre_distance_m = 0.0;
 
   int strips() const { return columns / kStripColumns; }
-  // The number of rows is made odd, so that equal rows of different strips lie in different sets of the cache.
+  // The number of rows is made odd, so that rows of equal number in neighbouring strips lie in different cache sets.
   std::size_t strip_size() const { return static_cast<std::size_t>(rows | 1) * kStripColumns; }
   std::size_t size() const { return strip_size() * static_cast<std::size_t>(strips()); }
   std::size_t at(int column, int row) const {
@@ -129,14 +132,16 @@ struct PolarGrid {
   }
 };
 
-// Extensions of the grid beyond the window's edges [m], for objects that are laid over or cast shadow into the window.
+// Extensions of the grid past the window's edges [m], for ground and objects that are laid over into the window or cast
+// shadow into it.
 struct PolarMargins {
-  double near_m = 0.0;  // before the near edge
-  double far_m = 0.0;   // behind the far edge
+  double near_m = 0.0;  // from the near edge towards the aircraft
+  double far_m = 0.0;   // beyond the far edge
 };
 
-// Returns the polar grid of a map with `pixels` pixels per side and `cells` grid cells per pixel. The grid covers the
-// part of window and margins that lies ahead of the aircraft.
+// Returns the polar grid of a map with `pixels` pixels per side and `cells` grid cells per side of a pixel. The grid
+// covers the window in azimuth. In range it covers window and margins, at most up to the aircraft. A margin is limited
+// to 4 windows.
 PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, const PolarMargins& margins);
 
 // Surface at one grid point, the input of the stage `profile`. Arrays are indexed by PolarGrid::at(). Gamma and height
@@ -156,7 +161,8 @@ struct WallPoint {
 inline constexpr float kWallStep_m = 1.0F / 4096.0F;  // [m] 0.24 mm; sums are limited to 2^31 steps, 524 km
 
 // Terrain regions of a patch map. `path` is the region from the aircraft to the window and may be coarser. The
-// fidelity's `posts_per_sample` selects the detail. Every post of the loaded terrain raises the horizon (decision 19).
+// fidelity's `posts_per_sample` selects the detail. Every post of the loaded terrain can raise the horizon
+// (decision 19).
 struct PatchNeed {
   terrain::TerrainRegion window;
   terrain::TerrainRegion path;

@@ -80,19 +80,20 @@ struct Horizons {
   const PolarGrid* grid = nullptr;
   const SurfacePoint* surface = nullptr;
   const float* crest_m = nullptr;  // as in GroundArrays::crest_m; null: none
-  const float* horizon = nullptr;  // greatest tangent of elevation before row 0
+  const float* horizon = nullptr;  // greatest tangent of the elevation angle of ground nearer than row 0
 };
 
 // Point targets on a map, moving or at rest (for example corner reflectors). The radial speed v_r, positive towards the
-// radar, moves the apparent bearing towards the track by v_r / (V sin(squint)) [rad]. V is the ground speed, squint the
-// bearing from the ground track. At broadside and range R the shift is R v_r / V. Motion during the formation time
-// smears the image of a target.
+// radar, moves the apparent bearing towards the aircraft's ground track by v_r / (V sin(squint)) [rad]. V is the
+// aircraft's ground speed, squint the target's bearing from the aircraft's ground track. At broadside and range R the
+// shift is R v_r / V [m]. Motion during the formation time smears the image of a target.
 // Source: docs/spec/physics.md#movers; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
 class MapMovers {
  public:
   explicit MapMovers(const physics::RadarParameters& parameters);
 
-  // Adds the points of the configuration and of the traffic to the image.
+  // Adds the points of configuration and traffic to the image, except hidden points and points over ground without a
+  // known elevation.
   void draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
             const physics::Environment& environment, const Horizons& horizons, const Response& response,
             MapImage& image) const;
@@ -112,13 +113,13 @@ class MapMovers {
   std::vector<physics::MovingPoint> points_;
 };
 
-// For algorithms that compute power: the last part of the stage `map`, and the stage `video`. The video has speckle and
-// thermal noise.
+// For algorithms that compute power: the last part of the stage `map`, and the stage `video`. The video has thermal
+// noise, and speckle if the fidelity's `noise` is on.
 class PowerPicture {
  public:
   explicit PowerPicture(const physics::RadarParameters& parameters);
 
-  // Applies the response and adds point targets, moving or at rest.
+  // Applies the response if the fidelity's `map_response` is on. Adds point targets, moving or at rest.
   void add_response_and_movers(const PatchInputs& inputs, PatchData& data);
   void draw_video(const PatchInputs& inputs, PatchData& data) const;
 

@@ -12,9 +12,9 @@
 namespace yars::model::hrm {
 
 namespace {
-// Spacing [m] of the samples on the path to the window. Without posts only the samples raise the horizon. With posts
-// the lines of posts between samples raise it too, so samples may be farther apart. Over 500 m a path is straight in
-// latitude and longitude within 5 mm. A larger spacing would misplace crests.
+// Spacing [m] of the samples on the path, which is the ground from the aircraft to the grid. Without posts only the
+// samples raise the horizon. With posts the lines of posts between samples raise it too, so samples may be farther
+// apart. Over 500 m a path is straight in latitude and longitude within 5 mm. A larger spacing would misplace crests.
 constexpr double kPathSpacingWithoutPosts_m = 60.0;
 constexpr double kPathSpacingWithPosts_m = 500.0;
 constexpr double kMaxPathSamples = 4096.0;  // bounds the work of a column
@@ -26,20 +26,22 @@ constexpr float kNoHorizon = -1.0e6F;       // [m] or tangent: below every line 
 constexpr double kMaxWindowStep = 0.25;
 constexpr double kMaxPathStep = 0.5;
 // Row spacings, as fractions of the post spacing, above which crests between rows are computed. Closer rows sample
-// every crest themselves. In a smoothed view, cells with close posts stay bilinear, so crests lie on their lines
-// of posts.
+// every crest themselves. In a smoothed view, one-degree cells with close posts stay bilinear, so crests lie on their
+// lines of posts.
 constexpr double kLineCrestSpacing = 0.2;    // crests on lines of posts, in a view that is not smoothed
 constexpr double kSummitCrestSpacing = 0.1;  // summits, in a smoothed view
 constexpr double kSmoothLineSpacing = 0.5;   // crests on lines of posts, in a smoothed view
 
-// Step between sampled columns: the largest of 5, 3 and 1 with a spacing within `farthest_m`. `width_m`: column width.
+// Step between sampled columns: 5 or 3, the larger one whose spacing is at most `farthest_m`, else 1. `width_m`: column
+// width.
 int step_within(double farthest_m, double width_m) {
   for (const int step : {5, 3})
     if (step * width_m <= farthest_m) return step;
   return 1;
 }
 
-// Interpolates the horizons of the columns between the sampled ones.
+// Interpolates the horizons of the columns between the sampled ones. In this file a lane is the number of a column
+// within its strip.
 void interpolate_horizons(int step, float* horizon) {
   for (int lane = 0; lane < kStripColumns; ++lane) {
     const int off = lane % step;
@@ -162,8 +164,8 @@ int PolarGround::path_step(const PolarGrid& grid, const terrain::TerrainView& vi
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.first_distance_m));
 }
 
-// Samples height and gamma of a column into strip_height_ and strip_gamma_. Vectors write a few entries beyond the
-// column, which the next column overwrites.
+// Samples height (above mean sea level) and gamma of a column into strip_height_ and strip_gamma_. Vectors write a few
+// entries beyond the column, which the next column overwrites.
 std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
                                      const terrain::TerrainView& view, const GroundTexture* detail, std::size_t lane) {
   Column& column = *window_;
@@ -253,8 +255,8 @@ void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain&
 }
 
 // If the tangent of a row is not below the tangents of the previous and the next row, the parabola through all three
-// has its summit near the row. A summit before the row can hide that row. A summit behind the row can hide the next
-// row.
+// has its summit near the row. A summit nearer to the aircraft than the row can hide that row. A summit beyond the row
+// can hide the next row.
 void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t lane) {
   const std::size_t rows = window_->positions.count;
   const float* const distance_m = window_->distance_m.data();
@@ -268,7 +270,7 @@ void PolarGround::raise_to_summits(const PatchGeometry& geometry, std::size_t la
   float before = tangent(0), here = tangent(1);
   for (std::size_t row = 1; row + 1 < rows; ++row) {
     const float after = tangent(row + 1);
-    // A void repeats its neighbour's height. The height step behind a void is no summit.
+    // A void repeats its neighbour's height. The height step at the far end of a void is no summit.
     const bool known = gamma[row - 1] > 0.0F && gamma[row] > 0.0F && gamma[row + 1] > 0.0F;
     if (known && here >= before && here >= after && (here > before || here > after)) {
       const float lean = after - before;

@@ -1,9 +1,9 @@
-// Terrain sampled on the polar grid of a patch map: height and gamma of each point, and the horizon before row 0.
+// Terrain sampled on the polar grid of a patch map: height and gamma of each point, and the horizon at row 0.
 // Inputs: terrain views of the window and of the path, the radar's configuration, optional ground detail.
 // Outputs: GroundArrays, filled strip by strip.
-// Units: metres; gamma is a ratio; the horizon is the greatest tangent of elevation of all nearer ground.
+// Units: metres; gamma is a ratio; the horizon is the greatest tangent of the elevation angles of all nearer ground.
 // Threads: one instance per thread, because an instance has the buffers of a column.
-// Source: docs/radar_maths.md, "Patch maps"; decision 19 (every post raises the horizon).
+// Source: docs/radar_maths.md, "Patch maps"; decision 19 (every post can raise the horizon).
 #pragma once
 
 #include <memory>
@@ -20,7 +20,8 @@
 namespace yars::model::hrm {
 
 // Kinds of crests between two neighbouring rows that raise the horizon. `lines`: crossings of a column with lines of
-// posts. `summits`: summits of parabolas through three rows, on smoothed ground. Closely spaced rows need neither kind.
+// posts (rows and columns of the terrain's posts). `summits`: summits of parabolas through three rows, on smoothed
+// ground. Closely spaced rows need neither kind.
 struct CrestsBetweenRows {
   bool lines = false;
   bool summits = false;
@@ -38,10 +39,11 @@ struct PatchTerrain {
 
 // Output arrays, indexed by PolarGrid::at(); `horizon` by column.
 struct GroundArrays {
-  // A void has gamma 0 (SurfacePoint::gamma) and the height of the nearest known point before it. Without one, it has
-  // the height of the first known point of the column.
+  // A void has gamma 0 (SurfacePoint::gamma) and the height of the last known point between aircraft and void. Without
+  // such a point, it has the height of the first known point of the column, or 0 if the whole column is void.
   SurfacePoint* surface = nullptr;
-  // Horizon at row 0 by column: greatest (height - PatchGeometry::above_plane_m()) / distance over the nearer ground.
+  // Horizon at row 0 by column: greatest (height - PatchGeometry::above_plane_m()) / distance of all ground nearer than
+  // row 0. -1e6 if no such ground is known.
   float* horizon = nullptr;
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
   // over the crest passes this row. -1e6 without a crest. Null: not computed.
@@ -68,10 +70,10 @@ class PolarGround {
     physics::PositionArrays positions;
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };
-  // Coefficients of the tangent of elevation at one distance over ground:
+  // Coefficients of the tangent of the elevation angle, from the aircraft, of ground at one distance over ground:
   // tangent = (height * cosine - above) / (chord + height * sine), height above mean sea level. Here `above` is the
-  // aircraft's altitude plus the drop of the earth's surface, and `chord` is R sin a. The sine and the cosine are of a,
-  // the angle at the centre of the effective earth (radius R) between aircraft and ground.
+  // aircraft's altitude plus the drop of the earth's surface, and `chord` is R sin a (on a flat earth the distance).
+  // Sine and cosine are those of a, the angle at the centre of the effective earth (radius R) from aircraft to ground.
   struct Sight {
     Sight(const PatchGeometry& geometry, double distance_m);
     float above_m, chord_m, sine, cosine;

@@ -15,8 +15,8 @@ using SignedTag = hn::RebindToSigned<Tag>;
 using Floats = hn::Vec<Tag>;
 using Mask = hn::Mask<Tag>;
 
-// Minimum climb of a piece with a wall, as a fraction of the row spacing. With a smaller climb the heights do not
-// show the wall, and the wall is ignored.
+// Minimum climb of a piece (the profile between two rows) with a wall, as a fraction of the row spacing. With a smaller
+// climb the heights do not show the wall, and the wall is ignored.
 constexpr float kMinStep = 0.2F;
 // [rows] minimum apparent extent of a piece. Prevents a division by zero for a piece at constant slant range.
 constexpr float kMinExtent = 1.0e-3F;
@@ -27,8 +27,8 @@ constexpr int kMaxRows = 8;
 // Points of the profiles at one row, one column per lane.
 struct Point {
   Floats height_m;  // above the map plane
-  Floats up_m;      // height relative to the aircraft
-  Floats tangent;   // of elevation
+  Floats up_m;      // height above the aircraft's horizontal plane, negative below it
+  Floats tangent;   // of the elevation angle against that plane
   Floats gamma;
   Floats row;  // apparent row, set by with_image_row()
 };
@@ -163,8 +163,8 @@ HWY_INLINE Floats gas_transmission(const GasRow& gas, Floats height_m) {
   return hn::Add(hn::Set(d, gas.constant), hn::Mul(within, slope));
 }
 
-// Adds the power of the visible part of the piece from `near` to `far`. `horizon`: greatest tangent up to `near`.
-// `seen`: lanes in which `far` is above the horizon.
+// Adds the power of the visible part of the piece from `near` to `far`. `row`: row of `far`. `horizon`: greatest
+// tangent up to `near`. `seen`: lanes in which `far` is above the horizon.
 HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const Point& near, const Point& far,
                            Mask seen, Floats horizon) {
   const Tag d;

@@ -43,14 +43,15 @@ struct DopplerParameters {
   const radar::ReceiverConfiguration& receiver;
   const radar::HighResolutionConfiguration& high_resolution;
   const radar::NavigationConfiguration& navigation;
-  std::uint64_t seed;  // key of the measurement noise
+  std::uint64_t seed;  // key of the random measurement noise
 };
 
 // Number of ticks per sweep of a DBS scan, at least 1.
 int ticks_per_dbs_sweep(const DopplerParameters& parameters);
 
-// Sector of a DBS scan. FULL, the widest, is centred on antenna::scan_centre(). HALF and QTR are centred on the cursor,
-// but stay within FULL. Without a valid cursor they are centred like FULL.
+// Sector of a DBS scan. FULL, the widest, is centred on antenna::scan_centre(), the ground track within a limit off the
+// nose. HALF and QTR are centred on the cursor, but stay within FULL. Without a valid cursor they are centred like
+// FULL.
 antenna::Sector dbs_sector(const databuffer::RadarCommand& command, const Pose& pose,
                            const DopplerParameters& parameters);
 
@@ -68,7 +69,8 @@ DbsCell dbs_cell(geo::Bearing left, geo::Bearing right, const Pose& pose, const 
 geo::Angle elevation_to(const Pose& pose, geo::GeoPoint target, double ground_m);
 
 // Doppler velocity update (PVU, IPVU): a round of beams, and the velocity over ground from a complete round.
-// Each beam measures the speed along its line of sight with Gaussian noise. Least squares give the velocity.
+// Each beam measures the speed along its line of sight, positive toward the ground, with Gaussian noise. Least squares
+// give the velocity.
 // A real radar knows the acceleration during a round from the aircraft's sensors and refers all speeds to the round's
 // end. The model therefore computes all speeds from the velocity at that time.
 // PVU repeats rounds. IPVU interleaves one round per period with scans. A beam outside the gimbal limits cancels the
@@ -81,7 +83,8 @@ class DopplerVelocityUpdate {
   void describe(databuffer::ModelStatus& status) const;
 
   // Evaluates the tick's command. While the radar transmits (power switch at OPR, no SNIFF), PVU always requests the
-  // dish. IPVU requests it once a period in the modes RBM, HRM PPI, patch and BCN.
+  // dish. IPVU requests it once a period in the modes RBM, HRM PPI, patch and BCN. Without a request the round is
+  // cancelled.
   void read_command(const databuffer::ModelTick& tick);
   bool needs_dish() const { return needs_dish_; }
   // Cancels the round, for example when a map needs the dish. The next call of step() begins a new round.
@@ -89,14 +92,14 @@ class DopplerVelocityUpdate {
 
   struct Direction {
     geo::Bearing azimuth;
-    geo::Angle elevation;
+    geo::Angle elevation;  // positive above the horizontal
   };
   // Direction of the current beam. Between rounds: direction of the first beam.
   Direction direction(const radar::Platform& platform) const {
     return direction_of(beam_ > 0 ? beam_ - 1U : 0U, platform);
   }
-  // Advances the round by one tick. `arrived`: the dish points along the beam. `within_gimbal`: the gimbal reaches the
-  // beam. Measures at the end of a round.
+  // Advances the round by one tick. `arrived`: the dish points along the beam. `within_gimbal`: false if the dish
+  // cannot point there; the round then ends without a measurement. Measures after the last beam of a round.
   void step(const databuffer::ModelTick& tick, const Pose& pose, bool arrived, bool within_gimbal);
 
  private:

@@ -50,7 +50,7 @@ bool is_position(geo::GeoPoint point) {
 
 MapSchedule::MapSchedule(const MapParameters& parameters) : parameters_(parameters) {}
 
-// A map that was forming before the restart starts again, because its request counts as not started.
+// A map that was forming before the restart of the radar model starts again, because its request counts as not started.
 void MapSchedule::resume(const ModelStatus& status) {
   // An id above half of the largest id is replaced by 0. This leaves room for the ids of all later maps.
   newest_ = status.map_newest <= databuffer::kLatestPictureId / 2 ? status.map_newest : 0;
@@ -111,7 +111,7 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
   request_ = tick.command.map_request;
   const auto order = order_of(tick, pose);
   if (stopped_ || !order) {
-    // No map is possible at this position. The command is completed without a map, and a shown map stays.
+    // No map is possible at this position. A commanded map is completed without a picture. The shown map stays.
     if (is_commanded(tick.command)) done_request_ = request_;
     return;
   }

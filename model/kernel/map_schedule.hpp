@@ -1,7 +1,8 @@
 // Schedule of patch maps (which map forms when), and the hash of a map's record.
 // Inputs: one ModelTick per step (radar command, sim time), pose, elevation of the ground.
 // Outputs: the pending map with its parameters, start and end tick; fields of ModelStatus.
-// Errors: a command for a map that cannot be made is completed without a map; ModelStatus::map_stopped has the limit.
+// Errors: a command for a map that cannot be made is completed without a map; ModelStatus::map_stopped names the
+//   exceeded limit, if there is one.
 // Threads: one at a time. The schedule makes no picture; hrm::PatchFormation does.
 // Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7, #rule-8; docs/spec/physics.md#formation-time.
 #pragma once
@@ -58,9 +59,9 @@ class MapSchedule {
   void resume(const databuffer::ModelStatus& status);
   // Centre of the map that the command starts next: the commanded map, or a re-map (repetition of the shown map).
   geo::GeoPoint next_centre(const databuffer::RadarCommand& command, const Pose& pose) const;
-  // Starts or cancels maps. `ground_m`: elevation [m MSL] at next_centre(); NaN: unknown. `dish_free`: true if re-maps
-  // may start. A commanded map does not need the dish to be free. The limits of radar::map_rejection() apply to
-  // commanded maps and re-maps.
+  // Starts or cancels maps. `ground_m`: elevation [m MSL] at next_centre(); NaN counts as sea level. `dish_free`: true
+  // if re-maps may start. A commanded map does not need the dish to be free. The limits of radar::map_rejection() apply
+  // to commanded maps and re-maps.
   void step(const databuffer::ModelTick& tick, const Pose& pose, double ground_m, bool dish_free = true);
   // Completes the pending map, which becomes the newest map. Precondition: forming().
   void complete();
@@ -73,8 +74,8 @@ class MapSchedule {
   bool blocks_scanning(const databuffer::RadarCommand& command) const;
   // Target of the dish: the centre of the forming map, else of the next re-map; nullopt if there is neither.
   std::optional<geo::GeoPoint> pointing_target(const databuffer::ModelTick& tick, const Pose& pose) const;
-  // Formation time [s] of a map at a target; NaN for a window of 0. `ground_m`: elevation [m MSL] at the target; NaN
-  // counts as sea level.
+  // Formation time [s] of a map at a target; NaN if the window is not positive. `ground_m`: elevation [m MSL] at the
+  // target; NaN counts as sea level.
   double estimate_s(const databuffer::RadarCommand& command, const Pose& pose, geo::GeoPoint target, double ground_m,
                     double window_nm) const;
   void describe(std::int64_t tick, databuffer::ModelStatus& status) const;

@@ -40,14 +40,14 @@ class OfflineScan {
  public:
   OfflineScan(const physics::RadarParameters& parameters, const ScanRequest& request, int threads);
 
-  // Computes power, video and hashes. A thread waits for the other threads only before it forms the video of the first
-  // and the last sweep of its part.
+  // Computes power, video and hashes. Each thread computes successive sweeps. It waits for the other threads only
+  // before it forms the video of the first and the last of these sweeps.
   void run(const physics::Environment& environment);
-  // Computes only power.
+  // Computes power, without video and hashes.
   void measure(const physics::Environment& environment);
 
   std::span<const databuffer::Sweep> sweeps() const { return sweeps_; }
-  // Positions of the sweeps. power() has the power of all samples, sweep after sweep.
+  // Geometry and settings of each sweep. power() has the power of all samples, sweep after sweep.
   std::span<const SweepHeader> headers() const { return positions_; }
   std::span<const float> power() const { return power_; }
 

@@ -15,7 +15,8 @@ namespace {
 // [m] Margin of the terrain region beyond the range, for the movement of the aircraft while terrain loads.
 constexpr double kRegionMargin_m = 2000.0;
 
-// Pose of a tick; nullopt without a valid ownship. The ownship of a tick before the first valid one is all zero.
+// Pose of a tick; nullopt if its ownship is not flagged valid or has values out of range. Without the flag the ownship
+// can be all zero, which would count as a position.
 std::optional<Pose> valid_pose_of(const ModelTick& tick) {
   if ((tick.flags & databuffer::kTickOwnshipValid) == 0U) return std::nullopt;
   return pose_of(tick.ownship);
@@ -135,7 +136,7 @@ void RadarKernel::describe(const terrain::TerrainView& terrain, ModelStatus& sta
                   : radar::map_rejection(viewpoint_of(*state.pose), {cursor, status.cursor_ground_elevation_m},
                                          {geo::Length::nautical_miles(state.command.window_nm)}, state.configuration);
   status.mappable = reason ? 0 : 1;
-  // Without a forming map the timer shows the formation time of a map at the cursor.
+  // Formation time of a map at the cursor. While a map forms, maps.describe() replaces it by the remaining time.
   status.map_timer_s = kUnknown;
   if (!reason)
     status.map_timer_s = state.maps.estimate_s(state.command, *state.pose, cursor, status.cursor_ground_elevation_m,

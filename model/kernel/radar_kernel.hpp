@@ -1,9 +1,10 @@
 // The radar model without clock, file, log or segment. step() advances the model by one tick of 5 ms sim time.
 // Inputs: configuration; a ModelTick per step; terrain, scenes and traffic by reference.
 // Outputs: a Sweep record when a tick completes one; the needed terrain region; ModelStatus; the pending patch map.
-// Determinism: configuration, terrain, seed and the ticks so far determine every bit of a sweep.
-// Errors: an ownship record (state of the radar's own aircraft) that is flagged valid but has values out of range gives
-// blank sweeps at the last valid position.
+// Determinism: configuration (with its seed), terrain, scenes, traffic and the ticks so far determine every bit of a
+// sweep.
+// Errors: without a valid ownship record (state of the radar's own aircraft) sweeps start at the last valid position;
+// with none so far there are no sweeps. If the record is flagged valid but has values out of range, sweeps are blank.
 // Threads: one at a time per instance. step() allocates only if the number of samples or the preset changes.
 // Source: docs/architecture.md#kernel-and-shell, docs/radar_maths.md#from-tick-to-sweep.
 #pragma once
@@ -27,7 +28,8 @@ class RadarKernel {
   RadarKernel(RadarKernel&&) noexcept;
   RadarKernel& operator=(RadarKernel&&) noexcept;
 
-  // Continues servo, scan and sweep numbers from the last status of a previous process.
+  // Continues from the last status of a previous process: antenna, scan, velocity update, and the numbers of scans,
+  // sweeps and maps.
   void resume(const databuffer::ModelStatus& status);
 
   // Schedule of patch maps. The caller forms the picture of the pending map. In the first tick with the map due and the
@@ -44,7 +46,7 @@ class RadarKernel {
   };
   Need need(const databuffer::ModelTick& tick) const;
 
-  // Advances by one tick. Writes `sweep` and returns true if the tick completes a sweep.
+  // Advances by one tick. If the tick completes a sweep, writes it to `sweep` and returns true.
   bool step(const databuffer::ModelTick& tick, const physics::Environment& environment, databuffer::Sweep& sweep);
 
   // Fills the fields of `status` that follow from the kernel's state and the terrain. The shell fills the other fields,
@@ -56,7 +58,8 @@ class RadarKernel {
   std::unique_ptr<State> state_;
 };
 
-// Answers the state machine's request for a ground elevation: fills the position and its elevation [m MSL].
+// Answers the state machine's request for a ground elevation: writes the requested position and the elevation there
+// [m MSL] (NaN: unknown) to `status`.
 void answer_elevation(const databuffer::RadarState& request, const terrain::TerrainView& terrain,
                       databuffer::ModelStatus& status);
 

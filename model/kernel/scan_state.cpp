@@ -14,7 +14,7 @@ namespace yars::model::kernel {
 radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& configuration) {
   radar::RadarConfiguration dbs_settings = configuration;
   dbs_settings.fidelity.samples = radar::kMapCells;
-  // Doppler filters resolve neighbouring cells, so there is no smear between sweeps.
+  // Doppler filters resolve neighbouring azimuth cells, so there is no smear between sweeps.
   dbs_settings.fidelity.azimuth_smear = false;
   dbs_settings.fidelity.sub_beams = 1;
   for (std::size_t i = 0; i < dbs_settings.pulse_us.size() && i < dbs_settings.ranges_nm.size(); ++i) {
@@ -71,8 +71,8 @@ geo::Angle ScanState::commanded_elevation(const terrain::TerrainView& terrain) c
   return elevation_to(*pose, cursor, terrain.elevation_m(cursor));
 }
 
-// Joins the wedges of successive ticks into one DBS sweep (Doppler beam sharpening), from the trailing edge of the
-// first tick to the leading edge of the last.
+// Joins the wedges of successive ticks into one DBS sweep (Doppler beam sharpening), from the edge at which the antenna
+// enters the first wedge to the edge at which it leaves the last one.
 bool ScanState::accumulate(const ModelTick& input, const antenna::AntennaStep& step,
                            const physics::Environment& environment, databuffer::Sweep& sweep) {
   if (accumulated_ticks == 0) {
@@ -222,7 +222,8 @@ bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& s
   if (noise_only) labels.flags |= databuffer::kSweepNoiseOnly;
   if (step.scan_start) labels.flags |= databuffer::kSweepScanStart;
   if (step.scan_end) labels.flags |= databuffer::kSweepScanEnd;
-  // A sweep is not ready if terrain of another detail is in use or scenes are still being read.
+  // A sweep is flagged not ready while a cell within the range does not have the scan's detail, or scenes are still
+  // being read.
   const geo::Length range = geo::Length::nautical_miles(input.command.range_nm);
   const radar::Fidelity& fidelity = is_dbs() ? dbs_settings.fidelity : configuration.fidelity;
   const bool complete = environment.terrain.has_detail(scan_detail(fidelity, range)) && environment.scenes_ready;

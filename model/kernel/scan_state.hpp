@@ -1,7 +1,7 @@
 // State of the radar kernel between ticks, and its scan logic: power switch, mode, freeze, restart, antenna, sweeps.
 // Inputs: one ModelTick per step; terrain, scenes and traffic.
 // Outputs: Sweep records; fields of ModelStatus.
-// Threads: one at a time. Internal to radar_kernel.cpp.
+// Threads: one at a time. Internal to the kernel.
 // Source: docs/spec/pilots_interface.md#rule-2, #rule-8, #rule-9, #rule-18.
 #pragma once
 

@@ -1,7 +1,7 @@
 // Finishes measured sweeps into sweep records: position, azimuth smear, video, hash.
 // A pass is one crossing of the scan width by the antenna.
 // Inputs: position and labels of each sweep; terrain, scenes and traffic.
-// Outputs: Sweep records, each when the next sweep is measured or the pass ends. Hashes are XXH3 64.
+// Outputs: Sweep records, each when the next sweep is measured or the pass ends. Hashes (checksums) are XXH3, 64 bits.
 // Errors: sweeps over terrain that is not loaded are flagged not ready.
 // Threads: one at a time per chain. No allocation after construction.
 #pragma once
@@ -22,22 +22,24 @@
 
 namespace yars::model::kernel {
 
-// Position and geometry of one sweep: fields of its record without labels, video and hash.
+// Position and geometry of one sweep: the fields of its record without labels, video and hash; and what else its ray
+// geometry needs.
 struct SweepHeader {
   geo::GeoPoint apex;
-  geo::AltitudeMsl altitude;
-  geo::Bearing left;  // left and right edge of the wedge
+  geo::AltitudeMsl altitude;  // of the aircraft
+  geo::Bearing left;          // true bearings of the wedge's left and right edge
   geo::Bearing right;
   geo::Bearing ground_track;
-  geo::Angle elevation;  // of the antenna
-  geo::Length range;
-  int direction = 1;                           // 1: clockwise, -1: counter-clockwise
+  geo::Angle elevation;                        // of the antenna, above the horizontal
+  geo::Length range;                           // selected range
+  int direction = 1;                           // of the antenna; 1: clockwise, -1: counter-clockwise
   geo::Duration sim_time{};                    // for positions of movers; the record's sim time is in Labels
   std::uint8_t band = 0;                       // 0..4: A..E
   std::uint8_t channel = 1;                    // 1..8
   std::optional<geo::Bearing> beam_azimuth{};  // true azimuth of the beam's centre; nullopt: middle of the wedge
   std::optional<geo::Angle> dbs_cell_width{};  // cell width of Doppler beam sharpening; nullopt: real beam
-  geo::Angle bars_above{};                     // as in physics::SweepGeometry
+  // Angles from `elevation` up to the scan's highest bar and down to its lowest bar; 0 with one bar.
+  geo::Angle bars_above{};
   geo::Angle bars_below{};
 };
 
@@ -50,7 +52,8 @@ void write_header(const SweepHeader& header, databuffer::Sweep& sweep);
 // Ray geometry of a sweep. The azimuth is `beam_azimuth`, or else the middle of the wedge.
 physics::SweepGeometry geometry_of(const SweepHeader& header);
 
-// XXH3 64 over apex, edges, ground track, elevation and range. The result seeds XXH3 64 over the used video samples.
+// XXH3 64 over apex, altitude, edges, ground track, antenna elevation and range. The result seeds XXH3 64 over the
+// video samples in use.
 std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
 
 // Hash of a scan: XXH3 64 over the hashes of its sweeps in order, each seeded with the previous result.
@@ -73,25 +76,26 @@ class SweepChain {
     std::uint32_t flags = 0;  // databuffer::kSweepBlank, kSweepNoiseOnly and others
     std::uint8_t mode = 0;
     std::uint8_t gain = 3;
-    bool no_return = false;  // blind zone: black video, which overwrites the old picture; kSweepBlank leaves it
+    bool no_return = false;  // blind zone: black video replaces the old picture; kSweepBlank leaves the old picture
   };
 
-  // Measures the next sweep. Finishes its predecessor into `sweep` and returns true if there is one.
+  // Measures the next sweep. If the pass has a sweep before it, finishes that one into `sweep` and returns true.
   bool advance(const SweepHeader& header, const Labels& labels, const physics::Environment& environment,
                databuffer::Sweep& sweep);
   // Ends the pass: finishes the last sweep, which has no successor. Returns false if no sweep is unfinished.
   bool flush(databuffer::Sweep& sweep);
-  void clear() { held_ = 0; }
+  void clear() { held_ = 0; }  // drops the unfinished sweep
 
   std::size_t samples() const { return samples_; }
+  // Number of samples so far on terrain that was not loaded.
   std::uint64_t posts_pending() const { return posts_pending_; }
 
  private:
-  // A sweep whose power is known and whose video is not yet formed.
+  // A sweep with its power, from which the video of this sweep and of its two neighbours is formed.
   struct Measured {
     SweepHeader header;
     Labels labels;
-    double jamming = 0.0;  // full scale = 1
+    double jamming = 0.0;  // received jamming power, equal in all samples; full scale = 1
     memory::CacheAlignedVector<float> power;
   };
   void receive(Measured& measured, const physics::Environment& environment);

@@ -1,7 +1,7 @@
 // Inputs of a scan derived from a tick: ownship (the radar's own aircraft) as a pose, traffic as points, terrain
 // detail, fidelity preset.
 // Units: records have metres and degrees. Velocities are north, east, down [m/s].
-// Errors: an invalid ownship record gives no pose. Loads that are not finite are ignored.
+// Errors: an invalid ownship record gives no pose. Processor loads that are not finite are ignored.
 #pragma once
 
 #include <array>
@@ -25,7 +25,7 @@ struct Fidelity;
 
 namespace yars::model::kernel {
 
-inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  // an unknown number of a status record
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  // an unknown value in a status record
 
 // Position, attitude and velocity of the aircraft. All values are finite and within the ranges of a valid record.
 struct Pose {
@@ -48,12 +48,13 @@ bool requests_scan(const databuffer::RadarCommand& command);
 // Traffic of a record as moving points. Each starts at the record's tick from its recorded position.
 std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic);
 
-// Terrain detail of a scan (TerrainRegion::detail) for the fidelity's posts per sample at a range; 0: the finest.
+// Terrain detail of a scan with this range (TerrainRegion::detail: posts closer than 2^detail metres are not needed),
+// from the fidelity's samples and posts per sample; 0: the finest posts.
 int scan_detail(const radar::Fidelity& fidelity, geo::Length range);
 
-// Fidelity `automatic`: selects, one preset at a time, the finest preset with a load within a configured fraction of a
-// core. The governor uses no clock; the shell measures the load. Ticks record the selected preset, so a replay repeats
-// it.
+// Fidelity `automatic`: moves by at most one preset per scan towards the finest preset with a processor load within a
+// configured fraction of a core. The governor uses no clock; the shell measures the load. Ticks record the selected
+// preset, so a replay repeats it.
 class FidelityGovernor {
  public:
   // `core_share`: maximum fraction of one core, (0, 1].
@@ -63,7 +64,7 @@ class FidelityGovernor {
   static constexpr std::array<std::string_view, 4> kLadder{"draft", "standard", "fine", "reference"};
 
   std::string_view preset() const { return kLadder[preset_index_]; }
-  // Records the load of a scan with the current preset [fraction of a core], and selects the next preset.
+  // Records the load [fraction of a core] of a scan with the current preset, and selects the preset of the next scan.
   void record_load(double load);
 
  private:
@@ -73,7 +74,7 @@ class FidelityGovernor {
   std::size_t preset_index_ = 1;
   struct Measurement {
     double load = 0.0;  // load of the preset's last scan
-    int scans_ago = 0;  // age of `load`
+    int scans_ago = 0;  // number of scans since then
     bool known = false;
   };
   std::array<Measurement, kLadder.size()> measurements_{};

@@ -125,7 +125,7 @@ Air reference_air(const radar::AtmosphereConfiguration& atmosphere, double heigh
   constexpr double kLapse = 6.5, kUpperRise = 1.0;            // [K/km]
   constexpr double kTropopause_km = 11.0, kMiddle_km = 20.0;  // between these heights the temperature is constant
   constexpr double kExponent = 34.1632;                       // [K/km] hydrostatic constant g M / R of air
-  constexpr double kWaterScale_km = 2.0;                      // height in which water vapour falls to 1/e
+  constexpr double kWaterScale_km = 2.0;                      // rise in height over which water vapour falls to 1/e
   const double height_km = height_m / 1000.0;
   const double ground_k = atmosphere.temperature_c + kZeroCelsius_k;
   const double low_k = ground_k - kLapse * std::min(height_km, kTropopause_km);
@@ -167,7 +167,8 @@ constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873,
 constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};  // heights at which GasSamples' parabola equals the loss
 constexpr float kParabolaLowest_m = -500.0F, kParabolaHighest_m = 6000.0F;  // heights are clamped to this interval
 
-// Effective earth from the mean earth radius, which is within 0.6 % of the ellipsoid's radius of curvature everywhere.
+// Effective earth: flat, or a sphere from the mean earth radius, which is within 0.6 % of the ellipsoid's radius of
+// curvature everywhere.
 EffectiveEarth round_earth(const GeometryParameters& parameters) {
   const bool flat = parameters.earth == radar::EarthModel::flat;
   return EffectiveEarth(flat ? std::numeric_limits<double>::infinity()

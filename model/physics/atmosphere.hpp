@@ -1,6 +1,7 @@
 // Atmosphere: attenuation by gases along a ray; return and attenuation of rain.
-// Inputs: frequency, effective earth, altitude, distance over ground, height [m]; rain cells.
-// Outputs: attenuation [dB, dB/km, dB/m], factors on power, power of rain [1/m^2].
+// Inputs: frequency; effective earth; altitude of the aircraft, height of a point (both above mean sea level) and its
+//   distance over ground [m]; rain cells.
+// Outputs: attenuation [dB, dB/km, dB/m], factors on power, power returned by rain [1/m^2].
 // Accuracy: GasSamples within 0.1 dB of GasPath; a ray's height within 1 m in 300 km.
 // Threads: GasPath and GasProfile are immutable; GasSamples and RainPath have buffers: one object per thread.
 // Source: docs/spec/physics.md#gases, docs/spec/physics.md#rain.
@@ -52,7 +53,7 @@ class GasProfile {
   GasProfile(const radar::AtmosphereConfiguration& atmosphere, double frequency_ghz);
 
   bool empty() const { return db_per_m_.empty(); }
-  // One-way attenuation at a height; 0 if empty. Heights are clamped to [-1, 30] km.
+  // One-way attenuation at a height above mean sea level; 0 if empty. Heights are clamped to [-1, 30] km.
   double db_per_m(double height_m) const;
 
  private:
@@ -68,7 +69,7 @@ class GasPath {
   // True if gases are switched off.
   bool none() const { return profile_.empty(); }
 
-  // One-way attenuation [dB] from an altitude to a point at a distance over ground and a height.
+  // One-way attenuation [dB] from the aircraft at an altitude to a point at a distance over ground and a height.
   double one_way_db(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
   // Factors on power, in (0, 1]: for the way there and back, and for one way.
   double two_way_transmission(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m) const;
@@ -79,8 +80,8 @@ class GasPath {
 };
 
 // Two-way gas loss (factor on power) of a sweep's samples, in float. At each of 33 distances (knots) the loss is a
-// parabola in height. Between knots the coefficients of the parabola are linear in distance.
-// Accuracy: 0.1 dB against GasPath for visible ground from -400 to 6,000 m (tests/model/physics/gas_test.cpp).
+// parabola in the height of the ground. Between knots the coefficients of the parabola are linear in distance.
+// Accuracy: 0.1 dB against GasPath for visible ground -400 to 6,000 m high (tests/model/physics/gas_test.cpp).
 // Knots are recomputed only if altitude or range change.
 class GasSamples {
  public:
@@ -106,10 +107,10 @@ class GasSamples {
   memory::CacheAlignedVector<float> constant_, slope_, bend_;
 };
 
-// Rain: volume reflectivity eta and attenuation at the rain rate r, and their common profile across a shower.
-// Reflectivity factor Z = a r^b. Source: Marshall and Palmer 1948.
+// Rain: volume reflectivity eta and attenuation at the rain rate r [mm/h], and their common profile across a shower.
+// Reflectivity factor Z = a r^b [mm^6/m^3]. Source: Marshall and Palmer 1948.
 // Reflectivity eta = pi^5 |K|^2 Z / lambda^4; |K|^2: dielectric factor, lambda: wavelength. Source: Probert-Jones 1962.
-// Attenuation k r^alpha. Source: ITU-R P.838-3. The configuration has a, b, |K|^2, k and alpha.
+// Attenuation k r^alpha [dB/km]. Source: ITU-R P.838-3. The configuration has a, b, |K|^2, k and alpha.
 // The profile at the distance rho from the shower's centre is (1 - (rho / radius)^2)^2, a project choice. It falls
 // smoothly to 0, and its integral has a closed form.
 
@@ -136,10 +137,10 @@ RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint mid
 
 // Rain along one sweep: return at each range, and attenuation of other returns.
 // A shower is a vertical cylinder from the ground to its top. RainChord has the profile across it.
-// Return: eta times the illuminated volume R theta_az (c tau / 2) R I. R: slant range; theta_az: azimuth beamwidth;
-// c tau / 2: pulse length. I is the integral of the beam pattern over elevation, from the horizon to the top. With
-// 1/R^4 the power falls as R^-2.
-// Attenuation: the profile integrated along each chord, there and back.
+// Return: eta times the illuminated volume R theta_az (c tau / 2) R I. R: slant range to the shower's top; theta_az:
+// azimuth beamwidth; c tau / 2: pulse length. I is the integral of the two-way beam pattern over elevation, from the
+// horizon (ray.hpp) to the top. With 1/R^4 the power falls as R^-2.
+// Attenuation: that in each shower's centre times the profile integrated along the chord, there and back.
 class RainPath {
  public:
   explicit RainPath(const RadarParameters& parameters);
@@ -148,11 +149,12 @@ class RainPath {
   void enter(const SweepGeometry& geometry);
   bool dry() const { return crossed_.empty(); }
 
-  // Factor on the power returned by a point: two-way rain attenuation.
+  // Factor, in (0, 1], on the power returned by a point at a distance over ground > 0: rain attenuation there and back.
   double two_way_transmission(const EffectiveEarth& earth, double altitude_m, double distance_m, double height_m,
                               double slant_range_m) const;
 
   // Power [1/m^2] (unit of returned_power()) of the rain at a distance over ground, above the elevation `horizon_rad`.
+  // Not attenuated by gases or rain.
   double power(const Receiver& receiver, const EffectiveEarth& earth, const SweepGeometry& geometry, double distance_m,
                double horizon_rad) const;
 
@@ -174,8 +176,9 @@ class RainPath {
   std::vector<Crossing> crossed_;
 };
 
-// Interval of distance over ground in which a straight ray from an altitude to a point is below the height `top_m`.
-// If there is none, from_m >= to_m. The earth's drop is taken as a parabola, within 1 m in 300 km.
+// Interval of distance over ground in which a straight ray, from the aircraft at an altitude to a point at a distance
+// and a height, is below the height `top_m`. Altitude and heights are above mean sea level. If there is none,
+// from_m >= to_m. The earth's drop is taken as a parabola, within 1 m in 300 km.
 struct Stretch {
   double from_m = 0.0;
   double to_m = 0.0;

@@ -26,7 +26,7 @@ struct NoiseState {
 };
 
 // Speckle sums exponential variates, one per look. Four looks are computed together: two draws of 32 bits give four
-// uniform numbers, and the logarithm of their product gives the sum.
+// uniform numbers, and minus the logarithm of their product is the sum.
 inline constexpr int kLooksPerGroup = 4;
 inline constexpr std::uint32_t kDrawsPerCell = 8;  // draws for kMaxLooks (receiver.hpp), two looks per draw
 
@@ -69,7 +69,7 @@ GroundGrid make_ground_grid(double edge_m);
 std::uint32_t ground_bits(const GroundGrid& grid, geo::GeoPoint position);
 
 // Texture of K-distributed clutter: a gamma variate of mean 1 and variance 1/shape, fixed to the ground.
-// With speckle of L looks, variance / mean^2 = (1 + 1/shape)(1 + 1/L) - 1.
+// With speckle of L looks, the power has variance / mean^2 = (1 + 1/shape)(1 + 1/L) - 1.
 // Eight random bits of a cell select one of 256 levels of equal probability. Each level is the mean of its interval.
 // Source: Ward, Tough, Watts, "Sea Clutter", 2nd ed., 4.2 (compound K); Abramowitz and Stegun 6.5 (incomplete gamma).
 inline constexpr std::size_t kTextureLevels = 256;

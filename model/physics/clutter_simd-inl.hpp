@@ -57,9 +57,9 @@ HWY_INLINE V noise_bits(NoiseState state, V cell, std::uint32_t draw) {
   return hn::Xor(keyed, hn::ShiftRight<15>(keyed));
 }
 
-// Texture level [0, 255] of the ground cell at each sample: the upper 8 bits of ground_bits(). Cells are found in float
-// from the south-west corner of each one-degree square. Within a centimetre of a cell's edge the level may be that of
-// the neighbouring cell.
+// Number [0, 255] of the texture level of the ground cell at each sample: the upper 8 bits of ground_bits(). Cells are
+// found in float from the south-west corner of each one-degree square. Within a centimetre of a cell's edge the level
+// may be that of the neighbouring cell.
 class TextureCells {
  public:
   explicit TextureCells(const GroundInputs& in) : in_(in) {}
@@ -72,7 +72,7 @@ class TextureCells {
     // Usual case: all samples are in the one-degree square of the previous vector.
     if (hn::AllTrue(d, in_degree())) return levels_in_degree(i);
     auto found = hn::Zero(hn::RebindToSigned<GroundTag>());
-    // Samples with NaN positions keep level 0.
+    // Samples with NaN positions have level number 0.
     auto remaining = hn::And(hn::Eq(north, north), hn::Eq(east, east));
     while (!hn::AllFalse(d, remaining)) {
       const auto lane = static_cast<std::size_t>(hn::FindFirstTrue(d, remaining));

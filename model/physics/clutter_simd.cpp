@@ -109,7 +109,7 @@ void speckle(std::size_t cells, NoiseState state, int looks, float* variate) {
   }
 }
 
-// Loads at most `remaining` entries. No entry beyond them is read.
+// Loads a vector. Lanes from `remaining` on are 0, and no entry is read for them.
 HWY_INLINE Floats load(const float* from, std::size_t remaining) {
   const Tag d;
   if (remaining >= hn::Lanes(d)) return hn::LoadU(d, from);
@@ -128,8 +128,8 @@ HWY_INLINE Floats variates(const VideoInputs& in, std::size_t i) {
   return hn::TableLookupLanes(hn::LoadU(d, in.variate + first), hn::IndicesFromVec(d, offset));
 }
 
-// Nearest integer of a value below 2^21. The last mantissa bit of value + 1.5 * 2^23 has the weight 1. 0x4b400000 is
-// 1.5 * 2^23 as bits.
+// Nearest integer of a value between -2^21 and 2^21. The last mantissa bit of value + 1.5 * 2^23 has the weight 1.
+// 0x4b400000 is 1.5 * 2^23 as bits.
 HWY_INLINE hn::Vec<SignedTag> rounded(Floats value) {
   constexpr float kRoundingOffset = 12582912.0F;  // 1.5 * 2^23
   const SignedTag di;

@@ -1,11 +1,11 @@
 // SIMD loops over the samples of a sweep, written with the Highway library: reflectivity of the ground, speckle, video.
 // Texture is a random factor on the reflectivity that is fixed to the ground (clutter.hpp).
 // Inputs: arrays of samples; GroundInputs, NoiseState, VideoInputs.
-// Outputs: reflectivity as power ratios, speckle as gamma variates of mean 1, 8-bit video.
+// Outputs: gamma of land and sigma0 of sea as power ratios, speckle as gamma variates of mean 1, 8-bit video.
 // Accuracy of the reflectivity: see ground_return.hpp.
 // Threads: pure functions. The instruction set is chosen at run time; results are equal bit by bit on all of them.
-// Arrays have terrain::kRunSlack more entries than samples, because vectors read past the end. Arrays for
-// rbm::simd::sweep() have kPairSlack (ray.hpp) more entries than samples.
+// Unless a function states otherwise, arrays have terrain::kRunSlack more entries than samples, because vectors read
+// past the end. Arrays for rbm::simd::sweep() have kPairSlack (ray.hpp) more entries than samples.
 #pragma once
 
 #include <array>
@@ -22,8 +22,8 @@ namespace yars::model::physics::simd {
 // Land coefficients by material code.
 struct MaterialTables {
   std::array<float, radar::kMaterials> gamma{};
-  // Gamma times texture level, kTextureLevels entries per material. Materials without texture have equal entries. The
-  // water material has the sea's texture levels without gamma.
+  // Gamma times texture level, kTextureLevels entries per material; equal entries for a material without texture. The
+  // water material has the sea's texture levels without gamma. Not read if neither land nor sea has texture.
   std::array<float, radar::kMaterials * kTextureLevels> texture{};
 };
 
@@ -72,7 +72,7 @@ void sigma0_at_azimuth(const SeaTable& table, float cosine, float* sigma0);
 void speckle(std::size_t cells, NoiseState state, int looks, float* variate);
 
 struct VideoInputs {
-  const float* before;  // power of three sweeps, `count` entries each
+  const float* before;  // power of three successive sweeps (PowerWindow), `count` entries each
   const float* centre;
   const float* after;
   const float* weights;      // weights of the three sweeps

@@ -1,7 +1,7 @@
 // Environment of a sweep (terrain, scenes, moving targets), and the echoes of the moving targets.
 // Inputs: sweep geometry, receiver, terrain below the movers, sim time.
 // Outputs: distance over ground [m], tangent of elevation angle, power (full scale = 1) of each mover in the beam.
-// Where the terrain is void, a mover stands on elevation 0.
+// Where the terrain is void, a mover stands at mean sea level.
 // Threads: one thread at a time may use a Movers object.
 // Source: docs/spec/physics.md#power (radar equation of a point).
 #pragma once
@@ -59,7 +59,7 @@ struct Echo {
 inline constexpr std::size_t kMaxTraffic = 64;  // traffic targets per sweep; further targets are ignored
 
 // Echoes of the configured movers and of up to kMaxTraffic traffic targets in one sweep. Movers stand on the terrain
-// at their current position. The caller applies shadow.
+// at their current position. The caller applies shadow and rain attenuation.
 class Movers {
  public:
   explicit Movers(const RadarParameters& parameters);
@@ -80,7 +80,7 @@ class Movers {
 };
 
 // Index of the sample with the centre nearest to a distance over ground. `distance_m` has the centres as from
-// sample_distances(): first any NaN, then ascending values.
+// sample_distances(): NaN for the nearest samples, if any, then ascending values.
 // Returns the number of samples if all centres are NaN.
 std::size_t nearest_sample(std::span<const double> distance_m, double target_m);
 

@@ -73,7 +73,7 @@ class Ground {
 
   // Ground inputs of a sweep for simd::sweep(). Null: the whole sweep is land without culture and texture.
   // `water` is the fraction of water from the terrain. `materials` is true if materials() is filled.
-  // The result is valid until the next call and refers to `positions` and `water`.
+  // The result is valid until the next call of prepare() or reflect(), and refers to `positions` and `water`.
   const simd::GroundInputs* prepare(const SweepGeometry& geometry, const terrain::PositionRun& positions,
                                     const float* water, bool materials);
 

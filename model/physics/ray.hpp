@@ -3,8 +3,8 @@
 // Inputs: apex, azimuth, range, distances of the samples [m].
 // Outputs: latitude and longitude, split into whole degrees and fractions [deg]; tangents of elevation angles.
 // Frame: WGS84. Longitudes are continuous across the antimeridian.
-// Accuracy: positions within 0.5 m up to 160 NM at every latitude. GroundWalk: 10 mm up to 60 degrees of latitude,
-// 0.2 m beyond.
+// Accuracy: positions within 0.5 m up to 160 NM at every latitude, except with fewer than five knots (see kMinKnots).
+// GroundWalk: 10 mm up to 60 degrees of latitude, 0.2 m beyond.
 // Voids do not raise a horizon. GroundWalk keeps references to its inputs.
 // Source: docs/spec/physics.md#geometry, docs/spec/physics.md#shadow.
 #pragma once
@@ -121,9 +121,10 @@ struct PositionArrays {
 void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
                       PositionArrays& positions);
 
-// Highest tangent of the ground along a ray between two distances, in double. The algorithm `reference` uses it between
-// its samples. The ray is walked in steps of a tenth of the posts' spacing. Exact geodesic positions are at
-// most 500 m apart, closer near a pole. Between these positions the ray is straight in latitude and longitude.
+// Highest tangent of the ground's elevation angle along a ray between two distances, in double. The algorithm
+// `reference` uses it between its samples. The ray is walked in steps of the posts' spacing / `steps_per_post`. Exact
+// geodesic positions are at most 500 m apart, closer near a pole. Between these positions the ray is straight in
+// latitude and longitude.
 // Accuracy of the positions: 10 mm up to 60 degrees of latitude, 0.2 m beyond.
 class GroundWalk {
  public:
@@ -143,8 +144,9 @@ class GroundWalk {
   // or has no posts.
   double highest_tangent(double from_m, double to_m) const;
 
-  // Maximum tangent of all ground nearer than a point between samples. `horizon(i)` is the maximum tangent of the
-  // ground up to sample i. Only the ground between the last nearer sample and the point is walked.
+  // Maximum tangent of all ground nearer than a point at the distance `point_m`. `distance_m` has the distances of the
+  // samples, `horizon(i)` the maximum tangent of the ground up to and including sample i. Only the ground between the
+  // point and the last sample nearer than the point is walked.
   template <class Horizon>
   double horizon_before(std::span<const double> distance_m, double point_m, const Horizon& horizon) const {
     const std::size_t nearer = samples_nearer(distance_m, point_m);

@@ -39,7 +39,7 @@ inline double wavelength_m(double frequency_ghz) {
 // The cardinal effect is the strong return of walls that face the radar.
 struct StreetPatch {
   geo::GeoPoint origin;      // a crossing of the patch's street grid
-  double bearing_deg = 0.0;  // bearing in [0, 90) of one set of streets; the other set is perpendicular
+  double bearing_deg = 0.0;  // true bearing in [0, 90) of one set of streets; the second set is perpendicular
 };
 
 // Patch with the origin nearest to a position. There is about one origin per 5 x 5 km.
@@ -87,8 +87,8 @@ struct LandReturn {
 };
 LandReturn make_land_return(const RadarParameters& parameters);
 
-// Angle in [-45, 45) between a ray's azimuth and the nearest direction of a street grid. Walls stand along and across
-// the streets.
+// Angle in [-45, 45), clockwise positive, from the nearest direction of a street grid to a ray's azimuth. Walls stand
+// along and across the streets.
 double off_street_deg(double azimuth_deg, double street_deg);
 
 // Factor on gamma by the cardinal effect: 1 + cardinal * exp(-4 ln 2 (off / width)^2). `width_deg` is the full width at
@@ -125,7 +125,8 @@ inline constexpr double kMaxShading = 4.0;
 
 // Sea return. Source: NRL model, Gregers-Hansen and Mital 2012 (DTIC ADA559494), 0.1 to 60 degrees grazing, sea states
 // 0 to 6. The model is within 2.6 dB on average of Nathanson's tables, which average over the wind direction.
-// The wind direction term is from the GIT model (Horst, Dyer, Tuley 1978). At X band: 3 dB upwind, -3 dB downwind.
+// The wind direction term is from the GIT model (Horst, Dyer, Tuley 1978). At X band, low grazing
+// angles and the default wind factor: 3 dB upwind, -3 dB downwind.
 
 using SeaCoefficients = std::array<double, 5>;
 

@@ -38,13 +38,14 @@ struct AzimuthInterval {
 // of the beam's centre. The two-way gain outside is below -96 dB. The slice of a sharpened cell is not limited.
 AzimuthInterval point_interval(const BeamSlice& slice, double beamwidth_rad);
 
-// Two-way gain in azimuth of a target with its middle at `offset_rad` and the width `width_rad`. The gain is 0 if the
-// middle is outside point_interval(). In a sharpened cell the gain is instead the fraction of the target's width inside
-// the cell, times beamwidth / cell width. All gains include BeamSlice::factor.
+// Two-way gain in azimuth of a target with its middle at `offset_rad` from the ray, clockwise positive, and the width
+// `width_rad`. The gain is 0 if the middle is outside point_interval(). In a sharpened cell the gain is instead the
+// fraction of the target's width inside the cell (for width 0: 1 if the middle is inside, else 0), times beamwidth /
+// cell width. All gains include BeamSlice::factor.
 double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double offset_rad, double width_rad = 0.0);
 
 // Apex, direction and range of one ray of a sweep.
-// Precondition, ensured by the kernel: every value is finite, latitude is within +-90 deg, range > 0.
+// Precondition, ensured by the code in model/kernel: every value is finite, latitude is within +-90 deg, range > 0.
 struct SweepGeometry {
   geo::GeoPoint apex;
   geo::AltitudeMsl altitude;

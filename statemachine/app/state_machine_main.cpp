@@ -24,7 +24,8 @@ error::Expected<void> run(const databuffer::ProgramOptions& options) {
     shell.step(*due);
     loop->done(*due);
     if (due->skipped > 0)
-      session->note(databuffer::NoteKind::late_tick, "state-machine skipped " + std::to_string(due->skipped));
+      session->note(databuffer::NoteKind::late_tick,
+                    "state-machine skipped " + std::to_string(due->skipped) + " ticks");
   }
   return loop->outcome();
 }

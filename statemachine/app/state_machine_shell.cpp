@@ -84,8 +84,8 @@ void StateMachineShell::latch_recorder() {
   inputs_.recorder_failed = inputs_.recorder_present && recorder_.value().problem[0] != '\0';
 }
 
-// Evaluates the magnetic field once per second. An evaluation takes longer than all other work of step(), and the
-// variation changes slowly.
+// Evaluates the magnetic field once per second of sim time, and in every tick until a variation is known. An evaluation
+// takes longer than all other work of step(), and the variation changes slowly.
 void StateMachineShell::latch_variation() {
   constexpr std::int64_t kTicksBetween = 200;  // 1 s
   const bool due = inputs_.tick % kTicksBetween == 0 || std::isnan(inputs_.field_variation_deg);
@@ -96,8 +96,8 @@ void StateMachineShell::latch_variation() {
                                                      parameters_.navigation.magnetic_year);
 }
 
-// Drops records of maps that neither the state nor the model names any more. Reads each record of a newly named map
-// once.
+// Drops the records of patch maps whose ids are no longer in the radar state or the model status. Reads the record of
+// each map whose id is new there.
 void StateMachineShell::latch_maps() {
   const std::array<std::uint64_t, kMaxMaps> wanted{state_.map_newest, state_.map_old, state_.map_stored,
                                                    inputs_.model.map_newest};
@@ -115,9 +115,10 @@ void StateMachineShell::take_events(std::int64_t tick) {
   std::uint64_t too_old = 0;
   const std::int64_t now_ns = drop_old_events_ ? databuffer::monotonic_ns() : 0;
   for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
-    // The number of events per tick is bounded, so that a source that floods its lane does not delay the tick.
+    // The number of events per lane and tick is bounded, so that a source that floods its lane does not delay the tick.
     for (std::size_t taken = 0; taken < databuffer::kInputLaneDepth && input.peek(lane, event); ++taken) {
-      // Events of a lane are applied in order. So if this event waits, the later events of the lane wait too.
+      // Events of a lane are applied in order. So if this event waits (for the terrain elevation of an earlier point),
+      // the later events of the lane wait too.
       if (waits_for_elevation(state_, event, inputs_)) break;
       input.pop(lane, event);
       if (drop_old_events_ && event.monotonic_ns < now_ns - kMaxEventAge_ns)

@@ -1,7 +1,7 @@
 // Shell of state-machine in a session: latches the inputs once per tick, applies events, publishes the results.
 // Inputs: events of all input lanes, ownship and nav, model status, recorder status, patch map records.
 // Outputs: the radar state when it has changed; every applied event; an Outputs record in every tick.
-// Errors: invalid records are dropped and noted in the flight recorder; the last valid record stays.
+// Errors: invalid events and records are dropped and noted in the flight recorder; the last valid record stays in use.
 #pragma once
 
 #include <cstdint>

@@ -160,9 +160,9 @@ TEST_F(Limits, APackHasAtMost7201PostsASide) {
       side[offset + 3] = static_cast<std::byte>(posts & 255U);
       return refusal_of(terrain::parse_pack(packed->jp2, side, "n36.jp2", kCorner, 0));
     };
-    EXPECT_THAT(refusal_with(7202), HasSubstr("sizes of a cell, found ")) << offset;
+    EXPECT_THAT(refusal_with(7202), HasSubstr("posts a side and 1 to 17 levels, found ")) << offset;
     EXPECT_THAT(refusal_with(7202), HasSubstr("7202"));
-    EXPECT_THAT(refusal_with(7201), ::testing::Not(HasSubstr("sizes of a cell"))) << offset;
+    EXPECT_THAT(refusal_with(7201), ::testing::Not(HasSubstr("posts a side and"))) << offset;
   }
 }
 

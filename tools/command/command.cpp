@@ -49,8 +49,9 @@ radar::RadarConfiguration read_configuration(const std::string& file, const Conf
 void add_pose_options(databuffer::Command command, PoseOptions& options) {
   command.option("--lat", options.latitude_deg, "[deg] latitude of the aircraft").range(-90.0, 90.0);
   command.option("--lon", options.longitude_deg, "[deg] longitude of the aircraft").range(-180.0, 180.0);
-  command.option("--alt-ft", options.altitude_ft, "[ft] above mean sea level").range(-3000.0, 600000.0);
-  command.option("--heading", options.heading_deg, "[deg] true; also the ground track").range(-360.0, 360.0);
+  command.option("--alt-ft", options.altitude_ft, "[ft] altitude of the aircraft above mean sea level")
+      .range(-3000.0, 600000.0);
+  command.option("--heading", options.heading_deg, "[deg] true heading; also the ground track").range(-360.0, 360.0);
 }
 
 }  // namespace yars::tools

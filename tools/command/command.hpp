@@ -58,7 +58,7 @@ databuffer::Option add_preset_option(databuffer::Command command, const std::str
 // Callers must include lib/radar/configuration.hpp, because RadarConfiguration is only declared here.
 radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options);
 
-// Pose of the aircraft. Its ground track equals its heading.
+// Pose of the aircraft: altitude above mean sea level, true heading. The ground track equals the heading.
 struct PoseOptions {
   double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0;
 };

@@ -49,7 +49,8 @@ radar::Platform level_flight(const model::hrm::PatchOrder& order) {
   return {order.ground_track, {}, {}, order.ground_track};
 }
 
-// Advice on a heading that puts the target between blind zone and gimbal limit, on the same side as `off_track_deg`.
+// Advice on a heading that puts the target between blind zone and gimbal limit, on the same side as now.
+// `off_track_deg`: angle from the ground track to the target, right positive.
 std::string proposed_heading(const geo::GeodesicInverse& to_target, double off_track_deg,
                              const radar::MapLimits& limits) {
   const double min_deg = limits.blind_zone_deg + kHeadingMargin_deg;

@@ -20,19 +20,22 @@ struct AntennaConfiguration;
 namespace yars::tools {
 
 // Limits of a patch map in level flight along the ground track, by radar::map_rejection(). `target_ground_m` [m] MSL:
-// terrain elevation at the map's centre; NaN: void; nullopt: not known yet, so the elevation angle is not checked.
+// terrain elevation at the map's centre; NaN: void, counts as sea level; nullopt: not known yet, so the elevation angle
+// to the target is not checked.
 std::optional<error::Error> beyond_limits(const model::hrm::PatchOrder& order, const radar::MapLimits& limits,
                                           std::optional<double> target_ground_m = std::nullopt);
 
-// Gimbal limits of a scan centred on the nose: antenna elevation, and scan width from edge to edge.
+// Gimbal limits of a scan centred on the nose, in level flight: antenna elevation above the horizontal, and scan width
+// from edge to edge.
 std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,
                                           const radar::AntennaConfiguration& antenna);
 
-// Checks that the aircraft is above the ground. `ground_m` [m] MSL: terrain below the aircraft; NaN: unknown, no check.
+// Checks that the aircraft is not below the ground. `ground_m` [m] MSL: terrain at its position; NaN: unknown, passes.
 std::optional<error::Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m);
 
-// Both check_..._read functions print each problem of reading on standard error. If some files of the region are
-// unreadable, they print how many. If all files are unreadable, they throw CommandFailed with code 1.
+// Both check_..._read functions print each problem of reading on standard error. They then count the files of the
+// region, the ground that the last prepare() has loaded. If some of these files are unreadable, they print how many. If
+// all are unreadable, they throw CommandFailed with code 1.
 
 // Call after prepare() of the stores. `command`: prefix of messages, such as "yars scan". `folder`: terrain folder, for
 // messages. `path_store`: optional second store of the same folder, for the ground between aircraft and map. Problems

@@ -37,12 +37,13 @@ struct PatchOutput {
   std::string pixels = "video";  // pixels of a .tif: "video" or "power"
 };
 
-// Checks the options before the computation. Throws for an unknown file extension, for pixels "power" without a .tif,
-// and for a .tif in a build without GDAL.
+// Checks the options before the computation. Throws for an unknown file extension, for a file that cannot be created,
+// for pixels "power" without a .tif, and for a .tif in a build without GDAL.
 void check_patch_output(const PatchOutput& output);
 
-// Writes the file. A power of 1 is the return of level ground with gamma 1. With the preset `1996` the
-// values are brightness, not power. The power of pixels in the blind zone is "no data" in a .tif and -1 in a .f32.
+// Writes the file. A power of 1 is the return of level ground with gamma 1 at the map's centre. With the preset `1996`
+// the power values are brightness 0 to 1. With any preset, the power of pixels in the blind zone is "no data" in a .tif
+// and -1 in a .f32.
 void write_patch(const PatchOutput& output, const model::hrm::PatchOrder& order,
                  const model::hrm::PatchFormation& patch_formation);
 
@@ -167,7 +168,7 @@ Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
 }
 
 // Minimum target distance as a fraction of the window's side; --force does not override this minimum. Below 0.5 the
-// window would extend behind the aircraft. hrm::PatchOrder requires more than 0.71, half the window's diagonal.
+// map would extend behind the aircraft. hrm::PatchOrder requires more than 0.71, half the window's diagonal.
 constexpr double kMinDistanceFraction = 0.75;
 
 void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& configuration, bool force) {
@@ -188,16 +189,17 @@ void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& en
   if (const auto problem = beyond_limits(order, configuration, target_ground_m)) throw_failure(*problem);
 }
 
-// Names the cause of black pixels on standard error: blind zone, or shadow and horizon. The picture shows no cause.
+// Names the cause of black pixels on standard error, because the picture does not show it: the blind zone; or shadow
+// and horizon, if no pixel has a return.
 void report_dark_pixels(const hrm::MapImage& image) {
   const auto pixels = static_cast<double>(image.power.size());
   const auto blind = std::count_if(image.power.begin(), image.power.end(), [](float power) { return power < 0.0F; });
   const bool seen = std::any_of(image.power.begin(), image.power.end(), [](float power) { return power > 0.0F; });
   if (blind > 0)
-    std::fprintf(stderr, "yars patch: %.1f %% of the window lie in the blind zone and are blank\n",
+    std::fprintf(stderr, "yars patch: %.1f %% of the map lie in the blind zone and are blank\n",
                  100.0 * static_cast<double>(blind) / pixels);
   if (!seen && static_cast<double>(blind) < pixels)
-    std::fprintf(stderr, "yars patch: nothing of the window is seen: it lies in shadow or beyond the horizon\n");
+    std::fprintf(stderr, "yars patch: nothing of the map is seen: it lies in shadow or beyond the horizon\n");
 }
 
 void patch(const CommonOptions& common, const PatchOptions& options) {
@@ -205,7 +207,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   const radar::RadarConfiguration configuration = configure(common, options);
   const hrm::PatchOrder order = order_of(options, configuration);
   check_order(order, configuration, options.force);
-  // Two stores: the window needs finer terrain than the path from the aircraft to the window.
+  // Two stores: the ground of the map needs finer terrain than the ground between aircraft and map.
   auto window_store = model::terrain::open_terrain(configuration.terrain);
   if (!window_store) throw_failure(window_store.error());
   auto path_store = model::terrain::open_terrain(configuration.terrain);

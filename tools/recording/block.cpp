@@ -48,8 +48,8 @@ namespace {
 
 // Duration of a block: 1 s of sim time. Longer blocks compress better, but cost more in a seek and lose more by damage.
 constexpr std::uint64_t kBlockTicks = 200;
-// A block is full at half of the reader's limits. A larger item has a block of its own. Up to twice kFullBytes, that
-// block is within the reader's limits.
+// A block is full at half of the reader's limits. An item of more than kFullBytes has a block of its own. The reader
+// accepts that block if the item has at most twice kFullBytes.
 constexpr std::size_t kFullBytes = kMaxBlockBytes / 2;
 constexpr std::size_t kFullItems = kMaxBlockItems / 2;
 
@@ -132,8 +132,8 @@ bool BlockItems::decode(Column& column, std::size_t& remaining_bytes, std::span<
   const std::size_t bytes = column.count * kind.bytes;
   if (bytes > remaining_bytes) return false;
   remaining_bytes -= bytes;
-  // Upper bound of the coded size. A column is one 8-byte word of all records. The coding adds two bytes for each
-  // column and pads the last word of each record.
+  // Upper bound of the coded size. Here a column is the 8-byte words at one offset of all records. The coding adds two
+  // bytes for each column and pads the last word of each record.
   constexpr std::size_t kWord_bytes = 8;
   const std::size_t max_bytes = (column.count + 2) * (kind.bytes + kWord_bytes);
   const auto coded = take_chunk({kind.number, ChunkPart::records}, max_bytes, body);

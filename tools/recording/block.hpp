@@ -1,4 +1,5 @@
-// Block of a recording: about 1 s of recorded items, which can be decoded without other blocks. An item is one record.
+// Block of a recording: the items of about 1 s of sim time, which can be decoded without other blocks. An item is one
+// record.
 // Format: a head of 56 bytes with checksums, then a body of chunks (compression.hpp).
 // First chunk: the kind of each item, in the order of recording.
 // Other chunks, in ascending order of kind: the fixed-size records as columns, then their variable-size tails.
@@ -28,11 +29,11 @@ enum class BlockContent : std::uint32_t { items = 1, index = 2 };  // index: tab
 struct BlockHead {
   std::array<char, 4> magic;
   BlockContent content;
-  std::uint64_t kinds;  // bit n: the block has items of kind n
-  std::int64_t first_tick, last_tick;
-  std::uint32_t items;       // number of items; in an index: number of blocks
-  std::uint32_t raw_bytes;   // size of all records and tails before compression
-  std::uint32_t body_bytes;  // size of all chunks as stored, with their heads
+  std::uint64_t kinds;                 // bit n: the block has items of kind n
+  std::int64_t first_tick, last_tick;  // lowest, highest tick of the items; without ticks see BlockBuilder::take()
+  std::uint32_t items;                 // number of items; in an index: number of blocks
+  std::uint32_t raw_bytes;             // size of all records and tails before compression
+  std::uint32_t body_bytes;            // size of all chunks as stored, with their heads
   std::uint32_t body_checksum;
   std::uint32_t reserved;
   std::uint32_t head_checksum;  // checksum of the bytes of the head before this field

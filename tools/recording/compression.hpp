@@ -35,7 +35,8 @@ std::uint32_t checksum_of(std::span<const std::byte> bytes);  // CRC-32 of zlib 
 // Column: the 8-byte words at the same offset of all records.
 // Prediction: each word is extrapolated from the 1, 2 or 3 words before it in its column. A column has one order,
 // which is this number of words.
-// Residual: the prediction error modulo 2^64, zigzag coded. The coding is therefore exact for any bytes.
+// Residual: the prediction error modulo 2^64, zigzag coded: small errors of either sign become small unsigned numbers.
+// The coding is exact for any bytes.
 // Byte planes: plane n has byte n (weight 256^n) of all residuals of a column. Planes of zeros are omitted.
 // Format, in this sequence: the first record; for each column one byte with its order and one byte with the planes
 // present (bit n: plane n); the planes, column by column, with one byte for each record after the first.

@@ -104,8 +104,8 @@ namespace {
 
 using databuffer::RadarState;
 
-// The state with its moving values (see StatePace) set to zero. A moving value that is missing here is treated as a
-// switched control: its changes are recorded too often, but never lost.
+// The state with its moving values (see StatePace) set to zero. A moving value that this function does not
+// set to zero is treated as a switched control: its changes are recorded too often, but never lost.
 RadarState without_continuous_values(RadarState state) {
   state.tick = 0;
   state.events_applied = 0;  // events have their own records

@@ -43,12 +43,12 @@ struct StartingPoint {
   databuffer::ModelStatus status;
 };
 
-// The radar state, recorded when it changes and when writing begins. Its tick is state.tick.
+// The radar state, recorded when writing begins and after changes, as StatePace decides. Its tick is state.tick.
 struct StateChange {
   databuffer::RadarState state;
 };
 
-// Status of the model. At most ten per second are recorded.
+// Status of the model. At most ten per second of sim time are recorded.
 struct StatusReport {
   databuffer::ModelStatus status;
 };
@@ -135,7 +135,8 @@ struct RecordedKind {
 std::span<const RecordedKind> recorded_kinds();
 const RecordedKind* recorded_kind(std::uint8_t number);  // nullptr: no such kind
 
-// Tick at which the record was made. nullopt: the record has no tick, or is a StateChange, whose tick is state.tick.
+// Tick of the record; for a Patch, the tick at which the map was complete. nullopt: the record has no tick, or is a
+// StateChange. The tick of a StateChange, state.tick, is not returned.
 template <class T>
 std::optional<std::int64_t> tick_of(const T& record) {
   if constexpr (requires { record.tick; })
@@ -148,8 +149,8 @@ std::optional<std::int64_t> tick_of(const T& record) {
     return std::nullopt;
 }
 
-// Minimum interval [ticks] between recorded values of one kind: 0.1 s of sim time. Radar states with a switched control
-// are recorded in addition.
+// Minimum interval [ticks] between recorded values of a kind with a rate limit (radar states, statuses of the model,
+// outputs): 0.1 s of sim time. Radar states in which a control was switched are recorded in addition.
 inline constexpr std::int64_t kPaceTicks = 20;
 
 // Rate limit: a value is due if none was recorded yet, if kPaceTicks have passed since the last recorded value, or if

@@ -25,16 +25,17 @@ inline constexpr std::size_t kMaxHeaderText = std::size_t{1} << 16;  // [bytes] 
 std::vector<std::byte> bytes_of(const RecordingHeader& header);
 
 // Reads the header. The position of `file` is then the first block. Errors, which all name `file_name`: another kind of
-// file, another format version, a kind with another version or size than in this build, a damaged or incomplete header.
+// file, another format version, a kind of record that this build does not know or knows with another version or size, a
+// damaged or incomplete header.
 error::Expected<RecordingHeader> read_header(std::istream& file, const std::string& file_name);
 
 // Index entry of one block of items. When the writer closes the recording, it stores the index after the last of these
 // blocks: a block of content `index`, then a trailer of 16 bytes with the offset of the index block.
 // In a rebuilt index, damaged bytes between two blocks have an entry with kinds = 0 and the range of missing ticks.
 struct IndexEntry {
-  std::uint64_t offset;  // [bytes] offset of the block's head in the file
-  std::int64_t first_tick, last_tick;
-  std::uint64_t kinds;  // bit n: the block has items of kind n
+  std::uint64_t offset;                // [bytes] offset of the block's head in the file
+  std::int64_t first_tick, last_tick;  // lowest and highest tick of the items
+  std::uint64_t kinds;                 // bit n: the block has items of kind n
 };
 static_assert(sizeof(IndexEntry) == 32);
 

@@ -22,7 +22,8 @@ namespace yars::tools::recording {
 
 class RecordingReader {
  public:
-  // Errors: not a regular file, not a recording, records of another release, an incomplete header.
+  // Errors: not a recording, records of another release, a damaged or incomplete header. open() also fails if the path
+  // does not lead to a regular file that can be read. `name`: file name for messages.
   static error::Expected<RecordingReader> open(const std::filesystem::path& path);
   static error::Expected<RecordingReader> read(std::unique_ptr<std::istream> file, const std::string& name);
 
@@ -32,7 +33,8 @@ class RecordingReader {
   // True once after next() has skipped a damaged block (a hole): items are missing before the item just returned.
   bool take_damage_flag() { return std::exchange(hole_, false); }
 
-  // next() then returns the first item of this block. `block` in [0, blocks().size()]; at the upper limit: nullopt.
+  // next() then returns the first item of this block or, if it is damaged, of the next undamaged block.
+  // `block` in [0, blocks().size()]; at the upper limit next() returns nullopt.
   void seek_block(std::size_t block);
   // Number of the first block that contains this tick, else of the last block that begins before it, else 0. Several
   // blocks may contain a tick, because ticks go back when the session is reset.
@@ -49,7 +51,8 @@ class RecordingReader {
   }
 
   std::span<const IndexEntry> blocks() const { return index_.blocks; }
-  // True if the recorder did not close the file, or a damaged block was found.
+  // True if the file has no valid index at its end, as when the recorder did not close it, or if a damaged block was
+  // found so far.
   bool cut_short() const { return index_.cut_short || !missing_.empty(); }
   // Damaged blocks found so far, in order of their offset in the file.
   const std::vector<IndexEntry>& missing() const { return missing_; }

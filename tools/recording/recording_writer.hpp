@@ -2,7 +2,8 @@
 // The writer collects items in memory until one second of sim time has passed or the block is full. It then compresses
 // the block and writes it at once, which takes some milliseconds.
 // Errors: a write that fails loses its block, and no part of that block stays in the file. A file that was not closed
-// can be read up to its last complete block. A file that was removed or renamed is no longer written to.
+// can be read up to its last complete block. Once check_place() or close() has found that the file
+// was removed or renamed, nothing more is written to it.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +41,8 @@ class RecordingWriter {
   // Writes the collected items as a block.
   error::Expected<void> flush();
   // After an error: drops the collected items and continues after the last complete block. Begins a new file if the
-  // present one was removed, renamed or set aside. Fails if the disk is full, or if begin_next() would fail again.
+  // present one was removed, renamed or set aside. Fails if the disk is still full, or if a file still
+  // cannot be renamed or created.
   error::Expected<void> resume();
   // Error: the file was removed or renamed, or its folder was.
   error::Expected<void> check_place();

@@ -237,7 +237,8 @@ void Player::take_tick(const ModelTick& tick, Played& played) {
   tick_ = tick.tick;
   epoch_ = tick.epoch;
   newest_tick_ = tick;
-  // The status is recorded at most ten times a second. The ownship of each tick updates its position in between.
+  // The status is recorded at most ten times a second. In between, the ownship of each tick updates the aircraft's
+  // position.
   if (status_) {
     status_->ownship = tick.ownship;
     played.status = status_;

@@ -89,7 +89,7 @@ class Replay {
 
 // Configuration, terrain and scenes of the kernel. The stores must outlive the player; `scenes` may be null.
 struct PlayerWorld {
-  std::shared_ptr<radar::RadarConfiguration> configuration;  // not shared: the player sets fidelity.samples
+  std::shared_ptr<radar::RadarConfiguration> configuration;  // for this player alone, which sets fidelity.samples
   model::terrain::TerrainStore* store = nullptr;
   model::scene::SceneStore* scenes = nullptr;
 };
@@ -108,15 +108,17 @@ struct Played {
 // Plays a recording: seek() returns a key frame of a tick, play_to() returns the records that follow it.
 // A key frame has state, status and outputs at that tick, the maps that the state names, and the newest sweeps. The
 // sweeps include the current scan and the complete scan before it, up to kMaxSeekSweeps sweeps.
-// Sweeps with recorded video are returned as recorded. Else the kernel computes them from the nearest earlier status.
+// If the recording has video, sweeps are returned as recorded. Else the kernel computes the sweeps, from a status
+// recorded before them.
 // A cut ends a call of play_to(). A cut is a pause of the recorder, a new epoch, or a jump of the ticks by over 10 s.
 // After a damaged block the kernel waits for the next status.
 class Player {
  public:
-  static constexpr std::uint32_t kPictureSweeps = 1024;  // minimum of earlier sweeps that a seek reads
+  static constexpr std::uint32_t kPictureSweeps = 1024;  // a seek reads at least so many sweeps before its tick
   static constexpr std::size_t kMaxSeekSweeps = 900;     // maximum that a seek returns; the session's ring holds 1,024
 
-  // `world` may be empty only if has_video(reader).
+  // `world` must be empty if has_video(reader), because the kernel's sweeps would be returned in addition to the
+  // recorded sweeps. Without video, `world` is required for sweeps.
   Player(RecordingReader& reader, std::optional<PlayerWorld> world);
   Player(const Player&) = delete;
   Player& operator=(const Player&) = delete;

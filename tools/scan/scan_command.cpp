@@ -34,12 +34,12 @@
 
 namespace yars::tools {
 
-// Picture of one scan in the geometry of the display: ground track up, apex and scale from the configuration's view.
-// Each pixel takes the sample that contains the pixel's centre. Pixels outside the scan are black.
+// Picture of one scan in the geometry of the display: the first sweep's ground track points up; `view` gives apex and
+// scale. Each pixel takes the sample that contains the pixel's centre. Pixels outside the scan are black.
 
 enum class ScanColor : std::uint8_t { green, gray };
 
-// `sweeps`: at least one, all of one scan, clockwise, with the same apex position and range.
+// `sweeps`: at least one, all of one scan, in clockwise order, with the same apex position and range.
 imageio::Image scan_picture(std::span<const databuffer::Sweep> sweeps, const radar::ViewConfiguration& view,
                             ScanColor color);
 
@@ -55,7 +55,7 @@ constexpr std::array<double, 3> kGray{1.0, 1.0, 1.0};
 const Sweep* sweep_at(std::span<const Sweep> sweeps, double azimuth_deg) {
   const double from_left_deg = geo::wrapped_degrees(azimuth_deg - sweeps.front().azimuth_left_deg);
   const double width_deg = geo::wrapped_degrees(sweeps.front().azimuth_right_deg - sweeps.front().azimuth_left_deg);
-  // In a scan of 360 deg, azimuths to the left of the first sweep's left edge belong to sweeps in the right half.
+  // wrapped_degrees() makes azimuths 180 deg or more clockwise of the first sweep's left edge negative.
   const double offset_deg = from_left_deg < 0.0 ? from_left_deg + 360.0 : from_left_deg;
   const auto index = static_cast<std::size_t>(offset_deg / width_deg);
   return index < sweeps.size() ? &sweeps[index] : nullptr;
@@ -87,9 +87,10 @@ imageio::Image scan_picture(std::span<const Sweep> sweeps, const radar::ViewConf
 }
 
 // Shadow table of a scan as CSV with a header line: one row for each sample of each sweep.
-// Columns: sweep, azimuth_deg [0, 360) true at the aircraft, ground_range_m, latitude_deg, longitude_deg,
-// elevation_m MSL, lit: 1 lit, 0 in shadow. `-` in elevation_m and lit: the terrain is void or not loaded.
-// `-` in ground_range_m: no ground has the sample's slant range; latitude and longitude are then the aircraft's.
+// Columns: sweep; azimuth_deg: true bearing of the sweep's middle at the aircraft, [0, 360); ground_range_m;
+// latitude_deg; longitude_deg; elevation_m: ground above mean sea level; lit: 1 lit, 0 in shadow.
+// `-` in elevation_m and lit: the terrain is void or not loaded. `-` in ground_range_m, too: no ground has the sample's
+// slant range; latitude and longitude are then the aircraft's.
 // `samples` has the same number of elements for each sweep.
 void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader> positions,
                   std::span<const trade::RaySample> samples);
@@ -159,7 +160,7 @@ model::kernel::ScanRequest request_of(const ScanOptions& options) {
   return request;
 }
 
-// A header line, then one row for each sweep: number, azimuths, range, hash, and the video [0, 255] of all samples.
+// A header line, then one row for each sweep: number, azimuths of edges, range, hash, video [0, 255] of all samples.
 void write_csv(std::ostream& file, std::span<const databuffer::Sweep> sweeps) {
   file << "sweep,azimuth_left_deg,azimuth_right_deg,range_m,hash,video...\n";
   file.precision(12);
@@ -292,17 +293,17 @@ void add_scan_command(databuffer::Command app, const CommonOptions& common) {
                  "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); else the configuration's");
   add_scene_options(command, options->configuration);
   add_pose_options(command, options->pose);
-  command.option("--range-nm", options->range_nm, "[NM]").range(0.1, 1000.0);
-  command.option("--scan-width", options->width_deg, "[deg]").range(1.0, 120.0);
+  command.option("--range-nm", options->range_nm, "[NM] range of the scan").range(0.1, 1000.0);
+  command.option("--scan-width", options->width_deg, "[deg] width of the scan in azimuth").range(1.0, 120.0);
   command.option("--elevation", options->elevation_deg, "[deg] antenna elevation above the horizontal")
       .range(-90.0, 90.0);
   command.flag("--force", options->force, "allow angles beyond the gimbal limits, and an aircraft below the ground");
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset (else the configuration's)");
   command.option("--samples", options->samples, "samples of a sweep").range(1, radar::kMaxSamples);
-  command.option("--gain", options->gain, "0 to 3").range(0, 3);
+  command.option("--gain", options->gain, "receiver gain, 0 to 3").range(0, 3);
   command.option("--band", options->band, "band of the radar, A to E; a jammer acts only in its own bands")
       .one_of({"A", "B", "C", "D", "E"});
-  command.option("--channel", options->channel, "1 to 8").range(1, 8);
+  command.option("--channel", options->channel, "frequency channel, 1 to 8").range(1, 8);
   command.option("--time-s", options->time_s, "[s] sim time of the first sweep, for moving targets").range(0.0, 1e8);
   command.option("--threads", options->threads).range(1, 256);
   command.option("--seed", options->configuration.seed, "seed of the noise").not_negative();

@@ -48,8 +48,8 @@ constexpr std::array<std::uint32_t, 14> kByMaterial{0xFF00FF, 0xD24A3A, 0xE08A4A
                                                     0x8A6A3A, 0x3A6AB5, 0xE0D090, 0x6E6A66, 0x707078,
                                                     0x9AA060, 0x5A8A7A, 0x3A7A3A, 0xF4F6FA};
 
-// Corner of a triangle: x and y in samples, right and down from the upper left; z: height [m] above Model::base.
-// nx, ny, nz: normal (east, north, up).
+// Corner of a triangle: x and y in samples, right and down from the upper left of the image; z: height [m] above
+// Model::base. nx, ny, nz: normal (east, north, up).
 struct Corner {
   double x = 0, y = 0, z = 0, nx = 0, ny = 0, nz = 0;
 };
@@ -64,7 +64,8 @@ class Canvas {
   }
 
   void draw(const std::array<Corner, 3>& c, std::uint32_t rgb) {
-    // Twice the signed area. Rows count downwards, so an upward face has a negative area. Other faces are culled.
+    // Twice the signed area. Rows count downwards, so a face whose front is up has a negative area.
+    // Other faces are not drawn.
     const double area = (c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x);
     if (!(area < 0.0)) return;
     const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
@@ -110,7 +111,7 @@ class Canvas {
     const std::size_t at = index(x, y);
     if (height <= heights_[at]) return;
     heights_[at] = height;
-    // Lambert's cosine, light from the north-west at 45 deg elevation. 0.3 is ambient light.
+    // Lambert's cosine, light from the north-west, 45 deg above the horizontal. 0.3 is ambient light.
     const double nx = a * c[0].nx + b * c[1].nx + d * c[2].nx;
     const double ny = a * c[0].ny + b * c[1].ny + d * c[2].ny;
     const double nz = a * c[0].nz + b * c[1].nz + d * c[2].nz;
@@ -186,12 +187,12 @@ struct SceneImageOptions {
   std::vector<std::string> without;
   int width = 1024;
   bool material = false;
-  std::vector<double> window;  // [m] west and south edge from the origin, side of the square; empty: the whole model
+  std::vector<double> window;  // [m] west and south edge from the file's origin, side of the square; empty: all
 };
 
 constexpr double kMinWindow_m = 0.1;  // smaller windows would show the rounding of float coordinates
 constexpr double kMaxWindow_m = 1e6;  // maximum side of the window
-constexpr double kMaxEdge_m = 1e7;  // maximum distance of an edge from the origin; the reader uses no vertex beyond it
+constexpr double kMaxEdge_m = 1e7;    // maximum |west| and |south| of the edges; the reader omits polygons beyond
 
 // Error of bad usage for a window that cannot be drawn; nullopt for any other window.
 std::optional<error::Error> window_problem(const std::vector<double>& window) {

@@ -86,8 +86,9 @@ std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) 
 // Result of each event (kEventDone, kEventDead or kEventRefused), in the order of sending.
 using Outcome = std::vector<std::uint32_t>;
 
-// Waits for the results of `count` events of a lane, which arrive in the order of sending. Returns fewer after the
-// timeout (2 s) or a stop request. `cursor`: position in the ring of applied events before the first event was sent.
+// Waits for the results of `count` events that this process sent through input lane `lane`. The results arrive in the
+// order of sending. Returns fewer after the timeout (2 s) or a stop request. `cursor`: position in the ring of applied
+// events before the first event was sent.
 Outcome wait_until_applied(Session& session, std::uint32_t lane, std::uint64_t cursor, std::size_t count) {
   Outcome outcome;
   const std::int64_t deadline_ns = databuffer::monotonic_ns() + kTimeout_ns;
@@ -109,7 +110,8 @@ databuffer::RadarState published_state(Session& session) {
   return databuffer::read_valid(session.layout().radar_state).value_or(databuffer::RadarState{});
 }
 
-// The radar state after the events. The state machine publishes this state a little later than the applied events.
+// The radar state after the events. Waits 20 ms, because the state machine publishes this state a little later than the
+// results of the events.
 databuffer::RadarState state_after_events(Session& session) {
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   return published_state(session);

@@ -21,7 +21,8 @@ namespace yars::tools {
 
 // The session of a replay. This process takes the roles state-machine and radar-model and sets the clock to the
 // recording's time. Each jump begins a new epoch, so that no picture mixes records from before and after the jump.
-// Published records have the session's epoch instead of the recorded epoch. Input events of the session have no effect.
+// Published records have the session's epoch instead of the recorded epoch; patch maps keep the recorded epoch. Input
+// events of the session have no effect.
 
 class ReplaySession {
  public:
@@ -212,7 +213,8 @@ std::string text_of_seconds(std::int64_t tick) {
   return text;
 }
 
-// Tick at which the replay begins: the time of --seek, else the first tick of the recording.
+// Tick at which the replay begins: the time of --seek, else the tick that was recorded first. Error: the time of --seek
+// is outside the recording.
 error::Expected<std::int64_t> first_tick(const recording::RecordingReader& reader, const PlayOptions& options) {
   const auto blocks = reader.blocks();
   if (!options.seek_s) return blocks.front().first_tick;
@@ -232,7 +234,8 @@ error::Expected<void> seek(ReplaySession& session, recording::Player& player, st
   return {};
 }
 
-// One poll: plays up to the session's tick, or seeks after a reset. Returns false when the recording has ended.
+// One poll: plays up to the session's tick, or seeks after a reset. At a cut (see recording::Player) sets the clock to
+// the tick at which the recording continues. Returns false when the recording has ended.
 error::Expected<bool> poll(ReplaySession& session, recording::Player& player, std::int64_t begin) {
   session.heartbeat();
   session.drop_events();

@@ -17,7 +17,7 @@ namespace yars::tools {
 
 namespace {
 
-constexpr std::int64_t kTicksBetweenStatus = 200;          // 1 s of sim time
+constexpr std::int64_t kTicksBetweenStatus = 200;          // 1 s of sim time between RecorderStatus records
 constexpr std::int64_t kRetryInterval_ns = 5'000'000'000;  // 5 s between attempts to write after a write error
 constexpr std::int64_t kCheckInterval_ns = 2'000'000'000;  // 2 s between checks that the file is still at its path
 
@@ -72,7 +72,8 @@ void Recorder::append(const T& record) {
   if (outcome_) handle_result(writer_->append(record));
 }
 
-// After an error nothing is written, but the process continues. Its RecorderStatus tells the display the problem.
+// After an error nothing is written until retry_after_error() succeeds. The process continues, and its RecorderStatus
+// tells the display the problem.
 void Recorder::handle_result(error::Expected<void> written) {
   if (written || !outcome_) return;
   outcome_ = std::move(written);
@@ -137,8 +138,8 @@ void Recorder::drain(std::int64_t tick) {
   publish(tick);
 }
 
-// Stops or starts writing when the number of presses since the last call is odd. The press that stops writing is
-// recorded; the press that starts writing is not. During a write error, a press toggles whether writing starts again
+// Stops or starts writing if PB 12 was pressed an odd number of times since the last call. The press that stops writing
+// is recorded; the press that starts writing is not. During a write error, a press toggles whether writing starts again
 // after the error.
 void Recorder::apply_vtr_request(std::uint32_t vtr_request) {
   const bool changes = (vtr_request - vtr_request_) % 2 != 0;

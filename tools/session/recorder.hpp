@@ -1,6 +1,6 @@
 // Recorder of a session: reads the records that the session's processes publish and appends them to a recording.
 // Inputs: rings and latest values of the segment. A press of push button 12 (counted in RadarState::vtr_request) stops
-// or starts writing. Each start writes a new StartingPoint into the same file.
+// or starts writing. Each start writes the model's present status, if any, into the same file as a StartingPoint.
 // Outputs: the recording; RecorderStatus about once a second and on each change.
 // Errors: a write error, such as a full disk, stops writing. Every 5 s the recorder tries to start again. A file that
 // was removed or renamed is noticed within 2 s, and a new one begins. A record that fails validation is left out and
@@ -20,7 +20,7 @@ namespace yars::tools {
 struct RecordedExtras {
   bool sweeps = false;           // true: sweeps with video; false: only their hashes
   bool patches = false;          // true: patch maps with pixels; false: no patch maps
-  std::uint64_t keep_bytes = 0;  // [bytes] limit of the recording and its predecessor FILE.before; 0: none
+  std::uint64_t keep_bytes = 0;  // [bytes] limit of the recording and its predecessor FILE.before together; 0: none
 };
 
 class Recorder {
@@ -39,6 +39,7 @@ class Recorder {
   const error::Expected<void>& outcome() const { return outcome_; }
   std::uint64_t refused() const { return refused_; }  // number of records that failed validation
 
+  // Numbers of recorded ticks and sweeps.
   std::uint64_t ticks() const { return ticks_; }
   std::uint64_t sweeps() const { return sweeps_; }
 

@@ -1,6 +1,6 @@
 // `yars replay`: plays a recording into a session, for a radar-display. --events instead runs the kernel over the
-// recorded ticks and compares each sweep with the recorded one. --print prints events, radar states and patch maps as
-// JSON.
+// recorded ticks and compares each sweep with the recorded one. --print prints events, radar states, and id, size and
+// hash of patch maps as JSON.
 
 #include <algorithm>
 #include <cstdio>
@@ -95,7 +95,7 @@ void print_entries(recording::RecordingReader& reader) {
     if (const auto* event = std::get_if<databuffer::AppliedEvent>(&*entry)) {
       object["tick"] = event->tick;
       object["event"] = databuffer::text_of(event->event);
-      object["effective"] = event->effective != 0;
+      object["effective"] = event->effective == databuffer::kEventDone;
     } else if (const auto* change = std::get_if<recording::StateChange>(&*entry)) {
       object["tick"] = change->state.tick;
       add_radar_state(object["state"], change->state);
@@ -132,7 +132,7 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
 
 // Runs the kernel again over the items of a recording. After a damaged block it buffers the items until the next model
 // status, from which the kernel can resume. Then it runs the buffered items after the tick of the status, and all
-// buffered traffic.
+// buffered traffic. A starting point also ends the buffering; the buffered items are then dropped.
 class KernelRerun {
  public:
   explicit KernelRerun(World& world) : world_(world) {}

@@ -18,8 +18,9 @@
 namespace yars::tools {
 
 // All entries of the process table, and the needed roles that do not run. The roles come first, in the order of kSet.
-// [{name, pid (0: not running), heartbeat_ms (null: not running), hangs, restarts, restarts_last_minute}].
-// A role hangs if its heartbeat is older than 2 s. Only restarts by the supervisor count.
+// [{name, pid (0: not running), heartbeat_ms (age of the last heartbeat; null: not running), hangs, restarts,
+// restarts_last_minute}].
+// A role of kSet hangs if its heartbeat is older than 2 s. Only restarts by the supervisor count.
 nlohmann::ordered_json roles_json(const databuffer::Session& session);
 
 // {"state": "OK", "DEGRADED" or "NOTHING RUNS", "reasons": [texts]}. `status` must have watch, model, roles, recorder,
@@ -192,7 +193,7 @@ ordered_json lanes_json(const databuffer::Session& session) {
   return lanes;
 }
 
-// Status of the recorder; null if no recorder runs.
+// Status of the recorder; null if no recorder runs or its status fails validation.
 ordered_json recorder_json(const databuffer::Session& session) {
   const auto status = databuffer::read_valid(session.layout().recorder_status);
   if (!status || !session.role_is_held(databuffer::Role::recorder)) return nullptr;
@@ -202,7 +203,8 @@ ordered_json recorder_json(const databuffer::Session& session) {
           {"problem", problem.empty() ? ordered_json(nullptr) : ordered_json(problem)}};
 }
 
-// Publisher and newest frame of the display's frames. Null if no process publishes frames and none has done so before.
+// Frames are images of the display. pid of the process that publishes them (null: none), and id and size of the newest.
+// Null if no process publishes frames and none has done so before.
 ordered_json frames_json(const databuffer::Session& session) {
   const std::int32_t publisher = session.role_holder(databuffer::Role::glass_frames);
   databuffer::GlassFrame newest{};
@@ -215,7 +217,8 @@ ordered_json frames_json(const databuffer::Session& session) {
           {"height", newest.height}};
 }
 
-// Publisher and number of entities of the traffic; null if no process publishes traffic.
+// Traffic: ships and vehicles that another program sends. pid of that program, and number of ships and vehicles. Null
+// if no process publishes traffic.
 ordered_json traffic_json(const databuffer::Session& session) {
   const std::int32_t holder = session.role_holder(databuffer::Role::traffic);
   if (holder == 0) return nullptr;

@@ -71,7 +71,7 @@ void print_ownship(const ordered_json& status) {
   if (own.is_null())
     std::printf("ownship: none\n");
   else
-    std::printf("ownship: %s, %.4f %.4f, %.0f ft, %.0f deg, %.0f kt, %s old\n", text(own["source"]).c_str(),
+    std::printf("ownship: %s, %.4f %.4f, %.0f ft MSL, track %.0f deg, %.0f kt, %s old\n", text(own["source"]).c_str(),
                 own["lat"].get<double>(), own["lon"].get<double>(), own["alt_ft"].get<double>(),
                 own["track_deg"].get<double>(), own["ground_speed_kt"].get<double>(),
                 age_text(own["age_ms"].get<double>() / 1000.0).c_str());

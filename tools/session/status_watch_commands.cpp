@@ -24,7 +24,7 @@
 namespace yars::tools {
 
 // Measures the CPU load of processes over 0.1 s. Returns the load by pid; 1.0 is one fully used core.
-// Processes that cannot be read are left out. Source: /proc/PID/task/TID/schedstat.
+// Processes whose load cannot be measured are left out. Source: /proc/PID/task/TID/schedstat.
 std::map<int, double> measure_loads(const std::vector<int>& pids);
 
 namespace {
@@ -76,7 +76,7 @@ struct StatusOptions {
   bool layout = false;
 };
 
-// Reports that the session does not exist, and ends the command.
+// Reports that the session cannot be opened, usually because it does not exist, and ends the command.
 [[noreturn]] void print_nothing_runs(const error::Error& error) {
   std::printf("NOTHING RUNS: %s\n", error.found.c_str());
   throw_failure(error);
@@ -157,7 +157,7 @@ void print_text_line(const nlohmann::ordered_json& object) {
               object["freeze"].get<bool>() ? "FREEZE " : "", object["sniff"].get<bool>() ? "SNIFF " : "",
               object["message"].get<std::string>().c_str());
   if (!own.is_null())
-    std::printf("  %.4f %.4f %.0f ft %.0f deg %.0f kt", own["lat"].get<double>(), own["lon"].get<double>(),
+    std::printf("  %.4f %.4f %.0f ft MSL track %.0f deg %.0f kt", own["lat"].get<double>(), own["lon"].get<double>(),
                 own["alt_ft"].get<double>(), own["track_deg"].get<double>(), own["ground_speed_kt"].get<double>());
   print_designations(object);
   std::printf("  sweeps %llu\n", static_cast<unsigned long long>(object["sweeps"].get<std::uint64_t>()));

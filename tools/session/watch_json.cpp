@@ -93,8 +93,8 @@ void add_map(ordered_json& object, const RadarState& state) {
   object["message"] = text_of(state.message);
 }
 
-// Position error of the navigator that the cursor function UPDT measured. Unit as on the display: feet up to 3000 ft,
-// NM beyond.
+// Result of the cursor function UPDT: distance from the displayed selected point to the cursor; null while there is
+// none. Unit as on the display: feet up to 3000 ft, NM beyond. `valid` false: the display shows INV instead.
 ordered_json update_error(const RadarState& state) {
   if (!has(state, databuffer::kUpdateShown)) return nullptr;
   const auto distance = geo::Length::metres(std::hypot(state.update_north_m, state.update_east_m));
@@ -139,7 +139,8 @@ void add_navigation(ordered_json& object, const RadarState& state) {
   object["psl"] = steering_line(state);
 }
 
-// A stored position in the navigator's coordinates, which contain the navigator's error.
+// A stored position: elevation MSL; latitude and longitude in the coordinates of the navigator then in use, which
+// contain its error.
 ordered_json position_json(double latitude_deg, double longitude_deg, double elevation_m) {
   return {{"lat", number_or_null(latitude_deg)},
           {"lon", number_or_null(longitude_deg)},
@@ -167,7 +168,8 @@ void add_designations(ordered_json& object, const RadarState& state) {
   }
 }
 
-// Slant range, bearing and depression from the aircraft to the designated target; null without a target.
+// From the aircraft to the designated target: slant range, true bearing, depression below the horizontal. Null without
+// a target.
 ordered_json ranging(const databuffer::Outputs& outputs) {
   if (!std::isfinite(outputs.slant_range_m)) return nullptr;
   return {{"slant_range_nm", outputs.slant_range_m / geo::kMetresPerNauticalMile},

@@ -24,16 +24,16 @@
 
 namespace yars::tools {
 
-// Output format of elevation cells, as given on the command line.
+// Output format and grid of elevation cells.
 struct TerrainOutput {
   std::string format = "dted";  // "dted", "hgt" or "jp2" (packed cells)
-  // DTED level of the output's grid, 0 to 2. nullopt: the finest level that has no more rows than the cell; for jp2 the
-  // grid of the cell. HGT has the rows of level 1 or 2, and as many columns as rows at all latitudes. DTED has fewer
-  // columns at high latitudes.
+  // DTED level of the output's grid, 0 to 2. nullopt: the finest level that has no more rows than the cell, or the
+  // format's coarsest if there is none; for jp2 the grid of the cell. HGT has the rows of level 1 or 2 (0 counts as 1),
+  // and as many columns as rows at all latitudes. DTED has fewer columns at high latitudes.
   std::optional<int> level;
 };
 
-// File name of a cell, relative to the output folder.
+// Path of a cell's file relative to the output folder.
 std::string output_name(const TerrainOutput& output, model::terrain::CellCorner corner,
                         const model::terrain::Cell& cell);
 
@@ -71,16 +71,17 @@ error::Expected<std::filesystem::path> write_output(const TerrainOutput& output,
   return output.format == "jp2" ? write_pack(tree, on_level) : write_dted(tree, in_whole_metres(on_level), level);
 }
 
-// Batch conversion of elevation cells: reads the cells of a folder or file and writes each cell below another folder.
-// Copies the culture file of each cell, and removes an older culture of a cell without one. Prints one line for each
-// cell, and at the end the total sizes. The input is never overwritten. Errors: a cell that cannot be read or written
-// is a problem. A cell with an unreadable culture is not written. The batch continues; the command fails at the end.
+// Batch conversion of elevation cells: reads the cells of a folder or file and writes each cell below the folder `out`.
+// Copies the culture file of each cell. If the input has none, an older culture file in the output is removed. Prints
+// one line for each written cell, and at the end the total sizes. The input is never overwritten.
+// Errors: a cell that cannot be read or written is reported as a problem. A cell with an unreadable culture is not
+// written. The batch continues; the command fails at the end.
 
 struct TerrainBatch {
   std::string command;  // subcommand, for error messages
   std::string in;
   std::string out;
-  int reduction = 0;  // every 2^reduction-th post is read; its height is the mean of the posts around this post
+  int reduction = 0;  // every 2^reduction-th post is written, with the mean height of the posts around it
   // `name` returns the path of a cell's file relative to `out`. `write` writes the cell to this path below `tree`.
   std::function<std::string(model::terrain::CellCorner, const model::terrain::Cell&)> name;
   std::function<error::Expected<std::filesystem::path>(const std::filesystem::path& tree, const model::terrain::Cell&)>
@@ -119,8 +120,8 @@ Culture thinned(const Culture& culture, int posts) {
   return culture.reduced(reduction);
 }
 
-// Copies the culture file of the input to the culture path of `target`, the cell to be written. Reduces it if the batch
-// has culture_posts. If the input has no culture file, removes an older culture of `target`.
+// Copies the culture file of the input to the culture path of `target`, the elevation file to be written. Reduces the
+// culture if the batch has culture_posts. If the input has no culture file, removes an older culture of `target`.
 error::Expected<void> copy_culture(const TerrainBatch& batch, const CellFile& file, const Cell& cell,
                                    const std::filesystem::path& target) {
   if (!file.culture) return remove_culture(target);
@@ -156,7 +157,7 @@ error::Expected<std::filesystem::path> convert_cell(const TerrainBatch& batch, c
   std::error_code code;
   if (std::filesystem::equivalent(target, file.path, code))
     return error::fail(target.string(), "an output that is not the input", "the input itself", "give another --out");
-  // The culture comes first, so that no cell is left with an older culture or without its own.
+  // The culture is written before the cell, so that no new cell is left with an older culture or without its own.
   if (const auto copied = copy_culture(batch, file, reading->cell, target); !copied)
     return tl::unexpected(copied.error());
   return batch.write(batch.out, reading->cell);
@@ -241,7 +242,7 @@ void add_terrain_convert(databuffer::Command terrain) {
 }
 
 // `yars terrain reduce`: writes a coarser database: either packed cells with every 2^N-th post, or cells of a DTED
-// level. A written post is averaged over the posts around it.
+// level. A written post is the mean of the posts around it, or interpolated between such means (resample()).
 
 namespace {
 
@@ -282,7 +283,8 @@ void add_terrain_reduce(databuffer::Command terrain) {
   command.callback([options] { reduce_all(*options); });
 }
 
-// `yars terrain pack`: writes cells as lossless JPEG 2000. Readers decode only the resolution that a range needs.
+// `yars terrain pack`: writes cells as lossless JPEG 2000. Readers decode only the wavelet levels that the
+// requested grid needs.
 
 void add_terrain_pack(databuffer::Command terrain) {
   struct Folders {

@@ -14,13 +14,13 @@
 
 namespace yars::tools {
 
-// `yars terrain profile`: prints the elevation along a geodesic as CSV.
+// `yars terrain profile`: prints the elevation [m above mean sea level] along a geodesic as CSV.
 
 namespace {
 
 struct ProfileOptions {
   radar::TerrainConfiguration terrain;
-  std::vector<double> from_deg;  // latitude, longitude
+  std::vector<double> from_deg;  // latitude, longitude; north and east positive
   std::vector<double> to_deg;
   double step_m = 100.0;
 };
@@ -49,10 +49,10 @@ class CoveredArea {
 // Warns on standard error that `outside` of `samples` samples lie in no cell. Their elevation is 0 (sea).
 // Errors: throws CommandFailed if no sample has a cell.
 void report_outside(const ProfileOptions& options, const CoveredArea& covered, long outside, long samples) {
-  const error::Error error{
-      options.terrain.directory, "cells along the geodesic",
-      "none at " + std::to_string(outside) + " of " + std::to_string(samples) + " samples: it covers " + covered.text(),
-      "samples without a cell count as sea; check --from and --to and their signs", false};
+  const error::Error error{options.terrain.directory, "cells along the geodesic",
+                           "none at " + std::to_string(outside) + " of " + std::to_string(samples) +
+                               " samples: the folder covers " + covered.text(),
+                           "samples without a cell count as sea; check --from and --to and their signs", false};
   if (outside == samples) throw_failure(error);
   std::fprintf(stderr, "yars terrain profile: %s\n", error.message().c_str());
 }
@@ -107,7 +107,7 @@ void add_terrain_profile(databuffer::Command terrain) {
   command.callback([options] { profile(*options); });
 }
 
-// `yars terrain dump`: prints the posts of one cell as CSV.
+// `yars terrain dump`: prints the posts [m above mean sea level] of one cell as CSV.
 
 namespace {
 
@@ -126,7 +126,7 @@ void dump(const DumpOptions& options) {
   const auto file = index->find(slot_of(corner));
   if (file == index->end())
     throw_failure({options.directory, "the cell that --south and --west name",
-                   "none: it covers " + coverage_text(*index), "check the numbers and their signs"});
+                   "none: the folder covers " + coverage_text(*index), "check the numbers and their signs"});
   const auto reading = read_cell(file->second, corner);
   if (!reading) throw_failure(reading.error());
   ReadingNotes notes;

@@ -100,14 +100,14 @@ class Generation {
     }
   }
 
-  // Generates and writes one cell. Returns a line that describes the cell. Without --sea, an all-sea cell gets no file
-  // and an empty line.
+  // Generates and writes one cell. Returns a line that describes the cell. Without --sea, no file is written for an
+  // all-sea cell, and the line is empty.
   error::Expected<std::string> make(CellCorner corner) {
     const worldgen::MadeCell made = landscape_.make(corner, dted::kPostsOfLevel[options_.level],
                                                     dted_columns(corner, options_.level), threads_per_cell_);
     const bool all_sea = made.cell.highest_m() <= 0;
     if (all_sea && !options_.sea) return std::string();
-    // The culture comes first, so that no cell is left with an older culture or without its own.
+    // The culture is written before the cell, so that no new cell is left with an older culture or without its own.
     const std::filesystem::path target = std::filesystem::path(options_.out) / dted_name(corner, options_.level);
     const auto culture = options_.culture ? write_culture(culture_path(target), made.culture) : remove_culture(target);
     if (!culture) return tl::unexpected(culture.error());

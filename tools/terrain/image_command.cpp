@@ -33,7 +33,7 @@ struct MapFrame {
 // Frame of the given width [pixels]. The height, 1 to 16384 pixels, gives true shapes at the middle parallel.
 MapFrame map_frame(double south_deg, double north_deg, double west_deg, double east_deg, int width);
 
-// RGB picture filled with the colour of absent cells.
+// RGB image filled with the colour of absent cells.
 imageio::Image blank_map(const MapFrame& frame);
 
 // Paints the pixels whose centre is in the cell. `culture` may be null.
@@ -73,8 +73,9 @@ Colour tint(double height_m) {
   return mixed;
 }
 
-// Brightness factor by Lambert's cosine law; slopes in m/m. Light comes from the north-west, at 40 deg elevation. 0.25
-// is ambient light. The factor 1.15 gives level ground a brightness of 0.99.
+// Brightness factor by Lambert's cosine law. Slopes [m/m]: rise toward east and north positive. Light comes from the
+// north-west, 40 deg above the horizontal. 0.25 is ambient light. The factor 1.15 gives level ground a brightness of
+// 0.99.
 double light(double slope_east, double slope_north) {
   constexpr double kEast = -0.542, kNorth = 0.542, kUp = 0.643;
   const double east = -slope_east * kExaggeration;
@@ -107,7 +108,7 @@ Colour colour_at(const Ground& ground, double north_deg, double east_deg, PixelS
   const model::terrain::Surface here = model::terrain::interpolate(cell, north_deg, east_deg);
   if (std::isnan(here.elevation_m)) return kVoid;
   if (here.water > 0.5) return kSea;
-  // The slope is a central difference over two pixels or two posts, whichever is wider, within the cell.
+  // The slope is a difference over two pixels or two post spacings, whichever is wider, clipped at the cell's edges.
   const double offset_north_deg = std::max(step.north_deg, 1.0 / (cell.rows() - 1));
   const double offset_east_deg = std::max(step.east_deg, 1.0 / (cell.columns() - 1));
   const double north = std::min(1.0, north_deg + offset_north_deg);
@@ -245,7 +246,8 @@ void draw(const TerrainImageOptions& options) {
     ++painted;
   }
   if (painted + failed == 0)
-    throw_failure({options.directory, "cells in the region that is drawn", "none: it covers " + coverage_text(*index),
+    throw_failure({options.directory, "cells in the region that is drawn",
+                   "none: the folder covers " + coverage_text(*index),
                    "check --south, --north, --west and --east and their signs"});
   if (const auto written = imageio::write_png(options.out, image); !written) throw_failure(written.error());
   if (failed > 0)

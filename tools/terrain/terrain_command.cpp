@@ -41,7 +41,8 @@ namespace {
 
 using namespace model::terrain;
 
-// Statistics of the posts of one cell. The heights [m MSL] are meaningless if all posts are void.
+// Statistics of the posts of one cell. `sea`: number of posts at exactly 0 m. The heights [m MSL] are meaningless if
+// all posts are void.
 struct CellStatistics {
   int columns = 0, rows = 0;
   std::size_t posts = 0, voids = 0, sea = 0;

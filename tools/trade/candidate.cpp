@@ -66,7 +66,7 @@ bool set_posts_per_sample(Fidelity& fidelity, std::string_view text) {
   return true;
 }
 
-// Knots are the positions on a sweep's geodesic that are computed exactly, 2 to 9. All other positions are interpolated
+// Knots are the 2 to 9 positions on a sweep's geodesic that are computed exactly. All other positions are interpolated
 // between them, which needs two knots. 0: all positions are exact.
 bool set_geodesic_knots(Fidelity& fidelity, std::string_view text) {
   constexpr int kMaxKnots = 9;

@@ -24,6 +24,7 @@ struct Candidate {
 // Errors: an unknown preset.
 error::Expected<std::vector<Candidate>> preset_candidates(std::string_view list);
 
+// The fidelity without thermal noise, speckle and texture, and without the random brightness of 1996.
 radar::Fidelity without_noise(radar::Fidelity fidelity);
 
 // Kind of picture that a trade compares. knob_candidates() accepts only knobs that affect this kind.

@@ -70,7 +70,7 @@ using radar::RadarConfiguration;
 
 constexpr double kDarkFraction = 0.05;    // fraction of level ground's power; pixels with less power are dark
 constexpr double kMinPower = 1e-8;        // lower limit of powers, avoids log10(0); unit as MapImage::power
-constexpr double kVisibleFraction = 0.2;  // fraction of the brightest mark's power; darker marks count as hidden
+constexpr double kVisibleFraction = 0.2;  // fraction of the brightest mark's power; a mark with less is hidden
 
 // Apparent position of each mark: centroid of the power in the mark's part of the window (one of 3 x 3 equal parts).
 // nullopt: the mark is hidden.

@@ -23,7 +23,7 @@ inline constexpr int kMarksPerEdge = 3;  // marks along one edge of the window
 // of one fidelity against the other. The squares lie on the terrain, so layover displaces them like the terrain.
 class MarkScene final : public model::scene::SceneView {
  public:
-  // kMarksPerEdge x kMarksPerEdge squares, evenly spaced. The side of a square is 3 % of the window.
+  // kMarksPerEdge x kMarksPerEdge squares, evenly spaced. The side of a square is 3 % of the window's side.
   explicit MarkScene(const model::hrm::PatchOrder& order);
 
   std::uint64_t generation() const override { return 1; }
@@ -41,9 +41,9 @@ class MarkScene final : public model::scene::SceneView {
   std::vector<model::scene::SceneObject> objects_;
 };
 
-// Configuration in which the marks of a MarkScene return far more power than water, and other land returns none.
-// Ground whose culture is the marks' material (metal) returns as much as a mark. mapDetail and mapResponse are off, and
-// there are no movers.
+// The configuration, changed so that the marks of a MarkScene return far more power than water, and other land returns
+// none. Ground whose culture is the marks' material (metal) returns as much as a mark. mapDetail (texture) and
+// mapResponse (sidelobes) are off, and there are no movers.
 radar::RadarConfiguration marks_alone(radar::RadarConfiguration configuration);
 
 // One map computed with one fidelity, without noise and speckle. Noise would count as an error, because another
@@ -71,7 +71,8 @@ double time_map(model::hrm::PatchFormation& patch_formation, const model::hrm::P
                 const model::hrm::PatchEnvironment& environment, Clock clock);
 
 struct MapErrors {
-  double position_m = 0.0;      // [m] maximum distance between a mark's two positions; NaN: no mark is visible in both
+  // [m] maximum distance between a mark's positions in the two maps; NaN: no mark is visible in both maps.
+  double position_m = 0.0;
   double shadow_percent = 0.0;  // [%] pixels that are dark in one map only
   // [dB] RMS ratio of powers, over pixels that are dark in neither map and exceed the noise in the ruler. NaN: there is
   // no such pixel, or the compared map is by the algorithm of 1996.

@@ -25,8 +25,9 @@ using radar::RadarConfiguration;
 constexpr float kMinScanPower =
     1e-8F;  // fraction of full scale, far below noise; lower limit of powers, avoids log10(0)
 
-// The configuration with one ray per sweep, no pulse smear and a hard-edged beam of nearly 180 deg. A narrower beam
-// would remove the power of samples outside the beam. The 1996 algorithm would also report these samples as not lit.
+// The configuration with one ray per sweep, no pulse smear and a hard-edged beam, nearly 180 deg wide in elevation. A
+// narrower beam would remove the power of samples outside the beam. The 1996 algorithm would also report these samples
+// as not lit.
 RadarConfiguration with_wide_beam(RadarConfiguration configuration) {
   constexpr double kWideBeam_deg = 179.9;
   configuration.fidelity.sub_beams = 1;
@@ -88,7 +89,7 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
                         const model::terrain::TerrainView& terrain) {
   // The algorithm `reference` solves the geodesic for each sample, so its positions are exact.
   if (configuration.fidelity.algorithm == radar::Algorithm::reference) return 0.0;
-  constexpr std::size_t kStep = 4;  // checks every fourth sweep and sample, because the error varies slowly
+  constexpr std::size_t kStep = 4;  // checks every 4th sample of every 4th sweep: the error varies slowly
   model::physics::PositionArrays positions(model::rbm::sample_count(configuration));
   double worst_m = 0.0;
   for (std::size_t sweep = 0; sweep < scan.headers().size(); sweep += kStep) {

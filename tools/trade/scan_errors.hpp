@@ -25,7 +25,9 @@ struct RaySample {
   geo::GeoPoint position;          // the aircraft's position where distance_m is NaN
   model::terrain::Surface ground;  // void where distance_m is NaN
   bool lit = false;                // false: in shadow, void or not loaded
-  bool returns = false;            // true: lit, and returns power (above 1e-8 of full scale) to a beam 180 deg wide
+  // True: power above 1e-8 of full scale, seen with a beam nearly 180 deg wide in elevation. Rain also gives power to
+  // samples in shadow.
+  bool returns = false;
 };
 
 // Samples of all sweeps: sweep after sweep, from near to far.
@@ -41,8 +43,9 @@ struct ScanObservation {
   std::vector<std::uint8_t> video;    // 0 to 255, gain of the request
   std::vector<std::uint8_t> seen;     // RaySample::lit
   std::vector<std::uint8_t> returns;  // RaySample::returns
-  double position_m = 0.0;            // [m] maximum distance of a sample from its exact position (every 4th checked)
-  bool power_is_radar = true;         // false: `power` is the brightness of the 1996 report, a cosine
+  // [m] maximum distance of a sample from its exact position, over every 4th sample of every 4th sweep.
+  double position_m = 0.0;
+  bool power_is_radar = true;  // false: `power` is the brightness of 1996, from the cosine of the incidence angle
 };
 
 ScanObservation observe(const radar::RadarConfiguration& configuration, const model::kernel::ScanRequest& request,
@@ -51,7 +54,7 @@ ScanObservation observe(const radar::RadarConfiguration& configuration, const mo
 // Scan of the reference algorithm, with which other scans are compared.
 struct Ruler {
   ScanObservation observation;
-  std::vector<std::uint8_t> ground;  // 1: elevation known; 0: void or not loaded
+  std::vector<std::uint8_t> ground;  // 1: elevation known; 0: void, not loaded, or no ground at the slant range
   double noise = 0.0;                // thermal noise, full scale = 1
 };
 

@@ -19,7 +19,7 @@
 
 namespace yars::tools::trade {
 
-// Aircraft position, altitude, heading and range scale of one scan.
+// Aircraft position, altitude above mean sea level, true heading and range scale of one scan.
 struct Scene {
   geo::GeoPoint position;
   double altitude_ft = 15000.0;
@@ -33,11 +33,12 @@ error::Expected<Scene> scene_of(std::string_view text);
 // Name of a scene, such as "37 -122 15000 ft 60 deg 40 NM".
 std::string scene_name(const Scene& scene);
 
-// One scan of the scene. The antenna points at sea level at the end of the range, as a cosecant-squared beam needs. Its
-// elevation is clamped between the lower limit of the gimbal and the horizon.
+// One scan of the scene. On a flat earth, the antenna points at sea level at the end of the range, as a
+// cosecant-squared beam needs. The elevation of the antenna is clamped between the lower limit of the gimbal and the
+// horizontal.
 model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width, const radar::AntennaConfiguration& antenna);
 
-// Aircraft position, altitude, target and window of one patch map.
+// Aircraft position, altitude above mean sea level, target (centre) and window of one patch map.
 struct MapView {
   geo::GeoPoint position;  // position of the aircraft
   double altitude_ft = 15000.0;
@@ -56,8 +57,8 @@ std::string map_view_name(const MapView& view);
 MapView view_of_target(geo::GeoPoint target, double distance_nm, double bearing_deg, double altitude_ft,
                        double window_nm);
 
-// One map of the view with one look, from an aircraft at 480 kt. The ground track is perpendicular to the line of
-// sight, so no pixel is in the blind zone.
+// One map of the view with one look, from an aircraft at 480 kt over ground. The target lies 90 deg right of the ground
+// track, so no pixel is in the blind zone.
 model::hrm::PatchOrder order_of(const MapView& view);
 
 // Columns of the result table of `yars trade`.

@@ -37,7 +37,7 @@ std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::
 void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes);
 
 // Centre of the cell in the middle of a directory's index, which is sorted from south to north, then from west to east.
-// For an empty name (built-in hills): 37 N 122 W. Throws if the directory has no usable cell.
+// For an empty name (built-in hills): 37 N 122 W. Throws if the directory is missing or has no usable cell.
 geo::GeoPoint default_position(const std::string& directory);
 double thread_ms();  // [ms] CPU time of the calling thread
 

@@ -17,7 +17,8 @@ std::string number_text(double value, const char* format) {
   return text.data();
 }
 
-// Number without exponent. Decimals: three below 0.1, two below 10, one below 100, else none. "<0.001" below 0.0005.
+// Number without exponent. Decimals: three below 0.1, two below 10, one below 100, else none. 0 is "0"; else "<0.001"
+// below 0.0005.
 std::string shown_number(double value) {
   const double size = std::abs(value);
   if (size == 0.0) return "0";

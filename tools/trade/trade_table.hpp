@@ -35,7 +35,7 @@ class RootMeanSquare {
 struct Column {
   std::string_view name;      // heading in CSV and JSON, with its unit
   std::string_view title;     // heading in the text table
-  double scale = 1.0;         // factor on values of the text table
+  double scale = 1.0;         // the text table shows value * scale
   bool min_is_worst = false;  // true: larger values are better
 };
 
@@ -76,7 +76,7 @@ struct TradeTable {
 Summary summary_of(const TradeTable& table, std::size_t candidate, std::size_t column);
 
 // Markdown table with one row for each candidate, then a numbered list of the scenes. A field reads "mean / worst
-// @number of the worst scene"; with a single scene it is that scene's value.
+// @number of the worst scene"; with a single scene the field is that scene's value. "-" stands for NaN.
 std::string table_text(const TradeTable& table);
 
 // CSV with a header and one row for each candidate and scene; NaN is an empty field.

@@ -60,7 +60,8 @@ class BridgeScene {
     }
   }
 
-  // Truss at one side of the deck: chords (horizontal bars at its lower and upper edge), posts and diagonals.
+  // Truss at one side of the deck: chords (horizontal bars at its lower and upper edge), vertical bars and
+  // diagonals.
   void truss(MeshBuilder& s, double y) const {
     s.kind = surface::kPartMetal;
     const int panels = builder_.sides(8, 40);

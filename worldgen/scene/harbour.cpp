@@ -10,7 +10,7 @@ namespace {
 // Harbour scene. The edge of the quay is at y = 0. The water lies north of the quay, with its surface at z = 0. Two
 // piers extend 100 m into the water. The paved container yard lies south of the quay.
 constexpr double kQuay_m = 900, kQuayDepth_m = 36, kQuayTop_m = 3.0, kYardSouth_m = -420;
-constexpr SurfaceKind kRock{8, 130, 0x77716A};  // code, feature id and colour as in scene_builder.hpp
+constexpr SurfaceKind kRock{8, 130, 0x77716A};  // material code, feature id, colour; see scene_builder.hpp
 
 class HarbourScene {
  public:
@@ -102,7 +102,7 @@ class HarbourScene {
     });
   }
 
-  // Rubble breakwater in a bent line in front of the harbour, with a light at its head.
+  // Rubble breakwater in a bent line in front of the harbour, with a lighthouse at its eastern end.
   void breakwater() {
     const std::array<Vector3, 5> line{
         Vector3{-900, 240, 0}, {-650, 420, 0}, {-250, 520, 0}, {200, 540, 0}, {560, 480, 0}};
@@ -114,9 +114,9 @@ class HarbourScene {
     });
   }
 
-  // Ship at x, y. The bow is toward +x before the ship is turned by turn_deg. The hull connects the outline at the
-  // waterline with the outline of the deck. On the deck are hatches and, near the stern, a bridge with a funnel and a
-  // mast.
+  // Ship at x, y. The bow is toward +x before the ship is turned by turn_deg, counter-clockwise seen from above. The
+  // hull connects the outline at the waterline with the outline of the deck. On the deck are hatches and, near the
+  // stern, a bridge with a funnel and a mast.
   void ship(const std::string& name, double x, double y, double turn_deg, double length_m, double beam_m,
             double freeboard_m) {
     const Transform saved = mesh_.map;

@@ -18,7 +18,8 @@ Vector3 unit(Vector3 v) {
   return size > 0.0 ? (1.0 / size) * v : v;
 }
 
-// Two unit vectors perpendicular to the unit vector `axis`. The three vectors form a right-handed frame.
+// Two unit vectors perpendicular to the unit vector `axis`. First, second and `axis`, in this order, form a
+// right-handed frame.
 std::pair<Vector3, Vector3> across(Vector3 axis) {
   const Vector3 helper = std::abs(axis.z) < 0.9 ? Vector3{0, 0, 1} : Vector3{1, 0, 0};
   const Vector3 first = unit(cross(helper, axis));
@@ -64,7 +65,7 @@ void MeshBuilder::prism(const std::vector<Vector3>& outline, double height_m) {
 
 void MeshBuilder::gable(Vector3 eaves, double east_m, double north_m, double rise_m, double overhang_m) {
   const double x = east_m / 2 + overhang_m, y = north_m / 2 + overhang_m, wall = north_m / 2;
-  const double drop = rise_m * overhang_m / wall;  // the slope continues below the eaves
+  const double drop = rise_m * overhang_m / wall;  // the slope continues below the top of the wall
   const Vector3 west_ridge = eaves + Vector3{-x, 0, rise_m}, east_ridge = eaves + Vector3{x, 0, rise_m};
   polygon({eaves + Vector3{-x, -y, -drop}, eaves + Vector3{x, -y, -drop}, east_ridge, west_ridge});
   polygon({eaves + Vector3{x, y, -drop}, eaves + Vector3{-x, y, -drop}, west_ridge, east_ridge});

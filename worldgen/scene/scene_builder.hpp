@@ -1,6 +1,6 @@
 // Generator of OpenFlight scenes: the request, solid shapes as meshes, and functions that all kinds of scenes share.
 // Input: a SceneRequest. Output: an OpenFlight file as bytes and its number of triangles. Equal requests give equal
-// files. Units: metres. Frame: x east, y north, z up; z = 0 is the ground. Threads: one thread per object.
+// files. Units: metres. Frame: x east, y north, z up; z = 0 is the ground. Threads: one thread per builder.
 #pragma once
 
 #include <cmath>
@@ -48,9 +48,10 @@ class MeshBuilder {
   void cylinder(Vector3 base, double radius_m, double height_m, int sides);
   // Bar of square cross-section between two points, open at both ends.
   void bar(Vector3 from, Vector3 to, double side_m);
-  // Closed plate of constant thickness. The outline lies midway between the upper and the lower face.
+  // Closed plate of constant thickness, half of it on each side of the outline.
   void plate(const std::vector<Vector3>& outline, double thickness_m);
-  // Embankment with a trapezoidal cross-section and closed ends, without a floor. `foot_m`, `top_m`: widths.
+  // Embankment with a trapezoidal cross-section and closed ends, without a floor. `from`, `to`: ends of the centre line
+  // of its foot. `foot_m`, `top_m`: widths.
   void bank(Vector3 from, Vector3 to, double foot_m, double top_m, double height_m);
 
  private:
@@ -67,7 +68,7 @@ std::optional<GeneratedKind> generated_kind(std::string_view name);
 
 struct SceneRequest {
   GeneratedKind kind = GeneratedKind::airfield;
-  std::uint64_t triangles = 20'000;  // approximate; each kind has a minimum of some thousands
+  std::uint64_t triangles = 20'000;  // approximate; each kind has a minimum of its own
   std::uint64_t seed = 1;
   geo::GeoPoint origin;
 };
@@ -86,7 +87,8 @@ using GenerationProgress = std::function<void(std::uint64_t triangles)>;
 // millions of triangles is a file of some megabytes.
 GeneratedScene generate_scene(const SceneRequest& request, const GenerationProgress& progress = {});
 
-// Surfaces: DFAD material code and feature id (docs/spec/formats.md#dfad), display colour.
+// Surfaces: material code and feature id of DFAD (Digital Feature Analysis Data, docs/spec/formats.md#dfad), display
+// colour.
 namespace surface {
 inline constexpr SurfaceKind kMetal{1, 100, 0x9AA4AD}, kDarkMetal{1, 101, 0x5B646B}, kPartMetal{2, 102, 0x7D8790};
 inline constexpr SurfaceKind kStone{3, 103, 0xB9A58C}, kBrick{3, 104, 0xA45A44}, kTiles{3, 105, 0x8C4632};
@@ -121,8 +123,8 @@ class SceneBuilder {
     return static_cast<int>(min + (max - min) * std::min(1.0, std::max(0.0, detail)));
   }
 
-  // Draws definition `number`, an object to be instanced. Returns its number of triangles. The scene counts them with
-  // each instance, not here.
+  // Draws definition `number`: a part of the scene that add_instance() places, any number of times. Returns its number
+  // of triangles. The scene counts them with each instance, not here.
   template <class Draw>
   std::uint64_t define(std::uint16_t number, const Draw& draw) {
     MeshBuilder definition(out);
@@ -132,7 +134,7 @@ class SceneBuilder {
     return definition.triangles();
   }
 
-  // Draws a definition that is one object.
+  // Draws a definition whose faces belong to one object of the file, with this name.
   template <class Draw>
   std::uint64_t define_object(std::uint16_t number, const std::string& name, const Draw& draw) {
     return define(number, [&](MeshBuilder& definition) {
@@ -142,7 +144,7 @@ class SceneBuilder {
     });
   }
 
-  // Draws one object of the scene into `mesh`. `kind`: surface of its first faces.
+  // Draws one object of the scene into `mesh`. `kind`: surface of its faces until `draw` sets another surface.
   template <class Draw>
   void object(const std::string& name, const SurfaceKind& kind, const Draw& draw) {
     out.begin_object(name);

@@ -8,7 +8,8 @@ namespace yars::worldgen {
 
 namespace {
 
-// Row of windows on both long walls of a box. Each window is a polygon 5 cm in front of the wall.
+// Row of `count` windows on each long wall of a box around the z axis. Each window is a polygon 5 cm in front of the
+// wall. `sill_m`: z of its lower edge.
 void windows(MeshBuilder& mesh, double length_m, double depth_m, double sill_m, double height_m, int count) {
   const SurfaceKind saved = mesh.kind;
   mesh.kind = surface::kGlass;
@@ -124,7 +125,7 @@ void draw_tower(MeshBuilder& mesh, random::CounterRng& rng) {
 namespace {
 
 // Half of a wing or of a tailplane. `side`: +1 left, -1 right. `root_x`, `tip_x`: x of the leading edge.
-// Chord: distance from the leading to the trailing edge. The order of the outline makes the plate's upper side face up.
+// Chord: distance from the leading to the trailing edge. The outline runs counter-clockwise seen from above.
 void wing(MeshBuilder& mesh, double root_x, double root_chord, double tip_x, double tip_chord, double from_y,
           double to_y, double z, double thickness_m, double side) {
   std::vector<Vector3> outline{{root_x, side * from_y, z},

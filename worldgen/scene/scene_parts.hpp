@@ -1,5 +1,6 @@
 // Objects that several kinds of scenes use: aircraft, vehicles, trees, buildings.
-// Frame: each object stands on z = 0 around the origin, with its front toward +x. Units: metres.
+// Frame: each object stands on z = 0 around the origin. Aircraft and vehicles point toward +x. Buildings have their
+// length along x. Units: metres.
 // `sides`: number of sides of round parts.
 #pragma once
 
@@ -8,9 +9,9 @@
 namespace yars::worldgen {
 
 void draw_fighter(MeshBuilder& mesh, int sides);
-void draw_transport(MeshBuilder& mesh, int sides);
+void draw_transport(MeshBuilder& mesh, int sides);  // transport aircraft
 void draw_truck(MeshBuilder& mesh, const SurfaceKind& body);
-void draw_tanker(MeshBuilder& mesh, int sides);
+void draw_tanker(MeshBuilder& mesh, int sides);  // road tanker
 void draw_car(MeshBuilder& mesh, const SurfaceKind& body);
 void draw_conifer(MeshBuilder& mesh, double height_m, int sides);
 void draw_leafy_tree(MeshBuilder& mesh, double height_m, int sides);
@@ -18,7 +19,7 @@ void draw_leafy_tree(MeshBuilder& mesh, double height_m, int sides);
 void draw_house(MeshBuilder& mesh, random::CounterRng& rng);
 // Block of flats with rows of windows, a parapet, and the upper ends of the stairwells on the roof.
 void draw_block(MeshBuilder& mesh, random::CounterRng& rng);
-// Tower on a base. It narrows in steps toward the top and has machinery on the roof.
+// High-rise building on a wider base. It narrows in steps toward the top and has machinery and a mast on the roof.
 void draw_tower(MeshBuilder& mesh, random::CounterRng& rng);
 
 }  // namespace yars::worldgen

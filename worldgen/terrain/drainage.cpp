@@ -11,13 +11,15 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kWinding_m = 4.0;  // maximum random part of the flood level; without it, rivers on plains run straight
+// Maximum random part of a node's flood level (flood_level_m()); without it, rivers on plains run straight.
+constexpr double kWinding_m = 4.0;
 // Maximum penalty on the flood level near the tile's edge. It keeps rivers from running along the edge, which they may
 // cross only at gates.
 constexpr double kEdgePenalty_m = 45.0;
 constexpr double kEdgeNodes = 9.0;  // [nodes] width of the strip with the penalty
-// [m/m] Minimum slope of the water. At this slope the water falls less than 2 m along a course over all nodes of a
-// tile. That is less than the fall between gates (at least kGateFall_m, 5 m, in river_basins.cpp).
+// [m/m] Minimum slope of the water after the first pass of set_water(). At this slope the water falls less than
+// 2 m along a course over all nodes of a tile. That is less than the fall between gates (at least kGateFall_m, 5 m, in
+// river_basins.cpp).
 constexpr double kMinFall = 1e-7;
 constexpr int kNodes = kTileNodes * kTileNodes;
 constexpr int kEnd = -1;  // no node downstream; no gate
@@ -34,7 +36,7 @@ class Flood {
   std::vector<int> downstream;  // node to which each node drains, or kEnd
   std::vector<int> exits;       // index of the gate through which water leaves at a node, or kEnd
   std::vector<int> order;       // nodes, downstream before upstream
-  bool landlocked = false;      // no sea and no gate
+  bool landlocked = false;      // no sea and no exit
 
  private:
   struct FloodNode {
@@ -73,7 +75,7 @@ Flood::Flood(const ReliefTile& relief, const std::vector<RiverGate>& gates)
   }
 }
 
-// True for a node on the tile's edge with deep sea on the other side.
+// True for a node on the tile's edge with sea deeper than 10 m (kRiverEnd_m) beyond the edge.
 bool Flood::beside_sea(int row, int column) const {
   return (row == 0 && relief_.height_m(-1, column) < kRiverEnd_m) ||
          (row == kTileNodes - 1 && relief_.height_m(kTileNodes, column) < kRiverEnd_m) ||
@@ -101,9 +103,9 @@ void Flood::seed_outlets(const std::vector<RiverGate>& gates) {
   if (landlocked) seed(lowest, relief_.height_m(lowest / kTileNodes, lowest % kTileNodes));
 }
 
-// Priority of a node: its height, plus a random part, plus the penalty near the edge. The flood takes the lowest node
-// first (search of GRASS r.watershed, Ehlschlaeger 1989). Behind the rim of a basin, the flood first descends to the
-// basin's floor, then rises.
+// Priority of a node: its height, plus a random part, plus the penalty near the edge. The flood takes the node with the
+// lowest level first (search of GRASS r.watershed, Ehlschlaeger 1989). Once the flood has crossed the rim of a basin,
+// it descends to the basin's floor, then rises.
 double Flood::flood_level_m(TileNode at) const {
   const CellCorner corner = relief_.corner();
   const std::uint32_t hash =
@@ -146,8 +148,8 @@ std::vector<double> areas_km2(const ReliefTile& relief, const Flood& flood, cons
 
 // Sets water heights. Each height starts 2 to 10 m below the ground, but not below sea level. The first pass runs
 // downstream and lowers each node's water below the water upstream of the node (by the slope kMinFall), so that the
-// river cuts through higher ground. The second pass runs upstream and raises each node's water to the level of the
-// water downstream of the node.
+// river cuts through higher ground. The second pass runs upstream and raises each node's water to at least the level of
+// the water downstream of the node. Where a river ends in the sea, its water is set to 0 m.
 void set_water(Drainage& drainage) {
   std::vector<RiverNode>& nodes = drainage.nodes;
   std::vector<double> upstream_m(nodes.size(), 1e9);

@@ -3,8 +3,9 @@
 // Input: relief of the tile; gates (passages through its edge) by which rivers leave and enter; area drained by each
 // entering river.
 // Output: river nodes, downstream before upstream. Water never rises downstream.
-// Method: a priority flood from the outlets, lowest ground first. A node drains to the neighbour that the flood came
-//   from. If that neighbour is higher, the river cuts through the ground.
+// Method: a priority flood, a search that spreads upstream from sea and exits, lowest ground first. A node drains to
+//   the neighbour from which the flood came. If that neighbour is higher, the river cuts through the ground.
+// Units: heights in metres above mean sea level; areas in km2.
 #pragma once
 
 #include <vector>
@@ -17,8 +18,9 @@ inline constexpr double kRiverKm2 = 60.0;  // minimum drained area of a river
 
 struct RiverNode {
   int row = 0, column = 0;
-  int downstream = -1;    // index of the next node, below this node's index; -1: the water ends or leaves the tile here
-  int exit = -1;          // index of the gate through which the water leaves, else -1
+  // Index in Drainage::nodes of the next node, less than this node's index; -1: the water ends or leaves the tile here.
+  int downstream = -1;
+  int exit = -1;          // index in Drainage::exits of the gate through which the water leaves here, else -1
   double area_km2 = 0.0;  // drained area, including the area of this node
   double ground_m = 0.0;  // height of the ground without the river
   double water_m = 0.0;   // height of the water
@@ -31,8 +33,8 @@ struct RiverEntry {
 
 struct Drainage {
   std::vector<RiverNode> nodes;   // downstream before upstream
-  std::vector<RiverGate> exits;   // gates by which rivers leave the tile
-  std::vector<double> exits_km2;  // drained area of each exit
+  std::vector<RiverGate> exits;   // gates by which rivers can leave the tile
+  std::vector<double> exits_km2;  // area drained through each exit; 0 at the sea
   std::vector<RiverEntry> entries;
   bool landlocked = false;  // no sea and no exit; the water ends at the lowest node
 };

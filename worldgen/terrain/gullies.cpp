@@ -72,7 +72,8 @@ void GullyRow::gather(Band& band, double middle, std::uint32_t seed) {
 }
 
 // Sum of the wave packets around a position, with its magnitude normalized to at most 1. The waves advance along the
-// unit vector `across`. `turn` [0, 1): longitude of the position from the antimeridian, in full turns.
+// unit vector `across`, at right angles to the downhill direction. `turn` [0, 1): longitude of the position from
+// the antimeridian, in full turns.
 GullyRow::Wave GullyRow::packets(Octave& octave, double turn, Slope across) {
   Wave sum;
   double total = 0.0;

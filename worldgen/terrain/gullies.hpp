@@ -1,7 +1,7 @@
 // Erosion noise: gullies and spurs that run down the slope, as a sum of octaves from coarse to fine.
 // Each octave follows the slope of the ground that includes all coarser octaves, so small gullies join larger gullies.
 // Method: wave packets around scattered points, oriented by the slope (sparse convolution, Lewis 1989).
-// Input: position and base slope [m/m]. Output: height to add [m] and the slope with gullies.
+// Input: position, and slope [m/m] of the ground without gullies. Output: height to add [m] and the slope with gullies.
 // Accuracy: a position gives the same bits in any order of calls. Threads: one thread per GullyRow.
 #pragma once
 
@@ -13,13 +13,14 @@
 namespace yars::worldgen {
 
 struct Slope {
-  double east = 0.0;   // [m/m]
-  double north = 0.0;  // [m/m]
+  double east = 0.0;   // [m/m] positive: the ground rises to the east
+  double north = 0.0;  // [m/m] positive: the ground rises to the north
 };
 
 struct GullyOctave {
   double wavelength_m;  // distance between gullies
-  double depth;         // amplitude / (wavelength * slope); smaller where the slope is below 0.02 or above 0.45
+  // Amplitude / (wavelength * slope) on medium slopes. On slopes below 0.02 or above 0.45 this ratio becomes smaller.
+  double depth;
 };
 
 // Parameters of the noise. `octaves` are sorted from coarse to fine and must outlive the object.
@@ -36,7 +37,7 @@ class GullyRow {
   GullyRow(const Gullies& gullies, double latitude_deg);
 
   struct Relief {
-    double height_m = 0.0;  // height to add to the ground
+    double height_m = 0.0;  // height to add to the ground; negative in gullies
     Slope slope;            // slope of the ground with gullies
   };
   // Longitude [-180, 180) deg; `base` is the slope of the ground without gullies.

@@ -16,7 +16,7 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr double kWoodsBelowSnow_m = 900.0;      // height of the belt of rock and meadow between trees and snow
+constexpr double kWoodsBelowSnow_m = 900.0;      // vertical extent of rock and meadow between trees and snow
 constexpr double kMaxAirfieldExtent_m = 7000.0;  // an airfield changes no ground farther from its centre
 constexpr double kSteepRock = 0.55;              // [m/m] steeper ground without snow is bare rock
 constexpr double kBuildable = 0.15;              // [m/m] steepest ground with buildings
@@ -69,7 +69,7 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
   const double turn = patch.bearing_deg * geo::kRadiansPerDegree;
   const double along_m = east_m * std::sin(turn) + north_m * std::cos(turn);
   const double across_m = east_m * std::cos(turn) - north_m * std::sin(turn);
-  // Avenues divide the town into quarters of 880 m. A quarter consists of blocks of 220 m.
+  // Avenues divide the town into square quarters of side 880 m. A quarter consists of square blocks of side 220 m.
   constexpr double kAvenue_m = 880.0, kAvenueWidth_m = 44.0, kBlock_m = 220.0;
   const auto in_avenue = [](double distance_m) {
     return distance_m - kAvenue_m * std::floor(distance_m / kAvenue_m) < kAvenueWidth_m;
@@ -192,7 +192,7 @@ void LandscapeRows::carve_rivers(Row& row) const {
 }
 
 // Sets the level ground of an airfield to the airfield's height. Over the next kPadBlend_m outwards, the height changes
-// smoothly to the height of the land.
+// smoothly to the height of the land. River water does not change.
 void LandscapeRows::level_airfields(Row& row) const {
   constexpr double kAcross_m = kPadHalfWidth_m + kPadBlend_m;
   for (const Airfield* airfield : airfields_) {

@@ -29,8 +29,8 @@ double snow_line_m(double latitude_deg);
 struct CoverSite {
   geo::GeoPoint position;
   geo::Vector3 upward;     // unit vector from the earth's centre to the position
-  double height_m = 0.0;   // 0 or less: sea
-  double steepness = 0.0;  // [m/m]
+  double height_m = 0.0;   // [m MSL] 0 or less: sea
+  double steepness = 0.0;  // [m/m] magnitude of the slope
   double valley = 1.0;     // -1: river water; 0: valley floor; 0 to 1: slope of a valley; 1: outside of valleys
 };
 
@@ -38,7 +38,7 @@ struct CoverSite {
 Material natural_cover(const CoverSite& site, std::uint32_t seed);
 
 // Material at a distance of `radii` times the town's radius from the town's centre. The result is `natural` beyond the
-// town's irregular edge, on water, and on ground too steep for buildings.
+// town's irregular edge, in some blocks just inside it, on water, and on ground too steep for buildings.
 Material town_cover(const CoverSite& site, double radii, Material natural, std::uint32_t seed);
 
 // Material of runway, taxiways, apron, hangars and the ground around them; `natural` outside the airfield.
@@ -91,7 +91,7 @@ struct MadeCell {
 // by a cubic spline. Gullies with wavelengths down to 115 m are added at each post.
 class Landscape {
  public:
-  // With an island's box, land falls to the sea inside the box's edge.
+  // With an island's box, land ends at a coast at least 11 km inside the box's edge.
   explicit Landscape(std::uint64_t seed, std::optional<LandscapeBox> island = std::nullopt);
 
   // The cell with `rows` x `columns` posts. Requires that `rows - 1` and `columns - 1` are divisors of 3600. Land is at

@@ -98,8 +98,8 @@ class SettlementMaker {
     settlements_.towns.push_back({relief_.node(best->row, best->column), radius_m});
   }
 
-  // Mean height of a site for an airfield; nullopt unless the site is level, dry and clear of rivers, towns and other
-  // airfields.
+  // Mean height [m MSL] of a site for an airfield; nullopt unless the site is level, dry and clear of rivers, towns and
+  // other airfields.
   std::optional<double> pad_height_m(TileNode at, double bearing_deg, double length_m) {
     for (const PlacedTown& town : towns_)
       if (distance_m(at, town.node) < town.radius_m * 1.2 + 0.5 * length_m) return {};

@@ -46,7 +46,8 @@ struct Settlements {
 // level ground outside towns. Tiles whose middle is poleward of 68 degrees have neither.
 Settlements settlements_of(const ReliefTile& relief, const Drainage& drainage, std::uint32_t seed);
 
-// Position along and across a runway from its centre [m]. `across_m` is positive to the right of the bearing.
+// Position relative to a runway's centre [m]. `along_m` is positive in the direction of the bearing, `across_m` to the
+// right of it.
 struct RunwayPosition {
   double along_m = 0.0;
   double across_m = 0.0;

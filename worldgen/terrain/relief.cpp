@@ -40,7 +40,7 @@ namespace {
 
 constexpr double kEarthRadiusKm = 6371.0;  // sphere
 constexpr double kShelfMPerKm = 14.0;      // slope of the sea floor
-constexpr double kOpenSeaKm = -130.0;  // [km] where the distance inland is smaller, there is no coast, island or range
+constexpr double kOpenSeaKm = -130.0;      // distance inland; farther out at sea there is no coast, island or range
 // [m MSL] Minimum height of the sea floor. A deeper floor would make a slope at the edge of an island's box. Slopes get
 // gullies, whose spurs would rise above the water.
 constexpr double kSeaBottom_m = -150.0;
@@ -74,8 +74,8 @@ double BroadRelief::ridges(geo::Vector3 point_km, double wavelength_km, std::uin
   return random::ridged_noise(at_wavelength(point_km, wavelength_km), seed_ + layer, octaves);
 }
 
-// Coast of an island: a line with bays and capes, 11 to 81 km inside the edge of the box. `warped`: position on the
-// sphere after domain warping [km].
+// Coast of an island: the general coast (`coast_km`), but no farther out than a line with bays and capes, 11 to 81 km
+// inside the edge of the box. `warped`: position on the sphere after domain warping [km].
 BroadRelief::Shore BroadRelief::shore_near_edge(double coast_km, geo::GeoPoint position, geo::Vector3 warped) const {
   constexpr double kEdgeEffectKm = 125.0;  // farther inside, the edge has no effect
   const double inside_km = island_ ? island_->inside_km(position) : kEdgeEffectKm;
@@ -105,7 +105,7 @@ double BroadRelief::height_m(geo::GeoPoint position) const {
       inland_km + (9.0 + 26.0 * rugged) * noise(warped, 62, 50, 6) - 22.0 * inlets * bell(inland_km, 28.0), position,
       warped);
   const double coast_km = shore.coast_km;
-  // Shelf, coastal plain and the gentle rise behind it.
+  // Shelf, coastal plain, and the gentle rise farther inland.
   double height_m = coast_km < 0 ? kShelfMPerKm * coast_km
                                  : 95.0 * (1.0 - std::exp(-coast_km / 14.0)) + 1.6 * std::min(coast_km, 90.0);
   if (shore.fade <= 0.0) return std::max(height_m, kSeaBottom_m);
@@ -172,8 +172,8 @@ double ReliefTile::steepness(int row, int column) const {
 
 namespace {
 
-// Weights of a uniform cubic B-spline over four lattice nodes, and the derivatives of the weights by `t`. `t`, [0, 1]:
-// position between the second and the third node.
+// Weights of a uniform cubic B-spline over four lattice nodes, and the derivatives of the weights with respect to `t`.
+// `t`, [0, 1]: position between the second and the third node.
 struct Spline {
   std::array<double, 4> value;
   std::array<double, 4> derivative;

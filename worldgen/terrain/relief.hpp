@@ -38,7 +38,7 @@ struct LandscapeBox {
 // coasts.
 class BroadRelief {
  public:
-  // With a box, land falls to the sea inside the box's edge.
+  // With a box, land ends at a coast at least 11 km inside the box's edge.
   explicit BroadRelief(std::uint32_t seed, std::optional<LandscapeBox> island = std::nullopt)
       : seed_(seed), island_(island) {}
 
@@ -63,8 +63,8 @@ inline constexpr int kTileNodes = 120;           // lattice nodes per side of a 
 inline constexpr double kTileMetres = 111195.0;  // [m] one degree on a sphere of 6371 km
 inline constexpr double kNodeMetres = kTileMetres / kTileNodes;
 
-// Position of a lattice node. The row counts from the south pole; the column counts from the antimeridian and is
-// wrapped. Longitude [-180, 180).
+// Position of a lattice node. The row counts from the south pole; the column counts eastward from the antimeridian
+// and is wrapped. Longitude [-180, 180).
 geo::GeoPoint lattice_node(int row, int column);
 
 // Length [m] of one degree of longitude, at least 1 % of the length at the equator to keep slopes at the poles finite.

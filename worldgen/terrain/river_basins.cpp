@@ -23,9 +23,9 @@ constexpr double kMinFall_m = 15.0;   // more than drainage.cpp needs for any co
 constexpr double kMaxFall_m = 180.0;  // where the ground falls more, the river cuts into the ground
 constexpr double kGateFall_m = 5.0;
 constexpr int kGatesPerEdge = 3;   // maximum for coastal tiles
-constexpr double kDry_m = 1.0;     // minimum height of a gate's nodes
-constexpr double kNoGate_m = 1e9;  // RiverGate::water_m where no gate is possible
-constexpr int kGateMargin = 12;    // [nodes] distance of gates from the ends of an edge
+constexpr double kDry_m = 1.0;     // [m MSL] minimum height of nodes on land
+constexpr double kNoGate_m = 1e9;  // RiverGate::water_m that gate_between() returns if no nodes are on land
+constexpr int kGateMargin = 12;    // [nodes] minimum distance of gates from the ends of an edge
 
 struct Step {
   int north, east;
@@ -100,7 +100,7 @@ int RiverBasins::cost_to_sea(CellCorner start) {
   if (const auto known = costs_.find(key_of(start)); known != costs_.end()) return known->second;
   struct Candidate {
     int cost;
-    int rank;  // 0: end of a path with known cost, 1: a tile
+    int rank;  // 0: `cost` is for the whole path to the sea; 1: for the path to `corner`
     CellCorner corner;
     bool operator<(const Candidate& other) const {
       return std::tuple(cost, rank, key_of(corner)) > std::tuple(other.cost, other.rank, key_of(other.corner));
@@ -151,8 +151,8 @@ std::optional<CellCorner> RiverBasins::downstream_of(CellCorner corner) {
 }
 
 // Gate at the lowest pair of nodes, one on each side of an edge, in [first, last) along the edge. Every second pair is
-// examined; its height is that of the higher node. The gate's water_m is the height of the pair, or kNoGate_m if no
-// pair is on land.
+// examined; its height is that of the higher node. The gate's water_m is the height of the pair. If no pair is on
+// land, water_m is kNoGate_m and the gate lies in the middle.
 RiverGate RiverBasins::gate_between(CellCorner from, int north, int east, int first, int last) const {
   RiverGate gate{from, neighbour_of(from, north, east), north, east, (first + last) / 2, kNoGate_m};
   const int row = (from.south_deg + 90) * kTileNodes;

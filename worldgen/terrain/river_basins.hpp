@@ -1,5 +1,5 @@
 // River basins: into which neighbours each tile of one degree drains, and through which gates.
-// Input: heights of the landscape without valleys (BroadRelief in relief.hpp), at 64 points per tile.
+// Input: heights of the landscape without valleys (BroadRelief in relief.hpp), at 64 samples per tile and along edges.
 // Output: gates by which rivers leave and enter a tile; drained areas [km2].
 // An inland tile drains through one gate, along the cheapest path of tiles to the sea (low ground is cheap). A coastal
 //   tile drains to its own sea, and through gates to neighbours with more sea. Paths have no cycles.
@@ -24,7 +24,7 @@ inline constexpr double kRiverEnd_m = -10.0;  // [m MSL] rivers end in deeper se
 struct RiverGate {
   CellCorner from;
   CellCorner to;
-  int north = 0, east = 0;  // step from `from` to `to`; one of them is 0
+  int north = 0, east = 0;  // step from `from` to `to` [tiles]: one is 0, the other 1 or -1
   int along = 0;            // column (step north or south) or row (step east or west) of the nodes beside the edge
   double water_m = 0.0;     // [m MSL] height of the water at the edge
 };
@@ -34,7 +34,7 @@ class RiverBasins {
   explicit RiverBasins(const BroadRelief& broad) : broad_(broad) {}
 
   bool frozen(CellCorner corner) const;  // poleward of 72 degrees
-  bool coastal(CellCorner corner);       // true if at least one sample lies below -10 m
+  bool coastal(CellCorner corner);       // true if at least one of the 64 samples lies below -10 m MSL
   // Gates by which rivers leave a tile, and by which they enter it.
   std::vector<RiverGate> exits(CellCorner corner);
   std::vector<RiverGate> entries(CellCorner corner);

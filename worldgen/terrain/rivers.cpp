@@ -85,7 +85,8 @@ class CourseMaker {
     point.river = river_of(node.area_km2, node.water_m, node.ground_m - node.water_m);
     return point;
   }
-  // The point half way between `a` and `b`, also across the antimeridian. The drained area `area_km2` gives its width.
+  // The point half way between `a` and `b`, also across the antimeridian. `area_km2`, the drained area, gives the
+  // widths of water and valley floor.
   static CoursePoint between(const CoursePoint& a, const CoursePoint& b, double area_km2) {
     const double turn = std::abs(a.longitude_deg - b.longitude_deg) > 180.0 ? 360.0 : 0.0;
     const double east_deg = b.longitude_deg + (b.longitude_deg < a.longitude_deg ? turn : -turn);

@@ -18,7 +18,8 @@ struct RiverPiece {
   double east_m = 0.0;    // offset of the downstream end to the east
   double north_m = 0.0;   // offset of the downstream end to the north
   double parallel = 1.0;  // cosine of the mean latitude of both ends
-  // Cross-section at an end; ends[0] is upstream, ends[1] downstream. Lengths in metres, heights in m MSL.
+  // Cross-section at an end; ends[0] is upstream, ends[1] downstream. Lengths in metres, heights in m MSL. The axis is
+  // the straight line between both ends.
   struct End {
     double water_m;       // height of the water surface
     double half_width_m;  // half the width of the water
@@ -36,7 +37,8 @@ std::vector<RiverPiece> river_pieces(const ReliefTile& relief, const Drainage& d
 // Applies river pieces to one row of posts.
 class RiverRow {
  public:
-  // `longitudes_deg`: longitudes of the posts from west to east, evenly spaced, at least two. The span must stay valid.
+  // `longitudes_deg`: longitudes of the posts from west to east, evenly spaced, at least two. The array must outlive
+  // the RiverRow.
   RiverRow(double latitude_deg, std::span<const double> longitudes_deg)
       : latitude_deg_(latitude_deg), longitudes_deg_(longitudes_deg) {}
 

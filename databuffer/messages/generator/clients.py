@@ -1,4 +1,4 @@
-"""Writers of the records for programs without C++: yars_records.h in C, and the records of examples/yars.py.
+"""Writers of the records for programs in C and in Python: yars_records.h in C, and the records of examples/yars.py.
 
 Offsets and sizes of the segment are from `yars status --layout`, the records from the IDL.
 """
@@ -128,7 +128,7 @@ def packed_record(one):
 
 
 def python_constants(names_and_numbers):
-    """Assignments in Python, one line for each group."""
+    """Python assignment of all numbers to their names, on one line or, if that is too long, on two."""
     text = f"{', '.join(name for name, _ in names_and_numbers)} = {', '.join(str(number) for _, number in names_and_numbers)}"
     names, _, numbers = text.partition(" = ")
     return text + "\n" if len(text) <= comments.WIDTH else f"{names} = \\\n    {numbers}\n"

@@ -1,4 +1,4 @@
-"""Layout of code with comments: behind the code in one column, or above it if the line would become too long."""
+"""Layout of code with comments: right of the code ("behind") in one column, or above it if a line would be too long."""
 import textwrap
 
 WIDTH = 120  # columns

@@ -152,7 +152,7 @@ def checks(one, access, prefix, indent):
 
 
 def by_hand_limits(one):
-    """C++ struct with the ranges of the fields with @by_hand, for validation.cpp."""
+    """C++ struct with the ranges of the fields that have @by_hand and both limits, for validation.cpp."""
     fields = [field for field in one.fields if field.by_hand and field.minimum and field.maximum]
     if not fields:
         return ""

@@ -24,7 +24,7 @@ class Token:
 
 
 class Scanner:
-    """Scanner of one file: a list of tokens, and comments by line number, above code and behind code."""
+    """One file scanned: a list of tokens; comments by line number, alone on a line (above) or after code (behind)."""
 
     def __init__(self, name, text):
         self.name, self.tokens, self.above, self.behind = name, [], {}, {}

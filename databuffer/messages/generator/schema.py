@@ -1,6 +1,7 @@
 """Data model of the IDL: constants, enumerations, bit masks, records with their fields, offsets and sizes.
 
-idl.py builds it from the IDL files; cpp.py, clients.py and tables.py write it out. Offsets and sizes are in bytes.
+idl.py builds the model from the IDL files; cpp.py, clients.py and tables.py write it out. Offsets and sizes are in
+bytes.
 A contradiction in the model raises IdlError: one line with the expected value, the found value and the remedy.
 """
 import dataclasses
@@ -74,7 +75,7 @@ class Field(Declaration):
     nan: str = None  # meaning of NaN; None: NaN is not valid
     counted_by: str = None  # name of the field with the number of entries in use; None: all are in use
     cut: bool = False  # True: a ring copies only the entries in use
-    by_hand: bool = False  # True: validation.cpp checks the range, not the generated code
+    by_hand: bool = False  # True: hand-written code checks the range, the generated code does not
     offset: int = 0
 
     @property
@@ -194,9 +195,9 @@ def check_unit(field):
 def check_limits(field):
     limits = [limit for limit in (field.minimum, field.maximum) if limit]
     if limits and (field.number is None or not isinstance(field.type, str)):
-        raise IdlError(field.where, f"a number behind the range of {field.name}", "a type without order", "take the range away")
+        raise IdlError(field.where, f"a number type for {field.name}, which has a range", "a type without order", "take the range away")
     if field.nan is not None and field.type not in REALS:
-        raise IdlError(field.where, f"double or float behind @nan of {field.name}", str(field.number), "take @nan away")
+        raise IdlError(field.where, f"double or float for @nan of {field.name}", str(field.number), "take @nan away")
     if field.minimum and field.maximum and not field.minimum.value <= field.maximum.value:
         raise IdlError(field.where, f"a range of {field.name} that begins below its end", range_text(field), "mend @range")
     for limit in limits + ([field.default] if field.default else []):
@@ -215,7 +216,7 @@ def check_count(record, field):
     if len(field.dimensions) > 1:
         raise IdlError(field.where, f"one dimension at {field.name}", f"{len(field.dimensions)}", "use one array")
     if field.cut and (field is not record.fields[-1] or field.counted_by is None or field.element_size != 1):
-        raise IdlError(field.where, "@cut with @counted_by at the last array of bytes in a record", f"it at {field.name}")
+        raise IdlError(field.where, "@cut on the last field, an array of bytes with @counted_by", f"@cut on {field.name}")
     if field.counted_by is None:
         return
     counter = next((other for other in record.fields if other.name == field.counted_by), None)

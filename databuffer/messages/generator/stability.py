@@ -2,8 +2,8 @@
 
 Programs recognize a segment by its identity. With an unchanged identity, a program compiled earlier would misread a
 field that has moved or changed its meaning. The check compares the tables in docs/shared_memory.md with the new ones.
-With an equal identity no field may be removed, moved, or have another size, type or unit. New fields are allowed, because
-they replace reserved words, which are zero.
+With an equal identity no field may be removed, moved, or have another size, type or unit. Allowed are a unit where
+there was none, and new fields, because they replace reserved words, which are zero.
 """
 import re
 

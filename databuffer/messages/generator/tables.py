@@ -45,7 +45,7 @@ def record_table(record):
 
 
 def values(chapters):
-    """Tables of the enumerations and bit masks that fields use."""
+    """Lists of all enumerations, bit masks and constants."""
     for one in (one for chapter in chapters for one in chapter.declarations):
         if isinstance(one, Enumeration):
             texts = [f"{number} {name}" + (f" ({' '.join(doc)})" if doc else "") for number, (name, doc) in enumerate(one.values)]

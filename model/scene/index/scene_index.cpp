@@ -49,8 +49,8 @@ std::optional<double> take_angle(std::string_view& text, char positive, char neg
   return side == negative ? -degrees : degrees;
 }
 
-// Adds `name`, the name of parts to leave out, to radar::Scene::without of each folder, and of each scene file that has
-// a part with this name.
+// Adds `name`, the name of parts to leave out, to radar::Scene::without of each scene that is a folder, and of each
+// scene that is a file with a matching part.
 error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::string& name) {
   NameFilter all(name);
   if (scenes.empty() || all.unmatched_names().empty())

@@ -20,8 +20,8 @@ struct Scene;
 
 namespace yars::model::scene {
 
-// Parses a scene argument: `FILE`, `FILE@LAT,LON` or `FILE@LAT,LON,HDG` in degrees. Errors: the text after the last '@'
-// is not a position, or there is no text before the '@'.
+// Parses a scene argument: `FILE`, `FILE@LAT,LON` or `FILE@LAT,LON,HDG` in degrees; north and east are positive, HDG is
+// true. Errors: the text after the last '@' is not a position, or there is no text before the '@'.
 error::Expected<radar::Scene> parse_scene(const std::string& text);
 
 // Parses `texts` by parse_scene() and adds the scenes. Then adds each of `names` (parts to leave out) to Scene::without
@@ -36,8 +36,8 @@ error::Expected<void> add_scenes(std::vector<radar::Scene>& scenes, const std::v
 // if the name has no coordinates.
 std::optional<geo::GeoPoint> position_in_name(const std::string& name);
 
-// [m] Radius of a scene without corners in its file's header. A map that overlaps such a scene only beyond this radius
-// does not show it.
+// [m] Radius of a scene whose file's header lacks the origin or a corner. A map that overlaps such a scene only beyond
+// this radius does not show it.
 inline constexpr double kUnknownReach_m = 20'000.0;
 
 struct IndexedScene {

@@ -56,7 +56,8 @@ struct SceneStoreOptions {
 // Store of placed scenes. prepare() loads the scenes that overlap the region and opens no other scene file.
 // Above the memory limit the store drops the least recently used scenes, but none that overlap the region.
 // Terrain is sampled at its finest level, so heights do not depend on the region.
-// Indices of kinds and objects stay valid in later views.
+// An index of a kind or object means the same in later views. Only a file with more objects than at its earlier loads
+// gets new object indices when it is loaded again.
 class SceneStore {
  public:
   // Errors: a file named in the configuration is missing, is not OpenFlight or has no position; a name in

@@ -298,7 +298,8 @@ class Flattener {
     return {};
   }
 
-  // Collects the corners in model space, counter-clockwise from outside. Returns false for an invalid position.
+  // Collects the corners in model space, counter-clockwise seen from the front of the face. Returns false for an
+  // invalid position.
   bool gather(const TreeFace& face, const Transform& transform) {
     positions_.clear();
     normals_.clear();

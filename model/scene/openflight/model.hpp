@@ -19,8 +19,9 @@
 namespace yars::model::scene {
 
 // Triangulation of polygons in space. Convex polygons become a triangle fan. Concave polygons are triangulated by ear
-// clipping in the plane of their Newell normal. Orientation is kept. Some of the triangles may have no area. A polygon
-// of four or more corners that are all collinear gives no triangles. Self-crossing polygons are covered approximately.
+// clipping of their projection along the coordinate axis nearest to their normal; with more than 512 corners they
+// become a fan, too. Orientation is kept. Some of the triangles may have no area. A polygon of four or more corners
+// that are all collinear gives no triangles. Self-crossing polygons are covered approximately.
 // The number of triangles is at most the number of corners minus two.
 
 // Normal of a polygon, with a length of twice the area. It points to the side from which the corners run
@@ -34,8 +35,8 @@ inline Vector3 vector_of(const std::array<float, 3>& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
-// Vertex of a flattened scene. Normals are unit vectors on the side from which the corners run counter-clockwise. The
-// facet's normal replaces a missing normal, or a normal on the other side.
+// Vertex of a flattened scene. Its normal is a unit vector on the side from which the corners of its polygon run
+// counter-clockwise. The polygon's normal replaces a missing normal, or a normal on the back.
 struct ModelVertex {
   std::array<float, 3> position_m{};  // relative to Model::base
   std::array<float, 3> normal{};
@@ -77,8 +78,8 @@ struct FlattenLimits {
 using LoadExternal = std::function<error::Expected<std::shared_ptr<const Model>>(const std::string& name)>;
 
 // Flattens a node tree: applies transforms, expands instances and replications, and omits the nodes that `filter`
-// matches (null: omits none). Selects the sibling levels of detail with the minimum switch-out distance, the current
-// mask of a switch, and the first frame of an animation. A two-sided polygon gives triangles for each side.
+// matches (null: omits none). Selects the sibling levels of detail with the minimum switch-out distance (the finest),
+// the current mask of a switch, and the first frame of an animation. A two-sided polygon gives triangles for each side.
 // `subject`: name of the file in errors.
 // Errors: errors of `load`, exceeded limits, nesting deeper than kMaxNodeDepth, an external file placed more than
 // 10,000 km from the origin.

@@ -73,7 +73,7 @@ bool matches(std::string_view pattern, std::string_view name) {
   return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
-// Levenshtein distance of two texts: the number of characters to change, insert or remove. 0 if b contains a.
+// Levenshtein distance: the minimum number of characters to change, insert or remove in a to get b. 0 if b contains a.
 std::size_t distance(std::string_view a, std::string_view b) {
   if (!a.empty() && b.find(a) != std::string_view::npos) return 0;
   std::vector<std::size_t> row(b.size() + 1);

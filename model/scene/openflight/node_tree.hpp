@@ -93,9 +93,9 @@ struct Node {
   std::uint32_t first_face = kNone;
   std::uint32_t last_face = kNone;
   std::uint32_t matrix = kNone;            // index into NodeTree::matrices
-  double switch_out_m = 0.0;               // level of detail: minimum viewing distance
+  double switch_out_m = 0.0;               // level of detail: drawn from this viewing distance on
   std::string name;                        // for an external reference, the file name
-  std::vector<std::uint32_t> switch_mask;  // switch_node: one bit per child; empty: all children
+  std::vector<std::uint32_t> switch_mask;  // switch_node: one bit per child, 1: shown; empty: all shown
 };
 
 struct TreeVertex {
@@ -107,9 +107,9 @@ struct TreeVertex {
 struct TreeFace {
   std::uint32_t first_corner = 0;
   std::uint32_t count = 0;
-  std::uint32_t next = kNone;  // next face of the same node
-  std::uint16_t kind = 0;      // index into NodeTree::kinds
-  std::uint8_t subface_level = 0;
+  std::uint32_t next = kNone;      // next face of the same node
+  std::uint16_t kind = 0;          // index into NodeTree::kinds
+  std::uint8_t subface_level = 0;  // 0: no subface; 1: subface of a face; 2: subface of a subface, and so on
   bool two_sided = false;
 };
 
@@ -182,7 +182,7 @@ class NameFilter {
  private:
   struct Excluded {
     std::string name;
-    bool matched = false;  // true: a name matched
+    bool matched = false;  // true: a node's name matched
   };
   std::vector<Excluded> excluded_;
   std::set<std::string> seen_;  // names of nodes, for suggestions in errors

@@ -117,7 +117,7 @@ TreeParser::Done TreeParser::pop() {
   return {};
 }
 
-// The following functions parse groups, objects, switches and their transforms.
+// The following functions parse nodes (groups, objects, switches, references), and transforms of nodes and faces.
 
 TreeParser::Done TreeParser::new_node(NodeKind kind, bool attached) {
   if (tree_.nodes.size() >= kMaxNodes) return too_many(kMaxNodes, "nodes");
@@ -186,7 +186,8 @@ TreeParser::Done TreeParser::add_named(const Record& record, NodeKind kind) {
 
 TreeParser::Done TreeParser::add_group(const Record& record) {
   constexpr std::uint32_t kForward = 1U << 30, kSwing = 1U << 29, kBackward = 1U << 26;
-  // First revision with the backward bit. In earlier revisions the swing bit marks an animation.
+  // First revision (15.8) in which a bit marks an animation that runs backward. Earlier revisions have the swing bit
+  // (to and fro) instead.
   constexpr std::int32_t kBackwardRevision = 1580;
   const auto flags = record.number_or<std::uint32_t>(16, 0);
   const std::uint32_t animation = kForward | (tree_.header.revision >= kBackwardRevision ? kBackward : kSwing);
@@ -230,7 +231,8 @@ void TreeParser::set_name(const Record& record) {
   if (node.kind != NodeKind::external) node.name = record.text(4, kMaxNameLength);
 }
 
-// Only the newest face can be moved, so a transform must follow its face directly. An older face stays in its node.
+// Only the face that was read last can change its node. An earlier face stays in its node, and the caller then ignores
+// the transform.
 TreeParser::Done TreeParser::move_face_to_own_node() {
   const std::uint32_t face = current_.face;
   const std::uint32_t above = parent().node;
@@ -302,7 +304,7 @@ TreeParser::Done TreeParser::add_face(const Record& record) {
   if (current_.node == kNone) return {};
   const std::optional<TreeFace> face = surfaces_.read(record, 0, subface_level_);
   if (!face) {
-    current_.node = kNone;  // records below a skipped face are skipped, too
+    current_.node = kNone;  // records nested in a skipped face are skipped, too
     return {};
   }
   current_.face = static_cast<std::uint32_t>(tree_.faces.size());

@@ -1,9 +1,10 @@
 // Parser of one OpenFlight file, revisions 14 to 16.5, into a node tree. The parser opens no other file.
 // Skipped: textures, lights, sounds, extensions, all masks of a switch but the current one, and the transform records
 // 76-82 and 94 (record 49 has their product).
-// Wireframe and light faces are omitted. Hidden faces are omitted, too; FileCounts::hidden_faces is their number.
-// Errors: no header, unknown revision or unit, truncated records, more pop records than push records, corners outside
-// their pool, a damaged mesh record, a matrix with NaN or infinity, an exceeded limit (constants below).
+// Wireframes and faces that stand for lights are omitted. Hidden faces are omitted, too; FileCounts::hidden_faces is
+// the number of hidden faces.
+// Errors: no header, unknown revision or unit, truncated records, more pop records than push records, a corner without
+// a vertex, a damaged mesh record, a matrix with NaN or infinity, an exceeded limit (constants below; records.hpp).
 // Source: docs/spec/formats.md#openflight.
 #pragma once
 
@@ -25,7 +26,7 @@ inline constexpr std::size_t kMaxPushDepth = 512;  // nesting of records
 // The next three limits bound the memory of nodes to about 0.5 GB, of faces to 0.8 GB and of vertices to 2.6 GB.
 inline constexpr std::size_t kMaxNodes = 4'000'000;
 inline constexpr std::size_t kMaxFaces = 32'000'000;
-inline constexpr std::size_t kMaxVertices = 64'000'000;
+inline constexpr std::size_t kMaxVertices = 64'000'000;  // also the limit of corners of faces: 0.3 GB more
 
 // Parses a file. `subject`: name of the file in errors.
 error::Expected<NodeTree> parse_openflight(std::span<const std::byte> bytes, const std::string& subject);
@@ -84,7 +85,7 @@ class TreeParser {
   Done add_primitive(const Record& record);
 
   const Level& parent() const { return levels_.empty() ? root_ : levels_.back(); }
-  // True if the newest record of a node, face or mesh is a face without a node of its own.
+  // True if current_ is a face without a node of its own.
   bool is_loose_face() const { return current_.face != kNone && current_.node == parent().node; }
   int current_mesh() const { return current_.mesh >= 0 ? current_.mesh : parent().mesh; }
 
@@ -96,8 +97,8 @@ class TreeParser {
   VertexPalette palette_;
   std::vector<Level> levels_;
   Level root_{.node = 0};
-  Level current_;                        // what the newest record of a node, face or mesh has made
-  std::uint32_t previous_face_ = kNone;  // face before the newest one in its node
+  Level current_;                        // owner of the next push record, matrix or name
+  std::uint32_t previous_face_ = kNone;  // face before the newest face in the list of the same node
   int skipped_ = 0;                      // nesting depth of extensions and attributes
   int subface_level_ = 0;
   std::vector<MeshState> meshes_;

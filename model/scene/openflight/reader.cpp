@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Reads the first `max_bytes` bytes of a file, or the whole file if it is shorter.
+// Reads the first `max_bytes` bytes of a file, or the whole file if it is shorter. A file above kMaxFileBytes is an
+// error in both cases.
 error::Expected<std::vector<std::byte>> read_bytes(const fs::path& path, std::uintmax_t max_bytes) {
   std::error_code code;
   if (!fs::is_regular_file(path, code))
@@ -89,7 +90,8 @@ class FileSet {
         *tree, subject, [this, &path](const std::string& name) { return load_reference(path, name); }, {}, filter_);
   }
 
-  // Loads the external file `name` of the file `from`. Returns null and adds a warning if the file has to be skipped.
+  // Loads the external file `name` that the file `from` refers to. Returns null and adds a warning if it has to be
+  // skipped.
   error::Expected<std::shared_ptr<const Model>> load_reference(const fs::path& from, std::string name) {
     name = name.substr(0, name.find('<'));
     std::replace(name.begin(), name.end(), '\\', '/');

@@ -2,7 +2,7 @@
 // Format: big-endian; u16 opcode, u16 length of the record, fields. Offsets count from the opcode, in bytes.
 // Errors: a record shorter than 4 bytes, a record that extends beyond the end of the file, a record that is longer than
 // 256 MiB with its continuations. Nothing is read outside the given bytes.
-// Source: docs/spec/formats.md#openflight; OpenFlight Scene Description Database Specification, 14 to 16.5.
+// Source: docs/spec/formats.md#openflight; OpenFlight Scene Description Database Specification, revisions 14 to 16.5.
 #pragma once
 
 #include <array>
@@ -113,7 +113,8 @@ inline constexpr int kIntensities = 128;  // colour index = 128 * colour + inten
 
 namespace yars::model::scene {
 
-// One record. Offsets count from the record's opcode.
+// One record. Offsets count from the record's opcode. A field beyond the end of a record is absent, because older
+// revisions have shorter records.
 class Record {
  public:
   Record() = default;
@@ -137,7 +138,7 @@ class Record {
   Number number_or(std::size_t offset, Number absent) const {
     return has(offset, sizeof(Number)) ? memory::big_endian<Number>(bytes_.data() + offset) : absent;
   }
-  // Text up to a zero byte or `max_length` characters. Characters outside printable ASCII become '?'.
+  // Text up to a zero byte, `max_length` characters or the record's end. Characters outside printable ASCII become '?'.
   std::string text(std::size_t offset, std::size_t max_length) const;
 
  private:
@@ -146,8 +147,7 @@ class Record {
   std::span<const std::byte> bytes_;
 };
 
-// Stream of records. Continuation records (23) are joined to their predecessor. A field beyond the end of a record is
-// absent, because older revisions have shorter records.
+// Stream of records. Continuation records (23) are joined to their predecessor.
 class RecordStream {
  public:
   RecordStream(std::span<const std::byte> bytes, std::string subject) : bytes_(bytes), subject_(std::move(subject)) {}

@@ -78,7 +78,7 @@ std::size_t index_at(const Record& record, std::size_t at, std::size_t bytes) {
   return *record.number<std::uint32_t>(at);
 }
 
-// Every second triangle of a strip has the opposite orientation, so two of its corners are swapped.
+// Every second triangle of a strip has the opposite orientation, so two corners of each such triangle are swapped.
 void add_strip(const std::vector<std::uint32_t>& list, MeshPolygons& polygons) {
   for (std::size_t i = 2; i < list.size(); ++i) {
     const bool odd = i % 2 == 1;

@@ -38,8 +38,8 @@ class VertexPalette {
 error::Expected<std::size_t> read_local_pool(const Record& record, double metres_per_unit, const std::string& subject,
                                              std::vector<TreeVertex>& vertices);
 
-// Polygons of a mesh primitive. All have the same number of corners, counter-clockwise as seen from outside. Corners
-// are indices into the local vertex pool.
+// Polygons of a mesh primitive. All have the same number of corners, counter-clockwise as seen from the visible side.
+// Corners are indices into the local vertex pool.
 struct MeshPolygons {
   std::size_t corners_per_polygon = 3;
   std::vector<std::uint32_t> corners;
@@ -50,7 +50,8 @@ struct MeshPolygons {
 error::Expected<MeshPolygons> read_primitive(const Record& record, std::size_t pool_vertices,
                                              const std::string& subject);
 
-// Colours: the palette (record 32) with 128 intensities, and the diffuse colours of materials (record 113).
+// Colours: the palette (record 32), each colour in 128 intensities, and the diffuse colours of materials (record 113).
+// These materials are for optical display only. The radar uses SurfaceKind::material, the surface material code.
 class ColorPalette {
  public:
   void read_colors(const Record& record, std::int32_t revision);
@@ -68,7 +69,8 @@ class ColorPalette {
 };
 
 // Reads the surface of face and mesh records: surface kind, one or two sides, subface level. Hidden faces, wireframes
-// and lights give nullopt. A surface material code beyond 31 counts as none.
+// and lights give nullopt. A surface material code below 0 or above 31 counts as none; unknown_codes() is the number of
+// codes above 31.
 class SurfaceReader {
  public:
   void set_revision(std::int32_t revision) { revision_ = revision; }

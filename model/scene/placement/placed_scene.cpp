@@ -15,11 +15,11 @@ namespace yars::model::scene {
 
 namespace {
 
-// Approximate limit of the pieces into which draped triangles are cut. A scene with more pieces gets longer edges.
+// Approximate maximum number of pieces into which draped triangles are cut. A scene that needs more gets larger pieces.
 constexpr double kMaxDraped = 100'000;
 constexpr double kTileCell_deg = 1.0 / 64.0;  // [deg] side of a square of the index that finds tiles by position
-// Approximate limit of pieces into which large faces are cut for scatterers. A scene with more pieces gets longer
-// edges.
+// Approximate maximum number of pieces into which large faces are cut for scatterers. A scene that needs more gets
+// larger pieces.
 constexpr double kMaxPieces = 1'000'000;
 
 // Extent of one object of the model: bounding rectangle seen from above, range of heights, area by surface kind.
@@ -130,7 +130,7 @@ class ScenePlacer {
     object.length_m = outline.box.length_m;
     object.width_m = outline.box.width_m;
     // The rectangle's direction is counter-clockwise from the plane's x axis; the heading is clockwise from true north
-    // at the object. The convergence of the meridians is the angle between the plane's y axis and true north there.
+    // at the object. The convergence of the meridians is the angle from true north clockwise to the plane's y axis.
     const double convergence_deg =
         geo::wrapped_degrees(object.middle.longitude_deg - placement_.position.longitude_deg) *
         std::sin((object.middle.latitude_deg + placement_.position.latitude_deg) / 2 * geo::kRadiansPerDegree);
@@ -155,9 +155,9 @@ class ScenePlacer {
     return {kind_numbers_[triangle.kind], first_object_ + object, on_ground};
   }
 
-  // True for a level face on the ground: less than kOnGround_m above `base_m`, the altitude of the object's base. With
-  // SceneHeights::sea_level: less than kNearGround_m from the terrain. This limit is larger, because terrain is less
-  // exact than the scene.
+  // True for a level upward face on the ground: less than kOnGround_m above `base_m`, the altitude of the object's
+  // base. With SceneHeights::sea_level: less than kNearGround_m above or below the terrain. This limit is larger,
+  // because terrain is less exact than the scene.
   bool lies_on_ground(const Corners3& corners, double base_m) const {
     const Vector3 area = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (!(area.z > kLevelNormal * length(area))) return false;
@@ -201,8 +201,8 @@ class ScenePlacer {
   }
 
   // Returns `edge_m`, the limit of a piece's edges, doubled until there are about `max_pieces` pieces or fewer. Only
-  // triangles for which `counts` is true are cut. Estimated number of pieces of a triangle of length L and width W, at
-  // the limit e: (L / e) * (1 + W / e).
+  // triangles for which `counts` is true are counted. Estimated number of pieces of a triangle of length L and width W,
+  // at the limit e: (L / e) * (1 + W / e).
   template <class Counts>
   double bounded_edge(double edge_m, double max_pieces, const Counts& counts) const {
     const auto pieces = [&] {
@@ -266,8 +266,8 @@ class ScenePlacer {
   TileBuilders builders_;
   ScatterBuilder scatter_;
   double sine_ = 0.0, cosine_ = 1.0;
-  double anchor_msl_m_ = 0.0;  // altitude of the terrain at the scene's position; 0 for SceneHeights::sea_level
-  // [m] Limits of the edges of pieces. edge_m_: pieces of draped triangles. piece_edge_m_: pieces of scatterers' faces.
+  double anchor_msl_m_ = 0.0;  // altitude of the terrain at the scene's position; 0: void, or SceneHeights::sea_level
+  // [m] Limits of the edges of pieces. edge_m_: pieces of draped triangles. piece_edge_m_: pieces of other faces.
   double edge_m_ = kDrapedEdge_m;
   double piece_edge_m_ = kScattererSides_m.front();
   double reach_m_ = 0.0;

@@ -2,17 +2,7 @@
 // Inputs: a Model, its position and heading, terrain. Outputs: a PlacedScene. Units: metres, degrees.
 // Frame: x east, y north on the azimuthal equidistant plane about the position, after rotation by the heading. Tiles
 // are 128 m squares of that plane. The transform from the plane to a tile is linear. Its error is below 1 mm up to
-// 20 km from the position.
-// SceneHeights::ground: an object with all vertices within 1 m of z = 0 is draped. Its triangles are cut into pieces
-// with edges of at most 30 m. In a scene with more than about 100,000 such pieces, this limit is doubled, repeatedly.
-// Each corner of a piece is placed at its height z above the terrain. Other objects stand level on the terrain below
-// the centre of their bounding rectangle.
-// Faces outside objects are draped if they are within 1 m of z = 0. Other faces outside objects have z = 0 at the
-// altitude of the terrain at the scene's position.
-// SceneHeights::anchor: the whole scene has z = 0 at the altitude of the terrain at the scene's position.
-// SceneHeights::sea_level: z = 0 is mean sea level.
-// Where the terrain is void, the terrain's altitude at the scene's position is used, or 0 if the terrain is void there,
-// too.
+// 20 km from the position. Heights: see Placement.
 #pragma once
 
 #include <cstdint>
@@ -33,6 +23,16 @@ inline constexpr double kFlat_m = 1.0;  // maximum |z| of draped objects and fac
 // Limit of the edges of draped pieces; about the spacing of DTED level 2 posts along a meridian.
 inline constexpr double kDrapedEdge_m = 30.0;
 
+// Position, heading and heights of a scene. Heights, by SceneHeights (z: the model's z axis, upwards):
+// ground: an object with all vertices within 1 m of z = 0 is draped. Its triangles are cut into pieces with edges of at
+// most 30 m, seen from above. In a scene with more than about 100,000 such pieces, this limit is doubled, repeatedly.
+// Each corner of a piece is placed at its height z above the terrain. Any other object has z = 0 at the altitude of the
+// terrain at the centre of the object's bounding rectangle. Faces outside objects are draped if they are within 1 m of
+// z = 0. Other faces outside objects have z = 0 at the altitude of the terrain at the scene's position.
+// anchor: the whole scene has z = 0 at the altitude of the terrain at the scene's position.
+// sea_level: z = 0 is mean sea level.
+// Where the terrain is void, the terrain's altitude at the scene's position is used, or 0 if the terrain is void there,
+// too.
 struct Placement {
   geo::GeoPoint position;
   double heading_deg = 0.0;  // [deg] true heading of the model's y axis
@@ -44,7 +44,7 @@ enum class SceneUse : std::uint8_t { triangles, scatterers };
 
 struct PlacedScene {
   Placement placement;
-  double reach_m = 0.0;  // distance from the position to the farthest corner of a triangle
+  double reach_m = 0.0;  // horizontal distance from the position to the farthest corner of a triangle
   std::vector<Tile> tiles;
   std::vector<SceneObject> objects;
   GridIndex tile_index;
@@ -54,8 +54,8 @@ struct PlacedScene {
 };
 
 // Places a model on the terrain `ground`. Object n of the model becomes PlacedScene::objects[n]. `first_object` is
-// added to Tile::object. Surface kinds of the model are added to `kinds`. Scatterers farther than `max_reach_m` from
-// the position are left out.
+// added to Tile::object. Surface kinds of the model are added to `kinds`. Faces farther than `max_reach_m` from the
+// scene's position are left out of the scatterers.
 PlacedScene place_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
                         std::uint32_t first_object, KindTable& kinds, SceneUse use = SceneUse::triangles,
                         double max_reach_m = std::numeric_limits<double>::infinity());

@@ -64,7 +64,7 @@ class PlanPolygon {
   PlanPolygon between(Axis axis, double min, double max) const {
     return beyond(axis, min, 1.0).beyond(axis, max, -1.0);
   }
-  // Area [m^2]; positive for counter-clockwise corners.
+  // Area seen from above [m^2]; positive for counter-clockwise corners.
   double area() const {
     double twice = 0.0;
     for (std::ptrdiff_t i = 1; i + 1 < corners_; ++i)
@@ -146,7 +146,7 @@ struct Footprint {
   double direction_rad = 0.0;  // direction of the longer side, counter-clockwise from x, [0, pi)
 };
 
-// Returns the footprint of `points`, all zeros if there are none. Reorders `points`.
+// Returns the footprint of `points`, all zeros if there are none. Sorts `points` and removes duplicates.
 Footprint footprint_of(std::vector<geo::PlanePoint>& points);
 
 }  // namespace yars::model::scene

@@ -1,7 +1,8 @@
 // Scatterers and ScatterBuilder: the faces of a scene, summed in squares for radar modes that do not resolve faces.
-// A scatterer is the sum of the standing faces in one square. A cover is the sum of the faces that lie on the ground in
-// one square. Four levels have squares of 32 to 256 m. A scan uses the level whose squares match the spacing of its
-// samples, which limits the scan's cost.
+// A cover is the sum of the faces that lie on the ground in one square. A scatterer is the sum of the standing faces in
+// one square: of all others, such as walls, roofs and slopes. Four levels have squares with sides of 32 to 256 m. To
+// limit its cost, a scan uses the largest squares that are not wider than the range between its samples, else the
+// smallest that the scene has.
 // Scene's plane: azimuthal equidistant about the scene's position, x east, y north [m]. The squares divide this plane.
 // Outputs: areas [m^2] and materials. The radar model (model/rbm/scene_return.hpp) computes the radar return from them.
 // Threads: immutable once built.
@@ -24,24 +25,28 @@ namespace yars::model::scene {
 // Limits that classify faces as level, lying on the ground, or walls.
 inline constexpr double kLevelNormal = 0.98;  // faces are level if the vertical part of their unit normal exceeds this
 inline constexpr double kOnGround_m = 0.5;  // level faces below this height above their object's base lie on the ground
-// [m] In scenes with heights above mean sea level, level faces within this distance of the terrain lie on the ground.
+// [m] In scenes whose heights count from mean sea level (SceneHeights::sea_level), kOnGround_m does not apply: level
+// faces less than this above or below the terrain lie on the ground.
 inline constexpr double kNearGround_m = 2.0;
 // Faces steeper than 70 degrees are walls: upper bound of (vertical / horizontal part of the normal)^2.
 inline constexpr double kWallNormal2 = 0.13;
 
-// Sum of faces of one material with normals in one bin of 4 degrees of azimuth by 15 degrees of elevation.
+// Sum of those faces of a square that have one material, and normals in one bin of 4 degrees of azimuth by 15 degrees
+// of elevation. Level faces are not divided by azimuth.
 struct Facing {
   float east_m2 = 0, north_m2 = 0, up_m2 = 0;  // sum of area times normal
-  std::uint8_t material = 0;                   // DFAD surface material code
-  bool wall = false;                           // true: steeper than the limit kWallNormal2
+  std::uint8_t material = 0;                   // surface material code of DFAD (Digital Feature Analysis Data)
+  bool wall = false;                           // true: steeper than 70 degrees (kWallNormal2)
 };
 
 // Sum of the standing faces in one square.
 struct Scatterer {
-  float east_m = 0, north_m = 0, up_m = 0;               // centroid on the ellipsoid, in Scatterers::frame
+  float east_m = 0, north_m = 0, up_m = 0;               // foot of the centroid on the ellipsoid, in Scatterers::frame
   float middle_msl_m = 0, min_msl_m = 0, max_msl_m = 0;  // altitudes MSL of centroid, lowest and highest point
-  float extent_m = 0;  // side of the uniformly filled square with the same mean squared distance from the centroid
-  std::uint32_t first_facing = 0, facings = 0;
+  // Side of the uniformly filled square with the same mean squared distance from the centroid, seen from above. At most
+  // the side of the level's squares.
+  float extent_m = 0;
+  std::uint32_t first_facing = 0, facings = 0;  // index of the first in ScattererLevel::facings, and their number
 };
 
 // Sum of the faces on the ground in one square. On the fraction `share` of the square, their materials replace the
@@ -70,8 +75,8 @@ struct Scatterers {
 
   geo::GeoPoint position;
   geo::LocalTangentFrame frame;  // east, north, up at `position`, on the ellipsoid
-  // [m] Radius of a circle about `position` that contains every square with cover, and every scatterer with a margin of
-  // one side of a square.
+  // [m] Radius of a circle about `position` that contains every square with cover, and the surroundings of every
+  // scatterer's centroid out to one side of its square.
   double reach_m = 0.0;
   std::array<ScattererLevel, kScattererSides_m.size()> levels;
   std::size_t finest = 0;  // index of the finest level in use; in large scenes the levels before `finest` are empty
@@ -86,10 +91,10 @@ std::uint64_t square_key(double east_m, double north_m, double side_m);
 
 // Builds Scatterers while a scene is placed. If a scene needs too many squares, the builder changes to larger squares,
 // to bound memory. If even the largest squares are too many, faces that need a further square are left out. Also left
-// out are triangles on the ground that extend over more than 64 of the largest squares.
+// out are triangles on the ground that are longer than 64 sides of the largest squares, eastward or northward.
 class ScatterBuilder {
  public:
-  // Faces with their centre farther than `max_reach_m` from the position are left out.
+  // Faces with their centre farther than `max_reach_m` from the origin of the scene's plane are left out.
   explicit ScatterBuilder(double max_reach_m) : max_reach_m_(max_reach_m) {}
 
   // Adds a standing triangle, counter-clockwise seen from outside. Corners [m]: x, y on the scene's plane, z MSL.
@@ -107,9 +112,9 @@ class ScatterBuilder {
     geo::Vector3 area_m2;
   };
   struct Square {
-    // Sum of area times centre. The centre is that of the face if the face stands, and that of the square if it lies.
+    // Sum of area times centre. A standing face counts with its own centre, a lying face with the square's.
     geo::Vector3 middle;
-    double spread = 0.0;  // sum of area times squared distance from the plane's origin
+    double spread = 0.0;  // sum of area times squared horizontal distance from the plane's origin
     double area_m2 = 0.0;
     double min_m = 0.0, max_m = 0.0;  // lowest and highest altitude MSL
     std::vector<FacingSum> facings;
@@ -127,7 +132,7 @@ class ScatterBuilder {
   void finish(const geo::AzimuthalEquidistant& plane, double side_m, Scatterers& result, ScattererLevel& level) const;
 
   double max_reach_m_;
-  std::size_t finest_ = 0;    // finest level in use; the squares below have its size
+  std::size_t finest_ = 0;    // finest level in use: that of the squares in standing_ and lying_
   Squares standing_, lying_;  // squares with standing faces, with faces on the ground
 };
 

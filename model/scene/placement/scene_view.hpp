@@ -23,8 +23,8 @@ struct Bounds {
   float east_min_m = 0, east_max_m = 0, north_min_m = 0, north_max_m = 0, up_min_m = 0, up_max_m = 0;
 };
 
-// Triangles with their centres in one square of 128 m on the ground. A triangle may extend beyond the square. A square
-// with too many vertices for one tile has several tiles.
+// Triangles whose centres, seen from above, lie in one square with a side of 128 m. A triangle may extend beyond the
+// square. A square with too many vertices for one tile has several tiles.
 // Layout: structure of arrays, so that one SIMD load reads a coordinate of several vertices. Small element types save
 // memory bandwidth, which limits the speed of patch maps.
 struct Tile {
@@ -48,7 +48,7 @@ struct Tile {
   std::vector<std::uint32_t> object;  // by triangle: index into SceneView::objects()
 };
 
-// Position and dimensions of one OpenFlight object, for radar modes that do not resolve its triangles.
+// Position and dimensions of one OpenFlight object.
 struct SceneObject {
   std::string name;
   geo::GeoPoint middle;      // centre of the bounding rectangle

@@ -1,5 +1,6 @@
 // Builder of a scene's tiles (scene_view.hpp) from triangles that have been placed on the earth.
-// Inputs: triangles on the scene's plane (scatterers.hpp) with normals and tags. Outputs: Tiles with joined vertices.
+// Inputs: triangles with normals and tags; corners as plane coordinates of the scene (scatterers.hpp) and altitude MSL.
+// Outputs: Tiles with joined vertices.
 // Units: metres.
 #pragma once
 
@@ -41,7 +42,7 @@ struct DraftTriangle {
 // Fills the triangles and vertices of `tile`. Reorders `triangles` and renumbers their corners. Altitudes become
 // heights above Tile::zero_msl_m.
 // Triangles on the ground come first and keep their order, because later ones are painted over earlier ones. Vertices
-// without a normal precede vertices with one. Each of these two groups is numbered by first use.
+// without a normal precede vertices with a normal. Each of these two groups is numbered by first use.
 void finish_tile(const std::vector<DraftVertex>& vertices, std::vector<DraftTriangle>& triangles, Tile& tile);
 
 struct PlacedCorner {

@@ -95,7 +95,7 @@ Window peak_window(int coarse, int posts, int factor) {
   return {std::max(0, coarse * factor - factor + 1), std::min(posts - 1, coarse * factor + factor - 1)};
 }
 
-// Weight of a fine post in a mean: 1 if the post lies midway between two coarse posts and counts in both means, else 2.
+// Weight of a fine post in a mean: 1 if the post lies midway between two coarse posts, else 2.
 int weight(int post, Window window, int factor) {
   const bool shared = factor % 2 == 0 && window.first != window.last && (post == window.first || post == window.last);
   return shared ? 1 : 2;

@@ -121,11 +121,13 @@ class Cell {
 // Returns the cell with heights rounded to whole metres. A post other than 0 (sea) does not become 0.
 Cell in_whole_metres(const Cell& cell);
 
-// Two coarser grids of a cell, with every factor-th post of each dimension. They include both edges of the cell.
-// means: mean of the posts within half the new spacing; voids are left out. Posts at exactly half the new spacing have
-//   half weight. A coarse post on an edge is the mean of posts of that edge only, so that equal edges of neighbouring
-//   cells stay equal.
-//   The mean is 0 (sea) if sea posts have over half of the weight. Any other mean keeps its sign and is not 0.
+// Two coarser grids of a cell. A coarse post lies at every factor-th post of each dimension, the first and the last
+// included.
+// means: mean of the posts within half the new spacing in each dimension; voids are left out. Posts at exactly half the
+//   new spacing have half weight. A coarse post on an edge is the mean of posts of that edge only, so that equal edges
+//   of neighbouring cells stay equal.
+//   The mean is 0 (sea) if sea posts have over half of the weight. Any other mean that rounds to 0 becomes -1 if it is
+//   negative, else 1.
 // peaks: the highest post less than one new spacing away in each dimension. Bilinear interpolation between peaks is
 //   never below the original surface. Peaks are computed from the posts of their own cell only. So the peaks of two
 //   neighbouring cells may differ on the shared edge.

@@ -1,8 +1,8 @@
 // Reader of MultiGen DED elevation files (`.ded`). A file contains several cells.
 // Input: a file. Output: the list of its cells; one cell as a CellReading.
-// Units: posts in metres; -32767 and -32768 are void.
+// Units: posts in metres above mean sea level; -32767 and -32768 are void.
 // Errors: a wrong magic number or file length; a cell that is not 1 x 1 deg on whole degrees; posts that do not span
-//   the cell. Such a cell is not resampled (project choice): resampling would move heights by up to half a post
+//   the cell. Such a cell is not resampled (project choice): resampling would shift posts sideways by up to half their
 //   spacing and open cracks between cells.
 // Source: docs/spec/formats.md#ded.
 #pragma once
@@ -21,7 +21,7 @@ struct DedCell {
   CellCorner corner;
   int rows = 0;
   int columns = 0;
-  std::uint64_t offset = 0;  // [bytes] position of the first post in the file
+  std::uint64_t offset = 0;  // [bytes] position in the file of the cell's first post
   std::size_t bytes() const { return 2 * static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns); }
 };
 

@@ -72,7 +72,7 @@ std::string stripped(std::string_view field) {
 
 error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject, CellCorner corner) {
   std::size_t start = 0;
-  // A copy of a tape begins with labels of the volume (VOL) and the file (HDR).
+  // A file copied from a tape may begin with the tape's labels of volume (VOL) and file (HDR).
   while (bytes.size() >= start + dted::kLabelBytes) {
     const std::string_view label = text_of(bytes.subspan(start, 3));
     if (label != "VOL" && label != "HDR") break;
@@ -171,7 +171,7 @@ error::Expected<ColumnDefects> gather_words(std::span<const std::byte> data, con
   return defects;
 }
 
-// True if some word is an impossible height in sign-magnitude. All words are then taken to be in two's complement.
+// True if some word is too low a height in sign-magnitude. All words are then taken to be in two's complement.
 bool is_twos_complement(const std::vector<std::uint16_t>& words) {
   // [m] below the deepest sea floor, so that real depths in sign-magnitude stay valid; docs/spec/formats.md#dted
   constexpr std::int16_t kLowestSignMagnitude_m = -16000;
@@ -205,8 +205,8 @@ std::vector<std::string> warnings_of(const ColumnDefects& defects, const Header&
 
 }  // namespace
 
-// Posts of WGS72 lie 0.554 arc seconds (17 m) from those of WGS84. The reader does not shift them, because
-// interpolation would smooth the heights. The error message advises gdalwarp.
+// Longitudes in WGS72 differ by 0.554 arc seconds (17 m at the equator) from those in WGS84. The reader refuses WGS72
+// and does not shift its posts, because interpolation would smooth the heights. The error message advises gdalwarp.
 error::Expected<void> check_dted_datums(std::string_view vertical_field, std::string_view horizontal_field,
                                         const std::string& subject) {
   constexpr std::string_view kSeaLevels[] = {"", "MSL", "E84", "E96", "E08"};

@@ -1,6 +1,6 @@
 // DTED (digital terrain elevation data), levels 0, 1 and 2: layout, reader, writer.
 // Input: a file, or its bytes; a cell to write. Output: a CellReading; a file.
-// Units: whole metres above mean sea level. Frame: WGS84; other datums are errors.
+// Units: whole metres above mean sea level. Frame: WGS84, assumed if the file names no datum; other datums are errors.
 // Source: MIL-PRF-89020B 3.11 and 3.12; docs/spec/formats.md#dted.
 #pragma once
 
@@ -33,7 +33,7 @@ inline constexpr std::size_t kLabelBytes = 80;      // VOL and HDR labels of a t
 inline constexpr std::uint8_t kRecordSentinel = 0xAA;
 inline constexpr std::uint16_t kVoidWord = 0xFFFF;         // -32767 in sign-magnitude
 inline constexpr int kPostsOfLevel[] = {121, 1201, 3601};  // posts along a meridian, by level
-inline constexpr int kTenthsPerDegree = 36000;             // tenths of an arc second, the unit of intervals
+inline constexpr int kTenthsPerDegree = 36000;             // tenths of an arc second, the unit of post spacings
 
 // Ratio of the post spacing [deg] along a parallel to the post spacing along a meridian (DTED zones I to V), for the
 // cell with the south edge `south_deg`.
@@ -54,7 +54,7 @@ constexpr std::size_t record_bytes(int posts) {
 
 namespace yars::model::terrain {
 
-// Reads one cell. Voids become kVoidPost.
+// Reads one cell. Voids become kVoidPost. So do impossible heights (cell_reading.hpp), with a warning.
 // Absent columns, and posts that are absent at the south end of a column, become voids with a warning.
 // A wrong column checksum is a warning, and the heights are kept (project choice).
 // A file with a height below -16000 m in sign-magnitude is read as two's complement, with a warning.
@@ -64,7 +64,7 @@ namespace yars::model::terrain {
 // degree, a truncated or misplaced record.
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner);
 
-// Checks the datums of a description record. The fields may have blanks and null characters around them.
+// Checks the datums of a description record (DSI). Blanks and null characters in the fields are ignored.
 // Errors: a datum that read_dted() does not accept. `subject` names the file in errors.
 error::Expected<void> check_dted_datums(std::string_view vertical, std::string_view horizontal,
                                         const std::string& subject);

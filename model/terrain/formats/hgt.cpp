@@ -150,8 +150,8 @@ struct ZipEntry {
   zip_uint64_t bytes = 0;
 };
 
-// The entry with the archive's name without `.zip`; nullopt if there is none. For the error message, `other` then
-// receives the name of another entry of the archive, preferably of an `.hgt` file.
+// The entry with the archive's name without `.zip`, in any folder of the archive, in upper or lower case; nullopt if
+// there is none. For the error message, `other` then receives the name of another entry, preferably of an `.hgt` file.
 std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path, std::string* other = nullptr) {
   const std::string entry_name = file::lower_case(path.stem().string());
   for (zip_int64_t index = 0; index < zip_get_num_entries(archive, 0); ++index) {

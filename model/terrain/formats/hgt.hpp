@@ -1,7 +1,7 @@
 // SRTM HGT elevation files (Shuttle Radar Topography Mission): reader, also of zip and gzip files, and writer.
 // Input: 1201 x 1201 or 3601 x 3601 heights, big-endian two's complement, rows from north to south, void -32768.
-//   The format has no header. The file's name gives the cell, and the file's length gives the spacing.
-// Output: a CellReading; a file.
+//   The format has no header. The file's name gives the cell, and the file's length gives the post spacing.
+// Output: a CellReading, in which impossible heights are voids (cell_reading.hpp); a file.
 // Units: whole metres above mean sea level (assumed: EGM96). Frame: WGS84 (assumed).
 // Errors: another length; an archive that is damaged or lacks the cell's entry; a file that cannot be written.
 // Source: docs/spec/formats.md#hgt.

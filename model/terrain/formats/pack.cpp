@@ -28,8 +28,8 @@ Cell from_south(const HeightGrid& grid, CellCorner corner, double unit_m) {
   return {corner, grid.rows, grid.columns, posts, unit_m};
 }
 
-// Limits a height of land to the peak, because a wavelet overshoots beside cliffs. A result of 0 becomes 1 unit if the
-// peak is above 0, else -1 unit, because 0 means sea.
+// Limits a height of land to at most `peak`, because a wavelet overshoots beside cliffs. A result of 0 becomes 1 unit
+// if the peak is above 0, else -1 unit, because 0 means sea.
 std::int16_t land_below(std::int16_t peak, std::int16_t height) {
   const std::int16_t lower = std::min(peak, height);
   if (lower != 0) return lower;
@@ -106,7 +106,7 @@ GridSize pack_size(const std::filesystem::path& path) {
 
 namespace {
 
-// Reduction 5 turns a spacing of one arc second into 1 km. No range of the radar needs coarser grids.
+// Reduction 5 turns a spacing of one arc second into 1 km. No range scale of the radar needs coarser grids.
 constexpr int kMaxReductions = 5;
 
 HeightGrid filled_grid(const Cell& cell) {

@@ -232,8 +232,8 @@ error::Expected<SideHead> parse_side_head(std::span<const std::byte> side, std::
   const std::uint32_t levels = words.next();
   if (rows < 2 || columns < 2 || rows > kMaxEdgePosts || columns > kMaxEdgePosts || levels == 0 ||
       levels > kMaxStoredLevels || kHeadBytes + levels * kLevelBytes > side.size())
-    return invalid("sizes of a cell", std::to_string(columns) + " x " + std::to_string(rows) + " posts, " +
-                                          std::to_string(levels) + " levels");
+    return invalid("2 to 7201 posts a side and 1 to 17 levels", std::to_string(columns) + " x " + std::to_string(rows) +
+                                                                    " posts, " + std::to_string(levels) + " levels");
   const double unit_m = unit_of(side);
   if (unit_m <= 0.0) return invalid("posts in a unit of 1 to 100 cm", "another unit");
   return SideHead{static_cast<int>(rows), static_cast<int>(columns), static_cast<int>(levels) - 1, unit_m};

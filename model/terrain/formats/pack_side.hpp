@@ -1,11 +1,13 @@
 // Side file of a packed cell (pack.hpp), such as n36.side: masks of voids and sea, edges and peaks of each reduction.
+// Reduction r is the grid of every 2^r-th post; a peak is the highest ground around one of its posts (cell.hpp).
 // The edges equal those of reduce(), so that neighbouring cells agree. Each reduction can be read alone.
-// Layout, big-endian: "YARSSIDE", u32 version, rows, columns, bytes and CRC-32 of the .jp2, CRC-32 of all following
-// bytes, u32 reductions + 1; for each reduction {u32 bytes of marks, u32 bytes of compressed marks, u32 bytes of
-// peaks}; for each reduction the marks (zlib) and the peaks (JPEG 2000); in version 2 also u32 unit of the posts [cm].
-// In version 1 the unit is the metre. The marks of a reduction are, in this order: one bit per post, 1 if the post is
-// void; from reduction 1 on also one bit per post, 1 if the post is sea; the posts of the edges (i16: south, north,
-// west, east); one bit per peak, 1 if the peak is void. Bits run row by row from the south, highest bit first.
+// Layout, big-endian: "YARSSIDE"; one u32 each: version, rows, columns, length and CRC-32 of the .jp2, CRC-32 of all
+// following bytes, highest reduction + 1; for each reduction from 0 {u32 bytes of marks, u32 bytes of compressed
+// marks, u32 bytes of peaks}; for each reduction the marks (zlib) and the peaks (JPEG 2000); in version 2 also u32 unit
+// of the posts [cm]. In version 1 the unit is the metre. The marks of a reduction are, in this order: one bit
+// per post, 1 if the post is void; from reduction 1 on also one bit per post, 1 if the post is sea; the posts of the
+// edges (i16: south, north, west, east); one bit per peak, 1 if the peak is void. Bits run row by row from
+// the south, highest bit first.
 // Errors: wrong magic number, version or checksum, sizes beyond the file's length, a .jp2 with another checksum.
 #pragma once
 
@@ -30,10 +32,11 @@ struct SideLevel {
   std::optional<Cell> peaks;                       // ReducedCell::peaks; nullopt at reduction 0
 };
 
-// Returns the bytes of the side file that belongs to `jp2`. Errors: the JPEG 2000 encoder fails.
+// Returns the bytes of the side file that belongs to `jp2`, with the reductions 0 to `reductions`. Errors: the
+// JPEG 2000 encoder fails.
 error::Expected<std::vector<std::byte>> side_bytes(const Cell& cell, int reductions, std::span<const std::byte> jp2);
 
-// Header of a side file, with the unit of its posts.
+// Header of a side file, with the unit of its posts. Rows and columns are those of reduction 0.
 struct SideHead {
   int rows = 0;
   int columns = 0;

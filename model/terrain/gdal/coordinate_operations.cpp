@@ -85,7 +85,7 @@ struct Choice {
   SamplePoints reached;
 };
 
-// Selects from PROJ's list as operation_between() describes.
+// Selects the operation of PROJ's list that transforms the most points reversibly; of several such, the first.
 Choice choose(PJ_CONTEXT* context, PJ_OBJ_LIST* list, const SamplePoints& points) {
   constexpr int kMaxTried = 16;
   Choice best;
@@ -124,7 +124,7 @@ std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
 
 // Some operations cannot be used because a grid file is missing. Returns a text that names the file of the most
 // accurate of them. Empty if none of them is more than 1 m more accurate than the chosen operation. `accuracy_m`:
-// accuracy of the chosen operation; negative: not known, so that any such operation counts as more accurate.
+// accuracy of the chosen operation; negative: not known, so that any operation with a known accuracy is better.
 std::string better_operation_lacking_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double accuracy_m) {
   std::string best;
   double best_m = accuracy_m < 0.0 ? 1e9 : accuracy_m - 1.0;

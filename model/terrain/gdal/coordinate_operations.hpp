@@ -1,8 +1,8 @@
 // Choice of a PROJ coordinate operation: a transformation from one coordinate system to another. Used in this folder
 // only. Input: two systems, and sample points in the first system. Output: the operation, and a warning about its
-// accuracy. PROJ's last resort is a ballpark transformation. It neglects the difference between the two datums, the
-// ellipsoids to which the systems refer and their positions in the earth.
-// Errors: a null operation if PROJ has none. Threads: one thread per PJ_CONTEXT.
+// accuracy. PROJ's last resort is a ballpark transformation, which treats the datums of the two systems as equal. A
+// datum is the ellipsoid to which a system refers, and the position of this ellipsoid in the earth.
+// Errors: a null operation, see ChosenOperation. Threads: one thread per PJ_CONTEXT.
 #pragma once
 
 #include <proj.h>
@@ -35,20 +35,23 @@ enum class Operations : std::uint8_t {
 };
 
 struct ChosenOperation {
-  Projection operation;  // null if PROJ has none
-  std::string warning;   // set if PROJ has only a ballpark transformation, or if a better operation lacks its grid file
+  Projection operation;  // null: no operation transforms a sample point reversibly
+  std::string warning;   // set if `operation` is a ballpark transformation, or if a better one lacks its grid file
 };
 
-// `points`: sample points in the system `from`. Tries the first 16 operations of PROJ's list, best first. Returns the
-// operation that transforms the most sample points reversibly: the result, transformed back and forward again, is the
-// same. A second list, for the area of these results, takes precedence if one of its operations can be used.
+// `points`: sample points in the system `from`. `to`: a system in degrees, latitude first. Tries the first 16
+// operations of PROJ's list, which begins with the best one. Returns the operation that transforms the most sample
+// points reversibly: a result that is transformed back and forward again is the same within 1e-5 deg. If several
+// operations have the same number of points, the first of them is returned. A second list, for the area in which the
+// results lie, takes precedence if one of its operations transforms any sample point reversibly.
 ChosenOperation operation_between(PJ_CONTEXT* context, PJ* from, PJ* to, const SamplePoints& points,
                                   Operations operations);
 
 // "a stated accuracy of 4 m" or "no stated accuracy".
 std::string accuracy_text(PJ_CONTEXT* context, PJ* operation);
 
-// Transforms coordinates in place. `third` may be null. Positions that cannot be transformed become infinite.
+// Transforms coordinates in place. `third`: one height per position, or null. Positions that cannot be transformed
+// become infinite.
 void transform(PJ* operation, PJ_DIRECTION direction, std::span<double> first, std::span<double> second, double* third);
 
 }  // namespace yars::model::terrain::gdal

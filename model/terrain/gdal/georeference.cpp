@@ -195,8 +195,9 @@ void Georeference::treat_as_wgs84(bool longitude_first) {
   if (longitude_first) axis_ = {3 - std::abs(axis_[0]), 3 - std::abs(axis_[1])};
 }
 
-// Sets the period of x for a raster in degrees, grads or another angle. In a raster in degrees, also measures how far
-// the change of datum moves four test pixels. If all move less than kNoPixels, treats the system as WGS84.
+// Sets middle_x_, and period_ for a raster in degrees, grads or another angle. In a raster in degrees, also measures
+// how far the change of datum to WGS84 moves four test pixels. If all move less than kNoPixels, treats the system as
+// WGS84.
 void Georeference::find_period(PJ* horizontal) {
   middle_x_ = data_from_pixel_[0] + data_from_pixel_[1] * width_ / 2.0 + data_from_pixel_[2] * height_ / 2.0;
   if (!to_wgs84_) {
@@ -206,7 +207,7 @@ void Georeference::find_period(PJ* horizontal) {
   const Axes axes = axes_of(context_.get(), horizontal);
   if (!axes.angles || !(axes.axes[0].unit > 0.0)) return;
   period_ = 2.0 * std::numbers::pi / axes.axes[0].unit;
-  constexpr double kNoPixels = 1e-3;  // [pixels] shift below which a datum makes no difference
+  constexpr double kNoPixels = 1e-3;  // [pixels] a smaller shift makes no difference
   std::vector<double> across{0.5, width_ - 0.5, width_ - 0.5, width_ / 2.0};
   std::vector<double> along{0.5, 0.5, height_ - 0.5, height_ / 2.0};
   const std::vector<double> pixels_across = across, pixels_along = along;
@@ -237,7 +238,8 @@ double Georeference::near_middle(double x) const {
   return period_ > 0.0 ? x + period_ * std::round((middle_x_ - x) / period_) : x;
 }
 
-// Converts coordinates of the system to pixel positions. A periodic x is shifted to within half a period of `near_x`.
+// Converts coordinates of the system to pixel positions. If the coordinates are angles, the longitude is first shifted
+// to within half a turn of `near_x`.
 void Georeference::from_system(std::span<double> x, std::span<double> y, double near_x) const {
   for (std::size_t i = 0; i < x.size(); ++i) {
     std::array<double, 2> data{};

@@ -29,7 +29,8 @@ struct EarthPosition {
 
 // Transform between the pixels of a raster and WGS84 by PROJ. It supports any datum, unit, prime meridian, axis order
 // and projection. The whole raster uses one PROJ operation, selected at sample points by operation_between().
-// Warnings: only a ballpark transformation is available; a better operation lacks its grid file.
+// Warnings: the operation is a ballpark transformation; a better operation lacks its grid file; heights are ellipsoidal
+// and are converted with the geoid.
 class Georeference {
  public:
   Georeference() = default;
@@ -39,19 +40,20 @@ class Georeference {
   bool is_wgs84_grid() const { return !to_wgs84_ && pixel_from_data_[2] == 0.0 && pixel_from_data_[4] == 0.0; }
 
   // Converts in place: pixel columns in `across` to longitudes, pixel rows in `along` to latitudes [deg].
-  // Longitudes are not wrapped. Latitudes beyond 90.5 deg and longitudes beyond 1080 deg make the position NaN.
+  // Longitudes are not wrapped. A position becomes NaN if PROJ cannot convert it, or if the result is beyond +-90.5 deg
+  // of latitude or +-1080 deg of longitude.
   void to_earth(std::span<double> across, std::span<double> along) const;
   // Inverse of to_earth(). `reference`: a position near the positions to convert. In a raster whose coordinates are
-  // angles, `reference` is first shifted by a multiple of 360 degrees to the raster's longitudes. Then each position is
-  // shifted to within 180 degrees of `reference`.
+  // angles, `reference` is first shifted by a multiple of 360 degrees to within 180 degrees of the raster's middle.
+  // Then each position is shifted to within 180 degrees of `reference`. NaN: a position that PROJ cannot convert.
   void to_pixels(std::span<double> across, std::span<double> along, EarthPosition reference) const;
 
   // Properties of the heights.
-  double metres_per_unit() const { return metres_per_unit_; }  // 0: not stated by the coordinate system
+  double metres_per_unit() const { return metres_per_unit_; }  // unit of heights; 0: the system states none
   bool points_down() const { return points_down_; }            // true: values are depths, positive downwards
   bool heights_are_ellipsoidal() const { return geoid_ != nullptr; }
-  // [m] Correction from ellipsoidal height to height above mean sea level: the negative geoid height (EGM96).
-  // NaN outside the grid of the geoid. Requires heights_are_ellipsoidal().
+  // [m] Correction to add to a height above the ellipsoid of the system. The sum is the height above mean sea level, by
+  // the geoid EGM96. NaN outside the grid of the geoid. Requires heights_are_ellipsoidal().
   std::vector<double> above_sea_level_m(std::span<const double> longitudes_deg,
                                         std::span<const double> latitudes_deg) const;
 
@@ -70,15 +72,16 @@ class Georeference {
   double near_middle(double x) const;
 
   ProjContext context_;  // declared first, because it must outlive the PROJ objects below
-  Projection to_wgs84_;  // null: the system is WGS84 in degrees
+  Projection to_wgs84_;  // null: coordinates count as degrees of WGS84
   Projection geoid_;     // null: heights are above mean sea level
+  // Geotransform and its inverse. "Data" are coordinates of the system in GDAL's axis order: x, y.
   std::array<double, 6> data_from_pixel_{}, pixel_from_data_{};
   std::array<int, 2> axis_{1, 2};  // axis of the system, 1 or 2, for x and for y of the data; negative: reversed
   double period_ = 0.0;            // [units of x] a full turn of 360 degrees; 0: the coordinates are projected
   double middle_x_ = 0.0;          // [units of x] x at the raster's middle
   double metres_per_unit_ = 0.0;
   bool points_down_ = false;
-  bool longitude_first_ = false;  // axis order of a system that is treated as WGS84
+  bool longitude_first_ = false;  // true: the system is treated as WGS84, and its first axis is the longitude
   int width_ = 0, height_ = 0;
   std::vector<std::string> warnings_;
 };
@@ -89,7 +92,8 @@ struct Grid {
   int rows = 0, columns = 0;  // posts, both edges included
 };
 
-// Rectangular part of a cell: its south-west post and its numbers of post intervals. Rows count from the south.
+// Rectangular part of a cell: its south-west post and its numbers of post intervals. Rows count from the south, columns
+// from the west.
 struct PostBox {
   int first_row = 0, first_column = 0;
   int intervals_north = 0, intervals_east = 0;
@@ -99,7 +103,7 @@ struct PixelPosition {
   double column, row;  // [pixels] from the corner of the first pixel; NaN: the transform has no result
 };
 
-// Corners of a quadrilateral, in the order of its edges.
+// Corners of a quadrilateral, in sequence around it.
 using PixelCorners = std::array<PixelPosition, 4>;
 
 // Signed offset [pixels], in columns and in rows, from a post to its northern and to its eastern neighbour.
@@ -111,8 +115,9 @@ struct PixelBounds {
   double left, right, top, bottom;  // [pixels]
 };
 
-// Pixel positions of the posts of a part of a cell. Every 16th post (a node) is transformed exactly. Positions between
-// nodes are interpolated bilinearly. Error: less than 0.01 pixel, because projections are nearly linear over 16 posts.
+// Pixel positions of the posts of a part of a cell. Every 16th post in both directions, and the last one, is a node
+// and is transformed exactly. Positions between nodes are interpolated bilinearly. Error: less than 0.01 pixel, because
+// projections are nearly linear over 16 posts.
 class PostLattice {
  public:
   PostLattice(const Georeference& georeference, const Grid& grid, const PostBox& box);
@@ -121,15 +126,15 @@ class PostLattice {
   PixelPosition position(int row, int column) const;
   PixelStep step(int row, int column) const;
   double above_sea_level_m(int row, int column) const;  // [m] to add to an ellipsoidal height; 0 for other heights
-  std::optional<PixelBounds> bounds() const;            // nullopt: no post has a position
+  std::optional<PixelBounds> bounds() const;            // of all nodes; nullopt: no node has a position
   std::optional<PixelCorners> corners() const;          // of the box; nullopt: a corner has no position
 
  private:
-  static constexpr int kStep = 16;  // [posts] between nodes; more posts increase the error
+  static constexpr int kStep = 16;  // [posts] from node to node; a larger step increases the error
 
   struct Node {
     std::size_t south_west;          // index of the south-west node of the four nodes around the post
-    double north, east;              // [0, 1] fractions between the nodes
+    double north, east;              // position of the post: 0 at the south-west node, 1 at its neighbour node
     double north_posts, east_posts;  // post intervals between the nodes
   };
   Node node_at(int row, int column) const;
@@ -138,7 +143,7 @@ class PostLattice {
   int rows_, columns_;  // number of nodes
   int intervals_north_, intervals_east_;
   std::vector<double> column_, row_;  // [pixels] positions of the nodes
-  std::vector<double> above_m_;       // [m] corrections; empty: the raster's heights are above mean sea level
+  std::vector<double> above_m_;       // [m] corrections at the nodes; empty: heights are above mean sea level
 };
 
 }  // namespace yars::model::terrain::gdal

@@ -24,7 +24,8 @@ struct DestroySpatialReference {
 };
 using SpatialReference = std::unique_ptr<std::remove_pointer_t<OGRSpatialReferenceH>, DestroySpatialReference>;
 
-// File in GDAL's in-memory file system (/vsimem), deleted with the object. GDAL thus never opens a path on disk.
+// File in GDAL's in-memory file system (/vsimem), deleted with the object. To write a map, GDAL thus opens no path
+// on disk.
 class MemoryFile {
  public:
   MemoryFile() {

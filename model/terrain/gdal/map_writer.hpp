@@ -1,9 +1,9 @@
 // Writer of a picture as a georeferenced GeoTIFF, through GDAL.
 // Input: pixels (bytes or floats), an origin, an affine transform from pixels to the plane. Output: a file.
 // Frame: azimuthal equidistant plane on WGS84 about the origin, x east and y north [m]. Distances and bearings from the
-//   origin are true. The affine transform states the upper left corner, the size of pixels and the directions of rows
-//   and columns.
-// Errors: the file cannot be written, or the build has no GDAL (gdal_absent.cpp).
+//   origin are exact; bearings count from true north. The affine transform states the upper left corner, the size of
+//   pixels and the directions of rows and columns.
+// Errors: GDAL fails, the file cannot be written, or the build has no GDAL (gdal_absent.cpp).
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct MapPicture {
   std::array<double, 6> plane_from_pixel{};
   // Row by row from the top. In a float picture, NaN is declared as no data.
   std::variant<std::vector<std::uint8_t>, std::vector<float>> pixels;
-  std::string description;  // description of the raster band
+  std::string description;  // stored with the raster band
 };
 
 // Writes the picture as a GeoTIFF. A failed write leaves an earlier file at `path` unchanged.

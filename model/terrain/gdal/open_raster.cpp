@@ -53,8 +53,8 @@ std::string bands_of(GDALDatasetH dataset) {
   return std::to_string(count) + " band(s) of type " + GDALGetDataTypeName(type);
 }
 
-// [m] Unit of the band's heights. If the band states no unit: `by_system`, the unit of the coordinate system, or the
-// metre if `by_system` is 0. Any stated unit other than feet counts as the metre.
+// [m] Unit of the band's heights. If the band states no unit: `by_system`, the unit of heights in the coordinate
+// system, or the metre if `by_system` is 0. Any stated unit other than feet counts as the metre.
 double metres_of(GDALRasterBandH band, double by_system) {
   constexpr double kFoot = 0.3048;
   constexpr double kSurveyFoot = 1200.0 / 3937.0;

@@ -82,7 +82,7 @@ struct BlockSize {
 struct HeightWindow {
   Box blocks;                   // rectangle of blocks
   std::vector<float> height_m;  // NaN where no pixel of a block has a height
-  std::size_t impossible = 0;   // number of pixels with impossible heights
+  std::size_t impossible = 0;   // number of counted pixels (CountedPixels) with impossible heights
   float at(int column, int row) const {
     return height_m[static_cast<std::size_t>(row - blocks.first_row) * static_cast<std::size_t>(blocks.columns) +
                     static_cast<std::size_t>(column - blocks.first_column)];
@@ -92,7 +92,7 @@ struct HeightWindow {
 // Pixels whose impossible heights are counted.
 struct CountedPixels {
   Box blocks;                           // pixels of these blocks
-  std::optional<PixelCorners> corners;  // quadrilateral that the pixel's centre must lie in; nullopt: all pixels
+  std::optional<PixelCorners> corners;  // quadrilateral that the pixel's centre must also lie in; nullopt: no limit
 };
 
 // Reads the mean heights of `blocks`.

@@ -130,8 +130,8 @@ class CellReader {
     return {};
   }
 
-  // Pixels of a tile, so that no impossible height is counted in two tiles. The tiles of a raster whose rows are not
-  // parallels are quadrilaterals.
+  // Pixels of a tile, so that no impossible height is counted in two tiles. In a raster whose rows are not parallels,
+  // the pixels of a tile form a quadrilateral.
   CountedPixels counted_pixels(const PostLattice& lattice, const PixelBounds& bounds) const {
     if (const auto corners = lattice.corners(); corners && !raster_.georeference.is_wgs84_grid())
       return {blocks_within(bounds, 1), corners};
@@ -204,7 +204,8 @@ class CellReader {
     return height_m / total;
   }
 
-  // True if no other post of the cell is nearer to the block's centre, along the cell's rows and columns.
+  // True if the block's centre is within half a post interval of the post, both along the cell's rows and along its
+  // columns: no other post is then nearer to the block's centre.
   bool is_closest_post(const NearestBlock& block, const PixelStep& step) const {
     const double right = block.right * size_.across;
     const double down = block.down * size_.along;
@@ -230,7 +231,7 @@ class CellReader {
 
   const Raster& raster_;
   Grid grid_;
-  bool pixels_;  // true: each post is a pixel of the raster
+  bool pixels_;  // true: each post is the centre of a pixel of the raster
   BlockSize size_;
   CellPosts posts_;
   std::size_t impossible_ = 0;

@@ -1,12 +1,12 @@
 // Elevation rasters of any datum and projection as one-degree cells, through GDAL and PROJ.
 // Input: a regular local file (GeoTIFF, JPEG 2000, Erdas Imagine, ASCII and BIL grids, ENVI, USGS DEM, DTED, HGT).
-//   It has one band of heights of 16 bits or more, a coordinate system and a geotransform. A .vrt is an error, because
-//   it may name any path.
+//   It has one band of heights of 16 bits or more, a coordinate system and a geotransform. A .vrt (virtual raster) is
+//   an error, because it may name any path.
 // Output: posts on WGS84 above mean sea level, rows from south to north, both edges of the degree included. Posts
 //   outside the raster or without data are kNoHeight. 0 is sea; another height is at least one unit away from 0.
-// Accuracy: let r be the rms height difference in the raster over half a pixel (half a post spacing, if posts are
-//   coarser). Between posts, the rms difference of cell and raster is at most r / 4. The post nearest to a summit has
-//   the height of the summit's pixel, or of its block if pixels are averaged in blocks.
+// Accuracy: let r be the rms height difference of two points of the raster that are half a pixel apart (half a post
+//   spacing, if posts are coarser). Between posts, the rms difference of cell and raster is at most r / 4. The post
+//   nearest to a summit has the height of the summit's pixel, or of its block if pixels are averaged in blocks.
 // Errors: GDAL cannot open or read the file, the raster is not as above, or the build has no GDAL (gdal_absent.cpp).
 // Threads: the functions are thread-safe. Each call opens the file.
 #pragma once
@@ -34,12 +34,12 @@ struct RasterPosts {
   int columns = 0;
   double unit_m = 1.0;                // [m] height of post value 1; one or a few decimetres for fractional heights
   std::vector<std::int16_t> posts;    // [unit_m]
-  std::size_t impossible = 0;         // pixels with impossible heights; they are void
+  std::size_t impossible = 0;         // number of pixels with impossible heights, treated as pixels without data
   std::vector<std::string> warnings;  // about the whole raster
 };
 
-// Reads the posts of one cell. If posts are coarser than pixels, blocks of at most half a post interval are averaged
-// first.
+// Reads the posts of one cell. If posts are coarser than pixels, blocks of pixels, at most half a post interval wide,
+// are averaged first.
 error::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int south_deg, int west_deg,
                                          int posts_per_degree_north, int posts_per_degree_east);
 

@@ -14,7 +14,7 @@ namespace yars::model::terrain::gdal {
 
 namespace {
 
-constexpr double kMinPosts = 15.0;  // [1/deg] minimum posts per degree; the pixels of a coarser raster are not posts
+constexpr double kMinPosts = 15.0;  // [1/deg] minimum posts per degree; the pixels of a coarser raster are resampled
 
 // Extent of a raster whose rows and columns are parallels and meridians [deg]. It ends at the centres of the outermost
 // pixels. Longitudes are not wrapped.
@@ -47,8 +47,8 @@ bool aligned(double first_deg, double pixel_deg) {
 }
 
 // Posts per degree for a raster that is resampled: at least twice its pixels per degree, at most kMaxPostsPerDegree.
-// Candidates are 15, 45, 75 and 225 times powers of two, which can be halved often, and kMaxPostsPerDegree. Accuracy:
-// see raster.hpp.
+// Candidates are 15, 45, 75 and 225 times powers of two, which can be halved often for coarser copies of a cell, and
+// kMaxPostsPerDegree. Accuracy: see raster.hpp.
 int posts_per_degree_for(double pixels_per_degree) {
   const double min_posts = std::min(2.0 * pixels_per_degree * (1.0 - 1e-6), static_cast<double>(kMaxPostsPerDegree));
   int best = kMaxPostsPerDegree;
@@ -124,7 +124,7 @@ double fraction_inside(const Raster& raster, int south_deg, int west_deg) {
 }
 
 struct Rates {
-  double north = 0.0, east = 0.0;  // [pixels/deg] maximum at three points of the middle meridian
+  double north = 0.0, east = 0.0;  // [pixels/deg] maximum of the rates at three points of the cell's middle meridian
 };
 
 // Pixels per degree in a cell.
@@ -165,7 +165,7 @@ std::map<std::pair<int, int>, double> cells_of_pixels(const Raster& raster) {
   return cells;
 }
 
-// [deg^2] Area of a raster, for rasters so small that fraction_inside() gives 0: no sample point lies on them.
+// [deg^2] Area of a raster. Used for rasters so small that no sample point of fraction_inside() lies on them.
 double area_of(const Raster& raster, const Rates& rates) {
   return static_cast<double>(raster.columns) * raster.rows / std::max(1.0, rates.north * rates.east);
 }

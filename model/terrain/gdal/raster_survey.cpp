@@ -31,7 +31,7 @@ std::vector<Span> spans_of(const std::vector<double>& degrees) {
     ++spans[entry->second].count;
   };
   for (std::size_t pixel = 0; pixel < degrees.size(); ++pixel) {
-    if (!std::isfinite(degrees[pixel])) continue;  // beyond a pole
+    if (!std::isfinite(degrees[pixel])) continue;  // no position on the earth
     const int edge_deg = static_cast<int>(std::floor(degrees[pixel] + kEdge_deg));
     add(edge_deg, static_cast<int>(pixel));
     if (std::abs(degrees[pixel] - edge_deg) < kEdge_deg) add(edge_deg - 1, static_cast<int>(pixel));

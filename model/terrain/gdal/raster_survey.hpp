@@ -24,7 +24,7 @@ struct RasterCellStatistics {
 
 struct RasterStatistics {
   std::vector<RasterCellStatistics> cells;  // the cells of describe_raster()
-  std::size_t impossible = 0;               // pixels with impossible heights; counted as voids too
+  std::size_t impossible = 0;               // number of pixels with impossible heights; they also count as voids
   std::vector<std::string> warnings;        // about the whole raster
 };
 

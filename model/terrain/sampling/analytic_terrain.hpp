@@ -1,5 +1,6 @@
 // Terrain given by a formula. The built-in hills are the terrain of a configuration without a terrain directory.
-// Input: position. Output: height [m MSL]. A height of exactly 0 is water; NaN is void.
+// Input: position. Output: height [m MSL] and, optionally, surface material. A height of exactly 0 is water; NaN is
+// void.
 #pragma once
 
 #include <algorithm>
@@ -75,7 +76,7 @@ class FixedTerrainStore final : public TerrainStore {
   TerrainViewPointer view_;
 };
 
-// Built-in terrain: the sum of three patterns of sine waves over the whole earth, 0 to 1170 m MSL.
+// Built-in terrain: 400 m plus three patterns of sine waves over the whole earth, 0 to 1170 m MSL.
 // Wavelengths at the equator are about 9, 28 and 120 km. Heights below 0 m become 0 m, which is sea.
 // One evaluation takes 8 sines and no geodesic.
 inline AnalyticTerrain::Height built_in_hills() {

@@ -95,6 +95,7 @@ int whole_factor(int old_posts, int new_posts) {
   return 1;
 }
 
+// Post for a surface, in units of `unit_m`. The value 0 means sea, so land that rounds to 0 becomes -1 or 1.
 std::int16_t rounded(const Surface& surface, double unit_m) {
   if (std::isnan(surface.elevation_m)) return kVoidPost;
   if (surface.water > 0.5) return 0;
@@ -124,7 +125,7 @@ Cell resample(const Cell& cell, int rows, int columns) {
 namespace {
 
 constexpr Surface kVoidSurface{std::numeric_limits<double>::quiet_NaN(), 0.0};
-// Limit of PositionRun's cell counts. Positions beyond the limit are void, because a large count would overflow an int.
+// Limit of PositionRun's cell counts. Positions beyond the limit are void, because larger counts could overflow an int.
 constexpr float kMaxCellSteps = 1.0e6F;
 
 // [m] The smaller of the row spacing and the column spacing along the edge nearer to a pole.

@@ -21,16 +21,18 @@ namespace yars::model::terrain {
 // bilinear: between the four posts around the position. nearest: the nearest of these four. cubic: Catmull-Rom (a cubic
 // spline through the posts) over sixteen posts. Posts beyond the cell's edge repeat the edge. If one of the sixteen is
 // void, the result is bilinear.
-// Void posts are left out, and the weights of the others are scaled to a sum of 1. The water fraction is the sum of the
-// scaled weights of the posts at 0 m.
+// bilinear and nearest leave out void posts and scale the weights of the others to a sum of 1. If the others
+// have no weight, the elevation is NaN. The water fraction is the sum of the scaled weights of the posts at 0 m; cubic
+// has the water fraction of bilinear.
 Surface interpolate(const Cell& cell, double north_deg, double east_deg,
                     radar::Interpolation interpolation = radar::Interpolation::bilinear);
 
 // Returns the cell with `rows` x `columns` posts. First, reduce_by() averages posts. In each dimension its factor is
 // the largest divisor of the number of intervals that leaves at least as many intervals as requested. Then the new
 // posts are interpolated bilinearly.
-// Equal edges of neighbours stay equal, and the unit does not change. A post is 0 (sea) only if sea has over half of
-// the weight. A post is void only if all posts that contribute to it are void. Requires rows, columns >= 2.
+// Equal edges of neighbouring cells stay equal, and the unit of the posts does not change. A post is 0 (sea) only if
+// sea has over half of the weight. A post is void only if all posts that contribute to it are void. Requires rows,
+// columns >= 2.
 Cell resample(const Cell& cell, int rows, int columns);
 
 // Substitute for a one-degree cell that is not in memory.
@@ -80,7 +82,7 @@ class CellView final : public TerrainView {
   struct Run {
     std::uint16_t table_entry = static_cast<std::uint16_t>(Absence::none);
     std::size_t first = 0, count = 1;
-    bool beyond_pole = false;
+    bool beyond_pole = false;  // the cell counts lead beyond a pole; table_entry is then that of a cell at the pole
   };
   Run run_at(const PositionRun& positions, std::size_t first) const;
   void raise_first_crest(const PositionRun& positions, const RaySight& sight, float& tangent) const;

@@ -143,7 +143,7 @@ class RaySteps {
     const auto north_fraction = hn::Sub(row, south), east_fraction = hn::Sub(column, west);
     const auto lower = between(grid_, western(words.south), eastern(words.south), east_fraction);
     const auto upper = between(grid_, western(words.north), eastern(words.north), east_fraction);
-    // If the southern or the northern pair of posts is void, this candidate is left out.
+    // If both southern posts or both northern posts are void, this candidate is left out.
     valid = hn::And(valid, hn::And(lower.known, upper.known));
     const auto height_m = fused::mul_add(north_fraction, hn::Sub(upper.height_m, lower.height_m), lower.height_m);
     const auto tangent = tangent_of(fused::mul_add(fraction, step_m_, from_m_), height_m);

@@ -1,5 +1,5 @@
 // Crests of a ray: for each step from one position to the next, the maximum tangent of the ground's elevation angle,
-//   seen by the observer at the ray's start. A crest decides which ground behind it lies in shadow.
+//   seen by the observer at the ray's start. A crest decides which ground farther along the ray lies in shadow.
 // Candidates: each point where a step crosses a row or column of posts, with the height interpolated between two posts.
 //   Another candidate lies a tenth of the post spacing before the step's end. It limits the error where bilinear ground
 //   bulges between the rows and columns.
@@ -37,8 +37,9 @@ struct CrossedCell {
   bool close_columns = false;
 };
 
-// For each i in [first, end): raises tangent[i] to the maximum tangent between positions i - 1 and i, for the part of
-// that step inside the cell. The step is straight in latitude and longitude. Requires first >= 1.
+// For each i in [first, end): raises tangent[i] to the maximum tangent between positions i - 1 and i if that is higher.
+// Examines only the part of the step inside the cell. The step is straight in latitude and longitude. Requires
+// first >= 1.
 void raise(const CrossedCell& cell, const Ray& ray, std::size_t first, std::size_t end, float* tangent);
 
 }  // namespace yars::model::terrain::crests

@@ -132,8 +132,8 @@ HWY_INLINE bool none_at_sea([[maybe_unused]] Words words, [[maybe_unused]] const
 #endif
 }
 
-// Bilinear mean over the posts that are not void, with their weights scaled to a sum of 1. If these
-// posts have no weight, the height is NaN and the water 0.
+// Bilinear mean over the posts that are not void, with their weights scaled to a sum of 1: height in units of the grid,
+// and water fraction. If these posts have no weight, the height is NaN and the water fraction 0.
 struct WeightedMean {
   Floats height, water;
 };

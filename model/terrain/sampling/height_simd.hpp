@@ -1,4 +1,4 @@
-// SIMD sampling of one cell: heights, water fraction and material codes at a run of positions.
+// SIMD sampling of one cell: heights, water fraction and material codes at successive positions.
 // Input: one grid or the culture of the cell; offsets north and east of the cell's south-west corner [deg], [0, 1].
 // Output: elevation [m MSL], water fraction [0, 1], DFAD codes (culture.hpp). Offsets beyond [0, 1] are clamped.
 // Arrays: `count` entries and kRunSlack spare entries.

@@ -48,7 +48,7 @@ class BlockLanes {
                                kPost * (posts.block_columns() * kBlock - PostBlocks::kRowStep * PostBlocks::kColumns))),
         column_of_blocks_(hn::Set(IntLanes(), kPost * (kBlock - PostBlocks::kColumnStep))) {}
 
-  // [bytes] Offset of post (row, column) from the first post. Requires row < rows - 1 and column < columns - 1.
+  // [bytes] Offset of post (row, column) from the first post. Requires 0 <= row < rows - 1; column likewise.
   HWY_INLINE Ints offset(Ints row, Ints column) const {
     // Offset = 16 row + 2 column + row / 3 * (64 block_columns - 48) + column / 7 * (64 - 14), with whole quotients.
     const auto blocks = hn::Add(hn::Mul(divided<PostBlocks::kRowStep>(row), row_of_blocks_),

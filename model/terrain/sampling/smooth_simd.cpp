@@ -19,11 +19,12 @@ using FloatLanes = hn::CappedTag<float, kRunSlack>;
 using IntLanes = hn::RebindToSigned<FloatLanes>;
 using Floats = hn::Vec<FloatLanes>;
 
-// Maximum ratio of a slope to the smaller adjacent difference. Above 3 the cubic may overshoot (Fritsch, Carlson 1980).
+// Maximum ratio of the slope at a post to the smaller of the height differences to its two neighbours. Above 3 the
+// cubic may overshoot (Fritsch, Carlson 1980).
 constexpr float kMaxSlopeRatio = 3.0F;
 
-// Heights of four nodes around a position. `north`, `east`: the position, from 0 at the south-western node to 1 at the
-// next node north or east.
+// Heights of the four nodes (points of the finer grid) around a position. `north`, `east`: the position, from 0 at the
+// south-western node to 1 at the next node north or east.
 struct Quad {
   Floats south_west, south_east, north_west, north_east, north, east;
 };
@@ -97,7 +98,7 @@ void limited_slopes(std::size_t count, const Neighbours& posts, float* slope) {
     const auto here = hn::LoadU(d, posts.here + i);
     auto behind = hn::Sub(here, hn::LoadU(d, posts.before + i));
     auto ahead = hn::Sub(hn::LoadU(d, posts.after + i), here);
-    // Next to a void the difference on the other side is used.
+    // Next to a void, the difference on the other side replaces the unknown one.
     behind = hn::IfThenElse(hn::Eq(behind, behind), behind, ahead);
     ahead = hn::IfThenElse(hn::Eq(ahead, ahead), ahead, behind);
     const auto max_slope = hn::Mul(hn::Set(d, kMaxSlopeRatio), hn::Min(hn::Abs(behind), hn::Abs(ahead)));

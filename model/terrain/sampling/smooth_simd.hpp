@@ -30,12 +30,13 @@ bool heights(const Nodes& nodes, const float* north_deg, const float* east_deg, 
 struct Neighbours {
   const float *before, *here, *after;
 };
-// slope[i] = slope at `here` [m per post interval]: the mean of the differences to both neighbours. Its absolute value
-// is at most 3 times the smaller difference. It is 0 if the signs of the differences differ. Next to a void, both
-// differences are the difference to the other neighbour. The slope is 0 if `here` or both neighbours are void.
+// slope[i] = slope at `here` [m per post interval]: the mean of the differences here - before and after - here. Its
+// absolute value is at most 3 times the smaller difference. It is 0 if the signs of the differences differ. Next to a
+// void, the known difference replaces the unknown one. The slope is 0 if `here` or both neighbours are void.
 void limited_slopes(std::size_t count, const Neighbours& posts, float* slope);
 
-// Heights and slopes at the two ends of an interval, as arrays.
+// Heights [m MSL] and slopes [m per interval] at the two ends of an interval between posts, as arrays. near: the
+// western or southern end; far: the eastern or northern end.
 struct Interval {
   const float *near, *far, *near_slope, *far_slope;
 };

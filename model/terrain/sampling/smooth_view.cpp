@@ -17,8 +17,8 @@ namespace yars::model::terrain {
 
 namespace {
 
-constexpr double kMaxLatitude_deg = 88.0;    // nearer to a pole four posts do not span a rectangle on the ground
-constexpr int kMaxParts = 64;                // maximum number of parts of an interval of posts
+constexpr double kMaxLatitude_deg = 88.0;    // beyond it four posts do not span a rectangle on the ground
+constexpr int kMaxParts = 64;                // maximum number of parts of an interval between posts
 constexpr std::size_t kMaxNodes = 1U << 23;  // 32 MiB; in a cell with more nodes, intervals get fewer parts
 constexpr float kNoHeight = std::numeric_limits<float>::quiet_NaN();
 
@@ -126,13 +126,15 @@ class Grid {
 
   CellCorner corner() const { return corner_; }
   bool dry() const { return dry_; }  // true if no post is at exactly 0 m, the height of water
-  // Heights [m MSL] at positions [deg from the cell's corner]. True if all positions lie inside the grid of nodes.
+  // Heights [m MSL] at positions [deg from the cell's south-west corner]. A height outside the grid of nodes is not
+  // written. True if all positions lie inside.
   bool sample(const float* north_deg, const float* east_deg, std::size_t count, float* elevation_m) const {
     return smooth::heights(nodes_, north_deg, east_deg, count, elevation_m);
   }
   // Bilinear between nodes, in double precision; nullopt outside the grid.
   std::optional<double> height_m(double north_deg, double east_deg) const;
-  // Makes the ground in the boxes bilinear between posts again. The transition is one post interval wide.
+  // Makes the ground in the boxes bilinear between posts again. Around a box, smooth and bilinear ground are blended
+  // over one post interval.
   void flatten(const std::vector<GeoBox>& boxes);
 
  private:
@@ -216,8 +218,8 @@ std::optional<double> Grid::height_m(double north_deg, double east_deg) const {
   return weights > 0.0 ? sum / weights : std::numeric_limits<double>::quiet_NaN();
 }
 
-// Sets the blending weight of the smooth ground to 0 at the posts in and around a box. `weights` has one weight for
-// each post of the part.
+// Sets the blending weight of the smooth ground to 0 at the posts in a box and at the next posts around it. `weights`
+// has one weight for each post of the part.
 void Grid::mark_plain(const GeoBox& box, std::vector<float>& weights) const {
   const double rows_per_degree = static_cast<double>(nodes_.rows_per_degree) / part_.row_parts;
   const double columns_per_degree = static_cast<double>(nodes_.columns_per_degree) / part_.column_parts;

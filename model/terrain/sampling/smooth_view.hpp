@@ -1,9 +1,10 @@
-// Terrain view that is smooth between posts, for patch maps whose pixels are finer than the posts.
+// Terrain view that is smooth between posts, for patch maps with pixels smaller than the spacing of posts.
 // Method: nodes divide each interval between posts in a box. A cubic Hermite interpolation with limited slopes, along
 //   rows, then along columns, gives the heights of the nodes. Between nodes the ground is bilinear.
-// Slope at a post: mean of the two adjacent differences, at most three times the smaller, 0 if their signs differ.
-// Heights therefore stay between the heights of the four surrounding posts. Level water stays level, and the heights of
-// posts do not change. A void post is left out, as in bilinear interpolation. Source: Fritsch and Carlson 1980;
+// Slope at a post: mean height difference over the two adjacent intervals (of a row or column), at most three times the
+// smaller, 0 if their signs differ.
+// Heights therefore stay between those of the four surrounding posts. Level water stays level; heights of posts do not
+// change. A void post is left out, as in bilinear interpolation. Source: Fritsch and Carlson 1980;
 // docs/decisions/0021-smooth-ground-and-every-post-in-patch-maps.md.
 #pragma once
 
@@ -18,7 +19,9 @@ struct SmoothParameters {
   GeoBox box;              // area of the map
   double spacing_m = 0.0;  // [m] requested spacing of nodes
   double posts_m = 0.0;    // [m] cells with rows or columns at most this far apart stay bilinear
-  int min_parts = 6;       // minimum number of parts of a post interval, 1 to 64; fewer parts flatten crests
+  // Minimum number of parts of a post interval, 1 to 64; fewer parts flatten crests. A cell that would get over 2^23
+  // nodes has fewer parts.
+  int min_parts = 6;
   std::vector<GeoBox> bilinear_boxes{};  // boxes in which the ground stays bilinear, because objects stand on it
 };
 

@@ -15,8 +15,8 @@ int detail_for(double spacing_m) {
 namespace {
 
 // [m] Lower bound of the radii of curvature of WGS84. The smallest radius is the meridian's at the equator, 6335.4 km.
-// Distance / kMinRadius_m is never less than the angle that the distance subtends. A larger radius would miss cells at
-// a region's edge.
+// Distance / kMinRadius_m is never less than the angle of the distance at the earth's centre. A larger radius would
+// miss cells at a region's edge.
 constexpr double kMinRadius_m = 6.33e6;
 
 // Great-circle angle by the haversine formula.
@@ -30,7 +30,7 @@ double angle_between_deg(geo::GeoPoint a, geo::GeoPoint b) {
   return 2 * std::asin(std::min(1.0, std::sqrt(haversine))) / geo::kRadiansPerDegree;
 }
 
-// [rad] Upper bound of the angle that a distance on the ground subtends.
+// [rad] Upper bound of the angle at the earth's centre over a distance on the ground; at most pi.
 double angle_of(double radius_m) {
   return std::clamp(radius_m / kMinRadius_m, 0.0, geo::kRadiansPerDegree * 180.0);
 }
@@ -41,7 +41,7 @@ double angle_to_centre_deg(geo::GeoPoint point, CellCorner corner) {
   return angle_between_deg(point, {corner.south_deg + 0.5, corner.west_deg + 0.5});
 }
 
-// Conservative bound: a cell counts as touched if the circle around it meets the region's circle.
+// Conservative bound: a cell counts as touched if the circle through its corners meets the region's.
 double touched_within_deg(double radius_m) {
   constexpr double kHalfDiagonal_deg = 0.7072;  // half the diagonal of a cell at the equator, the widest cell
   return angle_of(radius_m) / geo::kRadiansPerDegree + kHalfDiagonal_deg;

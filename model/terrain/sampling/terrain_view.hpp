@@ -1,9 +1,9 @@
 // Interfaces of terrain: TerrainView, which kernels sample, and TerrainStore, which makes views; regions of terrain.
 // Input: WGS84 positions in degrees. Output: elevation [m MSL], water fraction [0, 1], DFAD material code.
-// A reduced cell keeps every 2^n-th post. Each has two heights: the mean of the original posts around it, and the peak,
-//   the highest ground around it (cell.hpp). DFAD codes: culture.hpp.
+// A reduced cell keeps every 2^n-th post. Each kept post has two heights: the mean of the original posts around it, and
+//   the peak, the highest ground around it (cell.hpp). DFAD codes: culture.hpp.
 // Accuracy: surface_at() is double precision; surfaces() differs by at most 0.05 m + 1e-6 of the cell's relief.
-// Errors: voids and invalid positions give NaN. A store reports problems as sentences.
+// Errors: voids, and positions that are not finite, have elevation NaN. A store reports problems as sentences.
 // Threads: any thread may read a view, which is immutable. prepare() runs on one thread at a time and may wait.
 #pragma once
 
@@ -55,8 +55,8 @@ inline geo::GeoPoint position_of(const PositionRun& positions, std::size_t i) {
 struct SurfaceRun {
   std::span<float> elevation_m;      // [m] MSL; NaN = void
   std::span<float> water;            // [0, 1]
-  std::span<float> peak_m;           // [m] MSL highest ground around the position if reduced, else elevation_m
-  std::span<std::int32_t> material;  // codes up to kMaxMaterial
+  std::span<float> peak_m;           // [m] MSL highest ground around it if the cell is reduced, else elevation_m
+  std::span<std::int32_t> material;  // codes as in Surface::material, 0 to kMaxMaterial
 };
 
 // Spare entries after the last one in arrays of the fast path. SIMD code may read and overwrite them.
@@ -64,7 +64,7 @@ inline constexpr std::size_t kRunSlack = 16;
 
 // Spacing of the posts of a cell.
 struct PostSpacing {
-  double ray_step_m = 0.0;   // [m] step along a ray: the smaller spacing, but at least 1/3 of the row spacing
+  double ray_step_m = 0.0;   // [m] step along a ray: smaller of row and column spacing, but >= 1/3 of row spacing
   double columns_deg = 0.0;  // [deg] longitude between columns; a column lies on every whole degree
 };
 
@@ -96,10 +96,10 @@ class TerrainView {
   virtual Surface surface_at(geo::GeoPoint position, Interpolation interpolation = Interpolation::bilinear) const = 0;
   double elevation_m(geo::GeoPoint position) const { return surface_at(position).elevation_m; }
 
-  // True if all cells within the scan's range have this detail (TerrainRegion::detail). False while coarser or finer
-  // versions replace some of them.
+  // True if all cells within the scan's range are in the versions for this detail (TerrainRegion::detail). False while
+  // coarser or finer versions replace some of them.
   virtual bool has_detail(int /*detail*/) const { return true; }
-  // True if peak_m may differ from elevation_m anywhere.
+  // True if peak_m may differ from elevation_m at some position.
   virtual bool has_peaks() const { return false; }
   // [m] minimum spacing of posts in the view; 0 if there are no posts or the view does not report the spacing.
   virtual double post_spacing_m() const { return 0.0; }
@@ -107,7 +107,7 @@ class TerrainView {
   virtual PostSpacing post_spacing_at(geo::GeoPoint /*position*/) const { return {}; }
   // The cells that overlap a box; empty if the ground has no posts.
   virtual std::vector<std::shared_ptr<const Cell>> cells_within(const GeoBox& /*box*/) const { return {}; }
-  // True if the material may differ from 0 anywhere.
+  // True if the material may differ from 0 at some position.
   virtual bool has_materials() const { return false; }
 
   // The ground at a run of positions, in single precision: the fast path. Error against surface_at() at the same
@@ -116,10 +116,11 @@ class TerrainView {
   virtual std::size_t surfaces(const PositionRun& positions, Interpolation interpolation,
                                const SurfaceRun& found) const = 0;
 
-  // For each position: the maximum tangent of the ground's elevation angle, seen from the observer, between the
-  // previous position and this one. For the first position: between the ray's start and this one. Candidates are the
-  // points where the ray crosses rows and columns of posts, with heights linear between two posts. Reduced cells use
-  // their peaks. kNoTangent where there is no candidate. Returns false, and writes nothing, if the ground has no posts.
+  // For each position: the maximum tangent of the ground's elevation angle, seen from the observer and positive above
+  // the horizontal, between the previous position and this one. For the first position: between the ray's start and
+  // this one. Candidates are the points where the ray crosses rows and columns of posts, with heights linear between
+  // two posts, and one point shortly before each position. Reduced cells use their peaks. kNoTangent where there is no
+  // candidate. Returns false, and writes nothing, if the ground has no posts.
   virtual bool crests(const PositionRun& /*positions*/, const RaySight& /*sight*/, std::span<float> /*tangent*/) const {
     return false;
   }
@@ -164,8 +165,8 @@ class TerrainStore {
   virtual std::vector<std::string> take_problems() { return {}; }
 };
 
-// The cells that the region's circle touches, in ascending order of slot_of(), each once. A few cells just outside the
-// circle may be included. The circle may cross the antimeridian and contain a pole.
+// The one-degree cells that the region's circle touches, with or without a file, in ascending order of slot_of(), each
+// once. A few cells just outside the circle may be included. The circle may cross the antimeridian and contain a pole.
 std::vector<CellCorner> cells_within(const TerrainRegion& region);
 
 // Great-circle angle [deg] from a point to the centre of a cell. If the angle from the centre of a circle exceeds

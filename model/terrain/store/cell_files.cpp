@@ -71,8 +71,8 @@ struct PostsPerDegree {
   int north = 0, east = 0;
 };
 
-// The cells of a raster. Errors: also a DTED file of another datum, which GDAL reads as if it were WGS84 and mean sea
-// level.
+// The cells of a raster. Errors: also a DTED file whose datums are not WGS84 and mean sea level. GDAL would ignore
+// these datums.
 error::Expected<gdal::RasterSummary> describe(const std::filesystem::path& path) {
   auto summary = gdal::describe_raster(path);
   if (!summary || !summary->dted_datums) return summary;
@@ -104,7 +104,7 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
   // For a raster finer than one arc second, read_raster() does the first halvings by averaging pixels. They end
   // when the posts are at least one arc second apart, or when a number of intervals is odd. reduced() does the rest and
   // finds the peaks. Averaging to even coarser posts would lose summits.
-  constexpr int kFinestReduced = 3600;  // posts per degree
+  constexpr int kFinestReduced = 3600;  // posts per degree at one arc second
   int remaining = reduction;
   for (; remaining > 0 && std::max(north, east) > kFinestReduced && north % 2 == 0 && east % 2 == 0; --remaining) {
     north /= 2;

@@ -27,8 +27,8 @@ enum class CellFormat : std::uint8_t { dted, hgt, ded, pack, compressed_hgt, ras
 struct CellFile {
   std::filesystem::path path;
   CellFormat format = CellFormat::dted;
-  int posts_per_degree = 0;       // along a meridian, in the file; 0: known only after reading
-  int posts_per_degree_east = 0;  // along a parallel
+  int posts_per_degree = 0;       // intervals of posts along a meridian, in the file; 0: known only after reading
+  int posts_per_degree_east = 0;  // intervals along a parallel; 0: known only after reading
   double covered = 1.0;           // fraction of the cell that the file spans; below 1 for rasters only
   std::optional<std::filesystem::path> culture = {};  // its culture file (culture.hpp), set by the index
 };
@@ -47,9 +47,9 @@ bool is_raster_name(const std::filesystem::path& path);          // including .v
 bool is_virtual_raster_name(const std::filesystem::path& path);  // .vrt, which index_directory() reports as a problem
 
 // Reads a cell with the reader of its format, at every 2^reduction-th post (see reduce() in cell.hpp), reduction >= 0.
-// A reduced cell is two grids: the means of the original posts, and `peaks`, the highest of these posts. If a raster is
-// finer than one arc second, its reduction begins with averaging to about one arc second. In a pack, only the required
-// wavelet levels are decoded. Files of other formats are read whole and then reduced.
+// A reduced cell is two grids: means of the original posts around each kept post, and `peaks`, the highest of them. If
+// a raster is finer than one arc second, its reduction begins with averaging to about one arc second. In a pack, only
+// the required wavelet levels are decoded. Files of other formats are read whole and then reduced.
 error::Expected<CellReading> read_cell(const CellFile& file, CellCorner corner, int reduction = 0);
 
 // True if `path` is a symbolic link with a target outside `root`. If the target does not exist, the path of the link is

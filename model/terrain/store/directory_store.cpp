@@ -17,7 +17,7 @@ namespace yars::model::terrain {
 
 namespace {
 constexpr int kMaxReduction = 6;     // maximum number of times that the spacing of posts is doubled
-constexpr int kServesNoDetail = -1;  // detail of a view: cells within the scan's range are missing or substituted
+constexpr int kServesNoDetail = -1;  // detail of a view in which cells within the scan's range are still to be loaded
 
 std::size_t bytes_of(const TerrainCell& cell) {
   return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
@@ -66,8 +66,8 @@ TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& 
   return view_;
 }
 
-// Reports a problem each time that the regions leave the coverage of the folder. A region of radius 0, a single
-// position, is not reported.
+// Reports a problem when a region has no cell with a file and the region before it had one, or was the first. Ignores
+// regions of radius 0 (a single position).
 void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
   if (region.radius_m <= 0.0) return;
   const bool outside = !touches(index_, region);
@@ -76,7 +76,7 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
     std::snprintf(where.data(), where.size(), "a cell within %.0f NM of latitude %.4f, longitude %.4f",
                   region.radius_m / geo::kMetresPerNauticalMile, region.centre.latitude_deg,
                   region.centre.longitude_deg);
-    problems_.push_back(error::Error{folder_, where.data(), "none: it covers " + coverage_text(index_),
+    problems_.push_back(error::Error{folder_, where.data(), "none: the folder covers " + coverage_text(index_),
                                      std::string("the ground there counts as ") +
                                          (options_.missing_cell_is_sea ? "sea" : "void") +
                                          "; check the position and its signs",
@@ -86,8 +86,8 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
   outside_coverage_ = outside;
 }
 
-// Puts the cells of the region into the view: at the requested reduction if that version is in memory, else a
-// substitute. Sets `changed` if a version at the requested reduction changes the view. Returns the versions still to be
+// Puts the cells of the region into the next view: at the requested reduction if that version is in memory, else a
+// substitute. Sets `changed` if a version at the requested reduction is new in it. Returns the versions still to be
 // loaded, nearest first.
 std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
   std::vector<Level> missing;
@@ -118,7 +118,8 @@ std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const Te
   return missing;
 }
 
-// Puts a cell into the view at a reduction. Returns true if the view had the cell at another reduction or not at all.
+// Puts a cell into the next view at a reduction. Returns true if `shown_` had the cell at another reduction or not at
+// all.
 bool DirectoryTerrainStore::use_in_view(Level level) {
   const auto [shown, fresh] = shown_.try_emplace(level.first, level.second);
   const bool changed = fresh || shown->second != level.second;
@@ -126,8 +127,8 @@ bool DirectoryTerrainStore::use_in_view(Level level) {
   return changed;
 }
 
-// Puts a substitute for `level` into the view until `level` is loaded: the next coarser version of the cell in memory,
-// else the next finer version. Without any version in memory, the view does not change.
+// Puts a substitute for `level` into the next views until `level` is loaded: the next coarser version of the cell in
+// memory, else the next finer version. Without any version in memory, nothing changes.
 void DirectoryTerrainStore::use_substitute(Level level) {
   auto found = resident_.upper_bound(level);
   if (found == resident_.end() || found->first.first != level.first) {
@@ -159,7 +160,7 @@ bool DirectoryTerrainStore::load(Level level) {
   return true;
 }
 
-// Culture of the cell at the same reduction; null if the culture file is missing or cannot be read.
+// Culture of the cell at the reduction of `level`; null if the culture file is missing or cannot be read.
 std::shared_ptr<const Culture> DirectoryTerrainStore::read_culture_of(Level level, const CellFile& file) {
   if (!file.culture) return nullptr;
   const error::Expected<Culture> culture = read_culture(*file.culture, corner_of_slot(level.first));
@@ -169,7 +170,8 @@ std::shared_ptr<const Culture> DirectoryTerrainStore::read_culture_of(Level leve
   return nullptr;
 }
 
-// Drops the least recently used cell from memory. Returns false if the current prepare() needs all cells in memory.
+// Drops the least recently used version of a cell from memory. Returns false if the current prepare() needs all of
+// them.
 bool DirectoryTerrainStore::drop_least_recently_used() {
   auto oldest = resident_.end();
   for (auto candidate = resident_.begin(); candidate != resident_.end(); ++candidate) {

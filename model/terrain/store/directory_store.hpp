@@ -38,7 +38,8 @@ struct RegionCells {
 };
 
 // Reduction: number of times that the spacing of posts is doubled. Returns the largest reduction, at most 6, with which
-// the posts of a file along a meridian are at most 2^detail m apart. 0 if the file's spacing is larger or not known.
+// the posts of a file along a meridian are at most 2^detail m apart. 0 if the file's spacing is larger or not known, or
+// if `detail` is 0.
 int reduction_for(const CellFile& file, int detail);
 
 // Terrain store over a folder. prepare() loads the cells of the region and their culture, nearest first, reduced as far
@@ -78,7 +79,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   DirectoryIndex index_;
   DirectoryStoreOptions options_;
   std::map<Level, Resident> resident_;
-  std::map<std::size_t, int> shown_;          // reduction of a cell in the view, by slot
+  std::map<std::size_t, int> shown_;          // reduction of each cell of the next view, by slot
   std::set<std::size_t> unreadable_;          // slots with an unreadable elevation file, already reported
   std::set<std::size_t> unreadable_culture_;  // slots with unreadable culture, already reported
   bool outside_coverage_ = false;             // true: the folder has no cell in the last region

@@ -91,14 +91,14 @@ class TheParser(unittest.TestCase):
         self.refuses(changed("min=0, max=4) uint32", "min=-1, max=4) uint32"), "whole number of uint32, 0 to 4294967295, at count, found -1")
         self.refuses(changed("min=0, max=4) uint32", "min=0, max=4.5) uint32"), "whole number of uint32, 0 to 4294967295, at count, found 4.5")
         self.refuses(changed("max=4) uint32", "max=5) uint32"), "expected @range(min=0, max=4), the entries of marks, found [0, 5]")
-        self.refuses(changed("string<7> names", "@min(1) string<7> names"), "expected a number behind the range of names")
+        self.refuses(changed("string<7> names", "@min(1) string<7> names"), "expected a number type for names")
         self.refuses(changed("@default(2) uint64", "@default(2) @range(min=3, max=4) uint64"), "a default of looks in [3, 4], found 2")
         self.refuses(changed("@range(min=0, max=4)", "@range(min=0)"), "expected @range with max, found min")
 
     def test_refuses_a_unit_that_the_name_contradicts(self):
         self.refuses(changed('@unit("deg")', '@unit("rad")'), 'expected @unit("deg") of latitude_deg, whose name ends so, found @unit("rad")')
         self.refuses(changed('@unit("m") @nan', "@nan"), 'expected @unit("m") of height_m, whose name ends so, found none')
-        self.refuses(changed("double height_m", "uint64 height_m"), "expected double or float behind @nan of height_m")
+        self.refuses(changed("double height_m", "uint64 height_m"), "expected double or float for @nan of height_m")
 
     def test_refuses_arrays_of_arrays(self):
         self.refuses(changed("uint16 marks[kMost]", "uint16 marks[2][2]"), "expected one dimension at marks, found 2")
@@ -109,7 +109,7 @@ class TheParser(unittest.TestCase):
 
     def test_refuses_a_count_that_counts_nothing(self):
         self.refuses(changed('counted_by("count")', 'counted_by("number")'), "a whole number with @range named number in Place, found none")
-        self.refuses(changed('uint64 looks', '@cut uint64 looks'), "expected @cut with @counted_by at the last array of bytes")
+        self.refuses(changed('uint64 looks', '@cut uint64 looks'), "expected @cut on the last field, an array of bytes with @counted_by")
 
 
 class TheRecordsOfTheTree(unittest.TestCase):

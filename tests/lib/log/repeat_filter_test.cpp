@@ -21,7 +21,7 @@ TEST(RepeatFilter, TheFirstLinesOfAKindPassAndTheRestIsCountedAndReportedOnce) {
   const auto suppressed = filter.take_suppressed(11 * kSecond_ns);
   ASSERT_EQ(suppressed.size(), 1U);
   EXPECT_EQ(suppressed[0].count, 997U);
-  EXPECT_NE(suppressed[0].text().find("(and 996 more like it)"), std::string::npos) << suppressed[0].text();
+  EXPECT_NE(suppressed[0].text().find("(and 996 more suppressed)"), std::string::npos) << suppressed[0].text();
   EXPECT_TRUE(filter.take_suppressed(12 * kSecond_ns).empty()) << "reported once";
   EXPECT_TRUE(filter.passes("ownship: latitude_deg: expected [-90, 90], found 5", 12 * kSecond_ns));
 }

@@ -123,10 +123,10 @@ TEST(PatchLimits, AreThoseOfTheConfiguration) {
 }
 
 TEST(PatchLimits, BlindAndHiddenPartsOfAMapAreReported) {
-  EXPECT_THAT(patch(9.0, 12.0).errors, HasSubstr("% of the window lie in the blind zone and are blank"));
+  EXPECT_THAT(patch(9.0, 12.0).errors, HasSubstr("% of the map lie in the blind zone and are blank"));
   // From 3000 ft, the horizon is at most 67 NM away.
   EXPECT_THAT(patch(30.0, 79.0, {"--alt-ft", "3000"}).errors,
-              HasSubstr("nothing of the window is seen: it lies in shadow or beyond the horizon"));
+              HasSubstr("nothing of the map is seen: it lies in shadow or beyond the horizon"));
   EXPECT_EQ(patch(30.0, 20.0).errors, "");
 }
 

@@ -88,7 +88,7 @@ TEST_F(TerrainCommands, AnImageOfDamagedCellsOrWithoutCellsEndsWith1) {
   const Finished elsewhere = run_terrain("image", {"--out", picture(), "--width", "64", "--south", "36", "--north",
                                                    "37", "--west", "121", "--east", "122"});
   EXPECT_EQ(elsewhere.code, 1);
-  EXPECT_THAT(elsewhere.errors, HasSubstr("it covers latitude 36 to 37, longitude -122 to -121"));
+  EXPECT_THAT(elsewhere.errors, HasSubstr("the folder covers latitude 36 to 37, longitude -122 to -121"));
   std::filesystem::resize_file(cell(), 5000);
   EXPECT_EQ(run_terrain("image", {"--out", picture(), "--width", "64"}).code, 1);
   const Finished wrong = run_terrain("image", {"--out", folder_.path() / "a.jpg"});
@@ -100,7 +100,7 @@ TEST_F(TerrainCommands, AProfileOutsideTheDataReportsTheCoverage) {
   EXPECT_EQ(run_terrain("profile", {"--from", "36.2", "-121.8", "--to", "36.4", "-121.6"}).code, 0);
   const Finished outside = run_terrain("profile", {"--from", "36.2", "121.8", "--to", "36.4", "121.6"});
   EXPECT_EQ(outside.code, 1);
-  EXPECT_THAT(outside.errors, HasSubstr("it covers latitude 36 to 37, longitude -122 to -121"));
+  EXPECT_THAT(outside.errors, HasSubstr("the folder covers latitude 36 to 37, longitude -122 to -121"));
   const Finished partly =
       run_terrain("profile", {"--from", "36.5", "-121.5", "--to", "36.5", "-120.5", "--step", "1000"});
   EXPECT_EQ(partly.code, 0) << partly.errors;
@@ -112,20 +112,20 @@ TEST_F(TerrainCommands, AProfileOutsideTheDataReportsTheCoverage) {
 TEST_F(TerrainCommands, ADumpOfAMissingCellReportsTheCoverage) {
   const Finished dump = run_terrain("dump", {"--south", "36", "--west", "121"});
   EXPECT_EQ(dump.code, 1);
-  EXPECT_THAT(dump.errors, HasSubstr("it covers latitude 36 to 37, longitude -122 to -121"));
+  EXPECT_THAT(dump.errors, HasSubstr("the folder covers latitude 36 to 37, longitude -122 to -121"));
 }
 
 TEST_F(TerrainCommands, AScanAndAPatchOutsideTheDataReportTheCoverage) {
   const Finished scan = endtoend::run_program({"yars", "scan", "--terrain", tree(), "--lat", "36.5", "--lon", "121.5",
                                                "--range-nm", "10", "--repeat", "1", "--samples", "32"});
-  EXPECT_THAT(scan.errors, HasSubstr("it covers latitude 36 to 37, longitude -122 to -121"));
+  EXPECT_THAT(scan.errors, HasSubstr("the folder covers latitude 36 to 37, longitude -122 to -121"));
   const Finished patch = endtoend::run_program(
       {"yars",         "patch", "--terrain",    tree(),  "--lat",       "36.5", "--lon",  "121.2", "--heading", "50",
        "--target-lat", "36.6",  "--target-lon", "121.5", "--window-nm", "1.3",  "--size", "32",    "--repeat",  "1"});
-  EXPECT_THAT(patch.errors, HasSubstr("it covers latitude 36 to 37, longitude -122 to -121"));
+  EXPECT_THAT(patch.errors, HasSubstr("the folder covers latitude 36 to 37, longitude -122 to -121"));
   const Finished here = endtoend::run_program({"yars", "scan", "--terrain", tree(), "--lat", "36.5", "--lon", "-121.5",
                                                "--range-nm", "10", "--repeat", "1", "--samples", "32"});
-  EXPECT_THAT(here.errors, Not(HasSubstr("it covers")));
+  EXPECT_THAT(here.errors, Not(HasSubstr("the folder covers")));
 }
 
 TEST_F(TerrainCommands, EveryOutputOptionChecksTheEndingOfTheName) {

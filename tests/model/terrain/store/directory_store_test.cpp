@@ -73,10 +73,10 @@ TEST(DirectoryStore, ARegionWithoutACellIsReportedOnceWithTheFoldersCoverage) {
   EXPECT_THAT(store->take_problems(), IsEmpty());
   store->prepare({middle(-20), 40 * 1852.0});
   store->prepare({middle(-20), 40 * 1852.0});
-  EXPECT_THAT(
-      store->take_problems(),
-      ElementsAre(AllOf(HasSubstr("expected a cell within 40 NM of latitude 0.5000, longitude -19.5000"),
-                        HasSubstr("it covers latitude 0 to 1, longitude 0 to 61"), HasSubstr("counts as sea"))));
+  EXPECT_THAT(store->take_problems(),
+              ElementsAre(AllOf(HasSubstr("expected a cell within 40 NM of latitude 0.5000, longitude -19.5000"),
+                                HasSubstr("the folder covers latitude 0 to 1, longitude 0 to 61"),
+                                HasSubstr("counts as sea"))));
   store->prepare({middle(20), kNear});
   store->prepare({middle(-20), kNear});
   EXPECT_EQ(store->take_problems().size(), 1U) << "reported again after a region over land";
