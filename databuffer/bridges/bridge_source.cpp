@@ -44,7 +44,7 @@ error::Expected<std::optional<ExternalSample>> DisBridge::receive(memory::Bytes 
     return std::nullopt;
   }
   if (!state->frozen) return state->sample;
-  ExternalSample sample{state->sample.ownship, AttitudeRates{}, std::nullopt};
+  ExternalSample sample{state->sample.ownship, AttitudeRates{}, geo::Vector3{}};
   sample.ownship.velocity_north_mps = sample.ownship.velocity_east_mps = sample.ownship.velocity_down_mps = 0.0;
   return sample;
 }

@@ -165,7 +165,7 @@ Expected<void> NewFile::link_temporary_name() {
 }
 
 void NewFile::write(std::span<const std::byte> bytes) {
-  if (write_problem_ != 0) return;
+  if (bytes.empty() || write_problem_ != 0) return;
   errno = 0;
   if (std::fwrite(bytes.data(), 1, bytes.size(), stream_.get()) < bytes.size())
     write_problem_ = errno != 0 ? errno : EIO;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
@@ -12,6 +13,7 @@
 #include <iostream>
 #include <optional>
 #include <random>
+#include <thread>
 
 #include "databuffer/flight/source_reader.hpp"
 #include "databuffer/session/session.hpp"
@@ -58,8 +60,14 @@ Resources resources_of(pid_t pid) {
     if (word == "VmRSS:") status >> found.resident_kB;
     if (word == "Threads:") status >> found.threads;
   }
+  // A frame or a folder may be open for a moment, so the fewest open files of several readings count.
   using Folder = std::filesystem::directory_iterator;
-  found.files = std::distance(Folder(folder / "fd"), Folder());
+  constexpr int kReadings = 5;
+  for (int reading = 0; reading < kReadings; ++reading) {
+    const long files = std::distance(Folder(folder / "fd"), Folder());
+    found.files = reading == 0 ? files : std::min(found.files, files);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
   return found;
 }
 

@@ -137,6 +137,18 @@ TEST(DisBridge, TheFirstAirPlatformIsTheAircraftAndIsLogged) {
   EXPECT_FALSE(bridge.take_log_message()) << "logged once";
 }
 
+// Without an acceleration ExternalFlight would estimate one from the report before the freeze, and the aircraft would
+// drift backwards.
+TEST(DisBridge, AFrozenAircraftHasNeitherVelocityNorAcceleration) {
+  DisBridge bridge(std::nullopt);
+  constexpr std::uint32_t kFrozen = 1U << 21U;
+  const auto sample = bridge.receive(with(packet_of("dis/air.bin"), 84, kFrozen), kNow);
+  ASSERT_TRUE(sample && *sample);
+  EXPECT_EQ((*sample)->ownship.velocity_east_mps, 0.0);
+  ASSERT_TRUE((*sample)->acceleration_mps2);
+  EXPECT_EQ(glm::length(*(*sample)->acceleration_mps2), 0.0);
+}
+
 TEST(DisBridge, OnlyTheConfiguredEntityIsTheAircraft) {
   DisBridge bridge(EntityId{1, 2, 10});
   EXPECT_FALSE(*bridge.receive(packet_of("dis/air.bin"), kNow));

@@ -62,12 +62,12 @@ TEST_F(Png, AMissingFolderIsNamed) {
 TEST_F(Png, TheErrorOfAFullDiskSaysSo) {
   const auto gray = write_png("/dev/full", noise(480, 480, 1));
   ASSERT_FALSE(gray);
-  EXPECT_THAT(error::text_of(gray.error()), HasSubstr("No space left"));
+  EXPECT_THAT(gray.error().message(), HasSubstr("No space left"));
   const Image pixels = noise(480, 480, 1);
   const auto indexed = write_indexed_png(
       "/dev/full", {480, 480, pixels.pixels, std::vector<PaletteColour>(256, PaletteColour{1, 2, 3})});
   ASSERT_FALSE(indexed);
-  EXPECT_THAT(error::text_of(indexed.error()), HasSubstr("No space left"));
+  EXPECT_THAT(indexed.error().message(), HasSubstr("No space left"));
 }
 
 }  // namespace
