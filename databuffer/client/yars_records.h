@@ -54,56 +54,61 @@
 #define YARS_LATEST_PICTURE_ID UINT64_C(9007199254740992)
 #define YARS_LATEST_CLOCK_BASE_NS INT64_C(576460752303423488)
 
-/* The session's clock: sim time [ns] = base + rate x (CLOCK_MONOTONIC - base), while it runs. */
+/* The session's clock. While it runs: sim time [ns] = base_sim_ns + rate x (CLOCK_MONOTONIC - base_monotonic_ns).
+ * While it is frozen: base_sim_ns. */
 typedef struct {
   int64_t base_sim_ns;       /* [ns] [0, 576460752303423488] */
   int64_t base_monotonic_ns; /* [ns] [0, 576460752303423488] */
   double rate;               /* [0, 10] */
   uint32_t running;          /* [0, 1] 1 runs, 0 frozen */
   uint32_t epoch;            /* raised by each reset or repositioning */
-  /* The last repositioning. Latitude NaN: there was none, and the other three fields are unspecified. */
+  /* The repositioning with which the epoch began. Latitude NaN: there was none, and longitude, altitude and heading
+   * are unspecified. */
   double reposition_latitude_deg;  /* [deg] [-90, 90] NaN = none in this epoch */
   double reposition_longitude_deg; /* [deg] [-180, 180] */
-  double reposition_altitude_m;    /* [m] [-1000, 200000] MSL */
-  double reposition_heading_deg;   /* [deg] [0, 360] true */
+  double reposition_altitude_m;    /* [m] [-1000, 200000] above mean sea level */
+  double reposition_heading_deg;   /* [deg] [0, 360] from true north */
   /* 1: the epoch began because the aircraft's source jumped to this position; no user requested it */
   uint32_t followed;
   uint32_t reserved0;
   uint64_t reserved[3];
 } yars_clock;
 
-/* True position, attitude and velocity of the aircraft. Video is computed from Ownship; symbols are placed by Nav. A
- * flight model writes the record into one of four lanes. */
+/* True position, attitude and velocity of the aircraft. Video is computed from Ownship; symbols are placed by Nav.
+ * Each source, such as a flight model, has one of four lanes for this record. */
 typedef struct {
-  int64_t source_time_ns;    /* [ns] time stamp of the source; stored, not used */
+  /* [ns] time stamp of the source; used only by a restarted flight-model, which reads it as sim time */
+  int64_t source_time_ns;
   double latitude_deg;       /* [deg] [-90, 90] WGS84 */
   double longitude_deg;      /* [deg] [-180, 180] WGS84 */
   double altitude_msl_m;     /* [m] [-1000, 200000] above mean sea level */
-  double heading_deg;        /* [deg] [0, 360] true */
-  double pitch_deg;          /* [deg] [-90, 90] nose up positive */
-  double roll_deg;           /* [deg] [-180, 180] right wing down positive */
+  double heading_deg;        /* [deg] [0, 360] from true north */
+  double pitch_deg;          /* [deg] [-90, 90] from the horizontal, nose up positive */
+  double roll_deg;           /* [deg] [-180, 180] from the horizontal, right wing down positive */
   double velocity_north_mps; /* [m/s] [-10000, 10000] over ground */
   double velocity_east_mps;  /* [m/s] [-10000, 10000] over ground */
   double velocity_down_mps;  /* [m/s] [-10000, 10000] over ground */
-  double radar_altitude_m;   /* [m] [0, 200000] above ground; NaN = no radar altimeter */
-  uint32_t epoch;            /* session epoch that the writer knew; in a new epoch a position jump is accepted */
-  uint32_t flags;            /* OwnshipFlags */
-  char source[16];           /* name of the source, such as "route", "csv", "jsbsim" */
-  /* [s] [0, 1e10] position in the source's recording, from which a restarted source continues; 0 = unknown */
+  double radar_altitude_m; /* [m] [0, 200000] above the ground or water below the aircraft; NaN = no radar altimeter */
+  uint32_t epoch;          /* session epoch that the writer knew; in a new epoch a position jump is accepted */
+  uint32_t flags;          /* OwnshipFlags */
+  char source[16];         /* name of the source, such as "route", "csv", "jsbsim" */
+  /* [s] [0, 1e10] time since the start of the source's recorded flight, from which a restarted source continues; 0 =
+   * unknown */
   double flight_time_s;
   uint64_t reserved[3];
 } yars_ownship;
 
-/* Position and velocity by the navigators, with their errors. */
+/* Position and velocity that the navigators report, which differ from the true ones by the navigators' errors.
+ * Errors in RadarState are added to these values. */
 typedef struct {
-  int64_t source_time_ns;        /* [ns] time stamp of the source */
+  int64_t source_time_ns;        /* [ns] time stamp of the source; stored, not used */
   double mission_latitude_deg;   /* [deg] [-90, 90] mission navigator */
   double mission_longitude_deg;  /* [deg] [-180, 180] */
   double ins_latitude_deg;       /* [deg] [-90, 90] inertial navigation system */
   double ins_longitude_deg;      /* [deg] [-180, 180] */
-  double velocity_north_mps;     /* [m/s] [-10000, 10000] over ground, by the navigator */
-  double velocity_east_mps;      /* [m/s] [-10000, 10000] over ground, by the navigator */
-  double velocity_down_mps;      /* [m/s] [-10000, 10000] over ground, by the navigator */
+  double velocity_north_mps;     /* [m/s] [-10000, 10000] over ground, by the mission navigator */
+  double velocity_east_mps;      /* [m/s] [-10000, 10000] over ground, by the mission navigator */
+  double velocity_down_mps;      /* [m/s] [-10000, 10000] over ground, by the mission navigator */
   double magnetic_variation_deg; /* [deg] [-180, 180] east positive; NaN = use the configuration's */
   uint32_t epoch;
   uint32_t flags;                /* NavFlags */
@@ -116,15 +121,16 @@ typedef struct {
   double longitude_deg;      /* [deg] [-180, 180] WGS84 */
   double velocity_north_mps; /* [m/s] [-10000, 10000] */
   double velocity_east_mps;  /* [m/s] [-10000, 10000] */
-  double height_m;           /* [m] [0, 1000] height of the scatterer above the ground or water */
-  double cross_section_m2;   /* [m2] [0, 1e7] radar cross section */
-  uint32_t id;               /* number given by the source */
+  double height_m; /* [m] [0, 1000] height of the point from which the entity reflects, above the ground or water */
+  double cross_section_m2; /* [m2] [0, 1e7] radar cross section */
+  uint32_t id;             /* number given by the source */
   uint32_t reserved0;
 } yars_traffic_entity;
 
 /* Surface traffic: ships and vehicles that an instructor's station or a bridge reports. The radar model computes
  * their echoes. Between two records each entity continues straight at its velocity. A record lists all entities; an
- * entity that the record omits is removed. After kTrafficStaleAfter without a record all entities are removed. */
+ * entity that the record omits is removed. All entities are removed after kTrafficStaleAfter without a record, and
+ * in a new epoch. */
 typedef struct {
   int64_t tick;                     /* [tick] tick at which the radar model latched the record; 0 before */
   int64_t source_time_ns;           /* [ns] time stamp of the source; stored, not used */
@@ -146,7 +152,7 @@ typedef struct {
   char text[16];           /* zero terminated */
 } yars_input_event;
 
-/* A sequence point on the display. */
+/* A sequence point on the display. Its position is in the navigator's coordinates, not as the video shows it. */
 typedef struct {
   double latitude_deg;  /* [deg] [-90, 90] */
   double longitude_deg; /* [deg] [-180, 180] */
@@ -168,7 +174,7 @@ typedef struct {
 
 /* Point that MARK stored. */
 typedef struct {
-  double latitude_deg;  /* [deg] [-90, 90] position in the coordinates of the navigator in use */
+  double latitude_deg;  /* [deg] [-90, 90] position in the coordinates of the navigator in use at that MARK */
   double longitude_deg; /* [deg] [-180, 180] */
   double elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
   int64_t sim_time_ns;  /* [ns] */
@@ -185,10 +191,10 @@ typedef struct {
   double cursor_latitude_deg;  /* [deg] [-90, 90] */
   double cursor_longitude_deg; /* [deg] [-180, 180] */
   double cursor_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
-  double cursor_bearing_deg;   /* [deg] [0, 360] magnetic, from the aircraft */
-  double cursor_range_nm;      /* [NM] [0, 10800] ground range from the aircraft */
-  double tdc_x;                /* [-1, 1] held deflection */
-  double tdc_y;                /* [-1, 1] held deflection */
+  double cursor_bearing_deg;   /* [deg] [0, 360] magnetic, from the true position */
+  double cursor_range_nm;      /* [NM] [0, 10800] ground range from the aircraft's true position */
+  double tdc_x;                /* [-1, 1] held deflection, right and up */
+  double tdc_y;                /* [-1, 1] held deflection, right and up */
   double window_nm;            /* [NM] [0, 10800] 0 = blank selection */
   uint64_t events_applied;     /* number of events since the session began */
   uint32_t epoch;
@@ -217,18 +223,20 @@ typedef struct {
   int64_t message_until_tick;
   yars_drawn_point points[8]; /* the first `points_drawn` are in use */
   char legends[21][8];        /* [n]: legend of PB n, zero terminated, empty = none; [0] unused */
-  /* Apex of the cursor's frame: present position of the aircraft, or its position when the picture froze. */
+  /* Frame of the cursor: apex and upward direction of the picture. Scan: the aircraft now, or when the picture
+   * froze. Patch map: apex and up_deg of the map. */
   double frame_latitude_deg;  /* [deg] [-90, 90] */
   double frame_longitude_deg; /* [deg] [-180, 180] */
-  double frame_track_deg; /* [deg] [0, 360] true ground track at the apex; this direction points up on the display */
-  uint8_t ground_mode;    /* radar::Mode resumed after the master modes air-to-air and air-to-ground ranging */
+  /* [deg] [0, 360] true bearing that points up on the display: ground track, or up_deg of a patch map */
+  double frame_track_deg;
+  uint8_t ground_mode; /* radar::Mode resumed after the master modes air-to-air and air-to-ground ranging */
   uint8_t reserved_bytes[3];
-  /* The map that the pilot commands. */
-  uint32_t map_request;     /* counts up with each commanded map */
+  /* The map that the pilot commanded last. When a command is cancelled, the newest map's values return. */
+  uint32_t map_request;     /* counts up with each commanded or cancelled map */
   double map_latitude_deg;  /* [deg] [-90, 90] centre of that map */
   double map_longitude_deg; /* [deg] [-180, 180] */
   double map_window_nm;     /* [NM] [0, 10800] edge of that map */
-  /* Ids of patch maps, 0 = none. The radar model does not overwrite the slot of a map in this list. */
+  /* Ids of patch maps, 0 = none. The radar model does not overwrite the slots of these four maps. */
   uint64_t map_newest; /* [0, 9007199254740992] */
   uint64_t map_old;    /* [0, 9007199254740992] */
   uint64_t map_stored; /* [0, 9007199254740992] */
@@ -252,14 +260,14 @@ typedef struct {
   double target_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
   char target_name[8];         /* "4.", "2.01", zero terminated */
   double steering_line_deg;    /* [deg] [0, 360] true heading of the pattern steering line, toward the target */
-  /* [deg] [-90, 90] point to which the other sensor was last slaved; valid while cue_count > 0 */
+  /* [deg] [-90, 90] point that CUE or TGT last gave to another sensor; valid while cue_count > 0 */
   double cue_latitude_deg;
   double cue_longitude_deg; /* [deg] [-180, 180] */
   double cue_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
   uint32_t cue_count;       /* counts up with CUE and TGT */
   uint32_t target_count;    /* counts up with TGT */
   uint8_t steering_line;    /* SteeringLine */
-  uint8_t mark_count;       /* [0, 10] number of marks; a further mark replaces the oldest */
+  uint8_t mark_count;       /* [0, 10] number of marks; an 11th replaces the oldest */
   uint8_t reserved_bytes2[2];
   uint32_t velocity_taken;  /* last ModelStatus::velocity_count that was evaluated */
   /* [tick] [-1, 9007199254740992] tick of the last correction of the navigator's velocity; -1 = never */
@@ -273,10 +281,11 @@ typedef struct {
   yars_mark marks[10];          /* oldest first; the first `mark_count` are in use */
   /* [deg] [-180, 180] east positive: from the navigator, from the model of the earth's field, or configured */
   double magnetic_variation_deg;
-  /* Ground point whose elevation the radar model shall report: a designated point, else the cursor. */
+  /* Ground point whose elevation the radar model shall report: after CUE, TGT or MARK the cursor's position then,
+   * until the answer; else the present position of the cursor. */
   double asked_latitude_deg;  /* [deg] [-90, 90] true position */
   double asked_longitude_deg; /* [deg] [-180, 180] */
-  int64_t asked_tick;         /* [tick] [-1, 9007199254740992] tick of the designation */
+  int64_t asked_tick;         /* [tick] [-1, 9007199254740992] tick of that CUE, TGT or MARK */
   uint32_t asked_for;         /* bits kAskedFor...; 0 = only the cursor */
   uint32_t reserved_word;
   uint64_t reserved[3];
@@ -299,15 +308,15 @@ typedef struct {
   /* Ranging to the target, from the aircraft. */
   double slant_range_m;  /* [m] NaN = no target */
   double bearing_deg;    /* [deg] [0, 360) true; NaN = no target */
-  double depression_deg; /* [deg] below the horizon; NaN = no target */
+  double depression_deg; /* [deg] below the horizontal; NaN = no target */
   /* Steering to the target. */
-  /* [deg] positive: SteeringCommand azimuth: target right of the ground track; SteeringCommand bank: right wing
-   * down; NaN = none */
+  /* [deg] azimuth: target's azimuth off the ground track, right positive; bank: bank angle to fly, right wing down
+   * positive; NaN = none */
   double steering_deg;
   double approach_deg;   /* [deg] [0, 360) true heading of the pattern steering line; NaN = none */
   uint32_t epoch;
-  uint32_t cue_count;    /* counts up with each cue */
-  uint32_t target_count; /* counts up with each designation */
+  uint32_t cue_count;    /* counts up with CUE and TGT */
+  uint32_t target_count; /* counts up with TGT */
   uint8_t steering;      /* SteeringCommand */
   uint8_t mark_count;    /* [0, 10] number of marks */
   uint8_t reserved_bytes[2];
@@ -315,7 +324,7 @@ typedef struct {
   uint64_t reserved[8];
 } yars_outputs;
 
-/* Return of the ground from the apex to range_m between two azimuths, for one position of the antenna. */
+/* Video of the ground between two azimuths, from the apex to range_m. */
 typedef struct {
   int64_t tick;               /* [tick] [0, 922337203685] */
   int64_t sim_time_ns;        /* [ns] [0, 4611686018427387904] */
@@ -377,7 +386,7 @@ typedef struct {
   yars_ownship ownship;   /* the ownship used in this tick */
   yars_nav nav;           /* nav of the same lane */
   /* Values from which a restarted model, or a replay from the middle of a scan, continues with the next sweep. */
-  double scan_centre_deg;  /* [deg] [-360, 360] true, at the end of the tick */
+  double scan_centre_deg;  /* [deg] [-360, 360] true bearing, after this tick */
   double scan_width_deg;   /* [deg] [0, 360] of the present scan */
   double scan_range_m;     /* [m] [0, 20001600] of the present scan */
   uint32_t scan_tick;      /* [tick] number of ticks since the start of the scan */
@@ -390,12 +399,14 @@ typedef struct {
   double map_latitude_deg;   /* [deg] [-90, 90] centre */
   double map_longitude_deg;  /* [deg] [-180, 180] */
   double map_up_deg;         /* [deg] [0, 360] true bearing of the map's top */
-  double map_window_nm;      /* [NM] [0, 10800] edge */
+  double map_window_nm;      /* [NM] [0, 10800] length of an edge */
   uint64_t map_newest;       /* [0, 9007199254740992] id of the last completed map; 0 = none */
   uint32_t map_request;      /* last request that was started */
-  uint32_t map_done_request; /* request of the last completed map */
-  double scan_offset_deg;    /* [deg] [-360, 360] centre of the sector relative to the ground track */
-  double scan_rate_dps;      /* [deg/s] [0, 10000] rate of the present scan; 0: rate of the configuration */
+  uint32_t map_done_request; /* last request that was answered, by a map or a refusal */
+  /* [deg] [-360, 360] middle of the sector relative to the ground track (at most the drift limit off the nose),
+   * right positive */
+  double scan_offset_deg;
+  double scan_rate_dps; /* [deg/s] [0, 10000] rate of the present scan; 0: rate of the configuration */
   /* PVU and IPVU: last measured velocity of the aircraft over ground. */
   double velocity_north_mps; /* [m/s] [-10000, 10000] */
   double velocity_east_mps;  /* [m/s] [-10000, 10000] */
@@ -409,7 +420,7 @@ typedef struct {
   double answered_latitude_deg;  /* [deg] [-90, 90] the requested point */
   double answered_longitude_deg; /* [deg] [-180, 180] */
   double answered_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
-  char map_stopped[16]; /* reason why the patch map is not re-mapped, such as "BLIND ZONE"; empty = re-mapping runs */
+  char map_stopped[16]; /* reason why the map cannot form or be re-mapped, such as "BLIND ZONE"; empty = none */
   uint64_t reserved[3];
 } yars_model_status;
 
