@@ -89,8 +89,7 @@ bool Axis::reached() const {
 
 namespace {
 // Maximum rate [deg/s] at which the scan's centre follows the ground track and aim(). It exceeds the turn rate of
-// aircraft. If a scan is slower than the movement of its centre, the left edge of a sweep can lie right of its right
-// edge.
+// aircraft. If a scan is slower than the movement of its centre, the beam can move against the scan's direction.
 constexpr double kMaxCentreRate_dps = 30.0;
 
 AxisLimits azimuth_limits(const radar::AntennaConfiguration& antenna) {
@@ -223,8 +222,9 @@ void Antenna::scan(const radar::Platform& platform, AntennaStep& step) {
     step.phase = Phase::sweeping;
     const Bearing from = centre_before + Angle::degrees(pattern_.edge_deg(pass_tick, direction_));
     pointing = centre_ + Angle::degrees(pattern_.edge_deg(next, direction_));
-    step.left = direction_ > 0 ? from : pointing;
-    step.right = direction_ > 0 ? pointing : from;
+    const bool rightward = (pointing - from).degrees() >= 0.0;
+    step.left = rightward ? from : pointing;
+    step.right = rightward ? pointing : from;
     step.reachable = radar::within_gimbal(platform, *configuration_, from, step.elevation) &&
                      radar::within_gimbal(platform, *configuration_, pointing, step.elevation);
     step.scan_start = tick_ == 0;

@@ -155,6 +155,22 @@ TEST(Antenna, LeavesNoGapsBetweenSweepsWhileTheAircraftTurns) {
   }
 }
 
+// The centre moves at 30 deg/s to the left, faster than the scan moves to the right.
+TEST(Antenna, HasTheEdgesOfASweepInOrderWhileTheCentreMovesAgainstASlowScan) {
+  Antenna antenna({});
+  antenna.restart({20.0, 0.0, 6.0});
+  until_sweeping(antenna, flying(0.0));
+  antenna.aim(-15.0);
+  int against = 0;
+  for (int tick = 0; tick < 200; ++tick) {
+    const AntennaStep step = antenna.step(flying(0.0), Angle());
+    ASSERT_EQ(step.phase, Phase::sweeping);
+    ASSERT_GE((step.right - step.left).degrees(), 0.0) << tick;
+    against += (step.azimuth - step.left).degrees() < 1e-9 && step.direction > 0 ? 1 : 0;
+  }
+  EXPECT_GT(against, 50) << "the beam moved against the scan";
+}
+
 TEST(Antenna, FollowsTheGroundTrackUpToTenDegreesOfDrift) {
   const radar::AntennaConfiguration configuration;
   EXPECT_NEAR((scan_centre(flying(100.0, 7.0), configuration) - Bearing::degrees(107.0)).degrees(), 0.0, 1e-9);
