@@ -1,7 +1,7 @@
 // Example of a host program that draws the radar display into a viewport of its own OpenGL scene.
 // Scene: 1280 x 800 pixels; viewport: 600 x 600 pixels. EGL, which connects OpenGL to a window system, gives a context
-// without a surface, so the example needs no window. It draws 30 x SECONDS pictures (default 5 s), at most 30 per
-// second, and writes the last scene as PNG.
+// without a surface, so the example needs no window. It draws 30 x SECONDS pictures (SECONDS is 5 by default), at most
+// 30 per second, and writes the last scene as PNG.
 //   host_display [SESSION [FILE.png [SECONDS]]]
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -92,7 +92,7 @@ bool write_canvas(const std::string& path) {
   imageio::Image image{kWidth, kHeight, 3, std::vector<std::uint8_t>(std::size_t{3} * kWidth * kHeight)};
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
   glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
-  // OpenGL's first row is the bottom row.
+  // The first row that OpenGL gives is the bottom row; the first row of a PNG is the top row.
   const std::ptrdiff_t row = std::ptrdiff_t{3} * kWidth;
   for (std::ptrdiff_t y = 0; y < kHeight / 2; ++y)
     std::swap_ranges(image.pixels.begin() + y * row, image.pixels.begin() + (y + 1) * row,

@@ -1,6 +1,6 @@
-"""Python client of a running YARS session, the counterpart of databuffer/client/yars.h. Needs Python 3.9, no compiler.
+"""Python client of a running YARS session, the counterpart of databuffer/client/yars.h. Needs Python 3.9+, no compiler.
 Inputs to the session: ownship, navigators, events. Outputs: radar state, outputs, sweeps, frames of the display.
-Errors: YarsError. No error means that a record was sent; `yars status` shows refused records.
+Errors: YarsError. No error means only that a record was sent; `yars status` shows the refused ones.
 Platform: Linux on x86-64, where a store of an aligned 64-bit word is atomic and stores stay in order.
 Usage: docs/attach.md. Segment: docs/shared_memory.md. A test compares all offsets here with `yars status --layout`."""
 import fcntl
@@ -88,7 +88,7 @@ EXPECTED = {"d": "a number", "q": "a whole number of 64 bits", "Q": "a whole num
 
 
 class YarsError(Exception):
-    """Its message has the expected value, the found one and a remedy."""
+    """Its message says what is wrong, mostly with the expected value, the found one and a remedy."""
 
 
 def code_of(fields):
@@ -249,7 +249,7 @@ class Session:
                       {"epoch": self.epoch(), "radar_altitude_m": math.nan, **values})
 
     def publish_nav(self, **values):
-        """Publishes the record Nav: positions and velocity of the navigators where they differ from the truth.
+        """Publishes the record Nav: positions and velocity of the navigators. Without it the navigators have no error.
         Defaults: magnetic_variation_deg NaN (the configuration's), epoch of the session, other fields 0."""
         self._needs(self.lane, "publish_nav", "an ownship lane", "claim_ownship_lane(priority)")
         self._publish("publish_nav", self._nav_at(), NAV,
@@ -287,8 +287,8 @@ class Session:
 
     # ---- reading
     def radar_state(self):
-        """Dict of the numbers and texts of the record RadarState (databuffer/messages/radar_state.idl), such as mode and
-        range. `legends`: list of the legends, with that of button n at index n. None before the first record."""
+        """Dict of the numbers and texts of the record RadarState (databuffer/messages/radar_state.idl), such as mode
+        and range. `legends`: list of the legends, with that of button n at index n. None before the first record."""
         record = self._read_bytes(AT_RADAR_STATE, RADAR_STATE_SIZE)
         if record is None:
             return None
@@ -311,9 +311,9 @@ class Session:
         return outputs
 
     def sweeps(self):
-        """List of the sweeps since the last call, oldest first. The first call returns all sweeps in the segment, some
-        seconds. Each is a dict of the record Sweep with `video`: bytes from near to far, 0 black to 255 white. Sweeps
-        that were overwritten before they could be read are counted in session.sweeps_lost."""
+        """List of the sweeps since the last call, oldest first. The first call returns all sweeps in the segment, those
+        of the last seconds. Each is a dict of the record Sweep with `video`: bytes from near to far, 0 black to 255
+        white. Sweeps that were overwritten before they could be read are counted in session.sweeps_lost."""
         found = []
         end = self.words[AT_SWEEPS // 8]
         if self.next_sweep is None:

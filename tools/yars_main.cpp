@@ -1,5 +1,5 @@
 // Main program of the `yars` command. The callback of the selected subcommand runs during app.parse().
-// Exit code: 0 success, else the code of CommandFailed or of the parse error (docs/spec/commands.md#exit-codes).
+// Exit codes: docs/spec/commands.md#exit-codes.
 
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"

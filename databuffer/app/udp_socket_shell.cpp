@@ -90,8 +90,8 @@ struct UdpSocket::State {
     descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (descriptor < 0) return error::fail("UDP", "a socket", std::strerror(errno));
     const int yes = 1;
-    // Errors are ignored. Without SO_TIMESTAMPNS the arrival time is the time of the read; without SO_RXQ_OVFL drops
-    // are not counted.
+    // Failures of setsockopt are ignored. Without SO_TIMESTAMPNS the arrival time is the time of the read; without
+    // SO_RXQ_OVFL drops are not counted.
     setsockopt(descriptor, SOL_SOCKET, SO_TIMESTAMPNS, &yes, sizeof yes);
     setsockopt(descriptor, SOL_SOCKET, SO_RXQ_OVFL, &yes, sizeof yes);
     setsockopt(descriptor, SOL_SOCKET, SO_RCVBUF, &kQueue_bytes, sizeof kQueue_bytes);
@@ -191,7 +191,8 @@ void UdpSocket::receive(std::size_t max_count, const DatagramHandler& take) {
   }
 }
 
-// Connects the socket to the sender; the kernel then drops other datagrams. sendto() with an address still works.
+// Connects the socket to `sender`; the kernel then discards new datagrams of all other senders. sendto() with an
+// address still works.
 void UdpSocket::receive_only_from(const Sender& sender) {
   sockaddr_in address{};
   address.sin_family = AF_INET;

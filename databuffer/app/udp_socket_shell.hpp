@@ -1,8 +1,8 @@
 // Non-blocking UDP socket (IPv4) with arrival times.
 // Inputs: datagrams from any sender (listen), or from one host (open_to_peer).
 // Outputs: datagrams in the order of arrival, with sender and arrival time.
-// Units: arrival time [ns] of CLOCK_MONOTONIC, from the kernel's receive stamp.
-// Errors: an unknown host, or a port in use, when opening. Datagrams that the kernel's queue cannot hold are counted.
+// Units: arrival time [ns] of CLOCK_MONOTONIC, from the kernel's receive stamp, else from the time of the read.
+// Errors: an unknown host, or a port in use, when opening. Datagrams lost by a full kernel queue are counted.
 // Threads: one. receive() and send() never wait. The two functions that open a socket can wait for a name server.
 #pragma once
 
@@ -31,7 +31,7 @@ class UdpSocket {
   UdpSocket(UdpSocket&&) noexcept;
   ~UdpSocket();
 
-  // Makes the kernel discard datagrams of all other senders, until receive_from_all(). send() continues to use the
+  // Makes the kernel discard new datagrams of all other senders, until receive_from_all(). send() continues to use the
   // address of open_to_peer(), because X-Plane answers from another port than the port on which it listens.
   void receive_only_from(const bridges::Sender& sender);
   void receive_from_all();

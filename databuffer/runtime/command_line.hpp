@@ -25,7 +25,7 @@ inline constexpr int kExitUsage = 2;
 // Writes the reason for the end of a program as one line to standard error and to the log file.
 void print_failure(const std::string& program, const std::string& message);
 
-// Handle of an option or a flag; its command owns it.
+// Handle of an option or a flag, which the command line owns.
 class Option {
  public:
   explicit Option(CLI::Option* option) : option_(option) {}
@@ -50,7 +50,7 @@ class Option {
   CLI::Option* option_;
 };
 
-// Handle of a command or subcommand; its command line owns it.
+// Handle of a command or subcommand, which the command line owns.
 class Command {
  public:
   // `names` in the form of CLI11: "--out", "-o,--out", or "FILE" for an argument. T: std::string, int, double,

@@ -168,7 +168,7 @@ void drop_to_normal_priority(int) {
   [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, kText, sizeof kText - 1);
 }
 
-// Limits real-time computation: Linux sends SIGXCPU to a thread that computes for kMaxBurst_ms without a wait.
+// Limits real-time computation: Linux sends SIGXCPU if a real-time thread computes for kMaxBurst_ms without a wait.
 bool limit_bursts() {
   struct sigaction action {};
   action.sa_handler = drop_to_normal_priority;
@@ -230,8 +230,8 @@ std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus) {
   return std::string("--cpus: refused: ") + std::strerror(errno) + "; all CPUs are used";
 }
 
-// Locks no memory under a finite RLIMIT_MEMLOCK (maximum of locked memory) without the privilege CAP_IPC_LOCK, which
-// lifts this limit. With memory locked, a later allocation beyond the limit would fail.
+// Locks no memory if RLIMIT_MEMLOCK (maximum of locked memory) is finite and the process lacks the privilege
+// CAP_IPC_LOCK, which lifts this limit. Otherwise a later allocation beyond the limit would fail.
 std::optional<std::string> lock_memory() {
   rlimit limit{};
   getrlimit(RLIMIT_MEMLOCK, &limit);

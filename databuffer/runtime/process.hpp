@@ -1,6 +1,7 @@
 // Operating system services for a program: terminal output, signals, umask, CPUs, real-time priority, locked memory.
 // Inputs: --cpus and --realtime.
-// Errors: a refusal by the system is returned as text with the remedy; the program continues without that service.
+// Errors: bind_to_cpus, lock_memory and take_realtime_priority return a refusal by the system as text; the program then
+// continues without that service.
 // Threads: call from the first thread before it starts other threads. These inherit its CPUs, not its priority.
 #pragma once
 
@@ -35,19 +36,19 @@ void restore_default_signal_actions();
 bool stop_requested();
 void request_stop();
 
-// Real-time services. The system may refuse each; the program then names the limit to raise and continues.
+// Real-time services. The system may refuse each; the program then logs a warning and continues.
 // If the first thread computes for kMaxBurst_ms without a wait, it returns to normal priority. A real-time thread
 // without waits could block a CPU.
 
-// SCHED_FIFO priority, 1..99: above other programs, below Linux interrupt threads (50). A higher priority than 50 would
-// delay interrupts.
+// SCHED_FIFO priority, 1..99: above all threads of normal priority, below Linux interrupt threads (50). A higher
+// priority than 50 would delay interrupts.
 inline constexpr int kRealtimePriority = 20;
 inline constexpr int kMaxBurst_ms = 500;  // [ms] maximum CPU time of a real-time thread without a wait
 
 // Parses a CPU list: "2,3,6-7" gives 2 3 6 7, sorted and without duplicates. A malformed list is a usage error.
 error::Expected<std::vector<int>> parse_cpu_list(std::string_view text);
 
-// Each function returns reason and remedy if the system refuses, else nullopt.
+// Each function returns the reason if the system refuses, with a remedy where there is one; else nullopt.
 std::optional<std::string> bind_to_cpus(const std::vector<int>& cpus);
 std::optional<std::string> lock_memory();
 std::optional<std::string> take_realtime_priority();

@@ -16,13 +16,14 @@ namespace yars::databuffer {
 
 // Path of an installed file (configuration, route, script). A file in the current folder takes precedence. Else a name
 // without a slash is searched in PREFIX/share/yars/config and its subfolders routes and scripts. PREFIX is the parent
-// of the folder `programs`, so that an installation can be moved. A name that is not found is returned unchanged.
+// of the folder `programs`, so that an installation can be moved. A name with a slash, or one found nowhere, is
+// returned unchanged.
 std::string installed_file(const std::string& name, const std::filesystem::path& programs);
 
 // installed_file() with the folder of the running program as `programs`.
 std::string installed_file(const std::string& name);
 
-// Common options of all programs.
+// Values of the options that all programs share; from `lockstep` on, of those that only roles have.
 struct ProgramOptions {
   std::string session = "default";  // --session, else YARS_SESSION, else "default"
   std::string config;               // --config; empty: built-in defaults
@@ -38,8 +39,8 @@ struct ProgramOptions {
 void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role);
 
 // Main function of a program. Parses the command line, sets a private umask, starts the log, installs signal handlers
-// and runs the body. Returns the exit code. An error of the body is printed as one line on standard error. The
-// exit code is then kExitUsage for a usage error, else kExitFailure. The name of `app` is the program's name.
+// and runs the body. Returns the exit code. An error or exception of the body is printed as one line on standard error.
+// The exit code is then kExitUsage for a usage error, else kExitFailure. The name of `app` is the program's name.
 using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body);
 
@@ -47,8 +48,8 @@ int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& o
 // failed, prints one line on standard error and returns kExitFailure in place of 0.
 int exit_code_after_output(const std::string& program, int exit_code);
 
-// Starts the log, applies CPU affinity and priority, and installs signal handlers. run_program() calls begin_program().
-// A program with subcommands that run during the parse of the command line calls begin_program() directly. Returns a
+// Starts the log, applies --cpus and --realtime, and installs signal handlers. run_program() calls begin_program(). A
+// program with subcommands that run during the parse of the command line calls begin_program() directly. Returns a
 // usage error if the log level, the session name or the CPU list is not valid, else nullopt.
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options);
 

@@ -20,8 +20,8 @@
 
 namespace yars::databuffer {
 
-// [ns] Age above which an ownship lane is stale: 25 records of a 50 Hz source. With a shorter time a loaded machine
-// would lose its source. With a longer time a dead source would stay in use.
+// [ns] Age of the newest record above which its ownship lane is stale: 25 records of a 50 Hz source. With a shorter
+// time a loaded machine would lose its source. With a longer time a dead source would stay in use.
 inline constexpr std::int64_t kStaleAfter_ns = 500'000'000;
 // [ns] Time for which a lane must deliver without a gap before it replaces a fresh lane. A gap is a pause longer than
 // kStaleAfter_ns.
@@ -65,11 +65,11 @@ inline constexpr std::int64_t kJumpProof_ns = 100'000'000;
 // still for this time.
 inline constexpr std::int64_t kMaxHold_ns = 1'000'000'000;
 
-// Detector of position jumps. A record is a jump if it is farther from the last position than the speed allows, for
-// example after a change of the source. A jump is accepted with a new epoch, which restarts scan and filters. Either
-// the record is the first one of the new epoch, or the epoch changes while the jump is held. While a jump is held, the
-// previous record stays in use. A process that may set the clock raises the epoch when is_proven(). If no process does
-// so, the jump is accepted after kMaxHold_ns.
+// Detector of position jumps. A record is a jump if it is farther from the last accepted position than an aircraft can
+// fly at twice its speed, plus kPositionTolerance_m, for example after a change of the source. A jump is accepted with
+// a new epoch, which restarts scan and filters. Either the record is the first one of the new epoch, or the epoch
+// changes while the jump is held. While a jump is held, the previous record stays in use. A process that may set the
+// clock raises the epoch when is_proven(). If no process does so, the jump is accepted after kMaxHold_ns.
 class JumpGuard {
  public:
   // True if `next`, received at `received_ns`, is to be used at the tick with sim time `now_ns`. Call once a tick.
@@ -106,7 +106,7 @@ class OwnshipReceiver {
     Ownship ownship{};  // record of the lane; the last used record while no lane is fresh or a jump is held
     Nav nav{};
     std::int64_t received_ns = 0;  // [ns] sim time of the tick that first received `ownship`
-    // Record of the new position while a jump is held and proven (JumpGuard). A new epoch would make the jump valid.
+    // Record of the new position while a jump is held and proven (JumpGuard). A new epoch makes the guard accept it.
     std::optional<Ownship> jump;
     std::uint32_t jump_lane = kNoLane;  // lane of `jump`
   };
@@ -136,10 +136,10 @@ class OwnshipReceiver {
 
 // Latches the surface traffic (ships and vehicles from another program) once a tick. A record that fails validate() or
 // has another epoch is refused and counted. The previous record stays in use until it is older than kTrafficStaleAfter,
-// a new epoch begins, or the writer clears the container.
+// a new epoch begins, or the traffic lane of the segment is cleared.
 class TrafficReceiver {
  public:
-  // True if latched() has changed: a new record arrived, or the last one expired and was cleared.
+  // True if latched() has changed: a new record arrived, or the previous one went out of use and was cleared.
   bool refresh(const SessionLayout& layout, std::int64_t tick, std::int64_t sim_time_ns, std::uint32_t epoch);
   const Traffic& latched() const { return latched_; }
 

@@ -1,6 +1,6 @@
 // Tick loop of a role (one program of a session). wait() returns once per tick of 5 ms sim time.
-// Live: wait() sleeps until a tick is due. At most kMaxTicksBehind late ticks are caught up; older ones are skipped and
-// counted.
+// Live (not lockstep): wait() sleeps until a tick is due. At most kMaxTicksBehind late ticks are caught up; older ones
+// are skipped and counted.
 // Lockstep: wait() returns when the preceding role has finished the tick. Order of the roles: flight-model,
 // input-monitor, state-machine, radar-model, radar-display, recorder; then the next tick begins.
 // Inputs: the session clock; the option --lockstep.

@@ -1,9 +1,8 @@
 // Radar display for another program's window: joins a session and draws into the current OpenGL context.
 // Inputs: a session, a current context of OpenGL 3.3 core or later, a viewport [pixels].
 // Outputs: the picture in the viewport, or read back; button presses as input events of the session.
-// Context: the OpenGL context must be current in all functions except press and click. This includes the constructor
-//   and the destructor.
-//   The functions restore the OpenGL state listed in display/gl/host_state_guard.hpp.
+// Context: the OpenGL context must be current in all functions except press and click, also in constructor and
+//   destructor. The functions restore the OpenGL state listed in display/gl/host_state_guard.hpp.
 // Waits: only attach, read and wait_for_read may wait.
 // Threads: one thread at a time for each Display. A program may have several Displays. Link the target yars_display.
 //
@@ -28,7 +27,7 @@ struct RadarConfiguration;
 
 namespace yars::display::host {
 
-inline constexpr int kMaxPixels = 4096;  // [pixels] edge of the display; larger sizes are clamped
+inline constexpr int kMaxPixels = 4096;  // [pixels] maximum edge of the display; larger sizes are clamped
 
 // Rectangle of the current framebuffer [pixels], from its lower left corner, as in glViewport.
 struct Viewport {
@@ -61,7 +60,8 @@ class Display {
 
   // Updates the picture. `size`: edge [pixels]. Returns true if the picture has changed. draw() also calls paint().
   bool paint(int size);
-  // Draws the display as the largest square in the middle of the viewport. Pixels outside the square are unchanged.
+  // Draws the display as the largest square in the middle of the viewport, with an edge of at most kMaxPixels. Pixels
+  // outside the square are unchanged.
   void draw(const Viewport& viewport);
   // Reports to the session that the last update is visible, for measurements of button latency.
   void note_shown();
@@ -69,8 +69,8 @@ class Display {
   // The last painted picture as RGB. Waits for the GPU.
   imageio::Image read() const;
   // Asynchronous readback of the picture with its time (Readback in display/gl/framebuffer.hpp).
-  // start_reading returns false if two copies are pending. take_read returns false if no copy is ready. wait_for_read
-  // waits for a pending copy, at most 10 s.
+  // start_reading returns false if two copies are pending. take_read returns false if no copy is ready or the driver
+  // failed. wait_for_read waits for a pending copy, at most 10 s; false: none was pending, or the driver failed.
   bool start_reading();
   bool take_read(Picture& picture);
   bool wait_for_read(Picture& picture);

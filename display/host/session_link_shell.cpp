@@ -17,7 +17,7 @@ namespace {
 
 // Interval between readings of the process table: 0.2 s, because a reading takes many system calls.
 constexpr std::int64_t kHealthInterval_ns = 200'000'000;
-constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;  // 1 s; with an older heartbeat a process is not alive
+constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;  // 1 s; a process with an older heartbeat is not alive
 
 bool takes_part(const databuffer::SessionLayout& layout, databuffer::LockstepRole role) {
   return (layout.lockstep.roles.load(std::memory_order_relaxed) >> static_cast<unsigned>(role) & 1U) != 0;

@@ -22,7 +22,7 @@
 namespace yars::display {
 
 // Reader of the session for a display. A new reader starts at the oldest sweep of the ring and the maps of the radar
-// state, so that a restarted display repaints immediately, even when frozen.
+// state, so that a restarted display repaints immediately, even while no new sweep comes.
 class SessionFeed {
  public:
   using SweepSink = std::function<void(const databuffer::Sweep&)>;

@@ -4,7 +4,7 @@ namespace yars::parallel {
 
 namespace {
 // Number of polls before a thread sleeps. One poll takes tens of nanoseconds; a wake-up takes tens of microseconds.
-// All polls together take a few hundred microseconds, about the longest wait of a thread within an offline scan.
+// All polls together take a few hundred microseconds, about the longest wait of a thread within a scan of `yars scan`.
 // With fewer polls, threads would sleep and wake up within a scan. With more polls, they would keep the cores busy
 // longer after a scan.
 constexpr int kPolls = 8000;

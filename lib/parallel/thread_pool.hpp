@@ -20,7 +20,7 @@ namespace yars::parallel {
 // then blocks. The thread that changes the value must call notify_one() or notify_all().
 std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t seen);
 
-// Pool of threads that are reused for all jobs. Starting threads takes as long as a short offline scan.
+// Pool of threads that are reused for all jobs. Starting threads takes as long as a short scan of `yars scan`.
 class ThreadPool {
  public:
   // `threads`: number of threads including the calling thread, at least 1.

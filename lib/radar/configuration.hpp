@@ -34,10 +34,10 @@ struct RadarConfiguration {
   WorldConfiguration world;
   std::vector<RoutePoint> route;
   std::uint64_t seed = 1;               // seed of all noise
-  double magnetic_variation_deg = 0.0;  // [deg] east positive
+  double magnetic_variation_deg = 0.0;  // [deg] east positive; used if no other source gives one
   WindowLimits window_limits;
   HeightRanges height_ranges;
-  std::vector<Device> devices;  // maps of cockpit hardware; the last map that fits a device is used
+  std::vector<Device> devices;  // event maps of cockpit hardware; the last map that fits a device is used
 };
 
 }  // namespace yars::radar

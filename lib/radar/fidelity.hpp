@@ -18,17 +18,17 @@ inline constexpr int kMaxSubBeams = 15;  // maximum of Fidelity::sub_beams; boun
 // Parameters that trade speed against accuracy. A configuration selects a preset and can then set single parameters.
 struct Fidelity {
   std::string name = "standard";
-  // True: the live radar-model selects, scan by scan, the finest preset with a load within core_share. The parameters
-  // below apply until the first selection.
+  // True: the live radar-model moves, scan by scan, towards the finest preset with a processor load within core_share.
+  // The parameters below apply until the first change of the preset.
   bool automatic = false;
-  double core_share = 0.25;  // maximum load as a fraction of one processor core, (0, 1]
+  double core_share = 0.25;  // maximum processor load as a fraction of one core, (0, 1]
   Algorithm algorithm = Algorithm::standard;
   EarthModel earth = EarthModel::ellipsoid;
   double earth_radius_factor = 4.0 / 3.0;  // effective earth radius factor k; 1 = no refraction
   int samples = 480;                       // range samples of a sweep, 1 to 4096
   // Number of exact geodesic positions of a sweep, 2 to 9. The other positions are interpolated. With 5 or more, a
-  // Taylor series (GeodesicSeries) replaces the interpolation where its error is at most 1 mm. 0: every position is
-  // exact.
+  // Taylor series (GeodesicSeries) replaces the interpolation where the error of the series is at most 1 mm. 0: every
+  // position is exact.
   int geodesic_knots = 5;
   Interpolation interpolation = Interpolation::bilinear;
   // Maximum number of terrain posts between two samples. Where the finest grid has more, a coarser grid of the cell is

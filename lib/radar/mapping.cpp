@@ -27,7 +27,7 @@ std::size_t range_index_for(geo::Length wanted, std::span<const double> ranges_n
 }
 
 namespace {
-// [NM] Window sizes that differ by less are equal. Different sizes differ by 0.01 NM or more. The tolerance covers
+// [NM] Window sizes that differ by less count as equal. Different sizes differ by 0.01 NM or more. The tolerance covers
 // rounding by unit conversion.
 constexpr double kSameWindow_nm = 0.005;
 }  // namespace

@@ -1,6 +1,6 @@
 // Rules of mapping: range by height, windows of patch maps, formation time, and limits of the position of a map.
 // A window is the square of ground that a patch map shows, or its side length. With a blank selection the pilot has
-// selected no window, and the cursor range determines the window.
+// selected no window, and the cursor range (ground range from the aircraft to the cursor) determines the window.
 // Inputs: ranges, angles and speeds as quantities; the tables of the configuration.
 // Source: docs/spec/pilots_interface.md#rule-1 to #rule-5, docs/spec/physics.md#formation-time.
 #pragma once
@@ -106,8 +106,8 @@ struct MapViewpoint {
   Platform platform;
 };
 
-// Centre of a patch map. `ground_m`: terrain elevation [m MSL]; NaN: void, counts as sea level; nullopt: not known yet,
-// so the elevation angle is not checked.
+// Centre of a patch map. `ground_m`: terrain elevation [m MSL]; NaN: void, counts as sea level; nullopt: not known yet;
+// then only the azimuth relative to the heading is checked against the gimbal.
 struct MapCentre {
   geo::GeoPoint position;
   std::optional<double> ground_m;

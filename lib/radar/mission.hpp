@@ -12,7 +12,8 @@
 
 namespace yars::radar {
 
-// Errors of the navigators at the start of a session, and corrections by the radar.
+// Errors of both navigators, which are added to their positions and velocities (positive north, east, down), and
+// corrections by the radar.
 // Source: docs/spec/physics.md#navigation-errors.
 struct NavigationConfiguration {
   double error_north_m = 0.0;       // [m] position error when the session begins

@@ -17,7 +17,7 @@ namespace yars::radar {
 inline constexpr int kMaxSamples = 4096;                     // maximum number of samples of a sweep
 inline constexpr int kBezelButtons = 20;                     // buttons around the display
 inline constexpr int kMaxPointsDrawn = 8;                    // sequence points in a record; state-machine uses five
-inline constexpr std::int64_t kTickNanoseconds = 5'000'000;  // [ns] tick of radar-model and state-machine, in sim time
+inline constexpr std::int64_t kTickNanoseconds = 5'000'000;  // [ns] tick of all programs, in sim time
 inline constexpr double kTickSeconds = 0.005;                // [s] kTickNanoseconds in seconds
 
 enum class Power : std::uint8_t { off = 0, standby = 1, operate = 2 };

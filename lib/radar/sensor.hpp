@@ -15,7 +15,7 @@ struct AntennaConfiguration {
   double azimuth_limit_deg = 60.0;       // [deg] gimbal limit, either side of the nose
   double elevation_limit_deg = 60.0;     // [deg] gimbal limit, up and down
   double tolerance_deg = 0.1;            // [deg] maximum servo error at which a position counts as reached
-  double drift_limit_deg = 10.0;         // [deg] the scan centre follows the ground track up to this drift angle
+  double drift_limit_deg = 10.0;         // [deg] the scan centre follows the ground track up to this angle off the nose
   double azimuth_beamwidth_deg = 2.5;    // [deg] one-way 3 dB
   double elevation_beamwidth_deg = 2.5;  // [deg] one-way 3 dB
   bool circular_scan = false;            // true: the antenna rotates continuously; false: it scans back and forth
@@ -41,7 +41,7 @@ struct HighResolutionConfiguration {
   double broadening = 1.2;             // k of the weighting: half-power width of the response times the bandwidth
   double sidelobe_db = -35.0;          // [dB] level of the highest sidelobes of the Taylor weighting
   double max_formation_time_s = 60.0;  // [s] upper bound of the formation time
-  double blind_zone_deg = 8.0;         // [deg] either side of the ground track
+  double blind_zone_deg = 8.0;         // [deg] blind zone either side of the ground track, ahead and astern
   double sector_time_s = 18.0;         // [s] duration of an HRM PPI scan of FULL width
   double dwell_s = 0.5;                // [s] dwell of the HRM PPI on each direction
   double sector_step_deg = 0.125;      // [deg] azimuth between sweeps of the HRM PPI

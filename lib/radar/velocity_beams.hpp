@@ -1,8 +1,8 @@
 // Velocity over ground from the Doppler speeds of several beams, by least squares.
-// Inputs: unit vectors of the lines of sight, and the speed [m/s] along each line of sight.
+// Inputs: unit vectors of the lines of sight, and the aircraft's speed [m/s] along each, positive towards the ground.
 // Outputs: the velocity [m/s], and its horizontal dilution of precision.
 // Frame: north, east, down; or forward, right, down relative to the ground track. The first axis has azimuth 0.
-// Errors: std::nullopt for fewer than three beams and for beams that are nearly in one plane.
+// Errors: std::nullopt for fewer than three beams, beams nearly in one plane, and a direction that is NaN.
 // Source: normal equations of linear least squares.
 #pragma once
 
@@ -63,7 +63,8 @@ inline std::optional<double> horizontal_dilution(std::span<const geo::Vector3> l
   return std::sqrt(0.5 * ((*inverse)[0][0] + (*inverse)[1][1]));
 }
 
-// Horizontal dilution of precision of the configured beams. An azimuth without a depression is ignored.
+// Horizontal dilution of precision of the configured beams. An azimuth without a depression, a depression without an
+// azimuth, and beams after the first kMaxVelocityBeams are ignored.
 inline std::optional<double> horizontal_dilution(std::span<const double> azimuths_deg,
                                                  std::span<const double> depressions_deg) {
   std::array<geo::Vector3, kMaxVelocityBeams> lines;

@@ -143,7 +143,7 @@ struct AtmosphereConfiguration {
 
 struct TerrainConfiguration {
   std::string directory;            // folder of the elevation files; empty: built-in analytic hills
-  bool missing_cell_is_sea = true;  // a cell without a file is sea at 0 m; false: void
+  bool missing_cell_is_sea = true;  // true: a cell without a file is sea at 0 m; false: it is void
 };
 
 struct WorldConfiguration {

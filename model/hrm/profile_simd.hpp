@@ -1,10 +1,11 @@
-// Profiles of sixteen columns of the polar grid: shadow, power and layover in one pass down range.
-// Inputs: heights, gammas, crests and walls by row and column. Outputs: cross section [m^2] by apparent row, which is
-// the row of the map plane at the same slant range (layover).
+// Profiles of sixteen columns of the polar grid (rows: distance over ground, columns: azimuth): shadow, power and
+// layover in one pass away from the aircraft.
+// Inputs: heights, gammas, crests and walls by row and column. Outputs: power, as cross section [m^2], by apparent row:
+// the row at which the map plane has the slant range of the scatterer (layover).
 // The profile of a column is a polyline through its heights, with one piece between two rows. The part of a piece above
 // the lines of sight over all nearer pieces is visible.
 // The power of a piece is gamma times its projected area: column width * angle subtended at the radar * slant range.
-// So the power of a column depends on its visible angle and not on the row spacing.
+// So the sum over a column does not depend on the row spacing.
 // Determinism: all targets (instruction sets) of the library Highway give equal bits.
 // Source: docs/radar_maths.md, "Patch maps".
 #pragma once
@@ -16,33 +17,33 @@
 
 namespace yars::model::hrm::simd {
 
-// Two-way gas transmission of a row: constant + slope h + bend h^2. The height h [m] above the map plane is clamped to
-// [lowest_m, highest_m].
+// Two-way transmission [0, 1] of the atmosphere's gases to a point of one row: constant + slope * h + bend * h^2. h is
+// the point's height [m] above the map plane, clamped to [lowest_m, highest_m].
 struct GasRow {
   float constant, slope, bend;
   float lowest_m, highest_m;
 };
 
-// One strip of the polar grid: inputs and outputs of cast_profile().
+// One strip (16 columns) of the polar grid: inputs and outputs of cast_profile().
 struct Strip {
   int rows = 0;
-  float first_distance_m = 0.0F;
-  float spacing_m = 0.0F;
-  bool layover = true;                   // false: every scatterer returns at its own distance over ground
-  float double_bounce = 0.0F;            // echo over wall and ground, relative to the wall's return; 0: none
+  float first_distance_m = 0.0F;         // of row 0, over ground from the aircraft
+  float spacing_m = 0.0F;                // between rows
+  bool layover = true;                   // false: every scatterer appears at its own distance over ground
+  float double_bounce = 0.0F;            // echo by way of wall and ground, relative to the wall's own return; 0: none
   const float* distance_m = nullptr;     // by row
   const float* inverse_m = nullptr;      // 1 / distance, by row
   const float* above_plane_m = nullptr;  // PatchGeometry::above_plane_m(), by row
   const float* above_level_m = nullptr;  // PatchGeometry::above_level_m(), by row
   const GasRow* gas = nullptr;           // by row; null: no attenuation
   const float* arc = nullptr;            // width of a column divided by distance [rad], by column
-  const float* horizon = nullptr;        // greatest tangent of elevation before row 0, by column
+  const float* horizon = nullptr;        // greatest tangent of elevation angle of ground nearer than row 0, by column
   // The following arrays are indexed by row and column.
-  const SurfacePoint* surface = nullptr;  // gamma is negated for a standing scene surface
+  const SurfacePoint* surface = nullptr;  // gamma is negated for a scene surface not on the ground
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
   // over the crest passes this row. Null: no crests, because rows are close enough.
   const float* crest_m = nullptr;
-  WallPoint* walls = nullptr;  // set to zero after use; null: no walls
+  WallPoint* walls = nullptr;  // cast_profile() sets them to zero after use; null: no walls
   float* power = nullptr;      // cross section [m^2] by apparent row and column; cast_profile() adds to it
 };
 

@@ -12,24 +12,25 @@ namespace yars::model::hrm {
 
 namespace {
 // GroundWalk is physics::GroundWalk (ray.hpp), which samples the ground along a ray at a fraction of the post spacing.
+// The path is the ground from the aircraft to row 0 of the polar grid.
 
 constexpr double kPathSpacing_m = 15.0;  // [m] spacing of samples on the path if its terrain has no posts
 constexpr double kSeaSpacing_m = 100.0;  // [m] spacing of samples on ground without posts (sea), which GroundWalk omits
 constexpr double kMinWalkSpacing = 0.1;  // [post spacings] rows closer than this need no GroundWalk between them
-// Steps of GroundWalk per post spacing on the path, if rows are closer than kMinWalkSpacing. Shadow edges must be exact
-// to a row.
+// Steps of GroundWalk per post spacing on the path, if rows are closer than kMinWalkSpacing: the edges of shadows
+// that the path casts must be exact to a row.
 constexpr double kFineSteps = 40.0;
 constexpr double kNoTangent = -std::numeric_limits<double>::infinity();
-constexpr double kFacetPixels = 1.0 / 3.0;  // [pixels] maximum side of a facet
-constexpr int kMaxFacets = 512;             // facets per edge; limits the work for a face as large as the window
+constexpr double kFacetPixels = 1.0 / 3.0;  // [pixels] maximum side of a facet, a piece of ground or of a face
+constexpr int kMaxFacets = 512;             // maximum facets per edge; limits the work for a large face
 constexpr double kBuried_m = 0.05;          // [m] points more than this below the ground are not visible
-constexpr double kFoot_m = 0.3;             // [m] distance from a wall to the ground point of its double bounce
+constexpr double kFoot_m = 0.3;             // [m] from a wall towards the radar, to the ground point of its bounce
 }  // namespace
 
 // A point and the ground below it. Heights are above the map plane.
 struct Reference::Ground {
   double distance_m, point_height_m;  // of the point: distance over ground, height
-  double height_m, horizon;           // of the ground: height, greatest tangent of elevation of nearer ground
+  double height_m, horizon;           // height of the ground; greatest tangent of elevation angle of nearer ground
 };
 
 Reference::Reference(const physics::RadarParameters& parameters)
@@ -49,8 +50,8 @@ void Reference::begin(const PatchData& data) {
   occluders_ = Occluders();
 }
 
-// Position in the radar's frame. `turn_rad`: bearing minus the bearing of the map's centre. `height_m`: above the map
-// plane.
+// Position in the radar's frame: y horizontal towards the map's centre, x to the right of y, z up (occluders.hpp).
+// `turn_rad`: bearing minus the bearing of the map's centre. `height_m`: above the map plane.
 Point3 Reference::position(double distance_m, double turn_rad, double height_m) const {
   const physics::Sight sight =
       geometry_->earth().sight(geometry_->altitude_m() - geometry_->plane_msl_m(), distance_m, height_m);
@@ -80,7 +81,7 @@ void Reference::read_column(const PatchEnvironment& terrain, int column) {
   const auto raise = [&](double candidate) {
     if (candidate > horizon) horizon = candidate;
   };
-  // Samples ground without posts, which GroundWalk omits. The sea, for example, hides everything beyond its horizon.
+  // Samples ground without posts, which GroundWalk omits. The sea, for example, hides what is below the radar horizon.
   const auto raise_between = [&](const terrain::TerrainView& view, double from_m, double to_m, double step_m) {
     const auto steps = static_cast<int>(std::ceil((to_m - from_m) / step_m));
     for (int step = 1; step < steps; ++step) {
@@ -111,7 +112,8 @@ void Reference::read_column(const PatchEnvironment& terrain, int column) {
   }
 }
 
-// Tangent of elevation, computed with heights above mean sea level as in GroundWalk. `height_m`: above the map plane.
+// Tangent of the elevation angle at the aircraft, positive above the horizontal. It is computed with heights above mean
+// sea level as in GroundWalk. `height_m`: above the map plane.
 double Reference::tangent(double distance_m, double height_m) const {
   return geometry_->earth().sight(geometry_->altitude_m(), distance_m, height_m + geometry_->plane_msl_m()).tangent;
 }
@@ -168,7 +170,8 @@ void Reference::read_tile(const scene::SceneView& scene, const scene::Tile& tile
   }
 }
 
-// Sets the gamma (SurfacePoint::gamma) of every grid point within the triangle.
+// Sets the gamma (SurfacePoint::gamma) of every grid point within the triangle as seen from above. Ignores a triangle
+// that faces down or has a corner at most 1 m ahead of the aircraft.
 void Reference::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, SurfacePoint* surface) const {
   std::array<double, 3> column{}, row{};
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -191,7 +194,7 @@ void Reference::lay_flat(const std::array<MapPoint, 3>& corners, double gamma, S
         surface[grid_->at(x, y)].gamma = static_cast<float>(gamma);
 }
 
-// Adds the power of all facets of ground and scene to the image.
+// Sets the image to the power of all visible facets of ground and scene.
 void Reference::cast_profiles(const PatchInputs& /*inputs*/, PatchData& data) {
   MapImage& image = data.image;
   size_ = image.size;
@@ -210,8 +213,8 @@ void Reference::draw_video(const PatchInputs& inputs, PatchData& data) {
   power_picture_.draw_video(inputs, data);
 }
 
-// Adds the power of the ground along a column. Ground between two rows is cut into facets that climb at most a third of
-// a pixel.
+// Adds the power of the ground along a column. Ground between two rows is cut into facets, at most kMaxFacets, that
+// climb or fall at most a third of a pixel.
 void Reference::add_column(int column, const SurfacePoint* surface) {
   const PolarGrid& grid = *grid_;
   const double off = grid.tangent(column);
@@ -235,7 +238,7 @@ void Reference::add_column(int column, const SurfacePoint* surface) {
       const double out_begin = std::hypot(begin.x, begin.y);
       const double out_end = std::hypot(end.x, end.y);
       const double out_middle = 0.5 * (out_begin + out_end);
-      // Twice the area of the triangle radar, begin, end; proportional to the angle that the facet subtends.
+      // Twice the area of the vertical triangle radar, begin, end; proportional to the angle that the facet subtends.
       const double facing = out_begin * end.z - begin.z * out_end;
       const double middle_fraction = fraction - 0.5 / facets;
       const double seen_at =
@@ -314,7 +317,8 @@ Reference::Ground Reference::below(Point3 point) const {
   return ground;
 }
 
-// As below(), with height and horizon of the ground if the point is within the polar grid.
+// As below(), with height and horizon of the ground if the point is within the polar grid. Over a void the height
+// remains 0.
 Reference::Ground Reference::ground_at(Point3 point) const {
   const PolarGrid& grid = *grid_;
   Ground ground = below(point);
@@ -330,7 +334,7 @@ Reference::Ground Reference::ground_at(Point3 point) const {
   return ground;
 }
 
-// True if neither ground nor scene hides the point from the radar.
+// True if the point is ahead of the radar and neither ground nor scene hides it.
 bool Reference::seen(Point3 point) const {
   if (!(point.y > 0.0)) return false;
   const Ground ground = ground_at(point);
@@ -338,8 +342,9 @@ bool Reference::seen(Point3 point) const {
   return tangent(ground.distance_m, ground.point_height_m) >= ground.horizon && !occluders_.hide(point);
 }
 
-// Adds a cross section, after gas attenuation, to the four pixels about the point's image. The image is the point of
-// the map plane at equal slant range, or at equal distance over ground if map_layover is off.
+// Distributes a cross section, after gas attenuation, over the four pixels around the place where the point appears.
+// This is the place on the map plane with the point's bearing and slant range, or with its bearing and distance over
+// ground if map_layover is off.
 void Reference::add(Point3 point, double cross_section_m2) {
   if (!gas_.none()) {
     const Ground here = below(point);

@@ -1,10 +1,11 @@
 // Patch map by the algorithm `reference`: double precision, facet by facet. Tests compare `standard` with it.
 // Terrain and scene triangles are cut into facets of at most a third of a pixel. Geodesics give exact positions.
-// A visible facet adds gamma times its projected area, at the point of the map plane with the facet's slant range.
-// Without layover (Fidelity::map_layover) the point has the facet's distance over ground.
-// Shadow of terrain: running maximum of the tangent along a column, in steps of at most a tenth of the post spacing.
+// A visible facet adds gamma times its area projected towards the radar, at the point of the map plane with the facet's
+// slant range. Without layover (Fidelity::map_layover) the point has the facet's distance over ground.
+// Shadow of terrain: running maximum of the tangent of elevation angle along a column of the polar grid, in steps of at
+// most a tenth of the post spacing.
 // Shadow of the scene: ray casting (occluders.hpp).
-// Threads: one caller; only response and video use the executor's threads.
+// Threads: one caller; only point response and video use the executor's threads.
 // Source: docs/radar_maths.md, "Patch maps".
 #pragma once
 
@@ -41,7 +42,7 @@ class Reference : public Algorithm {
   bool lit(int column, int row) const;
 
  private:
-  // A triangle of the scene in the radar's frame.
+  // A triangle of the scene in the radar's frame (occluders.hpp).
   struct Face {
     Occluders::Corners corners;
     Occluders::Corners normals;  // unit normals at the corners
@@ -78,7 +79,7 @@ class Reference : public Algorithm {
   // The following three arrays are indexed by PolarGrid::at().
   std::vector<double> height_m_;  // above the map plane; NaN: void
   std::vector<double> top_m_;     // height_m_, raised to the line of sight over the crest before this row
-  std::vector<double> horizon_;   // greatest tangent of elevation of all nearer ground
+  std::vector<double> horizon_;   // greatest tangent of elevation angle of all nearer ground
   std::vector<Face> faces_;
   Occluders occluders_;
   int size_ = 0;               // pixels per side of the image

@@ -35,7 +35,7 @@ SamplePair sample_pair(double position, int count) {
 // Inputs of the shading. Ground and scene are already drawn on `surface`.
 struct ShadingInputs {
   const SurfacePoint* surface;  // by PolarGrid::at(); SurfacePoint::gamma is +0 at a void
-  const float* horizon;         // by column: greatest tangent of elevation before row 0
+  const float* horizon;         // by column: greatest tangent of elevation angle of ground nearer than row 0
 };
 
 // Computes the brightness of the columns [first, last) from the heights of these columns and their neighbours.

@@ -1,7 +1,8 @@
 // Patch map of the preset `1996`, after the report of 1996: brightness in plan view, without layover.
 // Brightness is the dot product of the surface's unit normal and the unit vector to the radar, at least 0. It replaces
 // power in MapImage.
-// Points in shadow and voids are black. Video is proportional to brightness * (1 + noise * u), u uniform in [-1, 1].
+// Points in shadow and voids are black. Video is 255 * brightness * (1 + noise * u), at most 255; u uniform in
+// [-1, 1].
 // The report does not define facets. Here a facet is the slope between neighbouring grid points. A wall is thus a steep
 // facet, from the grid point at its foot to the grid point on its top.
 // Colours for materials are left out, because the report gives no rule for them. The preset's earth is flat.
@@ -23,10 +24,10 @@ class Report1996 : public Algorithm {
   bool uses_crests() const override { return false; }
   void begin(const PatchData& data) override;
   void draw_scene(const PatchInputs& inputs, PatchData& data) override;
-  // Computes the brightness of the polar grid.
+  // Computes the brightness of each point of the polar grid.
   void cast_profiles(const PatchInputs& inputs, PatchData& data) override;
   void draw_map(const PatchInputs& inputs, PatchData& data) override;
-  // Forms video with the fidelity's `map_noise`. The noise depends on seed, number of the map, row and column alone.
+  // Forms video with the fidelity's `map_noise`. The noise depends on seed, number of the map and pixel alone.
   void draw_video(const PatchInputs& inputs, PatchData& data) override;
 
  private:

@@ -22,10 +22,10 @@ namespace yars::model::hrm {
 // `right` and `up` are directions in the map picture, as in MapPoint: up leads away from the aircraft.
 struct PlacedTile {
   const scene::Tile* tile = nullptr;
-  double right_m = 0.0, up_m = 0.0;                                           // tile's origin on the map plane
+  double right_m = 0.0, up_m = 0.0;                                           // tile's origin, from the map's centre
   double right_east = 0.0, right_north = 0.0, up_east = 0.0, up_north = 0.0;  // right and up per metre east, north
   float lift_m = 0.0F;  // height of the tile's vertical zero (Tile::zero_msl_m) above the map plane
-  float toward_east = 0.0F, toward_north = 0.0F, toward_up = 0.0F;  // unit vector to the radar; toward_up is vertical
+  float toward_east = 0.0F, toward_north = 0.0F, toward_up = 0.0F;  // unit vector to the radar; toward_up: vertical
   float min_column = 0.0F, max_column = 0.0F;                       // grid columns that the tile's bounds span
 };
 
@@ -60,7 +60,7 @@ class SceneRaster {
   std::vector<float> cardinal_effect_;                   // as simd::CardinalShape::effect
   std::vector<float> gamma_, cardinal_;                  // by surface kind of the scene
   std::vector<float> column_, row_, height_m_, facing_;  // current tile, by vertex
-  simd::FoundTriangles found_;                           // triangles to draw of the current tile
+  simd::FoundTriangles found_;                           // triangles of the current tile that are to be drawn
   simd::Fragments fragments_;
 };
 
@@ -69,8 +69,8 @@ class PolarScene {
  public:
   explicit PolarScene(const physics::RadarParameters& parameters) : surface_(parameters) {}
 
-  // Call before each map. Enlarges the array of walls as needed. Sets it to zero if it has grown, or if an abandoned
-  // map has left walls in it.
+  // Call before each map. If the map has tiles, enlarges the array of walls as needed, and sets the array to zero if it
+  // has grown or if an earlier map has left walls in it.
   void begin(const PatchData& data);
   void draw(const PatchInputs& inputs, PatchData& data);
 

@@ -21,7 +21,7 @@ constexpr float kWideColumns = 12.0F;  // [columns] wider triangles are drawn on
 // Draws one triangle, one column per lane. In each column the triangle is extended by `reach` rows at both ends. Grid
 // points beyond an edge get the height at that edge. With a reach of half a row (kSurfaceReach), the grid points drawn
 // in a column span on average the distance between the edges.
-// `put(at, column, row, wanted)` draws a vector of grid points.
+// `put(at, column, row, wanted)` draws the lanes `wanted` of a vector of grid points. `row` is clamped to the edges.
 template <class Put>
 HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float reach, const Put& put) {
   const Tag d;

@@ -24,7 +24,7 @@ HWY_INLINE Floats sum_of(float a, Floats x, float b, Floats y) {
   return hn::Add(hn::Mul(hn::Set(d, a), x), hn::Mul(hn::Set(d, b), y));
 }
 
-// Transforms one vector of vertices. The last vector of a tile overlaps the previous one and ends with the tile.
+// Transforms one vector of vertices. The last vector overlaps the previous one and ends at the tile's last vertex.
 HWY_INLINE void transform_vector(std::size_t at, const TileVertices& tile, const VertexMap& map,
                                  const GridVertices& grid) {
   const Tag d;

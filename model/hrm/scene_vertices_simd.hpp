@@ -19,8 +19,8 @@ struct VertexMap {
   float lift_m;                                      // height of the tile's vertical zero above the map plane
   float toward_east, toward_north, toward_up;        // unit vector from the tile to the radar
   float centre_m;                                    // distance over ground from the aircraft to the centre
-  float columns_per_tangent, middle_column;          // middle_column: column of the centre, bearing 0
-  float rows_per_metre, middle_row;                  // middle_row: row of the centre's distance
+  float columns_per_tangent, middle_column;          // columns per unit of tangent; column of the map's centre
+  float rows_per_metre, middle_row;                  // middle_row: row at the centre's distance
 };
 // Vertices of a tile. Element 0 of the normals belongs to the first vertex that has a normal.
 struct TileVertices {
@@ -38,7 +38,7 @@ void transform_vertices(std::size_t count, const TileVertices& tile, const Verte
 
 inline constexpr float kSurfaceReach = 0.5F;  // [rows] extension of a drawn surface beyond its edges
 
-// Part of the grid to draw, and the distances between grid points.
+// Part of the grid to draw, and the distances between grid points at the tile.
 struct GridLimits {
   float first_column, last_column, first_row, last_row;
   float column_width_m, row_spacing_m;
@@ -51,7 +51,7 @@ using Corners = std::array<const std::uint16_t*, 3>;
 // Selected triangles of a tile: index in the tile (`number`), and vertex indices of the corners. The caller reuses the
 // struct to keep its capacity.
 struct FoundTriangles {
-  static constexpr std::size_t kSlack = 16;  // entries that vectors may access beyond the last
+  static constexpr std::size_t kSlack = 16;  // entries beyond the last that SIMD code may access
 
   void reserve(std::size_t triangles) {
     if (number.size() >= triangles + kSlack) return;
@@ -65,7 +65,7 @@ struct FoundTriangles {
 };
 
 // Selects triangles of [begin, end), in ascending order. A selected triangle extends over the centre of at least one
-// column and overlaps the limits. It faces up, or it is a wall that faces the radar.
+// column and overlaps the part of the grid in `limits`. It faces up, or it is a wall that faces the radar.
 void select_triangles(std::size_t begin, std::size_t end, const Corners& corners, const GridVertices& grid,
                       const GridLimits& limits, FoundTriangles& found);
 

@@ -1,4 +1,4 @@
-// Rasteriser of small scene triangles, one per lane: surfaces as seen from above, and walls.
+// Rasteriser of scene triangles, one per lane: surfaces of up to 12 columns as seen from above, walls of any width.
 // Drawn grid points are collected as fragments (struct Fragments) and stored in batches.
 // Included once for each target (instruction set) of the library Highway.
 #if defined(YARS_MODEL_HRM_SMALL_TRIANGLES_INL) == defined(HWY_TARGET_TOGGLE)
@@ -63,13 +63,13 @@ HWY_INLINE Bits index_on(const PolarGrid& grid, Floats column, Floats row) {
   return hn::Add(hn::Add(strip, line), hn::And(i, hn::Set(db, kStripColumns - 1U)));
 }
 
-// Collects fragments of small triangles, one triangle per lane.
+// Draws triangles, one per lane, into fragments, and stores these in batches.
 class SmallTriangles {
  public:
   SmallTriangles(const Canvas& canvas, Fragments& fragments) : canvas_(canvas), fragments_(fragments) {}
 
   // Draws surfaces. In each column a surface is extended at both ends by half a row (kSurfaceReach). The first and the
-  // last grid point of the column are then on average as far apart as the edges.
+  // last grid point drawn in a column are then on average as far apart as the edges.
   void draw_surfaces(const Triangle& triangle, const Facet& facet, Floats gamma, Mask active) {
     const Tag d;
     const auto rows = set(static_cast<float>(canvas_.grid->rows));
@@ -98,10 +98,10 @@ class SmallTriangles {
   }
 
   // Draws walls. Seen from above a wall is the line between its leftmost and rightmost corners. In each column the wall
-  // is stored at the first grid point that a roof behind the line would cover. There the column's profile
-  // (profile_simd.hpp) steps up. `gamma` of the wall is scaled by width / number of columns crossed. A wall
-  // narrower than a column is not scaled: the probability that it crosses the centre of a column equals its width in
-  // columns.
+  // is stored at the first grid point that a roof on the far side of the line (away from the radar) would cover. There
+  // the column's profile (profile_simd.hpp) steps up. `gamma` of the wall is scaled by width / number of columns
+  // crossed. A wall narrower than a column is not scaled: the probability that it crosses the centre of a column equals
+  // its width in columns.
   void draw_walls(const Triangle& triangle, Floats gamma, Mask active) {
     const Tag d;
     const auto width = hn::Sub(triangle.right.column, triangle.left.column);
@@ -128,7 +128,7 @@ class SmallTriangles {
     }
   }
 
-  // Stores the fragments if there are at least kFlushCount, or if `all` is true.
+  // Stores all fragments if there are at least kFlushCount of surfaces or of walls, or if `all` is true.
   void flush(bool all) {
     if (!all && count_ < kFlushCount && walls_ < kFlushCount) return;
     for (std::size_t i = 0; i < count_; ++i) {

@@ -1,6 +1,7 @@
 // Default algorithm of the patch map, in float and with SIMD instructions (library Highway).
-// Scene triangles are drawn onto the polar grid as seen from above. Cross sections of the grid points are computed
-// column by column, with shadow and layover (profile_simd.hpp). Pixels are interpolated between these cross sections.
+// Scene triangles are drawn onto the polar grid (ground range by azimuth) as seen from above. Cross sections of the
+// grid points are computed column by column, with shadow and layover (profile_simd.hpp). Pixels are interpolated
+// between these cross sections.
 // Accuracy against Reference: docs/radar_maths.md, "Patch maps"; tests/model/bounds/patch_reference_test.cpp.
 // Determinism: equal bits for any number of threads and any vector width.
 #pragma once

@@ -17,8 +17,8 @@
 
 namespace yars::model::rbm {
 
-// [azimuth beamwidths] Azimuth offset of the two side rays that give the cross-track slope. They must lie within the
-// beam, and must be far enough apart to measure the slope over the beam's width.
+// [azimuth beamwidths] Azimuth offset from the sweep, to the left and to the right, of the two side rays that give the
+// cross-track slope. They must lie within the beam, and must be far enough apart to measure the slope over its width.
 inline constexpr double kSideRayBeamwidths = 0.25;
 
 class Algorithm {
@@ -30,7 +30,8 @@ class Algorithm {
 
   // Computes the power of sample_count() samples after sensitivity time control (a gain that increases with range) and
   // pulse smear (mean over the samples that the pulse covers), without noise.
-  // Values are finite and >= 0. Returns the number of samples on terrain that is not loaded.
+  // Report1996 has no sensitivity time control and smears over three samples. Values are finite and >= 0.
+  // Returns the number of samples on terrain that is not loaded; SubBeams returns the sum over its rays.
   virtual std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                               std::span<float> power) = 0;
 

@@ -25,7 +25,8 @@ bool is_jammed(const radar::Jammer& jammer, const physics::SweepGeometry& geomet
   return band && std::find(jammer.channels.begin(), jammer.channels.end(), channel) != jammer.channels.end();
 }
 
-// [m MSL] The configured altitude, or the top of a mast on the ground if the altitude is NaN.
+// [m MSL] The configured altitude, or the top of a mast on the ground if the altitude is NaN. Ground of unknown
+// elevation counts as 0 m.
 double altitude_of(double configured_m, geo::GeoPoint position, const terrain::TerrainView& terrain) {
   if (!std::isnan(configured_m)) return configured_m;
   const double ground_m = terrain.elevation_m(position);
@@ -70,7 +71,7 @@ double Strobes::level(const physics::SweepGeometry& geometry, const terrain::Ter
 
 namespace {
 
-// Fraction [0, 1] of a sample that a pulse centred at `middle` covers. All arguments are in samples.
+// Fraction [0, 1] of the sample number `sample` that a pulse centred at sample `middle` covers.
 double covered(double sample, double middle, double pulse_samples) {
   const double half = 0.5 * pulse_samples;
   return std::clamp(std::min(sample + 0.5, middle + half) - std::max(sample - 0.5, middle - half), 0.0, 1.0);

@@ -27,9 +27,9 @@ namespace yars::model::rbm {
 
 // Jamming strobes: noise of equal power at every range of a sweep. A jammer is received if it jams the radar's band and
 // channel and is in line of sight. The radar receives jamming in SNIFF too, when it does not transmit.
-// Received power: 4 pi (ERP_jammer / ERP_radar) G / R^2 in the unit of returned_power(). G is the one-way gain: the
-// square root of the two-way gain, or the sidelobe level if higher. R is the slant range. Gas attenuation is one-way.
-// Sensitivity time control and rain do not apply.
+// Received power: 4 pi (ERP_jammer / ERP_radar) G / R^2 in the unit of returned_power(). G is the one-way gain, 1 in
+// the beam's centre: the square root of the two-way gain, or the sidelobe level if higher. R is the slant range. Gas
+// attenuation is one-way. Sensitivity time control and rain do not apply.
 class Strobes {
  public:
   explicit Strobes(const physics::RadarParameters& parameters);
@@ -57,16 +57,16 @@ struct Reply {
 // and lies within half an azimuth beamwidth of the beam's centre. On the display a reply is an arc, one beamwidth wide
 // and one pulse length deep.
 // A delay t adds c t / 2 to the slant range (c: speed of light). Received power: 4 pi (ERP_beacon / ERP_radar) G / R^2.
-// G is the one-way gain, R the beacon's slant range. Gas attenuation is one-way. The receiver is tuned to the beacons'
-// frequency, so the ground is not received. Sensitivity time control is off.
+// G is the one-way gain, 1 in the beam's centre; R is the beacon's slant range. Gas attenuation is one-way. The
+// receiver is tuned to the beacons' frequency, so the ground is not received. Sensitivity time control is off.
 class Beacons {
  public:
   explicit Beacons(const physics::RadarParameters& parameters);
 
-  bool none() const;
+  bool none() const;  // true if no beacon has the radar's code
 
   // Replies of all beacons within the selected range, in configured order. The delay can place a reply beyond
-  // the selected range. The span is valid until the next call.
+  // the selected range. The span is valid until the next call of replies() or measure().
   std::span<const Reply> replies(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
 
   // Sets `power` to the power of the replies in each sample, near to far, full scale = 1.

@@ -1,6 +1,6 @@
 // Two-way gain in elevation of the beam patterns of physics::two_way_gain(). Groups (sample_groups-inl.hpp) of float
 // vectors are computed together.
-// Included once for each vector target.
+// Included once for each target (instruction set) of the library Highway.
 #if defined(YARS_MODEL_RBM_GAIN_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_GAIN_SIMD_INL
 #undef YARS_MODEL_RBM_GAIN_SIMD_INL
@@ -26,8 +26,8 @@ struct Gain {
   Group numerator, denominator;
 };
 
-// Gain along lines of sight with the components `out_m` (horizontal) and `up_m` (vertical). `slant_square` is the
-// squared slant range [m^2].
+// Gain along lines of sight from the antenna with the components `out_m` (horizontal) and `up_m` (vertical, positive
+// up). `slant_square` is the squared slant range [m^2].
 template <class Group>
 class ElevationGain {
  public:
@@ -53,7 +53,7 @@ class ElevationGain {
  private:
   static HWY_INLINE Group one() { return constant<Group>(1.0F); }
   static HWY_INLINE Group zero() { return constant<Group>(0.0F); }
-  // Cosine of the angle off the antenna axis, times the slant range.
+  // Cosine of the elevation angle off the antenna axis, times the slant range.
   HWY_INLINE Group ahead() const {
     return mul_add(constant<Group>(c_.cos_elevation), out_m_, mul(constant<Group>(c_.sin_elevation), up_m_));
   }

@@ -1,6 +1,7 @@
 // Running maximum of the tangents of elevation angles along a sweep. It decides which samples are in shadow. Groups
 // (sample_groups-inl.hpp) of float vectors are computed together.
-// Included once for each vector target. Results do not depend on the vector width, because a maximum does not round.
+// Included once for each target (instruction set) of the library Highway.
+// Results do not depend on the vector width, because a maximum does not round.
 #if defined(YARS_MODEL_RBM_HORIZON_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_HORIZON_SIMD_INL
 #undef YARS_MODEL_RBM_HORIZON_SIMD_INL

@@ -10,7 +10,7 @@ namespace yars::model::rbm {
 namespace {
 constexpr std::size_t kMaxPieces = 3072;  // maximum number of extra pieces; enough for rays within 320 NM of a pole
 constexpr double kMaxBend_m = 1.0;        // maximum deviation of a piece from the ray
-constexpr double kMinPiece_m = 3.0;       // shortest piece, 1/10 of the row spacing of one-arc-second posts (30 m)
+constexpr double kMinPiece_m = 3.0;       // shortest piece, except before a sample; 1/10 of one-arc-second spacing
 constexpr double kMinGap_m = 1.0;         // minimum distance from a piece's end to the next sample
 
 // Longest interval between samples, or from the aircraft to the first sample. Samples are evenly spaced in ground or

@@ -3,7 +3,7 @@
 // Inputs: terrain, ray (apex, azimuth, range), altitude of the aircraft [m MSL], effective earth (a sphere that
 // accounts for refraction).
 // Outputs: tangent of the elevation angle of each sample's crest; visibility of a point.
-// Accuracy: every line of posts that the ray crosses is tested, on a path within 1 m of the ray.
+// Accuracy: every line of posts (row or column of them) that the ray crosses is tested, at most 1 m off the ray.
 // Threads: one thread at a time may use an instance. No allocation after construction.
 // Source: docs/spec/physics.md#shadow, docs/decisions/0019-shadow-by-lines-of-posts.md.
 #pragma once
@@ -21,8 +21,9 @@
 namespace yars::model::rbm {
 
 // Finds the crests of a ray at any latitude. TerrainView::crests() assumes that the ray is straight in latitude and
-// longitude between samples. Near a pole the ray is curved. There each interval between samples is split into nearly
-// straight pieces of at least 3 m. The ground at the ends of pieces of this minimum length is sampled, too.
+// longitude between samples. Near a pole it is curved. There each interval between samples is split into nearly
+// straight pieces of at least 3 m; the last piece of an interval may be shorter. The ground at the ends of pieces of
+// this minimum length is sampled, too.
 class RayCrests {
  public:
   explicit RayCrests(std::size_t samples);
@@ -45,7 +46,7 @@ class RayCrests {
   physics::PositionArrays pieces_;  // ends of the pieces
   memory::CacheAlignedVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
   std::vector<std::size_t> ends_;  // for each sample, the index of the piece that ends at the sample
-  // Interval [first, last) of pieces_ that includes all pieces of minimum length. Empty if last is 0.
+  // Interval [first_short_, last_short_) of pieces_ that includes all pieces of minimum length; empty if both are 0.
   std::size_t first_short_ = 0, last_short_ = 0;
 };
 

@@ -59,7 +59,7 @@ std::size_t Reference::measure(const physics::SweepGeometry& geometry, const phy
 }
 
 std::size_t Reference::read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
-  // Altitude hole: a sample at a slant range below the height above ground has no ground point.
+  // Altitude hole: a sample at a slant range below the aircraft's height above ground has no ground point.
   constexpr terrain::Surface kHole{std::numeric_limits<double>::quiet_NaN(), 0.0, 0};
   const geo::GeodesicRay ray(geometry.apex, geometry.azimuth);
   std::size_t pending = 0;
@@ -131,7 +131,7 @@ double Reference::cell_power(const physics::Receiver& receiver, const physics::E
                              const physics::SweepGeometry& geometry, std::size_t index) const {
   const Sample& sample = samples_[index];
   const physics::Sight sight = earth.sight(geometry.altitude.metres(), sample.distance_m, sample.height_m);
-  // Sine of the local grazing angle: the cosine between the facet's normal and the direction to the radar.
+  // Sine of the local grazing angle: the cosine of the angle between the ground's normal and the line to the radar.
   const double slope = along_slope(index);
   const double normal_length = std::sqrt(1.0 + slope * slope + sample.cross_slope * sample.cross_slope);
   const double sin_local = std::clamp((slope * sight.cos_grazing + sight.sin_grazing) / normal_length, 0.0, 1.0);

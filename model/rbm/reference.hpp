@@ -38,9 +38,9 @@ class Reference : public Algorithm {
     double water = 0.0;         // fraction of water [0, 1]
     std::uint8_t material = 0;  // surface material code
     double cross_slope = 0.0;   // slope across the sweep, positive if it rises to the right
-    double horizon = 0.0;       // maximum tangent of elevation angle of all ground up to this sample
+    double horizon = 0.0;       // maximum tangent of elevation angle of all ground up to and including this sample
     bool lit = false;
-    double power = 0.0;  // before the pulse smear
+    double power = 0.0;  // full scale = 1, before the pulse smear
   };
   std::span<const Sample> samples() const { return samples_; }
 

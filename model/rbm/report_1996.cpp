@@ -50,7 +50,7 @@ std::size_t Report1996::measure(const physics::SweepGeometry& geometry, const ph
   const std::size_t pending = environment.terrain.surfaces(
       positions_.run(), interpolation_, {{elevation_m_.data(), count}, {water_.data(), count}, {}, {}});
 
-  // The report's Y_min and Y_max: tangents of the beam's lower and upper edge.
+  // The report's Y_min and Y_max: tangents of the beam's lower edge at the lowest bar and upper edge at the highest.
   const auto lower =
       static_cast<float>(std::tan((geometry.elevation - geometry.bars_below).radians() - half_beam_rad_));
   const auto upper =

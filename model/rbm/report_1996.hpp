@@ -1,11 +1,11 @@
-// Real beam map algorithm of the 1996 report. Intensity is the cosine of the angle between the facet's normal and the
-// direction to the radar, both in the plane of the sweep.
+// Real beam map algorithm of the 1996 report. Intensity is the cosine of the angle between the ground's normal and the
+// direction to the radar, both in the vertical plane of the sweep, and at least 0.
 // Geometry: flat earth without refraction. Only lit samples raise the horizon. No power is received from more than half
-// a beamwidth above the highest bar or below the lowest bar.
+// an elevation beamwidth above the highest bar or below the lowest bar.
 // Smear: weights 1/4 1/2 1/4 over three samples and over three sweeps. Gain steps: 1/4 1/2 3/4 1 of full scale. No
 // noise.
-// Outputs: power is the smeared intensity, divided by the intensity of level ground at sea level at half the selected
-// range. Video is proportional to power up to power 1, and constant above.
+// Outputs: power is the intensity, smeared over samples, divided by the intensity of level ground at sea level at half
+// the selected range. Video is proportional to power up to power 1, and constant above.
 // Source: docs/spec/physics.md#preset-1996, docs/decisions/0020-brightness-of-the-preset-1996.md.
 // The algorithm uses four values of the configuration: elevation beamwidth, samples, geodesic knots, interpolation.
 #pragma once

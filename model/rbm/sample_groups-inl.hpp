@@ -1,8 +1,8 @@
-// Arithmetic on groups of float vectors, one lane per sample. A group is a vector, a pair of vectors, or a pair of
-// pairs.
+// Arithmetic on groups of SIMD vectors of float, one lane per sample. A group is a vector, a pair of vectors, or a pair
+// of pairs.
 // The vectors of a group are independent, so the processor overlaps their operations. This hides latency (a square root
 // takes twenty cycles).
-// Included once for each vector target.
+// Included once for each target (instruction set) of the library Highway.
 #if defined(YARS_MODEL_RBM_SAMPLE_GROUPS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_RBM_SAMPLE_GROUPS_INL
 #undef YARS_MODEL_RBM_SAMPLE_GROUPS_INL

@@ -74,7 +74,7 @@ bool SceneReturn::in_range(const scene::Scatterers& scene, const physics::SweepG
   return length(scene.frame.enu_from_ecef(apex_)) <= geometry.range.metres() + scene.reach_m;
 }
 
-// True if the ray passes over the scene, within a margin.
+// True if the ray passes over the scene, or at most kMargin_m beside it.
 bool SceneReturn::under_ray(const scene::Scatterers& scene) const {
   const Ray ray = ray_in(scene);
   const double ahead_m = -dot(ray.apex, ray.ahead), right_m = -dot(ray.apex, ray.right);
@@ -99,9 +99,9 @@ void SceneReturn::apply(const physics::SweepGeometry& geometry, const physics::R
     if (in_range(*scene, geometry)) add_standing(sweep, *scene);
 }
 
-// Mixes the return of covers (flat faces on the ground, summed over squares of a grid) into the power of the samples.
-// The new power of a sample is the mean of its power and the cover's. The weight of the cover's power is the covered
-// fraction of the square around the sample.
+// Mixes the return of covers (flat faces on the ground, summed over squares of a grid) into the power of lit samples.
+// The new power of a sample is the weighted mean of its old power and the power that it would have with the cover's
+// gamma. The weight of the second power is the covered fraction of the square that contains the sample.
 void SceneReturn::cover_ground(const Sweep& sweep, const scene::Scatterers& scene) {
   const std::size_t number = scene.level_for(sweep.spacing_m);
   const scene::ScattererLevel& level = scene.levels[number];
@@ -215,7 +215,7 @@ double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const s
   return sum_m2;
 }
 
-// Fraction [0, 1] of a scatterer's height that is above the horizon of all nearer ground.
+// Fraction [0, 1] of a scatterer's vertical extent that is above the horizon of all nearer ground.
 double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
                                  double distance_m) const {
   const auto tangent = [&](float height_m) {

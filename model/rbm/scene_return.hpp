@@ -1,10 +1,11 @@
 // Return of polygonal scenes in a sweep of the real beam map.
-// A standing object has the cross section sigma: the sum over its faces of gamma times the area that faces the radar.
-// It returns at its own range and bearing. Only the part above the ground's horizon is lit. Covers are flat faces on
-// the ground, such as runways and roads. They replace the ground's return in proportion to the area that they cover.
+// A standing object has the cross section sigma: the sum over its faces of gamma times the area projected towards the
+// radar. It returns at its own range and bearing. Only its part above the horizon of nearer ground is lit. Covers are
+// flat faces on the ground, such as runways and roads. They replace the ground's return in proportion to the area that
+// they cover.
 // Inputs: sweep geometry, receiver, scenes, the sweep's ground with its horizon and power.
 // Outputs: the power of the samples before the pulse smear, changed in place.
-// Accuracy: double precision; `reference` and `standard` use the same function.
+// Accuracy: double precision; the algorithms `reference` and `standard` both use this class.
 // Threads: one thread at a time may use an instance. No allocation after construction.
 // Source: docs/spec/physics.md#power, docs/radar_maths.md#scenes.
 #pragma once

@@ -1,4 +1,4 @@
-// Default algorithm of the real beam map, in float, in vectors of the machine's width (library Highway).
+// Default algorithm of the real beam map, in float, with SIMD vectors of the machine's width (library Highway).
 // The fidelity's `geodesic_knots` selects how the positions of samples are computed (ray.hpp). The default is a Taylor
 // series of the geodesic, replaced near a pole by interpolation between exact positions. The drop of the ground by the
 // earth's curvature is a truncated series (sweep_simd.cpp).

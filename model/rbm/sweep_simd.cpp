@@ -26,7 +26,7 @@ constexpr std::size_t kMaxLanes = 16;  // limit of lanes in Tag (sample_groups-i
 // earth's centre between aircraft and ground.
 template <class Group>
 struct Geometry {
-  Group out_m, up_m;                    // horizontal and vertical distance from the aircraft
+  Group out_m, up_m;                    // horizontal distance from the aircraft, height above it
   Group drop_m, chord_m, sine, cosine;  // R (1 - cos a), R sin a, sin a, cos a
 };
 
