@@ -35,7 +35,7 @@ inline constexpr Columns kHrm = 1U << 1;    // HRM PPI
 inline constexpr Columns kPatch = 1U << 2;  // HRM patch map
 inline constexpr Columns kBcn = 1U << 3;
 inline constexpr Columns kPvu = 1U << 4;
-inline constexpr Columns kRanging = 1U << 5;  // A/A and A/G ranging
+inline constexpr Columns kRanging = 1U << 5;  // mode A/A, and mode A/G ranging
 inline constexpr Columns kMenu = 1U << 6;
 inline constexpr Columns kOff = 1U << 7;
 
@@ -55,7 +55,7 @@ inline constexpr Conditions kCursorIsUpdate = 1U << 9;  // cursor function UPDT
 inline constexpr Conditions kCursorIsCue = 1U << 10;
 inline constexpr Conditions kCursorIsTarget = 1U << 11;
 inline constexpr Conditions kCursorIsMark = 1U << 12;
-inline constexpr Conditions kLineSlews = 1U << 13;  // the TDC turns the pattern steering line to the target
+inline constexpr Conditions kLineSlews = 1U << 13;  // the TDC turns the steering line that ends at the target
 
 using Action = void (*)(Step&);
 
@@ -92,11 +92,11 @@ Columns control_column(const databuffer::RadarState& state);
 // True if all of the conditions are true in this state.
 bool hold(Conditions conditions, const databuffer::RadarState& state);
 
-// True for the press of the TDC. The press changes nothing, because the TDC acts on release. It has the table rows of
-// the release.
+// True for the press of the TDC. The caller does not run the action of a press, because the TDC acts on release.
 bool is_press(const databuffer::InputEvent& event);
 
-// Action of the event in this state. A press has the action of its release. nullptr: the event has no effect (is dead).
+// Action of the event in this state; nullptr: the event has no effect (is dead). For a press of the TDC it is the
+// action of the release, which only tells whether the press is dead.
 Action action_for(const databuffer::RadarState& state, const databuffer::InputEvent& event);
 
 // Reason why the event has no effect in this state, as a text: "dead in PVU", "dead while frozen".

@@ -121,7 +121,7 @@ std::vector<SlotSchema> system_slots() {
         .purpose = "errors of the navigators, and their updates"},
        {.name = "windowLimits",
         .binding = FormSlot{{"WindowLimits"}, {"WindowLimits"}},
-        .purpose = "limits of the cursor range for each display window"},
+        .purpose = "limits of the cursor range for each window of patch maps"},
        {.name = "heightRanges",
         .binding = FormSlot{{"HeightRanges"}, {"HeightRanges"}},
         .purpose = "automatic choice of the range by height"},
@@ -211,8 +211,8 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .lowest = 0,
        .highest = 9,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.geodesic_knots)},
-       .purpose = "number of exact positions on the geodesic of a sweep, at least 2; the others are interpolated; with "
-                  "5 or more, a series accurate to 1 mm replaces the interpolation where possible; 0 = all exact"},
+       .purpose = "number of exact positions on the geodesic of a sweep (1 counts as 2); the others are interpolated; "
+                  "with 5 or more, a series accurate to 1 mm replaces the interpolation where possible; 0: all exact"},
       {.name = "interpolation",
        .binding =
            ChoiceSlot{kInterpolations,
@@ -242,7 +242,8 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
            "true: samples are equidistant in slant range; false: in ground range"),
       flag("crossTrackSlope", YARS_FIELD(radar.fidelity.cross_track_slope),
            "incidence angle includes the slope across the sweep"),
-      flag("noise", YARS_FIELD(radar.fidelity.noise), "thermal noise, speckle and texture"),
+      flag("noise", YARS_FIELD(radar.fidelity.noise),
+           "sweeps: thermal noise, speckle and texture; patch maps: speckle"),
       flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over the beam width"),
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
       {.name = "beam",

@@ -56,7 +56,7 @@ int map_strips(geo::Length window, geo::Length slant_range, geo::Angle azimuth_b
 struct MapGeometry {
   geo::Length slant_range;
   geo::Length window;
-  geo::Angle squint;  // angle between the ground track and the line of sight
+  geo::Angle squint;  // horizontal angle between the ground track and the map's centre
   geo::Speed ground_speed;
   int looks = 1;
 };
@@ -114,9 +114,9 @@ struct MapCentre {
 };
 
 struct MapWindow {
-  geo::Length size;  // zero: blank selection, window not determined yet
-  // true: `size` is from a blank selection. The map is then possible if the limits of `size` or those of the blank
-  // selection permit it.
+  geo::Length size;  // zero: the pilot has selected BLANK and the window is not determined yet
+  // true: window_of_blank_selection() has determined `size`. The map is then possible if the cursor limits of `size`
+  // permit its range, or if any window would suit that range.
   bool blank = false;
 };
 

@@ -63,7 +63,8 @@ std::string_view name_of(CursorFunction function);
 std::string_view name_of(Navigator navigator);
 
 // Number and offset in the name of a sequence point. "7." with a dot is a target. "7" without a dot is a steer point or
-// an initial point. `7.1` to `7.9` are offsets, `7.01` to `7.99` target offsets. Numbers are 1 to 100.
+// an initial point. With one digit after the dot (`7.1` to `7.9`) it is an offset, with two (`7.01` to `7.99`) an
+// offset of a target. Numbers are 1 to 100.
 // Source: docs/spec/pilots_interface.md#rule-11.
 struct PointName {
   int number = 0;       // 1 to 100

@@ -80,7 +80,7 @@ struct Horizons {
   const PolarGrid* grid = nullptr;
   const SurfacePoint* surface = nullptr;
   const float* crest_m = nullptr;  // as in GroundArrays::crest_m; null: none
-  const float* horizon = nullptr;  // greatest tangent of the elevation angle of ground nearer than row 0
+  const float* horizon = nullptr;  // by column: greatest tangent of elevation of ground before row 0 of the grid
 };
 
 // Point targets on a map, moving or at rest (for example corner reflectors). The radial speed v_r, positive towards the
@@ -113,8 +113,8 @@ class MapMovers {
   std::vector<physics::MovingPoint> points_;
 };
 
-// For algorithms that compute power: the last part of the stage `map`, and the stage `video`. The video has thermal
-// noise, and speckle if the fidelity's `noise` is on.
+// For algorithms that compute power: the last part of the stage `map`, and the stage `video`. The video always has
+// thermal noise. It has speckle only if the fidelity's `noise` is on.
 class PowerPicture {
  public:
   explicit PowerPicture(const physics::RadarParameters& parameters);

@@ -9,13 +9,13 @@
 
 namespace yars::model::hrm::simd {
 
-// Side of a square block of texels (elements of the texture). Blocks are stored row by row, and so are the texels of a
+// Side of a square block of words of DetailTable. Blocks are stored row by row, and so are the words of a
 // block. One block is one cache line, so samples along a straight path in any direction read few cache lines.
 inline constexpr int kDetailBlock = 4;
 
 // Periodic texture of edge * edge words; `edge` is a power of two and at least kDetailBlock. The bytes of word (x, y)
-// are the texels (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1), lowest byte first; x is east, y is north. `unit2`:
-// square of the value of one byte step.
+// are the texels (elements of the texture) (x, y), (x + 1, y), (x, y + 1), (x + 1, y + 1), lowest byte first; x is
+// east, y is north. `unit2`: square of the value of one byte step.
 struct DetailTable {
   const std::uint32_t* texels = nullptr;
   int edge = 0;

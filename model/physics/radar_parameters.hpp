@@ -72,7 +72,7 @@ struct RadarParameters {
   radar::BeamPattern beam;
   radar::Interpolation interpolation;
   radar::Algorithm algorithm;
-  bool noise;           // thermal noise, speckle and texture
+  bool noise;           // of sweeps: thermal noise, speckle and texture; of patch maps: speckle
   std::size_t samples;  // number of samples of a sweep, clamped to [1, kMaxSamples]
   double frequency_ghz;
   double azimuth_beamwidth_deg;    // [deg] one-way 3 dB

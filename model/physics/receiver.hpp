@@ -62,7 +62,7 @@ double illuminated_area_m2(const Receiver& receiver, double slant_range_m, doubl
 double returned_power(double cross_section_m2, double two_way_gain, double slant_range_m);
 
 // Two-way gain at an elevation, 1 in the beam's centre. `antenna_elevation_rad` is the elevation of the centre. delta
-// is the angle off the centre, theta the beamwidth.
+// >= 0 is the angle off the centre, upwards or downwards; theta is the beamwidth.
 // gaussian: exp(-5.545 (delta / theta)^2). hard_edge: 1 within half a beamwidth, else 0.
 // cosecant_squared: Gaussian above the centre; (sin b / sin(b + delta))^2 below it.
 // b is the depression of the centre, but at least half a beamwidth.

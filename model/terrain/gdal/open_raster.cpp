@@ -145,7 +145,8 @@ std::vector<float> usual_voids_of(const Raster& raster) {
   return voids;
 }
 
-// Converts a band value to a height [m]. NaN: no data. Infinity: an impossible height.
+// Converts a band value to a height [m]. NaN: no data, as the file declares. Infinity: an impossible height, or one of
+// usual_voids_of() that the file does not declare.
 class HeightCheck {
  public:
   explicit HeightCheck(const Raster& raster)
