@@ -95,7 +95,7 @@ void print_entries(recording::RecordingReader& reader) {
     if (const auto* event = std::get_if<databuffer::AppliedEvent>(&*entry)) {
       object["tick"] = event->tick;
       object["event"] = databuffer::text_of(event->event);
-      object["effective"] = event->effective == databuffer::kEventDone;
+      object["effective"] = event->effective != databuffer::kEventDead;
     } else if (const auto* change = std::get_if<recording::StateChange>(&*entry)) {
       object["tick"] = change->state.tick;
       add_radar_state(object["state"], change->state);
