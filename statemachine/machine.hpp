@@ -14,7 +14,8 @@
 namespace yars::statemachine {
 
 // Outputs to sensors, weapons and the head-up display. Ranging (slant range, bearing, depression) and steering are NaN
-// if no target is designated, or if ownship is not valid. While the target's elevation is awaited, ranging is NaN.
+// if no target is designated, or if ownship is not valid. While the model has
+// not yet answered with the ground's height above sea level at the target, ranging is NaN.
 databuffer::Outputs outputs_of(const databuffer::RadarState& state, const Inputs& inputs);
 
 // Initial state of a session: power off.
@@ -22,8 +23,8 @@ databuffer::RadarState initial_state(const Parameters& parameters);
 
 // Result of an event.
 enum class Effect : std::uint32_t {
-  none = databuffer::kEventDead,        // no row of the transition table applies, or the state is unchanged
-  done = databuffer::kEventDone,        // the state has changed, or the event is a press whose release acts
+  none = databuffer::kEventDead,  // no row of the transition table applies, or the state is unchanged
+  done = databuffer::kEventDone,  // the state has changed, or the event is a press, which takes effect at its release
   refused = databuffer::kEventRefused,  // the event cannot be carried out; the display shows the reason
 };
 

@@ -192,9 +192,9 @@ std::vector<SlotSchema> axis_slots() {
            [](ConfigurationBuilder& builder, int index) {
              builder.device_axis.use = static_cast<radar::AxisUse>(index);
            }},
-       .purpose =
-           "tdcX, tdcY: TDC, right and up positive; elevation: antenna elevation against the horizon; directions: each "
-           "end acts as a button; lever: each step is an event; left out: tdcX"},
+       .purpose = "tdcX, tdcY: TDC, right and up positive; elevation: antenna elevation above the horizontal; "
+                  "directions: each "
+                  "end acts as a button; lever: each step is an event; left out: tdcX"},
       raw("low", YARS_FIELD(device_axis.low), "value at the low end; left out: as the device reports"),
       raw("high", YARS_FIELD(device_axis.high), "value at the high end; left out: as the device reports"),
       raw("centre", YARS_FIELD(device_axis.centre), "value at rest; left out: midway between low and high"),
@@ -263,7 +263,8 @@ FormSchema device() {
               "device map: events of a device's controls; without the slots vendor, pattern and has, it is selected by "
               "name only",
           .slots = {text_slot("name", YARS_FIELD(device.name), "name of this map, as in `--source evdev:PATH,NAME`"),
-                    text_slot("vendor", YARS_FIELD(device.vendor), "required vendor id, such as 044f; lsusb shows it"),
+                    text_slot("vendor", YARS_FIELD(device.vendor),
+                              "vendor id of the device, such as 044f (lsusb shows it); left out: any"),
                     text_slot("products", YARS_FIELD(device.products), "accepted product ids, such as b351 b352"),
                     text_slot("pattern", YARS_FIELD(device.pattern), "pattern of the device's own name, with * and ?"),
                     text_slot("has", YARS_FIELD(device.has), "control that the device must have, such as BTN_SOUTH"),

@@ -70,7 +70,7 @@ error::Expected<void> run_bridge(const databuffer::ProgramOptions& options, cons
 constexpr const char* kSources =
     "source of the aircraft's position:\n"
     "route:FILE  a route of waypoints\n"
-    "fixed:LAT,LON,ALT_FT,HDG,KT  straight and level\n"
+    "fixed:LAT,LON,ALT_FT,HDG,KT  straight and level: feet above sea level, degrees true, knots over ground\n"
     "csv:FILE  a recorded track\n"
     "flightgear:[HOST:]PORT  FlightGear's native FDM by UDP\n"
     "jsbsim:[HOST:]PORT[,COLUMN,...]  JSBSim's text output by UDP\n"

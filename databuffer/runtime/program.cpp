@@ -46,8 +46,8 @@ std::optional<error::Error> arrange_cpus(const ProgramOptions& options) {
   if (!options.realtime) return std::nullopt;
   if (warn(lock_memory())) log::info("--realtime: memory is locked");
   if (warn(take_realtime_priority()))
-    log::info("--realtime: SCHED_FIFO " + std::to_string(kRealtimePriority) + ", at most " +
-              std::to_string(kMaxBurst_ms) + " ms without a wait");
+    log::info("--realtime: SCHED_FIFO " + std::to_string(kRealtimePriority) + "; after " +
+              std::to_string(kMaxBurst_ms) + " ms of computing without a wait the priority becomes normal");
   return std::nullopt;
 }
 

@@ -57,6 +57,7 @@ Receivers::Receivers(const RadarParameters& parameters)
   receiver_.looks = std::clamp(settings.looks, 1, kMaxLooks);
 }
 
+// Extent of the pulse in range, c tau / 2: 150 m for 1 microsecond. `range`: the selected range.
 geo::Length Receivers::pulse_length(geo::Length range) const {
   const auto& ranges = ranges_nm_;
   const auto& pulses = pulse_us_;
@@ -83,7 +84,7 @@ Receiver Receivers::at(geo::Length range) const {
 double illuminated_area_m2(const Receiver& receiver, double slant_range_m, double sin_grazing) {
   const double cos_grazing = std::sqrt(std::max(0.0, 1.0 - sin_grazing * sin_grazing));
   const double across_m = slant_range_m * receiver.azimuth_beamwidth_rad;
-  // The smaller area has the larger inverse. Inverses avoid a division by zero at 0 and 90 degrees.
+  // The smaller area has the larger inverse. Inverses avoid a division by zero at grazing angles of 0 and 90 degrees.
   const double pulse_inverse = cos_grazing / receiver.pulse_length_m;
   const double beam_inverse = sin_grazing / (slant_range_m * receiver.elevation_beamwidth_rad);
   return across_m / std::max(pulse_inverse, beam_inverse);

@@ -9,7 +9,7 @@ namespace {
 
 // Harbour scene. The edge of the quay is at y = 0. The water lies north of the quay, with its surface at z = 0. Two
 // piers extend 100 m into the water. The paved container yard lies south of the quay.
-constexpr double kQuay_m = 900, kQuayDepth_m = 36, kQuayTop_m = 3.0, kYardSouth_m = -420;
+constexpr double kQuayLength_m = 900, kQuayWidth_m = 36, kQuayTop_m = 3.0, kYardSouth_m = -420;
 constexpr SurfaceKind kRock{8, 130, 0x77716A};  // material code, feature id, colour; see scene_builder.hpp
 
 class HarbourScene {
@@ -87,15 +87,15 @@ class HarbourScene {
 
   void quays() {
     builder_.object("quay", surface::kStone, [](MeshBuilder& s) {
-      s.box({0, -kQuayDepth_m / 2, 0}, kQuay_m, kQuayDepth_m, kQuayTop_m);
+      s.box({0, -kQuayWidth_m / 2, 0}, kQuayLength_m, kQuayWidth_m, kQuayTop_m);
     });
     for (const double x : {-700.0, 700.0})
       builder_.object("pier", surface::kConcrete, [x](MeshBuilder& s) { s.box({x, -60, 0}, 24, 320, kQuayTop_m); });
     builder_.object("yard", surface::kAsphalt, [](MeshBuilder& s) {
       s.polygon({{-450, kYardSouth_m, kPaved_m},
                  {450, kYardSouth_m, kPaved_m},
-                 {450, -kQuayDepth_m, kPaved_m},
-                 {-450, -kQuayDepth_m, kPaved_m}});
+                 {450, -kQuayWidth_m, kPaved_m},
+                 {-450, -kQuayWidth_m, kPaved_m}});
     });
     builder_.object("bollards", surface::kDarkMetal, [&](MeshBuilder& s) {
       for (int i = 0; i < 30; ++i) s.cylinder({-435 + 30.0 * i, -1.2, kQuayTop_m}, 0.35, 0.8, builder_.sides(6, 12));

@@ -133,7 +133,7 @@ class Parser:
         clash = next((other for other in self.names if [part.lower() for part in other] == [part.lower() for part in full]), None)
         if clash:
             raise IdlError(declaration.where, f"a new name in module {'::'.join(self.module)}", f"'{declaration.name}' beside "
-                           f"'{clash[-1]}'", "IDL does not tell names by case; rename one")
+                           f"'{clash[-1]}'", "IDL does not distinguish names by case; rename one")
         self.names[full] = declaration
         self.chapter.declarations.append(declaration)
 

@@ -188,7 +188,7 @@ def lay_out(record):
 def check_unit(field):
     unit = SUFFIXES.get(field.name.rsplit("_", 1)[-1], "")
     if unit and field.unit != unit and field.number:
-        raise IdlError(field.where, f'@unit("{unit}") of {field.name}, whose name ends so',
+        raise IdlError(field.where, f'@unit("{unit}") of {field.name}, whose name has this unit as suffix',
                        f'@unit("{field.unit}")' if field.unit else "none", "mend the name or the unit")
 
 
@@ -209,7 +209,7 @@ def check_limits(field):
     if field.default and field.type in {**REALS, **INTEGERS}:
         low, high = field.minimum, field.maximum
         if low and field.default.value < low.value or high and field.default.value > high.value:
-            raise IdlError(field.where, f"a default of {field.name} in {range_text(field)}", shown(field.default.value), "mend one")
+            raise IdlError(field.where, f"a default of {field.name} in {range_text(field)}", shown(field.default.value), "mend the default or the range")
 
 
 def check_count(record, field):
@@ -232,7 +232,7 @@ def check_record(record):
     names = {}
     for field in record.fields:
         if field.name.lower() in names:
-            raise IdlError(field.where, f"one {field.name} in {record.name}", "two", "IDL does not tell them by case; rename one")
+            raise IdlError(field.where, f"one {field.name} in {record.name}", "two", "IDL does not distinguish them by case; rename one")
         names[field.name.lower()] = field
         check_unit(field)
         check_limits(field)

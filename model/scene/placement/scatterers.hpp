@@ -75,8 +75,8 @@ struct Scatterers {
 
   geo::GeoPoint position;
   geo::LocalTangentFrame frame;  // east, north, up at `position`, on the ellipsoid
-  // [m] Radius of a circle about `position` that contains every square with cover, and the surroundings of every
-  // scatterer's centroid out to one side of its square.
+  // [m] Radius of a circle about `position` that contains every square with cover and, about every scatterer's
+  // centroid, a circle whose radius is the side length of the scatterer's square.
   double reach_m = 0.0;
   std::array<ScattererLevel, kScattererSides_m.size()> levels;
   std::size_t finest = 0;  // index of the finest level in use; in large scenes the levels before `finest` are empty

@@ -96,8 +96,8 @@ class TheParser(unittest.TestCase):
         self.refuses(changed("@range(min=0, max=4)", "@range(min=0)"), "expected @range with max, found min")
 
     def test_refuses_a_unit_that_the_name_contradicts(self):
-        self.refuses(changed('@unit("deg")', '@unit("rad")'), 'expected @unit("deg") of latitude_deg, whose name ends so, found @unit("rad")')
-        self.refuses(changed('@unit("m") @nan', "@nan"), 'expected @unit("m") of height_m, whose name ends so, found none')
+        self.refuses(changed('@unit("deg")', '@unit("rad")'), 'expected @unit("deg") of latitude_deg, whose name has this unit as suffix, found @unit("rad")')
+        self.refuses(changed('@unit("m") @nan', "@nan"), 'expected @unit("m") of height_m, whose name has this unit as suffix, found none')
         self.refuses(changed("double height_m", "uint64 height_m"), "expected double or float for @nan of height_m")
 
     def test_refuses_arrays_of_arrays(self):
