@@ -21,8 +21,8 @@ namespace yars::tools {
 
 // The session of a replay. This process takes the roles state-machine and radar-model and sets the clock to the
 // recording's time. Each jump begins a new epoch, so that no picture mixes records from before and after the jump.
-// Published records other than patch maps have the session's epoch instead of the recorded epoch; patch maps keep the
-// recorded epoch. Input events of the session have no effect.
+// Published records have the session's epoch instead of the recorded epoch, except patch maps. Input events of the
+// session have no effect.
 
 class ReplaySession {
  public:
