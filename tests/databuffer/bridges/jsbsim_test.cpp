@@ -130,7 +130,7 @@ TEST(Jsbsim, ARestartedJsbsimIsAcceptedFromItsSecondLine) {
   const auto lines = lines_of(text_of_packet("jsbsim/flight.txt"));
   for (const std::string& line : lines) sample_from(bridge, line);
   sample_from(bridge, lines[0]);
-  EXPECT_THAT(refusal_from(bridge, lines[1]), HasSubstr("possible restart"));
+  EXPECT_THAT(refusal_from(bridge, lines[1]), HasSubstr("the sender may have restarted"));
   EXPECT_TRUE(sample_from(bridge, lines[2]));
 }
 
