@@ -182,7 +182,7 @@ SlotSchema miles(std::string_view name, double lowest, ListSlot binding, std::st
 FormSchema window_limits() {
   return {
       .name = "WindowLimits",
-      .purpose = "limits of the cursor range for each display window",
+      .purpose = "limits of the cursor range for each window of patch maps",
       .slots = {miles("windows", 0.1, {YARS_FIELD(radar.window_limits.windows_nm), 1, 16, Order::ascending},
                       "display windows; at least those of SarMode"),
                 miles("least", 0, {YARS_FIELD(radar.window_limits.min_range_nm), 1, 16},
