@@ -26,14 +26,15 @@
 #define YARS_AT_TRAFFIC 13587584
 #define YARS_AT_FRAMES 13840128
 
-/* A picture of the display: its slot's id, words and pixels. */
+/* Pictures of the display: number of slots, distance of slots [bytes]. Offsets in a slot [bytes]: WORDS of the
+ * record yars_glass_frame, PIXELS of the pixels; the id is at offset 0. MOST: maximum size of the pixels. */
 #define YARS_FRAMES 3
 #define YARS_FRAME_STRIDE 4194376
 #define YARS_FRAME_WORDS 8
 #define YARS_FRAME_PIXELS 72
 #define YARS_MOST_FRAME_BYTES 4194304
 
-/* The ring of sweeps: its count, then slots of sequence, words used, words. */
+/* The ring of sweeps: number of slots, distance of slots [bytes], maximum number of samples of a sweep. */
 #define YARS_SWEEPS 1024
 #define YARS_SWEEP_STRIDE 4288
 #define YARS_MOST_SAMPLES 4096
@@ -47,8 +48,10 @@
 #define YARS_FIRST_PROCESS_BYTE 32
 #define YARS_OWNSHIP_LANES 4
 #define YARS_INPUT_LANES 16
-#define YARS_INPUT_DEPTH 128
 #define YARS_PROCESSES 32
+
+/* Number of events that an input lane holds. */
+#define YARS_INPUT_DEPTH 128
 
 /* The greatest id of a picture; the latest base [ns] of the session's clock. */
 #define YARS_LATEST_PICTURE_ID UINT64_C(9007199254740992)
@@ -148,7 +151,7 @@ typedef struct {
   double y;                /* TDC deflection up [-1, 1]; error east [ft] or [ft/s] */
   uint16_t kind;           /* EventKind */
   int16_t argument;
-  uint32_t number;         /* counts up per source; `yars inject` finds its applied event by this number */
+  uint32_t number;         /* counts up per source */
   char text[16];           /* zero terminated */
 } yars_input_event;
 
@@ -310,8 +313,8 @@ typedef struct {
   double bearing_deg;    /* [deg] [0, 360) true; NaN = no target */
   double depression_deg; /* [deg] below the horizontal; NaN = no target */
   /* Steering to the target. */
-  /* [deg] azimuth: target's azimuth off the ground track, right positive; bank: bank angle to fly, right wing down
-   * positive; NaN = none */
+  /* [deg] by `steering` below: the target's azimuth off the ground track, right positive; or the bank angle to fly,
+   * right wing down positive; NaN = none */
   double steering_deg;
   double approach_deg;   /* [deg] [0, 360) true heading of the pattern steering line; NaN = none */
   uint32_t epoch;
@@ -335,7 +338,9 @@ typedef struct {
   double azimuth_right_deg;   /* [deg] [0, 360] true, clockwise edge of the wedge */
   double ground_track_deg;    /* [deg] [0, 360] true */
   double elevation_deg;       /* [deg] [-90, 90] of the antenna, above the horizontal */
-  double range_m;             /* [m] [0, 20001600] ground range of the far edge of the last sample */
+  /* [m] [0, 20001600] far edge of the last sample: ground range, or slant range if the fidelity samples in slant
+   * range */
+  double range_m;
   uint64_t hash;     /* XXH3 (64 bits) of the fields above except tick and sim_time_ns, then of the samples in use */
   uint32_t epoch;
   uint32_t scan;     /* number of the scan, counts up */
@@ -403,8 +408,8 @@ typedef struct {
   uint64_t map_newest;       /* [0, 9007199254740992] id of the last completed map; 0 = none */
   uint32_t map_request;      /* last request that was started */
   uint32_t map_done_request; /* last request that was answered, by a map or a refusal */
-  /* [deg] [-360, 360] middle of the sector relative to the ground track (at most the drift limit off the nose),
-   * right positive */
+  /* [deg] [-360, 360] middle of the sector, positive right of the scan centre. The scan centre is the ground track;
+   * a track farther off the nose than the drift limit of the antenna is replaced by that limit */
   double scan_offset_deg;
   double scan_rate_dps; /* [deg/s] [0, 10000] rate of the present scan; 0: rate of the configuration */
   /* PVU and IPVU: last measured velocity of the aircraft over ground. */

@@ -47,7 +47,7 @@ void note(const CommonOptions& common, const NoteOptions& options) {
 void add_note_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command command = app.subcommand("note", "write a note into the session's flight recorder");
   auto options = std::make_shared<NoteOptions>();
-  command.option("TEXT", options->text, "what happened; at most 87 characters are kept").required();
+  command.option("TEXT", options->text, "what happened; at most 87 bytes are kept, 72 with --restarted").required();
   command.option("--restarted", options->restarted, "role that was restarted; TEXT is the reason");
   command.callback([&common, options] { note(common, *options); });
 }

@@ -32,17 +32,19 @@ def segment_numbers(layout, chapters):
     parts, locks, constants = layout["containers"], layout["lock_bytes"], constants_of(chapters)
     frames, sweeps = parts["frames"], parts["sweeps"]
     return [
-        ("A picture of the display: its slot's id, words and pixels.", {
+        ("Pictures of the display: number of slots, distance of slots [bytes]. Offsets in a slot [bytes]: WORDS of the record "
+         "yars_glass_frame, PIXELS of the pixels; the id is at offset 0. MOST: maximum size of the pixels.", {
             "FRAMES": frames["slot_count"], "FRAME_STRIDE": frames["slot_stride"], "FRAME_WORDS": frames["slot_words"],
             "FRAME_PIXELS": frames["slot_pixels"], "MOST_FRAME_BYTES": 4 * constants["kMaxFramePixels"] ** 2}),
-        ("The ring of sweeps: its count, then slots of sequence, words used, words.", {
+        ("The ring of sweeps: number of slots, distance of slots [bytes], maximum number of samples of a sweep.", {
             "SWEEPS": sweeps["slot_count"], "SWEEP_STRIDE": sweeps["slot_stride"], "MOST_SAMPLES": constants["kMaxSamples"]}),
         ("Lock bytes of the file, and how many there are of a kind.", {
             "RADAR_MODEL_BYTE": locks["radar-model"], "STATE_MACHINE_BYTE": locks["state-machine"],
             "TRAFFIC_BYTE": locks["traffic"], "FIRST_OWNSHIP_BYTE": locks["first_ownship_lane"],
             "FIRST_INPUT_BYTE": locks["first_input_lane"], "FIRST_PROCESS_BYTE": locks["first_process"],
             "OWNSHIP_LANES": parts["ownship"]["count"], "INPUT_LANES": parts["input"]["count"],
-            "INPUT_DEPTH": parts["input"]["depth"], "PROCESSES": parts["processes"]["count"]}),
+            "PROCESSES": parts["processes"]["count"]}),
+        ("Number of events that an input lane holds.", {"INPUT_DEPTH": parts["input"]["depth"]}),
     ]
 
 
