@@ -406,7 +406,7 @@ typedef struct {
   double map_up_deg;         /* [deg] [0, 360] true bearing of the map's top */
   double map_window_nm;      /* [NM] [0, 10800] length of an edge */
   uint64_t map_newest;       /* [0, 9007199254740992] id of the last completed map; 0 = none */
-  uint32_t map_request;      /* last request that was started */
+  uint32_t map_request;      /* last request that was started or cannot be mapped */
   uint32_t map_done_request; /* last request that was answered, by a map or a refusal */
   /* [deg] [-360, 360] middle of the sector, positive right of the scan centre. The scan centre is the ground track;
    * a track farther off the nose than the drift limit of the antenna is replaced by that limit */

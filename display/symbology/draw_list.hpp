@@ -113,13 +113,13 @@ struct LayerContent {
 };
 
 // Kind of an occupied box. Texts and scales have fixed positions. label_layout.hpp chooses the positions of labels.
-// Points and the cursor are drawn at their ground positions. A `scale` has gaps between its lines; a `solid` scale has
-// none.
+// Points and the cursor are drawn at their ground positions. Leader lines of labels may cross a `scale`; they avoid a
+// `solid` scale.
 enum class BoxKind : std::uint8_t { text, label, scale, solid, point, cursor };
 
 struct OccupiedBox {
   std::string name;  // the text that is drawn, or the kind of scale or symbol
-  Rect rect;         // a text's box ends at the centre lines of the outer strokes; other boxes include the ink
+  Rect rect;         // encloses the centre lines of the strokes; boxes of points and the cursor enclose the ink
   BoxKind kind = BoxKind::text;
   friend bool operator==(const OccupiedBox&, const OccupiedBox&) = default;
 };

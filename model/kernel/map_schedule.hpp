@@ -84,7 +84,8 @@ class MapSchedule {
 
  private:
   std::optional<hrm::PatchOrder> order_of(const databuffer::ModelTick& tick, const Pose& pose) const;
-  // Starts the next map unless `stopped_` has a limit.
+  // Starts the next map. Starts none if `stopped_` has a limit or order_of() gives no order; a commanded map is then
+  // completed without a picture.
   void start(const databuffer::ModelTick& tick, const Pose& pose, double ground_m);
   std::optional<std::string_view> exceeded_limit(const databuffer::RadarCommand& command, const Pose& pose,
                                                  double ground_m) const;
@@ -93,7 +94,7 @@ class MapSchedule {
   MapParameters parameters_;
   std::optional<PendingMap> map_;
   std::uint64_t newest_ = 0;
-  std::uint32_t request_ = 0;       // last request that was started
+  std::uint32_t request_ = 0;       // last request that was started or cannot be mapped
   std::uint32_t done_request_ = 0;  // last request that is completed or cannot be mapped
   std::uint32_t epoch_ = 0;
   // Last started map: angle of its centre off the ground track, positive to the right, and distance over ground. PROG

@@ -76,7 +76,7 @@ void print_ownship(const ordered_json& status) {
                 own["track_deg"].get<double>(), own["ground_speed_kt"].get<double>(),
                 age_text(own["age_ms"].get<double>() / 1000.0).c_str());
   for (const auto& lane : status["ownship_lanes"])
-    std::printf("  lane %d: %s, priority %u, %llu records in the lane\n", lane["lane"].get<int>(),
+    std::printf("  lane %d: %s, priority %u, %llu records so far\n", lane["lane"].get<int>(),
                 text(lane["source"]).c_str(), lane["priority"].get<unsigned>(),
                 static_cast<unsigned long long>(lane["records"].get<std::uint64_t>()));
 }
