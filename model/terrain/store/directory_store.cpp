@@ -66,7 +66,7 @@ TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& 
   return view_;
 }
 
-// Reports a problem when a region has no cell with a file and the region before it had one, or was the first. Ignores
+// Reports a problem when a region has no cell with a file, and it is the first region or the one before had one. Ignores
 // regions of radius 0 (a single position).
 void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
   if (region.radius_m <= 0.0) return;
