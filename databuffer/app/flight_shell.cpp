@@ -18,8 +18,8 @@ namespace {
 // [ns] Maximum gap of sim time across which a restarted program resumes the flight. After a longer gap, the flight
 // begins again at its start, or at the session's last repositioning.
 constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
-// [ticks] Interval of ownship records, 20 ms. A longer interval would move the apex of the sweeps in visible steps. A
-// shorter interval would change no sweep.
+// [ticks] Interval of ownship records, 20 ms. At 300 m/s the apex of the sweeps then moves in steps of 6 m. A longer
+// interval would make these steps visible.
 constexpr std::int64_t kTicksBetweenRecords = 4;
 
 }  // namespace
