@@ -74,8 +74,8 @@ void FlightShell::begin_epoch(const ClockState& clock) {
     log::info("repositioned, epoch " + std::to_string(clock.epoch));
     return;
   }
-  session_->note(NoteKind::refusal, "repositioning: " + source_.description + " only replays its file");
-  log::warning("repositioning is refused: " + source_.description + " only replays its file");
+  session_->note(NoteKind::refusal, "repositioning: the source only replays its file (" + source_.description + ")");
+  log::warning("repositioning is refused: the source only replays its file (" + source_.description + ")");
 }
 
 // Hot standby: while the radar uses another lane, this model follows the ownship of that lane. This lane can then take
