@@ -82,6 +82,7 @@ function(yars_test folder)
     target_compile_options(${target} PRIVATE ${yars_test_flags})
     yars_use_precompiled(${target} yars_precompiled_tests)
   endif()
+  yars_unite(${target})
   target_compile_definitions(${target} PRIVATE YARS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" YARS_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 900)  # a hang, also on a machine that is four times overloaded
