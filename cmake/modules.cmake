@@ -54,12 +54,13 @@ function(yars_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endfunction()
 
-# yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [COMPUTES] [OPENGL] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from
+# yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [COMPUTES] [OPENGL] [SEPARATE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from
 # tests/FOLDER/*_test.cpp, those of its subfolders named, and its support sources, found when ctest runs. ALONE: its tests
 # have the machine to themselves. COMPUTES: its own code takes long to run, so it is compiled without YARS_TEST_FLAGS.
+# SEPARATE: each source stays a unit of its own with YARS_UNITY, because names in its sources are the same.
 # OPENGL: it draws, so leaks are not looked for (the search crashes now and then beside the threads of llvmpipe).
 function(yars_test folder)
-  cmake_parse_arguments(ARG "ALONE;COMPUTES;OPENGL" "TIMEOUT" "DEPENDS;LABELS;SUBFOLDERS;SUPPORT;PROGRAMS" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE;COMPUTES;OPENGL;SEPARATE" "TIMEOUT" "DEPENDS;LABELS;SUBFOLDERS;SUPPORT;PROGRAMS" ${ARGN})
   set(patterns ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cpp)
   foreach(subfolder IN LISTS ARG_SUBFOLDERS)
     list(APPEND patterns ${PROJECT_SOURCE_DIR}/tests/${folder}/${subfolder}/*_test.cpp)
@@ -82,7 +83,9 @@ function(yars_test folder)
     target_compile_options(${target} PRIVATE ${yars_test_flags})
     yars_use_precompiled(${target} yars_precompiled_tests)
   endif()
-  yars_unite(${target})
+  if(NOT ARG_SEPARATE)
+    yars_unite(${target})
+  endif()
   target_compile_definitions(${target} PRIVATE YARS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" YARS_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 900)  # a hang, also on a machine that is four times overloaded

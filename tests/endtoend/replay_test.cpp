@@ -12,7 +12,7 @@
 namespace yars::endtoend {
 namespace {
 
-constexpr const char* kSource = "fixed:37.5,-123.0,15000,90,480";
+constexpr const char* kReplaySource = "fixed:37.5,-123.0,15000,90,480";
 
 std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -26,7 +26,7 @@ const LockstepRun& run() {
                                  {"elevation -3", true, "mode", "RBM", 0.5},
                                  {"pb 13", true, "mode", "RBM", 3.0},
                                  {"pb 2", true, "declutter", true, 4.0}},
-                                kSource);
+                                kReplaySource);
   return kRun;
 }
 

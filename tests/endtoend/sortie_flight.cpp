@@ -59,7 +59,7 @@ struct Leg {
 };
 
 // Position relative to the middle of the runway, and track clockwise from north.
-struct Place {
+struct PathPoint {
   double east_m;
   double north_m;
   double track_rad;
@@ -84,8 +84,8 @@ std::vector<Leg> legs(double path_m) {
           {kFinal_m}};
 }
 
-Place place_after(const std::vector<Leg>& path, double flown_m) {
-  Place place{-1250.0, 0.0, pi / 2.0};
+PathPoint place_after(const std::vector<Leg>& path, double flown_m) {
+  PathPoint place{-1250.0, 0.0, pi / 2.0};
   for (const Leg& leg : path) {
     const double length_m = std::min(flown_m, leg.length_m);
     const double turned_rad = leg.turn_rad * length_m / leg.length_m;
@@ -100,7 +100,7 @@ Place place_after(const std::vector<Leg>& path, double flown_m) {
   return place;
 }
 
-geo::GeoPoint on_earth(const Place& place) {
+geo::GeoPoint on_earth(const PathPoint& place) {
   return geo::geodesic_direct(kRunway, geo::Bearing::radians(std::atan2(place.east_m, place.north_m)),
                               geo::Length::metres(std::hypot(place.east_m, place.north_m)));
 }
@@ -123,7 +123,7 @@ std::string sortie_track() {
   double roll_rad = 0.0, heading = 90.0;
   for (std::size_t row = 0; row + 1 < flown_m.size(); ++row) {
     const double time_s = static_cast<double>(row) * kStep_s, speed = speed_mps(time_s);
-    const Place here = place_after(path, flown_m[row]), next = place_after(path, flown_m[row + 1]);
+    const PathPoint here = place_after(path, flown_m[row]), next = place_after(path, flown_m[row + 1]);
     const double turn_rate = (next.track_rad - here.track_rad) / kStep_s;
     roll_rad += (std::atan(speed * turn_rate / kGravity_mps2) - roll_rad) * kStep_s;
     const double climb_mps = (height_m(time_s + kStep_s) - height_m(time_s)) / kStep_s;

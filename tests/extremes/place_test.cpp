@@ -17,7 +17,7 @@ using test::island_at;
 using test::seen;
 
 constexpr int kSamples = 400;
-constexpr double kRange_m = 80000.0;
+constexpr double kPlaceRange_m = 80000.0;
 constexpr double kAltitude_m = 3000.0;
 constexpr double kRadius_m = 3000.0;                 // of an island
 constexpr double kEquator_m = 6378137.0;             // [m] semi-major axis a of WGS84
@@ -47,10 +47,10 @@ double equator_m(double degrees) {
 void expect_island(geo::GeoPoint apex, double azimuth_deg, geo::GeoPoint island, double distance_m) {
   const terrain::AnalyticTerrain terrain = island_at(island, kRadius_m);
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
-    expect_lit_between(seen(configuration, geometry_from(apex, azimuth_deg, kAltitude_m, kRange_m), terrain), kRange_m,
-                       distance_m - kRadius_m, distance_m + kRadius_m);
-    EXPECT_TRUE(
-        test::is_dark(seen(configuration, geometry_from(apex, azimuth_deg + 180.0, kAltitude_m, kRange_m), terrain)));
+    expect_lit_between(seen(configuration, geometry_from(apex, azimuth_deg, kAltitude_m, kPlaceRange_m), terrain),
+                       kPlaceRange_m, distance_m - kRadius_m, distance_m + kRadius_m);
+    EXPECT_TRUE(test::is_dark(
+        seen(configuration, geometry_from(apex, azimuth_deg + 180.0, kAltitude_m, kPlaceRange_m), terrain)));
   });
 }
 
@@ -86,8 +86,8 @@ TEST(ExtremePositions, OnTheEquatorASweepOverTheAntimeridianSeesTheIslandBeyond)
 TEST(ExtremePositions, Longitudes180AndMinus180GiveTheSamePower) {
   const terrain::AnalyticTerrain island = island_at({-17.2, -179.9}, 10000.0);
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
-    const auto east = seen(configuration, geometry_from({-17.0, 180.0}, 155.0, kAltitude_m, kRange_m), island);
-    const auto west = seen(configuration, geometry_from({-17.0, -180.0}, 155.0, kAltitude_m, kRange_m), island);
+    const auto east = seen(configuration, geometry_from({-17.0, 180.0}, 155.0, kAltitude_m, kPlaceRange_m), island);
+    const auto west = seen(configuration, geometry_from({-17.0, -180.0}, 155.0, kAltitude_m, kPlaceRange_m), island);
     EXPECT_FALSE(test::is_dark(east));
     for (std::size_t i = 0; i < east.size(); ++i) EXPECT_FLOAT_EQ(east[i], west[i]) << i;
   });
@@ -133,12 +133,12 @@ TEST(ExtremePositions, AnEastwardSweepGoesFromAVoidCellToALandCellAtTheAntimerid
   write_cell(folder, 0, 179, false);
   write_cell(folder, 0, -180, true);
   const geo::GeoPoint apex{0.5, 179.7};
-  const auto view = store_over(folder)->prepare({apex, kRange_m});
+  const auto view = store_over(folder)->prepare({apex, kPlaceRange_m});
   test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
     // At 0.5 degrees of latitude the parallel is shorter than the equator by 1 in 26,000. The geodesic is within metres
     // of the parallel.
-    expect_lit_between(seen(configuration, geometry_from(apex, 90.0, kAltitude_m, kRange_m), *view), kRange_m,
-                       equator_m(0.3) * std::cos(0.5 * geo::kRadiansPerDegree), 2.0 * kRange_m);
+    expect_lit_between(seen(configuration, geometry_from(apex, 90.0, kAltitude_m, kPlaceRange_m), *view), kPlaceRange_m,
+                       equator_m(0.3) * std::cos(0.5 * geo::kRadiansPerDegree), 2.0 * kPlaceRange_m);
   });
 }
 
@@ -148,11 +148,11 @@ TEST(ExtremePositions, AtThePolesASweepSeesOnlyTheCellOfItsMeridian) {
     const test::TemporaryFolder folder;
     for (int west_deg = -180; west_deg < 180; ++west_deg) write_cell(folder, south_deg, west_deg, west_deg == -180);
     const geo::GeoPoint pole{south_deg > 0 ? 90.0 : -90.0, 0.0};
-    const auto view = store_over(folder)->prepare({pole, kRange_m});
+    const auto view = store_over(folder)->prepare({pole, kPlaceRange_m});
     test::for_each_algorithm(kSamples, [&](const radar::RadarConfiguration& configuration) {
       for (const double longitude_deg : {-179.5, 179.5, -178.5, 0.5}) {
         const double azimuth_deg = south_deg > 0 ? 180.0 - longitude_deg : longitude_deg;
-        const auto power = seen(configuration, geometry_from(pole, azimuth_deg, kAltitude_m, kRange_m), *view);
+        const auto power = seen(configuration, geometry_from(pole, azimuth_deg, kAltitude_m, kPlaceRange_m), *view);
         // The first samples are not checked: they see the post of the pole itself, which every cell has.
         const bool lit = power[200] > 0.0F && power[399] > 0.0F;
         EXPECT_EQ(lit, longitude_deg == -179.5) << longitude_deg;

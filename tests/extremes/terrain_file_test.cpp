@@ -21,7 +21,7 @@ using test::seen;
 using ::testing::HasSubstr;
 
 constexpr geo::GeoPoint kMiddle{50.5, 10.5};
-constexpr double kRange_m = 20000.0;
+constexpr double kFileRange_m = 20000.0;
 
 // A DTED file whose header states these numbers of columns and rows; all posts are at 7 m.
 test::DtedFile dted_of(int columns, int rows) {
@@ -84,13 +84,13 @@ TEST(ExtremeFiles, OverACellOfVoidsNoPowerReturnsAndNoGroundElevationIsReported)
   folder.write("e010/n50.dt0", test::level_dted(50, 10, 0xFFFF).bytes());
   auto store = terrain::DirectoryTerrainStore::open(folder.path(), {});
   ASSERT_TRUE(store.has_value()) << store.error().message();
-  const auto view = (*store)->prepare({kMiddle, kRange_m});
+  const auto view = (*store)->prepare({kMiddle, kFileRange_m});
   test::for_each_algorithm_and_beam(200, [&](radar::RadarConfiguration& configuration) {
     for (const bool slant : {false, true}) {
       for (const bool across : {false, true}) {
         configuration.fidelity.slant_range = slant;
         configuration.fidelity.cross_track_slope = across;
-        EXPECT_TRUE(test::is_dark(seen(configuration, geometry_from(kMiddle, 30.0, 3000.0, kRange_m), *view)));
+        EXPECT_TRUE(test::is_dark(seen(configuration, geometry_from(kMiddle, 30.0, 3000.0, kFileRange_m), *view)));
       }
     }
     kernel::RadarKernel kernel(configuration);

@@ -76,10 +76,9 @@ TEST(Landscape, TheDefaultRegionHasSeaPlainAndMountains) {
   std::size_t plain = 0;
   std::size_t posts = 0;
   int highest_m = 0;
-  using Default = DefaultLandscape;
-  for (int row = 0; row < Default::kCellsNorth; ++row)
-    for (int column = 0; column < Default::kCellsEast; ++column) {
-      const Cell cell = level_0(landscape, {Default::kSouth_deg + row, Default::kWest_deg + column});
+  for (int row = 0; row < DefaultLandscape::kCellsNorth; ++row)
+    for (int column = 0; column < DefaultLandscape::kCellsEast; ++column) {
+      const Cell cell = level_0(landscape, {DefaultLandscape::kSouth_deg + row, DefaultLandscape::kWest_deg + column});
       const auto heights = cell.posts();
       posts += heights.size();
       sea += cell.sea_posts();

@@ -113,7 +113,7 @@ TEST(Messages, AreRecognizedByTheirFirstWord) {
   }
 }
 
-std::string refusal_of(const std::filesystem::path& path) {
+std::string message_refusal(const std::filesystem::path& path) {
   const auto configuration = load_configuration(path);
   EXPECT_FALSE(configuration);
   return configuration ? std::string() : configuration.error().message();
@@ -133,14 +133,15 @@ TEST(MessageIncludes, StayInTheFolderOfTheFirstFile) {
   const Folder folder;
   folder.write("secret.cf", "rate: 1");
   const auto path = folder.write("inside/a.cf", "Radar: {\n #include \"../secret.cf\"\n}");
-  EXPECT_THAT(refusal_of(path), HasSubstr("a.cf:2:2: expected an include inside "));
+  EXPECT_THAT(message_refusal(path), HasSubstr("a.cf:2:2: expected an include inside "));
 }
 
 TEST(MessageIncludes, CyclesAndMissingFilesAreRefused) {
   const Folder folder;
-  EXPECT_THAT(refusal_of(folder.write("a.cf", "#include \"a.cf\"")),
+  EXPECT_THAT(message_refusal(folder.write("a.cf", "#include \"a.cf\"")),
               HasSubstr("a.cf:1:1: expected an include that does not lead back to its own file"));
-  EXPECT_THAT(refusal_of(folder.write("b.cf", "Radar: { }\n#include \"none.cf\"")), HasSubstr("b.cf:2:1: expected"));
+  EXPECT_THAT(message_refusal(folder.write("b.cf", "Radar: { }\n#include \"none.cf\"")),
+              HasSubstr("b.cf:2:1: expected"));
 }
 
 TEST(MessageIncludes, AreRefusedBeyondEightNestedFiles) {
@@ -150,29 +151,29 @@ TEST(MessageIncludes, AreRefusedBeyondEightNestedFiles) {
   }
   folder.write("9.cf", "");
   EXPECT_TRUE(load_configuration(folder.path() / "2.cf"));
-  EXPECT_THAT(refusal_of(folder.path() / "1.cf"), HasSubstr("8.cf:1:1: expected at most 8 files deep"));
+  EXPECT_THAT(message_refusal(folder.path() / "1.cf"), HasSubstr("8.cf:1:1: expected at most 8 files deep"));
 }
 
 TEST(MessageIncludes, AcceptOnlyMessages) {
   const Folder folder;
   folder.write("part.guf", "( Sea :state 3 )");
-  EXPECT_THAT(refusal_of(folder.write("a.cf", "Radar: { }\n#include \"part.guf\"")),
+  EXPECT_THAT(message_refusal(folder.write("a.cf", "Radar: { }\n#include \"part.guf\"")),
               HasSubstr("part.guf:1:1: expected a message"));
 }
 
-struct Case {
+struct MessageCase {
   const char* name;
   std::string text;
   std::string message;
 };
 
-class MessageError : public ::testing::TestWithParam<Case> {};
+class MessageError : public ::testing::TestWithParam<MessageCase> {};
 
 TEST_P(MessageError, NamesPositionExpectationAndFinding) {
   EXPECT_EQ(refusal(GetParam().text), GetParam().message);
 }
 
-std::string repeated(const std::string& part, int times) {
+std::string repeated_message(const std::string& part, int times) {
   std::string text;
   for (int i = 0; i < times; ++i) text += part;
   return text;
@@ -181,65 +182,70 @@ std::string repeated(const std::string& part, int times) {
 INSTANTIATE_TEST_SUITE_P(
     Messages, MessageError,
     ::testing::Values(
-        Case{"BracesNotClosed", "Radar: {\n rate: 1\n",
-             "text.guf:3:1: expected a message, a value or }, found the end of the file"},
-        Case{"BracesClosedTwice", "Radar: { } }",
-             "text.guf:1:12: expected a message, as Radar: { ... }, or the end of the file, found }"},
-        Case{"KeywordWithoutValue", "Radar: { rate: }", "text.guf:1:16: expected a value for the keyword, found }"},
-        Case{"NameWithoutMessage", "Radar: { a := 1 }",
-             "text.guf:1:15: expected a keyword with its colon after :=, found 1"},
-        Case{"NoColon", "Sea: { }\nRadar { }",
-             "text.guf:2:1: expected Radar: { ... }, found Radar { ... }; put a colon after the keyword"},
-        Case{"SlotOutsideAllForms", "rate: 1",
-             "text.guf:1:1: expected a message that makes a form, as Radar: { ... }, found rate:"},
-        Case{"NoColonInside", "Radar: { Display { } }",
-             "text.guf:1:10: expected Display: { ... }, found Display { ... }; put a colon after the keyword"},
-        Case{"KeywordAmongValues", "Radar: { rate: 1 2 }",
-             "text.guf:1:18: expected messages alone or values alone in these braces, found the number 2; give it a "
-             "keyword"},
-        Case{"ParenthesesOfGuf", "Radar: { ( Sea ) }",
-             "text.guf:1:10: expected a message, as latitude: N37@30.0, found ("},
-        Case{"OtherDirective", "#define A 1",
-             "text.guf:1:1: expected #include \"file\", the one directive that is read, found #define"},
-        Case{"IncludeWithoutQuotes", "#include <a.cf>",
-             "text.guf:1:10: expected a message, as latitude: N37@30.0, found <"},
-        Case{"IncludeOfNothing", "#include Radar: { }",
-             "text.guf:1:10: expected the name of a file in quotes after #include, found Radar:"},
-        Case{"IncludeInAText", "#include \"a.cf\"",
-             "text.guf:1:1: expected #include in files only, found it in a text without a file"},
-        Case{"IncludeInATextInside", "Radar: { ranges: { 1 #include \"a.cf\" } }",
-             "text.guf:1:22: expected #include in files only, found it in a text without a file"},
-        Case{"CommentNotClosed", "a := /* b", "text.guf:1:6: expected */ at the end of the comment, found none"},
-        Case{"CoordinateWithoutMinutes", "Radar: { latitude: N37@ }",
-             "text.guf:1:20: expected degrees and minutes, as N37@30.5, found N37@"},
-        Case{"CoordinateWithUnknownHemisphere", "Radar: { latitude: X37@00.0 }",
-             "text.guf:1:20: expected degrees and minutes, as N37@30.5, found X37@00.0"},
-        Case{"LongitudeForLatitude", "Radar: { latitude: W122@00.0 }",
-             "text.guf:1:20: expected N or S for a latitude, found E or W"},
-        Case{"SixtyOneMinutes", "Radar: { latitude: N37@61 }",
-             "text.guf:1:20: expected a number in [0, 60] arcmin for :minutes, found the number 61; `yars config print "
-             "--defaults` explains every slot"},
-        Case{"FormInTheWrongPlace", "Radar: {\n RealBeamMode: { Sea: { } } }",
-             "text.guf:2:18: expected a message that is allowed in RealBeamMode, found Sea:"},
-        Case{"ValueForAForm", "Radar: { Display: 480 }",
-             "text.guf:1:19: expected { ... } after Display:, found the number 480"},
-        Case{"MessageAmongValues", "Radar: { ranges: { a: 1 } }",
-             "text.guf:1:20: expected values, as { 1, 2 }, found a:"},
-        Case{"NameAmongValues", "Radar: { ranges: { 1 b := a: 1 } }",
-             "text.guf:1:22: expected values, as { 1, 2 }, found a name with :="},
-        Case{"ValueAmongForms", "Radar: { modes: { { 1 } } }",
-             "text.guf:1:19: expected messages that make forms in modes:, found values in braces"},
-        Case{"OneSlotTwice", "Radar: { rate: 1\n rate: 2 }",
-             "text.guf:2:2: expected the slot :rate once in its form, found it again, first at text.guf:1:10"},
-        Case{"WordOfGuf", "include: { \"x\" }",
-             "text.guf:1:1: expected a keyword of the radar, found include:; this is a reserved word of GUF; choose "
-             "another keyword"},
-        Case{"TooDeep", "a: " + repeated("{", 65),
-             "text.guf:1:68: expected at most 64 brackets open at once, found one more; close a form before this one"},
-        Case{"TooManyWords", "a: { " + repeated("1 ", 200'001),
-             "text.guf:1:400001: expected at most 200000 words in a file, found more; split the file"},
-        Case{"TooLarge", "a:" + std::string(1U << 20U, ' '),
-             "text.guf: expected at most 1048576 bytes in a file, found 1048578; split the file"}),
+        MessageCase{"BracesNotClosed", "Radar: {\n rate: 1\n",
+                    "text.guf:3:1: expected a message, a value or }, found the end of the file"},
+        MessageCase{"BracesClosedTwice", "Radar: { } }",
+                    "text.guf:1:12: expected a message, as Radar: { ... }, or the end of the file, found }"},
+        MessageCase{"KeywordWithoutValue", "Radar: { rate: }",
+                    "text.guf:1:16: expected a value for the keyword, found }"},
+        MessageCase{"NameWithoutMessage", "Radar: { a := 1 }",
+                    "text.guf:1:15: expected a keyword with its colon after :=, found 1"},
+        MessageCase{"NoColon", "Sea: { }\nRadar { }",
+                    "text.guf:2:1: expected Radar: { ... }, found Radar { ... }; put a colon after the keyword"},
+        MessageCase{"SlotOutsideAllForms", "rate: 1",
+                    "text.guf:1:1: expected a message that makes a form, as Radar: { ... }, found rate:"},
+        MessageCase{"NoColonInside", "Radar: { Display { } }",
+                    "text.guf:1:10: expected Display: { ... }, found Display { ... }; put a colon after the keyword"},
+        MessageCase{
+            "KeywordAmongValues", "Radar: { rate: 1 2 }",
+            "text.guf:1:18: expected messages alone or values alone in these braces, found the number 2; give it a "
+            "keyword"},
+        MessageCase{"ParenthesesOfGuf", "Radar: { ( Sea ) }",
+                    "text.guf:1:10: expected a message, as latitude: N37@30.0, found ("},
+        MessageCase{"OtherDirective", "#define A 1",
+                    "text.guf:1:1: expected #include \"file\", the one directive that is read, found #define"},
+        MessageCase{"IncludeWithoutQuotes", "#include <a.cf>",
+                    "text.guf:1:10: expected a message, as latitude: N37@30.0, found <"},
+        MessageCase{"IncludeOfNothing", "#include Radar: { }",
+                    "text.guf:1:10: expected the name of a file in quotes after #include, found Radar:"},
+        MessageCase{"IncludeInAText", "#include \"a.cf\"",
+                    "text.guf:1:1: expected #include in files only, found it in a text without a file"},
+        MessageCase{"IncludeInATextInside", "Radar: { ranges: { 1 #include \"a.cf\" } }",
+                    "text.guf:1:22: expected #include in files only, found it in a text without a file"},
+        MessageCase{"CommentNotClosed", "a := /* b", "text.guf:1:6: expected */ at the end of the comment, found none"},
+        MessageCase{"CoordinateWithoutMinutes", "Radar: { latitude: N37@ }",
+                    "text.guf:1:20: expected degrees and minutes, as N37@30.5, found N37@"},
+        MessageCase{"CoordinateWithUnknownHemisphere", "Radar: { latitude: X37@00.0 }",
+                    "text.guf:1:20: expected degrees and minutes, as N37@30.5, found X37@00.0"},
+        MessageCase{"LongitudeForLatitude", "Radar: { latitude: W122@00.0 }",
+                    "text.guf:1:20: expected N or S for a latitude, found E or W"},
+        MessageCase{
+            "SixtyOneMinutes", "Radar: { latitude: N37@61 }",
+            "text.guf:1:20: expected a number in [0, 60] arcmin for :minutes, found the number 61; `yars config print "
+            "--defaults` explains every slot"},
+        MessageCase{"FormInTheWrongPlace", "Radar: {\n RealBeamMode: { Sea: { } } }",
+                    "text.guf:2:18: expected a message that is allowed in RealBeamMode, found Sea:"},
+        MessageCase{"ValueForAForm", "Radar: { Display: 480 }",
+                    "text.guf:1:19: expected { ... } after Display:, found the number 480"},
+        MessageCase{"MessageAmongValues", "Radar: { ranges: { a: 1 } }",
+                    "text.guf:1:20: expected values, as { 1, 2 }, found a:"},
+        MessageCase{"NameAmongValues", "Radar: { ranges: { 1 b := a: 1 } }",
+                    "text.guf:1:22: expected values, as { 1, 2 }, found a name with :="},
+        MessageCase{"ValueAmongForms", "Radar: { modes: { { 1 } } }",
+                    "text.guf:1:19: expected messages that make forms in modes:, found values in braces"},
+        MessageCase{"OneSlotTwice", "Radar: { rate: 1\n rate: 2 }",
+                    "text.guf:2:2: expected the slot :rate once in its form, found it again, first at text.guf:1:10"},
+        MessageCase{
+            "WordOfGuf", "include: { \"x\" }",
+            "text.guf:1:1: expected a keyword of the radar, found include:; this is a reserved word of GUF; choose "
+            "another keyword"},
+        MessageCase{
+            "TooDeep", "a: " + repeated_message("{", 65),
+            "text.guf:1:68: expected at most 64 brackets open at once, found one more; close a form before this one"},
+        MessageCase{"TooManyWords", "a: { " + repeated_message("1 ", 200'001),
+                    "text.guf:1:400001: expected at most 200000 words in a file, found more; split the file"},
+        MessageCase{"TooLarge", "a:" + std::string(1U << 20U, ' '),
+                    "text.guf: expected at most 1048576 bytes in a file, found 1048578; split the file"}),
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(MessageTexts, WithOnlyCommentsGiveTheDefaults) {

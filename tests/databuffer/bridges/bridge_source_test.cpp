@@ -5,15 +5,12 @@
 #include <gmock/gmock.h>
 
 #include "databuffer/bridges/bridge.hpp"
+#include "tests/databuffer/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {
 namespace {
 
 using ::testing::HasSubstr;
-
-geo::Duration seconds(double value) {
-  return geo::Duration::seconds(value);
-}
 
 TEST(BridgeSource, ListensOnLoopbackByDefault) {
   for (const char* kind : {"flightgear", "jsbsim", "dis"}) {

@@ -15,13 +15,7 @@ using ::testing::HasSubstr;
 
 constexpr geo::Duration kNow = geo::Duration::seconds(50.0);
 
-EntityState state_of(const std::string& name) {
-  const auto state = decode_entity_state(packet_of(name));
-  EXPECT_TRUE(state) << name << ": " << state.error().message();
-  return state.value_or(EntityState{});
-}
-
-std::string refusal_of(const PacketBytes& packet) {
+std::string dis_refusal(const PacketBytes& packet) {
   const auto state = decode_entity_state(packet);
   return state ? "accepted" : state.error().message();
 }
@@ -93,16 +87,16 @@ TEST(Dis, BodyAxesAlgorithmsSelectAccelerationAndTurn) {
 
 TEST(Dis, WhatIsNoEntityStateIsRefusedWithTheReason) {
   const PacketBytes good = packet_of("dis/air.bin");
-  EXPECT_THAT(refusal_of({}), HasSubstr("0 bytes"));
-  EXPECT_THAT(refusal_of(PacketBytes(good.begin(), good.begin() + 143)), HasSubstr("143 bytes"));
-  EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 0, 4)), HasSubstr("version 5, 6 or 7, found 4"));
-  EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 2, 2)), HasSubstr("type 1"));
-  EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 19, 1)), HasSubstr("160 bytes"));
-  EXPECT_THAT(refusal_of(with<std::uint8_t>(good, 19, 255)), HasSubstr("4224 bytes"));
-  EXPECT_THAT(refusal_of(with<std::uint16_t>(good, 8, 145)), HasSubstr("145 stated"));
+  EXPECT_THAT(dis_refusal({}), HasSubstr("0 bytes"));
+  EXPECT_THAT(dis_refusal(PacketBytes(good.begin(), good.begin() + 143)), HasSubstr("143 bytes"));
+  EXPECT_THAT(dis_refusal(with<std::uint8_t>(good, 0, 4)), HasSubstr("version 5, 6 or 7, found 4"));
+  EXPECT_THAT(dis_refusal(with<std::uint8_t>(good, 2, 2)), HasSubstr("type 1"));
+  EXPECT_THAT(dis_refusal(with<std::uint8_t>(good, 19, 1)), HasSubstr("160 bytes"));
+  EXPECT_THAT(dis_refusal(with<std::uint8_t>(good, 19, 255)), HasSubstr("4224 bytes"));
+  EXPECT_THAT(dis_refusal(with<std::uint16_t>(good, 8, 145)), HasSubstr("145 stated"));
   PacketBytes longer = good;
   longer.resize(145);
-  EXPECT_THAT(refusal_of(longer), HasSubstr("145 received"));
+  EXPECT_THAT(dis_refusal(longer), HasSubstr("145 received"));
 }
 
 TEST(Dis, InvalidNumbersAndPositionsAreRefused) {
@@ -111,19 +105,19 @@ TEST(Dis, InvalidNumbersAndPositionsAreRefused) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const std::size_t offset : {48U, 56U, 64U})
     for (const double bad : {kNan, kInfinity, -kInfinity, 1e300, 1e-300 + 9e6})
-      EXPECT_THAT(refusal_of(with(good, offset, bad)), HasSubstr("location")) << bad;
+      EXPECT_THAT(dis_refusal(with(good, offset, bad)), HasSubstr("location")) << bad;
   PacketBytes centre = good;
   for (const std::size_t offset : {48U, 56U, 64U}) put(centre, offset, 0.0, std::endian::big);
-  EXPECT_THAT(refusal_of(centre), HasSubstr("centre"));
+  EXPECT_THAT(dis_refusal(centre), HasSubstr("centre"));
   for (const std::size_t offset : {36U, 40U, 44U, 72U, 76U, 80U})
     for (const double bad : {kNan, kInfinity})
-      EXPECT_THAT(refusal_of(with(good, offset, static_cast<float>(bad))), HasSubstr("numbers")) << offset;
-  EXPECT_THAT(refusal_of(with(good, 36, 3e38F)), HasSubstr("velocity"));
+      EXPECT_THAT(dis_refusal(with(good, offset, static_cast<float>(bad))), HasSubstr("numbers")) << offset;
+  EXPECT_THAT(dis_refusal(with(good, 36, 3e38F)), HasSubstr("velocity"));
   const PacketBytes turning = packet_of("dis/air_turning.bin");
-  EXPECT_THAT(refusal_of(with(turning, 104, static_cast<float>(kNan))), HasSubstr("acceleration"));
+  EXPECT_THAT(dis_refusal(with(turning, 104, static_cast<float>(kNan))), HasSubstr("acceleration"));
   for (const std::uint8_t algorithm : {std::uint8_t{4}, std::uint8_t{8}})
     for (const float bad : {1e9F, static_cast<float>(kNan)})
-      EXPECT_THAT(refusal_of(with(with(turning, 88, algorithm), 116, bad)), HasSubstr("rate"));
+      EXPECT_THAT(dis_refusal(with(with(turning, 88, algorithm), 116, bad)), HasSubstr("rate"));
 }
 
 TEST(DisBridge, TheFirstAirPlatformIsTheAircraftAndIsLogged) {

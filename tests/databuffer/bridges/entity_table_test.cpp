@@ -12,14 +12,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-geo::Duration seconds(double value) {
-  return geo::Duration::seconds(value);
-}
-
-EntityState state_of(const std::string& name) {
-  return decode_entity_state(packet_of(name)).value();
-}
-
 TEST(EntityTable, AShipIsExtrapolatedByItsVelocity) {
   EntityTable table;
   ASSERT_FALSE(table.update(state_of("dis/ship.bin"), seconds(10)));

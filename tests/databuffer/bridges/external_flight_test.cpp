@@ -12,15 +12,12 @@
 #include "databuffer/messages/validation.hpp"
 #include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "tests/databuffer/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {
 namespace {
 
 constexpr geo::Duration kMaxExtrapolation = geo::Duration::seconds(1.0);
-
-geo::Duration seconds(double value) {
-  return geo::Duration::seconds(value);
-}
 
 geo::GeoPoint point_of(const Ownship& own) {
   return {own.latitude_deg, own.longitude_deg};

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string refusal_of(const PacketBytes& packet) {
+std::string flightgear_refusal(const PacketBytes& packet) {
   const auto sample = decode_flightgear(packet);
   return sample ? "accepted" : sample.error().message();
 }
@@ -81,13 +81,13 @@ TEST(FlightGear, JsbsimsFlightGearOutputEqualsItsTextOutput) {
 
 TEST(FlightGear, LengthAndVersionMustAgree) {
   const PacketBytes good = packet_of("flightgear/v24.bin");
-  EXPECT_THAT(refusal_of(with<std::uint32_t>(good, 0, 25)), HasSubstr("version 25 and 408 bytes"));
-  EXPECT_THAT(refusal_of(with<std::uint32_t>(good, 0, 23)), HasSubstr("version 23"));
-  EXPECT_THAT(refusal_of(with<std::uint32_t>(good, 0, 0x18000000)), HasSubstr("version 402653184"));
+  EXPECT_THAT(flightgear_refusal(with<std::uint32_t>(good, 0, 25)), HasSubstr("version 25 and 408 bytes"));
+  EXPECT_THAT(flightgear_refusal(with<std::uint32_t>(good, 0, 23)), HasSubstr("version 23"));
+  EXPECT_THAT(flightgear_refusal(with<std::uint32_t>(good, 0, 0x18000000)), HasSubstr("version 402653184"));
   for (const std::size_t length : {0U, 1U, 3U, 4U, 88U, 407U, 409U, 552U, 65'507U}) {
     PacketBytes packet = good;
     packet.resize(length);
-    EXPECT_THAT(refusal_of(packet), HasSubstr(std::to_string(length) + " bytes"));
+    EXPECT_THAT(flightgear_refusal(packet), HasSubstr(std::to_string(length) + " bytes"));
   }
 }
 
@@ -96,11 +96,11 @@ TEST(FlightGear, InvalidNumbersAndPositionsAreRefusedByName) {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e300, -7.0}) {
-    EXPECT_THAT(refusal_of(with(good, 8, bad)), HasSubstr("longitude"));
-    EXPECT_THAT(refusal_of(with(good, 16, bad)), HasSubstr("latitude"));
+    EXPECT_THAT(flightgear_refusal(with(good, 8, bad)), HasSubstr("longitude"));
+    EXPECT_THAT(flightgear_refusal(with(good, 16, bad)), HasSubstr("latitude"));
   }
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e300, -2000.0})
-    EXPECT_THAT(refusal_of(with(good, 24, bad)), HasSubstr("altitude"));
+    EXPECT_THAT(flightgear_refusal(with(good, 24, bad)), HasSubstr("altitude"));
   struct Field {
     std::size_t offset;
     const char* name;
@@ -110,7 +110,7 @@ TEST(FlightGear, InvalidNumbersAndPositionsAreRefusedByName) {
         Field{64, "rate"}, Field{76, "velocity_north"}, Field{80, "velocity_east"}, Field{84, "velocity_down"}})
     for (const float bad :
          {static_cast<float>(kNan), static_cast<float>(kInfinity), -static_cast<float>(kInfinity), 3e38F, -1e6F})
-      EXPECT_THAT(refusal_of(with(good, offset, bad)), HasSubstr(name)) << bad;
+      EXPECT_THAT(flightgear_refusal(with(good, offset, bad)), HasSubstr(name)) << bad;
 }
 
 TEST(FlightGear, APitchRoundedBeyond90DegreesIs90Degrees) {

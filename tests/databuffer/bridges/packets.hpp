@@ -1,5 +1,5 @@
-// Packets of external programs as bytes, from the files of tests/databuffer/bridges/packets. with() changes one field,
-// for packets with other or invalid values.
+// Packets of external programs as bytes, from the files of tests/databuffer/bridges/packets, and as decoded entities.
+// with() changes one field, for packets with other or invalid values.
 #pragma once
 
 #include <algorithm>
@@ -12,6 +12,9 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "databuffer/bridges/dis.hpp"
+#include "lib/geo/quantity.hpp"
 
 namespace yars::databuffer::bridges {
 
@@ -31,6 +34,15 @@ inline std::string text_of_packet(const std::string& name) {
 
 inline PacketBytes packet_of(const std::string& name) {
   return bytes_of(text_of_packet(name));
+}
+
+// The entity that a DIS packet reports.
+inline EntityState state_of(const std::string& name) {
+  return decode_entity_state(packet_of(name)).value();
+}
+
+inline geo::Duration seconds(double value) {
+  return geo::Duration::seconds(value);
 }
 
 // Writes a number at a byte offset of a packet, in the byte order `order`.

@@ -15,10 +15,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-geo::Duration seconds(double value) {
-  return geo::Duration::seconds(value);
-}
-
 std::string refusal_from(XplaneBridge& bridge, const PacketBytes& packet) {
   const auto outcome = bridge.receive(packet, {});
   return outcome ? "accepted" : outcome.error().message();

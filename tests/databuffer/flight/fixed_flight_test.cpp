@@ -9,17 +9,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
-FixedFlight flight_of(const char* text) {
+FixedFlight fixed_flight_of(const char* text) {
   return FixedFlight(parse_fixed(text).value());
 }
 
-std::string refusal_of(const char* text) {
+std::string fixed_refusal(const char* text) {
   const auto setting = parse_fixed(text);
   return setting ? "accepted" : setting.error().message();
 }
 
 TEST(FixedFlight, StartsAtItsGivenPosition) {
-  auto flight = flight_of("38,-123.1,15000,160,480");
+  auto flight = fixed_flight_of("38,-123.1,15000,160,480");
   const Ownship ownship = flight.step({}).ownship;
   EXPECT_NEAR(ownship.latitude_deg, 38.0, 1e-12);
   EXPECT_NEAR(ownship.longitude_deg, -123.1, 1e-12);
@@ -33,14 +33,14 @@ TEST(FixedFlight, StartsAtItsGivenPosition) {
 }
 
 TEST(FixedFlight, InOneHourAtSeaLevelFliesAsManyMilesAsKnots) {
-  auto flight = flight_of("10,20,0,45,360");
+  auto flight = fixed_flight_of("10,20,0,45,360");
   FlightSample sample;
   for (int tick = 0; tick < 3'600; ++tick) sample = flight.step(geo::Duration::seconds(1.0));
   EXPECT_NEAR(distance_m({10, 20}, point_of(sample.ownship)), 360.0 * 1852.0, 1e-3);
 }
 
 TEST(FixedFlight, AtAltitudeTheDistanceOverGroundIsShorter) {
-  auto flight = flight_of("0,0,100000,90,1000");
+  auto flight = fixed_flight_of("0,0,100000,90,1000");
   FlightSample sample;
   for (int tick = 0; tick < 3'600; ++tick) sample = flight.step(geo::Duration::seconds(1.0));
   const double equator_m = 6'378'137.0;  // WGS84 a
@@ -49,7 +49,7 @@ TEST(FixedFlight, AtAltitudeTheDistanceOverGroundIsShorter) {
 }
 
 TEST(FixedFlight, FliesAlongAGeodesic) {
-  auto flight = flight_of("50,-10,30000,70,480");
+  auto flight = fixed_flight_of("50,-10,30000,70,480");
   FlightSample sample;
   for (int minute = 0; minute < 300; ++minute) sample = flight.step(geo::Duration::seconds(60.0));
   const auto path = geo::geodesic_inverse({50, -10}, point_of(sample.ownship));
@@ -59,22 +59,22 @@ TEST(FixedFlight, FliesAlongAGeodesic) {
 
 TEST(FixedFlight, VelocityIsTheDerivativeOfPosition) {
   for (const char* text : {"38,-123.1,15000,160,480", "0,179.99,40000,90,600", "-60,0,1000,359.9,250"}) {
-    auto flight = flight_of(text);
+    auto flight = fixed_flight_of(text);
     expect_consistent(flight, 120.0, 0.5, 1e-2);
   }
 }
 
 TEST(FixedFlight, CrossesThePoleAndTheAntimeridian) {
-  auto across_pole = flight_of("89.9,30,20000,0,600");
+  auto across_pole = fixed_flight_of("89.9,30,20000,0,600");
   const FlightSample beyond_pole = expect_consistent(across_pole, 200.0, 0.5, 1e-2);
   EXPECT_NEAR(beyond_pole.ownship.longitude_deg, -150.0, 1e-6);
   EXPECT_NEAR(beyond_pole.ownship.heading_deg, 180.0, 1e-6);
-  auto across_antimeridian = flight_of("10,179.9,20000,90,600");
+  auto across_antimeridian = fixed_flight_of("10,179.9,20000,90,600");
   EXPECT_LT(expect_consistent(across_antimeridian, 200.0, 0.5, 1e-2).ownship.longitude_deg, -179.0);
 }
 
 TEST(FixedFlight, AtZeroSpeedStaysInPlace) {
-  auto flight = flight_of("38,-123,15000,160,0");
+  auto flight = fixed_flight_of("38,-123,15000,160,0");
   const FlightSample first = flight.step({});
   for (int tick = 0; tick < 1'000; ++tick) flight.step(geo::Duration::seconds(1.0));
   EXPECT_TRUE(same_sample(first, flight.step({})));
@@ -83,7 +83,7 @@ TEST(FixedFlight, AtZeroSpeedStaysInPlace) {
 }
 
 TEST(FixedFlight, ResetReturnsToTheStart) {
-  auto flight = flight_of("38,-123,15000,160,480");
+  auto flight = fixed_flight_of("38,-123,15000,160,480");
   const FlightSample first = flight.step({});
   flight.step(geo::Duration::seconds(100.0));
   flight.reset();
@@ -91,7 +91,7 @@ TEST(FixedFlight, ResetReturnsToTheStart) {
 }
 
 TEST(FixedFlight, RepositioningContinuesFromTheNewPosition) {
-  auto flight = flight_of("38,-123,15000,160,480");
+  auto flight = fixed_flight_of("38,-123,15000,160,480");
   flight.step(geo::Duration::seconds(100.0));
   EXPECT_TRUE(flight.reposition({{-20, 100}, geo::AltitudeMsl::metres(1000), geo::Bearing::degrees(90)}));
   const Ownship ownship = flight.step({}).ownship;
@@ -102,13 +102,13 @@ TEST(FixedFlight, RepositioningContinuesFromTheNewPosition) {
 }
 
 TEST(FixedFlight, ABadSettingNamesTheField) {
-  EXPECT_THAT(refusal_of("38,-123,15000,160"), HasSubstr("LAT,LON,ALT_FT,HDG,KT"));
-  EXPECT_THAT(refusal_of("91,-123,15000,160,480"), HasSubstr("LAT in [-90, 90]"));
-  EXPECT_THAT(refusal_of("38,-181,15000,160,480"), HasSubstr("LON in [-180, 180]"));
-  EXPECT_THAT(refusal_of("38,-123,nan,160,480"), HasSubstr("ALT_FT"));
-  EXPECT_THAT(refusal_of("38,-123,15000,361,480"), HasSubstr("HDG"));
-  EXPECT_THAT(refusal_of("38,-123,15000,160,-1"), HasSubstr("KT"));
-  EXPECT_NE(refusal_of(""), "accepted");
+  EXPECT_THAT(fixed_refusal("38,-123,15000,160"), HasSubstr("LAT,LON,ALT_FT,HDG,KT"));
+  EXPECT_THAT(fixed_refusal("91,-123,15000,160,480"), HasSubstr("LAT in [-90, 90]"));
+  EXPECT_THAT(fixed_refusal("38,-181,15000,160,480"), HasSubstr("LON in [-180, 180]"));
+  EXPECT_THAT(fixed_refusal("38,-123,nan,160,480"), HasSubstr("ALT_FT"));
+  EXPECT_THAT(fixed_refusal("38,-123,15000,361,480"), HasSubstr("HDG"));
+  EXPECT_THAT(fixed_refusal("38,-123,15000,160,-1"), HasSubstr("KT"));
+  EXPECT_NE(fixed_refusal(""), "accepted");
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string refusal_of(const char* text) {
+std::string route_refusal(const char* text) {
   const auto route = parse_route(text, "x.route");
   return route ? "accepted" : route.error().message();
 }
@@ -39,14 +39,15 @@ TEST(Route, WithoutLoopNoWaypointComesAfterTheLast) {
 }
 
 TEST(Route, ErrorsCarryTheLineAndWhatWasExpected) {
-  EXPECT_THAT(refusal_of("0 0 1000 300\n\n95 0 1000 300\n"), HasSubstr("x.route:3: expected LAT in [-90, 90]"));
-  EXPECT_THAT(refusal_of("0 0 1000\n"), HasSubstr("x.route:1: expected LAT LON ALT_FT KT, found 3 fields"));
-  EXPECT_THAT(refusal_of("0 0 1000 300\n0 1 1000 10\n"), HasSubstr("x.route:2: expected KT in [30, 5000]"));
-  EXPECT_THAT(refusal_of("0 0 1000 300\n0 0 2000 300\n"), HasSubstr("x.route:2"));
-  EXPECT_THAT(refusal_of("0 0 1000 300\nloop\n0 1 1000 300\n"), HasSubstr("x.route:3: expected nothing behind loop"));
-  EXPECT_THAT(refusal_of("0 0 1000 300\n"), HasSubstr("at least two waypoints"));
-  EXPECT_THAT(refusal_of(""), HasSubstr("at least two waypoints"));
-  EXPECT_THAT(refusal_of("0 0 1000 300\n0 1 1000 300\n0 0 1000 300\nloop"), HasSubstr("adds the leg to the first"));
+  EXPECT_THAT(route_refusal("0 0 1000 300\n\n95 0 1000 300\n"), HasSubstr("x.route:3: expected LAT in [-90, 90]"));
+  EXPECT_THAT(route_refusal("0 0 1000\n"), HasSubstr("x.route:1: expected LAT LON ALT_FT KT, found 3 fields"));
+  EXPECT_THAT(route_refusal("0 0 1000 300\n0 1 1000 10\n"), HasSubstr("x.route:2: expected KT in [30, 5000]"));
+  EXPECT_THAT(route_refusal("0 0 1000 300\n0 0 2000 300\n"), HasSubstr("x.route:2"));
+  EXPECT_THAT(route_refusal("0 0 1000 300\nloop\n0 1 1000 300\n"),
+              HasSubstr("x.route:3: expected nothing behind loop"));
+  EXPECT_THAT(route_refusal("0 0 1000 300\n"), HasSubstr("at least two waypoints"));
+  EXPECT_THAT(route_refusal(""), HasSubstr("at least two waypoints"));
+  EXPECT_THAT(route_refusal("0 0 1000 300\n0 1 1000 300\n0 0 1000 300\nloop"), HasSubstr("adds the leg to the first"));
 }
 
 }  // namespace

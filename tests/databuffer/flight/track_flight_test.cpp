@@ -23,7 +23,7 @@ Ownship after(TrackFlight& flight, double seconds) {
   return flight.step(geo::Duration::seconds(seconds)).ownship;
 }
 
-std::string refusal_of(const std::string& text) {
+std::string track_refusal(const std::string& text) {
   const auto track = parse_track(text, "t.csv");
   return track ? "accepted" : track.error().message();
 }
@@ -39,15 +39,15 @@ TEST(Track, ColumnsAreFoundByName) {
 }
 
 TEST(Track, ErrorsCarryTheLineAndWhatWasExpected) {
-  EXPECT_THAT(refusal_of(""), HasSubstr("header"));
-  EXPECT_THAT(refusal_of("time,lat,lon\n"), HasSubstr("t.csv:1"));
-  EXPECT_THAT(refusal_of("time,lat,lon,alt_ft,heading,pitch\n"), HasSubstr("no column roll"));
-  EXPECT_THAT(refusal_of(kHeader + "0,10,20,1000,90,0,0\n"), HasSubstr("at least two rows"));
-  EXPECT_THAT(refusal_of(kHeader + "0,10,20,1000,90,0,0\n1,10,20,1000,90,0\n"), HasSubstr("t.csv:3"));
-  EXPECT_THAT(refusal_of(kHeader + "0,10,20,1000,90,0,0\n1,10,200,1000,90,0,0\n"), HasSubstr("lon in [-180, 180]"));
-  EXPECT_THAT(refusal_of(kHeader + "1,10,20,1000,90,0,0\n1,10,20,1000,90,0,0\n"), HasSubstr("a time after 1 s"));
-  EXPECT_THAT(refusal_of(kHeader + "0,10,20,1000,90,0,0\n1,10,20,x,90,0,0\n"), HasSubstr("alt_ft"));
-  EXPECT_THAT(refusal_of(kHeader + "0,0,0,0,0,0,0\n1,0,0,0,0,0,0\nloop\n2,0,0,0,0,0,0\n"), HasSubstr("behind loop"));
+  EXPECT_THAT(track_refusal(""), HasSubstr("header"));
+  EXPECT_THAT(track_refusal("time,lat,lon\n"), HasSubstr("t.csv:1"));
+  EXPECT_THAT(track_refusal("time,lat,lon,alt_ft,heading,pitch\n"), HasSubstr("no column roll"));
+  EXPECT_THAT(track_refusal(kHeader + "0,10,20,1000,90,0,0\n"), HasSubstr("at least two rows"));
+  EXPECT_THAT(track_refusal(kHeader + "0,10,20,1000,90,0,0\n1,10,20,1000,90,0\n"), HasSubstr("t.csv:3"));
+  EXPECT_THAT(track_refusal(kHeader + "0,10,20,1000,90,0,0\n1,10,200,1000,90,0,0\n"), HasSubstr("lon in [-180, 180]"));
+  EXPECT_THAT(track_refusal(kHeader + "1,10,20,1000,90,0,0\n1,10,20,1000,90,0,0\n"), HasSubstr("a time after 1 s"));
+  EXPECT_THAT(track_refusal(kHeader + "0,10,20,1000,90,0,0\n1,10,20,x,90,0,0\n"), HasSubstr("alt_ft"));
+  EXPECT_THAT(track_refusal(kHeader + "0,0,0,0,0,0,0\n1,0,0,0,0,0,0\nloop\n2,0,0,0,0,0,0\n"), HasSubstr("behind loop"));
 }
 
 TEST(TrackFlight, InterpolatesAllValuesLinearlyInTime) {

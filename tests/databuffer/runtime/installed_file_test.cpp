@@ -13,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // An installation prefix with two files, at the paths that `cmake --install` uses.
-class InstalledFile : public testing::Test {
+class InstalledFile : public ::testing::Test {
  protected:
   void SetUp() override {
     for (const char* name : {"share/yars/config/only_here.guf", "share/yars/config/routes/only_here.route"}) {

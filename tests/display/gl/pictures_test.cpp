@@ -19,17 +19,18 @@ namespace {
 using radar::Mode;
 using testing::kAircraftPosition;
 
-constexpr double kRange_m = 40.0 * geo::kMetresPerNauticalMile;
-constexpr double kTrack_deg = 30.0;
+constexpr double kPictureRange_m = 40.0 * geo::kMetresPerNauticalMile;
+constexpr double kPictureTrack_deg = 30.0;
 
 // Adds a scan of made-up ground, with sweeps of width_deg. In the HRM PPI the blind zone has no video.
 void add_scan(Display& radar_display, Mode mode, double width_deg) {
-  const double from_deg = kTrack_deg - 50.0;
-  for (double left_deg = from_deg; left_deg < kTrack_deg + 50.0 - 1e-9; left_deg += width_deg) {
-    databuffer::Sweep sweep = testing::blank_sweep(kAircraftPosition, left_deg, left_deg + width_deg, kRange_m, 480);
+  const double from_deg = kPictureTrack_deg - 50.0;
+  for (double left_deg = from_deg; left_deg < kPictureTrack_deg + 50.0 - 1e-9; left_deg += width_deg) {
+    databuffer::Sweep sweep =
+        testing::blank_sweep(kAircraftPosition, left_deg, left_deg + width_deg, kPictureRange_m, 480);
     sweep.mode = static_cast<std::uint8_t>(mode);
     const double angle = left_deg * geo::kRadiansPerDegree;
-    const bool blind = mode == Mode::hrm && std::abs(left_deg + width_deg / 2.0 - kTrack_deg) < 8.0;
+    const bool blind = mode == Mode::hrm && std::abs(left_deg + width_deg / 2.0 - kPictureTrack_deg) < 8.0;
     for (std::uint32_t i = 0; i < 480 && !blind; ++i) {
       const double x = 0.5 + i / 960.0 * std::sin(angle), y = 1.0 - i / 480.0 * std::cos(angle);
       const double level = testing::ground_at(x, y) *
@@ -55,7 +56,7 @@ DisplayInput operating(Mode mode) {
   add_points(input);
   input.model.antenna_azimuth_deg = 22.0;
   input.model.antenna_elevation_deg = -3.0;
-  input.model.scan_centre_deg = kTrack_deg;
+  input.model.scan_centre_deg = kPictureTrack_deg;
   input.model.scan_width_deg = 100.0;
   input.ownship.pitch_deg = 2.0;
   return input;

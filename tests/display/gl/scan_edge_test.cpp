@@ -15,7 +15,7 @@
 namespace yars::display::gl {
 namespace {
 
-constexpr double kTrack_deg = 30.0;
+constexpr double kScanTrack_deg = 30.0;
 constexpr double kSpeed_mps = 250.0;
 
 struct Scan {
@@ -40,9 +40,9 @@ imageio::Image picture_of(const Scan& scan, int passes, double stop_right_deg, d
     const double behind_nm = (total - 1 - i) * scan.step_s * speed_mps / geo::kMetresPerNauticalMile;
     const bool clockwise = i / steps % 2 == 0;
     const int step = clockwise ? i % steps : steps - 1 - i % steps;
-    const double left_deg = kTrack_deg - scan.half_width_deg + step * scan.step_deg;
+    const double left_deg = kScanTrack_deg - scan.half_width_deg + step * scan.step_deg;
     databuffer::Sweep sweep =
-        testing::toned_sweep(testing::at(kTrack_deg, -behind_nm), left_deg, left_deg + scan.step_deg,
+        testing::toned_sweep(testing::at(kScanTrack_deg, -behind_nm), left_deg, left_deg + scan.step_deg,
                              scan.range_nm * geo::kMetresPerNauticalMile, 480, 255);
     sweep.scan = 1U + static_cast<std::uint32_t>(i / steps);
     sweep.mode = static_cast<std::uint8_t>(scan.mode);

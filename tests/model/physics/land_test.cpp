@@ -7,13 +7,10 @@
 #include "lib/radar/configuration.hpp"
 #include "model/physics/clutter.hpp"
 #include "model/physics/reflectivity.hpp"
+#include "tests/model/physics/decibels.hpp"
 
 namespace yars::model::physics {
 namespace {
-
-double decibels(double ratio) {
-  return 10.0 * std::log10(ratio);
-}
 
 TEST(Land, ReturnsFiveDecibelsMorePerDecadeOfFrequency) {
   const radar::LandConfiguration land;

@@ -7,18 +7,15 @@
 
 #include "model/kernel/tick_inputs.hpp"
 #include "model/physics/environment.hpp"
+#include "tests/model/physics/decibels.hpp"
 #include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {
 
-constexpr double kAltitude_m = 2000.0;
-constexpr double kRange_m = 40000.0;
-constexpr double kSpacing_m = 40.0;
-
-double decibels(double ratio) {
-  return 10.0 * std::log10(ratio);
-}
+constexpr double kMoversAltitude_m = 2000.0;
+constexpr double kMoversRange_m = 40000.0;
+constexpr double kMoversSpacing_m = 40.0;
 
 radar::Mover ship_at(double distance_m, double bearing_deg = 0.0) {
   radar::Mover ship;
@@ -70,7 +67,7 @@ TEST(Movers, MoveAlongAGeodesicWithSimTime) {
 }
 
 TEST(Movers, ReturnOnlyInTheSampleOfTheirRange) {
-  const auto power = added_by(with(ship_at(20020.0)), test::geometry_north(kAltitude_m, kRange_m));
+  const auto power = added_by(with(ship_at(20020.0)), test::geometry_north(kMoversAltitude_m, kMoversRange_m));
   EXPECT_EQ(brightest(power), 500U);
   for (std::size_t i = 0; i < power.size(); ++i) {
     if (i != 500) {
@@ -82,9 +79,9 @@ TEST(Movers, ReturnOnlyInTheSampleOfTheirRange) {
 TEST(Movers, ReturnSigmaOverTheFourthPowerOfTheRange) {
   radar::Mover ship = ship_at(20020.0);
   ship.cross_section_m2 = 5000.0;
-  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  const physics::SweepGeometry geometry = test::geometry_north(kMoversAltitude_m, kMoversRange_m);
   const physics::Receiver receiver = physics::Receivers(with(ship)).at(geometry.range);
-  const double slant_m = std::hypot(20020.0, kAltitude_m - ship.height_m);
+  const double slant_m = std::hypot(20020.0, kMoversAltitude_m - ship.height_m);
   const double expected = 5000.0 / std::pow(slant_m, 4.0) / receiver.full_scale;
   EXPECT_NEAR(added_by(with(ship), geometry)[500] / expected, 1.0, 1e-3);
 }
@@ -93,7 +90,7 @@ TEST(Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
   // Ships and aircraft are at one height, so that the slant range equals the ground range.
   radar::Mover near = ship_at(18000.0), far = ship_at(36000.0);
   near.height_m = far.height_m = 300.0;
-  const physics::SweepGeometry geometry = test::geometry_north(300.0, kRange_m);
+  const physics::SweepGeometry geometry = test::geometry_north(300.0, kMoversRange_m);
   const auto power_at = [&](const radar::Mover& mover) {
     const auto power = added_by(with(mover), geometry);
     return power[brightest(power)];
@@ -102,7 +99,7 @@ TEST(Movers, AreTwelveDecibelsDownAtTwiceTheRange) {
 }
 
 TEST(Movers, FollowTheBeamPattern) {
-  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  const physics::SweepGeometry geometry = test::geometry_north(kMoversAltitude_m, kMoversRange_m);
   const double centre = added_by(with(ship_at(20020.0)), geometry)[500];
   EXPECT_NEAR(decibels(added_by(with(ship_at(20020.0, 1.25)), geometry)[500] / centre), -6.02, 0.05);
   EXPECT_EQ(added_by(with(ship_at(20020.0, 6.0)), geometry)[500], 0.0);
@@ -110,11 +107,12 @@ TEST(Movers, FollowTheBeamPattern) {
 
 TEST(Movers, AreAsLongAsThePulseAtTheSamePeakPower) {
   radar::RadarConfiguration configuration = with(ship_at(20020.0));
-  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  const physics::SweepGeometry geometry = test::geometry_north(kMoversAltitude_m, kMoversRange_m);
   const double sharp = added_by(configuration, geometry)[500];
   configuration.fidelity.pulse_smear = true;
   const auto smeared = added_by(configuration, geometry);
-  const double pulse_samples = physics::Receivers(configuration).pulse_length(geometry.range).metres() / kSpacing_m;
+  const double pulse_samples =
+      physics::Receivers(configuration).pulse_length(geometry.range).metres() / kMoversSpacing_m;
   EXPECT_NEAR(smeared[500] / sharp, 1.0, 1e-3);
   double sum = 0.0;
   for (const double power : smeared) sum += power;
@@ -122,7 +120,7 @@ TEST(Movers, AreAsLongAsThePulseAtTheSamePeakPower) {
 }
 
 TEST(Movers, AreHiddenBehindAHill) {
-  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  const physics::SweepGeometry geometry = test::geometry_north(kMoversAltitude_m, kMoversRange_m);
   const auto hill = terrain::ridge(test::axis_north(), 15000.0, 1000.0, 900.0);
   for (const double power : added_by(with(ship_at(20020.0)), geometry, hill)) EXPECT_EQ(power, 0.0);
   EXPECT_GT(added_by(with(ship_at(12020.0)), geometry, hill)[300], 0.0);
@@ -131,7 +129,7 @@ TEST(Movers, AreHiddenBehindAHill) {
 TEST(Movers, OutOfRangeGiveNoEchoes) {
   const radar::RadarConfiguration configuration = with(ship_at(60000.0));
   physics::Movers movers(configuration);
-  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  const physics::SweepGeometry geometry = test::geometry_north(kMoversAltitude_m, kMoversRange_m);
   const physics::Receiver receiver = physics::Receivers(configuration).at(geometry.range);
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   EXPECT_TRUE(movers.echoes(geometry, receiver, physics::EffectiveEarth(8.5e6), sea).empty());
@@ -156,7 +154,7 @@ TEST(Movers, OfTrafficReturnAsConfiguredMovers) {
                          0};
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   const physics::EffectiveEarth earth(8.5e6);
-  physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  physics::SweepGeometry geometry = test::geometry_north(kMoversAltitude_m, kMoversRange_m);
   physics::Movers configured(with(ship));
   physics::Movers none(test::bare_configuration(1000));
   const physics::Receiver receiver = physics::Receivers(with(ship)).at(geometry.range);

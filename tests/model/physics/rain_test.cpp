@@ -7,16 +7,13 @@
 #include <numbers>
 
 #include "model/physics/atmosphere.hpp"
+#include "tests/model/physics/decibels.hpp"
 #include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-double decibels(double ratio) {
-  return 10.0 * std::log10(ratio);
-}
 
 geo::GeoPoint north_of(double distance_m, double bearing_deg = 0.0) {
   return geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(bearing_deg), geo::Length::metres(distance_m));

@@ -7,13 +7,10 @@
 #include <numeric>
 
 #include "lib/radar/configuration.hpp"
+#include "tests/model/physics/decibels.hpp"
 
 namespace yars::model::rbm {
 namespace {
-
-double decibels(double ratio) {
-  return 10.0 * std::log10(ratio);
-}
 
 physics::Receiver receiver_at(double range_nm) {
   return physics::Receivers(radar::RadarConfiguration{}).at(geo::Length::nautical_miles(range_nm));

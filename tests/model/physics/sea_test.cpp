@@ -7,16 +7,13 @@
 #include "lib/radar/configuration.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/physics/reflectivity.hpp"
+#include "tests/model/physics/decibels.hpp"
 
 namespace yars::model::physics {
 namespace {
 
 constexpr SeaCoefficients kHorizontal{-73.0, 20.781, 7.351, 25.65, 0.0054};
 constexpr SeaCoefficients kVertical{-50.796, 25.93, 0.7093, 21.588, 0.00211};
-
-double decibels(double ratio) {
-  return 10.0 * std::log10(ratio);
-}
 
 TEST(Sea, GivesTheNrlModelsCheckValue) {
   // Source: docs/spec/physics.md#sea.

@@ -5,14 +5,11 @@
 
 #include "model/physics/ground_return.hpp"
 #include "model/physics/reflectivity.hpp"
+#include "tests/model/physics/decibels.hpp"
 #include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {
-
-double decibels(double ratio) {
-  return 10.0 * std::log10(ratio);
-}
 
 // Sample in the middle of a sweep over level ground of one material.
 Reference::Sample middle_sample(const radar::RadarConfiguration& configuration, std::uint8_t material,

@@ -13,8 +13,8 @@
 namespace yars::model::rbm {
 namespace {
 
-constexpr double kAltitude_m = 3000.0;
-constexpr double kRange_m = 74080.0;
+constexpr double kBeaconsAltitude_m = 3000.0;
+constexpr double kBeaconsRange_m = 74080.0;
 constexpr double kRangePerMicrosecond_m = 149.896229;  // [m] half the speed of light times 1 us
 
 radar::Beacon beacon_north(double distance_m) {
@@ -34,7 +34,7 @@ radar::RadarConfiguration with(const radar::Beacon& beacon) {
 }
 
 physics::SweepGeometry geometry_off(double off_deg) {
-  physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  physics::SweepGeometry geometry = test::geometry_north(kBeaconsAltitude_m, kBeaconsRange_m);
   geometry.azimuth = geo::Bearing::degrees(off_deg);
   return geometry;
 }
@@ -66,7 +66,7 @@ TEST(Beacons, ReplyFartherThanTheirPositionByDelayAndSpacing) {
   beacon.replies = 4;
   const auto found = replies(with(beacon));
   ASSERT_EQ(found.size(), 4U);
-  const double height_m = kAltitude_m - 10.0;
+  const double height_m = kBeaconsAltitude_m - 10.0;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double slant_m =
         std::hypot(30000.0, height_m) + (5.0 + 12.0 * static_cast<double>(i)) * kRangePerMicrosecond_m;
@@ -77,9 +77,9 @@ TEST(Beacons, ReplyFartherThanTheirPositionByDelayAndSpacing) {
 
 TEST(Beacons, ReplyWithThePowerOfTheOneWayRadarEquation) {
   const radar::RadarConfiguration configuration = with(beacon_north(50000.0));
-  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::metres(kRange_m));
-  const double slant_m = std::hypot(50000.0, kAltitude_m - 10.0);
-  const double below = std::atan2(kAltitude_m - 10.0, 50000.0) / receiver.elevation_beamwidth_rad;
+  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::metres(kBeaconsRange_m));
+  const double slant_m = std::hypot(50000.0, kBeaconsAltitude_m - 10.0);
+  const double below = std::atan2(kBeaconsAltitude_m - 10.0, 50000.0) / receiver.elevation_beamwidth_rad;
   const double one_way = std::exp(-0.5 * physics::kTwoWayExponent * below * below);
   const double expected =
       4.0 * std::numbers::pi * 100.0 / std::pow(10.0, 7.2) * one_way / (slant_m * slant_m) / receiver.full_scale;
@@ -127,7 +127,7 @@ TEST(Beacons, MakeArcsOfAPulsesLengthAtTheirDistances) {
     Beacons(configuration).measure(geometry_off(0.0), terrain::AnalyticTerrain(terrain::flat(0.0)), power);
     const auto middles = arcs(power);
     ASSERT_EQ(middles.size(), 3U);
-    const double spacing_m = kRange_m / 480.0;
+    const double spacing_m = kBeaconsRange_m / 480.0;
     const auto found = replies(configuration);
     for (std::size_t i = 0; i < 3; ++i) {
       const double expected_m = slant ? found[i].slant_range_m : found[i].distance_m;

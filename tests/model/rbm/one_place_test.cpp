@@ -21,7 +21,7 @@ namespace yars::model {
 namespace {
 
 constexpr double kDistance_m = 15'000.0;
-constexpr double kAltitude_m = 1500.0;
+constexpr double kOnePlaceAltitude_m = 1500.0;
 constexpr double kRange_nm = 10.0;
 
 struct Setting {
@@ -65,7 +65,7 @@ class OneObject : public testing::TestWithParam<Setting> {
     const geo::Bearing track = to_tower - geo::Angle::degrees(25.0);
     cockpit.tick.ownship.latitude_deg = apex_.latitude_deg;
     cockpit.tick.ownship.longitude_deg = apex_.longitude_deg;
-    cockpit.tick.ownship.altitude_msl_m = kAltitude_m;
+    cockpit.tick.ownship.altitude_msl_m = kOnePlaceAltitude_m;
     cockpit.tick.ownship.heading_deg = track.degrees();
     cockpit.tick.ownship.velocity_north_mps = 240.0 * std::cos(track.radians());
     cockpit.tick.ownship.velocity_east_mps = 240.0 * std::sin(track.radians());
@@ -152,7 +152,7 @@ TEST_P(OneObject, StandsWithinAPixelOfItsPositionInAPatchMap) {
   hrm::PatchOrder order;
   order.centre = GetParam().origin;
   order.apex = apex_;
-  order.altitude = geo::AltitudeMsl::metres(kAltitude_m);
+  order.altitude = geo::AltitudeMsl::metres(kOnePlaceAltitude_m);
   order.ground_speed = geo::Speed::knots(480.0);
   order.ground_track = geo::geodesic_inverse(apex_, order.centre).azimuth_at_start - geo::Angle::degrees(60.0);
   order.window = geo::Length::nautical_miles(4.7);
@@ -175,7 +175,7 @@ TEST_P(OneObject, StandsWithinAPixelOfItsPositionInAPatchMap) {
   const geo::GeoPoint seen = process.geometry().position_of({right / weight, up / weight});
   // The brightest part is the middle of the wall that faces the radar: 6 m nearer, and laid over by 20 m times the
   // tangent of the grazing angle.
-  const double nearer_m = 6.0 + 20.0 * (kAltitude_m - test::kGround_m) / kDistance_m;
+  const double nearer_m = 6.0 + 20.0 * (kOnePlaceAltitude_m - test::kGround_m) / kDistance_m;
   const geo::GeodesicInverse truth = geo::geodesic_inverse(apex_, tower_), found = geo::geodesic_inverse(apex_, seen);
   EXPECT_NEAR(found.distance.metres(), truth.distance.metres() - nearer_m, pixel_m);
   EXPECT_NEAR((found.azimuth_at_start - truth.azimuth_at_start).radians() * kDistance_m, 0.0, pixel_m);

@@ -10,38 +10,38 @@
 namespace yars::model::rbm {
 namespace {
 
-constexpr double kAltitude_m = 2000.0;
-constexpr double kRange_m = 40000.0;
-constexpr std::size_t kSamples = 1000;
-constexpr double kSpacing_m = kRange_m / kSamples;
+constexpr double kReportAltitude_m = 2000.0;
+constexpr double kReportRange_m = 40000.0;
+constexpr std::size_t kReportSamples = 1000;
+constexpr double kReportSpacing_m = kReportRange_m / kReportSamples;
 
 // Intensity of full scale: level ground at half the range.
-const double kFullScale = kAltitude_m / std::hypot(kAltitude_m, 0.5 * kRange_m);
+const double kFullScale = kReportAltitude_m / std::hypot(kReportAltitude_m, 0.5 * kReportRange_m);
 
 // Intensity by sample, as a fraction of full scale. `bars_deg`: angle of the scan's bars above and below the beam.
 std::vector<float> intensity(const terrain::AnalyticTerrain::Height& height, double elevation_deg,
                              double bars_deg = 0.0) {
   radar::RadarConfiguration configuration;
-  configuration.fidelity.samples = static_cast<int>(kSamples);
+  configuration.fidelity.samples = static_cast<int>(kReportSamples);
   Report1996 report(configuration);
-  physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  physics::SweepGeometry geometry = test::geometry_north(kReportAltitude_m, kReportRange_m);
   geometry.elevation = geo::Angle::degrees(elevation_deg);
   geometry.bars_above = geometry.bars_below = geo::Angle::degrees(bars_deg);
-  std::vector<float> power(kSamples);
+  std::vector<float> power(kReportSamples);
   report.measure(geometry, terrain::AnalyticTerrain(height), power);
   return power;
 }
 
 std::size_t sample_at(double distance_m) {
-  return static_cast<std::size_t>(distance_m / kSpacing_m);
+  return static_cast<std::size_t>(distance_m / kReportSpacing_m);
 }
 
 TEST(Report1996, AFlatPlaneReturnsTheSineOfItsDepressionOnlyWithinTheBeam) {
   const auto power = intensity(terrain::flat(0.0), -5.0);
-  for (std::size_t i = 1; i + 1 < kSamples; ++i) {
-    const double distance_m = (static_cast<double>(i) + 0.5) * kSpacing_m;
-    const double depression_deg = std::atan(kAltitude_m / distance_m) / geo::kRadiansPerDegree;
-    const double sine = kAltitude_m / std::hypot(kAltitude_m, distance_m);
+  for (std::size_t i = 1; i + 1 < kReportSamples; ++i) {
+    const double distance_m = (static_cast<double>(i) + 0.5) * kReportSpacing_m;
+    const double depression_deg = std::atan(kReportAltitude_m / distance_m) / geo::kRadiansPerDegree;
+    const double sine = kReportAltitude_m / std::hypot(kReportAltitude_m, distance_m);
     if (std::abs(depression_deg - 5.0) < 1.2) {
       EXPECT_NEAR(static_cast<double>(power[i]), sine / kFullScale, 1e-3 / kFullScale) << distance_m;
     }
@@ -53,8 +53,8 @@ TEST(Report1996, AFlatPlaneReturnsTheSineOfItsDepressionOnlyWithinTheBeam) {
 
 TEST(Report1996, LevelGroundAtFullRangeIsHalfAsBrightAsAtHalfRange) {
   const auto power = intensity(terrain::flat(0.0), -4.0, 2.0);
-  EXPECT_NEAR(static_cast<double>(power[kSamples / 2]), 1.0, 0.01);
-  EXPECT_NEAR(static_cast<double>(power[kSamples - 2]), 0.5, 0.01);
+  EXPECT_NEAR(static_cast<double>(power[kReportSamples / 2]), 1.0, 0.01);
+  EXPECT_NEAR(static_cast<double>(power[kReportSamples - 2]), 0.5, 0.01);
 }
 
 // Each bar shows the ground within the beams of all bars.
@@ -64,21 +64,21 @@ TEST(Report1996, EveryBarOfAScanMakesTheSamePicture) {
   constexpr double kBeam_deg = 2.5;
   for (int bar = 0; bar < 4; ++bar) {
     radar::RadarConfiguration configuration;
-    configuration.fidelity.samples = static_cast<int>(kSamples);
+    configuration.fidelity.samples = static_cast<int>(kReportSamples);
     Report1996 report(configuration);
-    physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+    physics::SweepGeometry geometry = test::geometry_north(kReportAltitude_m, kReportRange_m);
     geometry.elevation = geo::Angle::degrees(-5.0 + kBeam_deg * (1.5 - bar));
     geometry.bars_above = geo::Angle::degrees(kBeam_deg * bar);
     geometry.bars_below = geo::Angle::degrees(kBeam_deg * (3 - bar));
-    bars.emplace_back(kSamples);
+    bars.emplace_back(kReportSamples);
     report.measure(geometry, terrain::AnalyticTerrain(hills), bars.back());
   }
   std::size_t lit = 0;
-  for (std::size_t i = 0; i < kSamples; ++i) {
+  for (std::size_t i = 0; i < kReportSamples; ++i) {
     lit += bars[0][i] > 0.0F ? 1U : 0U;
     for (int bar = 1; bar < 4; ++bar) EXPECT_NEAR(bars[static_cast<std::size_t>(bar)][i], bars[0][i], 1e-4F) << i;
   }
-  EXPECT_GT(lit, kSamples / 10);
+  EXPECT_GT(lit, kReportSamples / 10);
 }
 
 TEST(Report1996, GroundAboveFullScaleIsClippedBeforeTheGain) {
@@ -86,7 +86,7 @@ TEST(Report1996, GroundAboveFullScaleIsClippedBeforeTheGain) {
   const std::vector<float> power(4, 3.0F);
   std::vector<std::uint8_t> video(4);
   for (int gain = 0; gain <= 3; ++gain) {
-    report.form_video({power, power, power}, geo::Length::metres(kRange_m), gain, {}, video);
+    report.form_video({power, power, power}, geo::Length::metres(kReportRange_m), gain, {}, video);
     EXPECT_NEAR(video[1], 255.0 * (gain + 1) / 4.0, 0.51);
   }
 }
@@ -97,7 +97,7 @@ TEST(Report1996, AMastAboveTheBeamCastsNoShadow) {
   const auto power = intensity(
       [](geo::GeoPoint position) {
         const double distance_m = geo::geodesic_inverse(test::kMidLatitude, position).distance.metres();
-        return std::abs(distance_m - 10020.0) < 0.5 * kSpacing_m ? 1800.0 : 0.0;
+        return std::abs(distance_m - 10020.0) < 0.5 * kReportSpacing_m ? 1800.0 : 0.0;
       },
       -5.71);
   EXPECT_GT(power[sample_at(20000.0)], 0.0F);
@@ -114,7 +114,7 @@ TEST(Report1996, GainHasStepsOfAQuarter) {
   const std::vector<float> power(4, 0.8F);
   std::vector<std::uint8_t> video(4);
   for (int gain = 0; gain <= 3; ++gain) {
-    report.form_video({power, power, power}, geo::Length::metres(kRange_m), gain, {}, video);
+    report.form_video({power, power, power}, geo::Length::metres(kReportRange_m), gain, {}, video);
     EXPECT_NEAR(video[1], 255.0 * 0.8 * (gain + 1) / 4.0, 0.51);
   }
 }
@@ -123,9 +123,9 @@ TEST(Report1996, ThreeSweepsAreWeightedQuarterHalfQuarter) {
   Report1996 report{radar::RadarConfiguration{}};
   const std::vector<float> bright(4, 1.0F), dark(4, 0.0F);
   std::vector<std::uint8_t> video(4);
-  report.form_video({bright, dark, dark}, geo::Length::metres(kRange_m), 3, {}, video);
+  report.form_video({bright, dark, dark}, geo::Length::metres(kReportRange_m), 3, {}, video);
   EXPECT_EQ(video[0], 64);
-  report.form_video({dark, bright, dark}, geo::Length::metres(kRange_m), 3, {}, video);
+  report.form_video({dark, bright, dark}, geo::Length::metres(kReportRange_m), 3, {}, video);
   EXPECT_EQ(video[0], 128);
 }
 

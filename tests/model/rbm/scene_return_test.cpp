@@ -11,6 +11,7 @@
 #include "model/rbm/standard.hpp"
 #include "model/rbm/sub_beams.hpp"
 #include "tests/model/made_up_objects.hpp"
+#include "tests/model/physics/decibels.hpp"
 #include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
@@ -18,16 +19,12 @@ namespace {
 
 using test::Building;
 
-constexpr double kAltitude_m = 2000.0;
-constexpr double kRange_m = 40000.0;
-constexpr std::size_t kSamples = 1000;  // 40 m each
-
-double decibels(double ratio) {
-  return 10.0 * std::log10(ratio);
-}
+constexpr double kSceneAltitude_m = 2000.0;
+constexpr double kSceneRange_m = 40000.0;
+constexpr std::size_t kSceneSamples = 1000;  // 40 m each
 
 radar::RadarConfiguration base_configuration() {
-  radar::RadarConfiguration configuration = test::bare_configuration(static_cast<int>(kSamples));
+  radar::RadarConfiguration configuration = test::bare_configuration(static_cast<int>(kSceneSamples));
   configuration.receiver.stc_exponent = 0.0;
   return configuration;
 }
@@ -40,7 +37,7 @@ std::vector<float> power_of(const radar::RadarConfiguration& configuration, cons
                             const scene::SceneView* scenes,
                             const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
   const auto algorithm = make_algorithm(configuration);
-  std::vector<float> power(kSamples);
+  std::vector<float> power(kSceneSamples);
   const terrain::AnalyticTerrain ground(height);
   algorithm->measure(geometry, {ground, scenes}, power);
   return power;
@@ -49,10 +46,11 @@ std::vector<float> power_of(const radar::RadarConfiguration& configuration, cons
 // By sample: power with the scene minus power of the ground alone.
 std::vector<double> added_by(const radar::RadarConfiguration& configuration, const scene::SceneView& scenes,
                              const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0),
-                             const physics::SweepGeometry& geometry = test::geometry_north(kAltitude_m, kRange_m)) {
+                             const physics::SweepGeometry& geometry = test::geometry_north(kSceneAltitude_m,
+                                                                                           kSceneRange_m)) {
   const auto with_scene = power_of(configuration, geometry, &scenes, height);
   const auto without = power_of(configuration, geometry, nullptr, height);
-  std::vector<double> difference(kSamples);
+  std::vector<double> difference(kSceneSamples);
   std::transform(with_scene.begin(), with_scene.end(), without.begin(), difference.begin(),
                  [](float a, float b) { return static_cast<double>(a) - static_cast<double>(b); });
   return difference;
@@ -68,8 +66,8 @@ std::size_t brightest(const std::vector<double>& power) {
 
 // Power [full scale] of a cross section with its middle at a distance over flat ground and at a height.
 double expected(const radar::RadarConfiguration& configuration, double sigma_m2, double distance_m, double height_m) {
-  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::metres(kRange_m));
-  return sigma_m2 / std::pow(std::hypot(distance_m, kAltitude_m - height_m), 4.0) / receiver.full_scale;
+  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::metres(kSceneRange_m));
+  return sigma_m2 / std::pow(std::hypot(distance_m, kSceneAltitude_m - height_m), 4.0) / receiver.full_scale;
 }
 
 double gamma_of(std::size_t material) {
@@ -86,8 +84,8 @@ TEST(SceneReturn, OfABoxIsGammaTimesTheAreaThatFacesTheRadarAtItsRange) {
       EXPECT_EQ(added[i], 0.0) << i;
     }
   }
-  const double slant_m = std::hypot(distance_m, kAltitude_m - 15.0);
-  const double seen_m2 = 20.0 * 30.0 * distance_m / slant_m + 20.0 * 20.0 * (kAltitude_m - 15.0) / slant_m;
+  const double slant_m = std::hypot(distance_m, kSceneAltitude_m - 15.0);
+  const double seen_m2 = 20.0 * 30.0 * distance_m / slant_m + 20.0 * 20.0 * (kSceneAltitude_m - 15.0) / slant_m;
   EXPECT_NEAR(added[500] / expected(base_configuration(), gamma_of(5) * seen_m2, distance_m, 15.0), 1.0, 0.005);
 }
 
@@ -124,7 +122,7 @@ TEST(SceneReturn, IsTheSameWithSeveralRaysAcrossTheBeam) {
 }
 
 TEST(SceneReturn, IsInOneCellOfASharpenedBeamAndStrongerByTheSharpening) {
-  physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  physics::SweepGeometry geometry = test::geometry_north(kSceneAltitude_m, kSceneRange_m);
   geometry.slice.sharpened = true;
   const double half_rad = 0.05 * geo::kRadiansPerDegree;
   geometry.slice.left_rad = -half_rad;
@@ -152,8 +150,8 @@ TEST(SceneReturn, OfWallsThatFaceTheRadarHasTheCardinalEffect) {
   const Building building{0.0, 0.0, 20.0, 20.0, 30.0, kStone};
   const double facing = sum_of(added_by(base_configuration(), *test::scene_of({building}, north_by(20020.0), 0.0)));
   const double turned = sum_of(added_by(base_configuration(), *test::scene_of({building}, north_by(20020.0), 45.0)));
-  const double slant_m = std::hypot(20020.0, kAltitude_m - 15.0);
-  const double level = 20020.0 / slant_m, up = (kAltitude_m - 15.0) / slant_m;
+  const double slant_m = std::hypot(20020.0, kSceneAltitude_m - 15.0);
+  const double level = 20020.0 / slant_m, up = (kSceneAltitude_m - 15.0) / slant_m;
   const double wall_m2 = 600.0 * level, roof_m2 = 400.0 * up;
   // Cardinal effect of stone: 10 dB, a factor of 10. At 45 degrees two walls are visible.
   const double expected_db = decibels((10.0 * wall_m2 + roof_m2) / (std::sqrt(2.0) * wall_m2 + roof_m2));
@@ -171,7 +169,7 @@ TEST(SceneReturn, BehindARidgeIsZero) {
 TEST(SceneReturn, IsProportionalToTheHeightAboveTheHorizon) {
   // `hidden_m`: height at which the line of sight over the crest meets the tower.
   const double crest_m = 300.0, crest_at_m = 18020.0, tower_at_m = 21020.0;
-  const double hidden_m = kAltitude_m - (kAltitude_m - crest_m) * tower_at_m / crest_at_m;
+  const double hidden_m = kSceneAltitude_m - (kSceneAltitude_m - crest_m) * tower_at_m / crest_at_m;
   ASSERT_GT(hidden_m, 0.0);
   const double tower_m = 4.0 * hidden_m;
   const auto scenes = test::scene_of({{0.0, 0.0, 20.0, 20.0, tower_m}}, north_by(tower_at_m));
@@ -183,7 +181,7 @@ TEST(SceneReturn, IsProportionalToTheHeightAboveTheHorizon) {
 
 TEST(SceneReturn, OfManyObjectsIsTheSumOfEach) {
   std::vector<Building> all;
-  std::vector<double> sum(kSamples, 0.0);
+  std::vector<double> sum(kSceneSamples, 0.0);
   for (int i = 0; i < 60; ++i) {
     const Building one{150.0 * (i % 10 - 5) + 16.0, 150.0 * (i / 10 - 3) + 16.0, 10.0, 8.0 + i, 5.0 + 0.5 * i};
     all.push_back(one);
@@ -192,12 +190,12 @@ TEST(SceneReturn, OfManyObjectsIsTheSumOfEach) {
   }
   const auto together = added_by(base_configuration(), *test::scene_of(all, north_by(20020.0)));
   const double maximum = *std::max_element(sum.begin(), sum.end());
-  for (std::size_t i = 0; i < kSamples; ++i) EXPECT_NEAR(together[i], sum[i], 2e-5 * maximum) << i;
+  for (std::size_t i = 0; i < kSceneSamples; ++i) EXPECT_NEAR(together[i], sum[i], 2e-5 * maximum) << i;
 }
 
 TEST(SceneReturn, OfARunwayReplacesTheGroundsReturn) {
   const auto scenes = test::scene_of({{0.0, 0.0, 600.0, 2000.0, 0.0, 9}}, north_by(20000.0));
-  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  const physics::SweepGeometry geometry = test::geometry_north(kSceneAltitude_m, kSceneRange_m);
   for (const bool fast : {false, true}) {
     radar::RadarConfiguration configuration = base_configuration();
     if (fast) configuration.fidelity.algorithm = radar::Algorithm::standard;
@@ -211,7 +209,7 @@ TEST(SceneReturn, OfARunwayReplacesTheGroundsReturn) {
 }
 
 TEST(SceneReturn, OutsideTheSweepChangesNoBit) {
-  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  const physics::SweepGeometry geometry = test::geometry_north(kSceneAltitude_m, kSceneRange_m);
   const auto without = power_of(base_configuration(), geometry, nullptr);
   for (const auto& position : {north_by(60000.0), north_by(20000.0, 90.0), north_by(20000.0, 180.0)}) {
     const auto scenes = test::scene_of({Building{}, {200, 0, 100, 100, 0.0, 9}}, position);
@@ -225,13 +223,13 @@ TEST(SceneReturn, OfStandardEqualsThatOfReference) {
   const auto scenes = test::scene_of(town, north_by(25000.0, 0.4), 30.0);
   radar::RadarConfiguration configuration;
   configuration.fidelity.noise = false;
-  configuration.fidelity.samples = static_cast<int>(kSamples);
-  const physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  configuration.fidelity.samples = static_cast<int>(kSceneSamples);
+  const physics::SweepGeometry geometry = test::geometry_north(kSceneAltitude_m, kSceneRange_m);
   configuration.fidelity.algorithm = radar::Algorithm::standard;
   const auto fast = power_of(configuration, geometry, scenes.get(), terrain::flat(20.0));
   configuration.fidelity.algorithm = radar::Algorithm::reference;
   const auto exact = power_of(configuration, geometry, scenes.get(), terrain::flat(20.0));
-  for (std::size_t i = 0; i < kSamples; ++i) EXPECT_NEAR(fast[i], exact[i], 1e-3F * exact[i] + 1e-9F) << i;
+  for (std::size_t i = 0; i < kSceneSamples; ++i) EXPECT_NEAR(fast[i], exact[i], 1e-3F * exact[i] + 1e-9F) << i;
 }
 
 }  // namespace

@@ -8,19 +8,16 @@
 #include "model/physics/receiver.hpp"
 #include "model/rbm/emitters.hpp"
 #include "tests/model/kernel/cockpit.hpp"
+#include "tests/model/physics/decibels.hpp"
 #include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {
 
-constexpr double kAltitude_m = 3000.0;
-constexpr double kRange_m = 74080.0;
+constexpr double kStrobesAltitude_m = 3000.0;
+constexpr double kStrobesRange_m = 74080.0;
 
-double decibels(double ratio) {
-  return 10.0 * std::log10(ratio);
-}
-
-radar::Jammer jammer_north(double distance_m, double altitude_m = kAltitude_m) {
+radar::Jammer jammer_north(double distance_m, double altitude_m = kStrobesAltitude_m) {
   radar::Jammer jammer;
   jammer.position = geo::geodesic_direct(test::kMidLatitude, geo::Bearing(), geo::Length::metres(distance_m));
   jammer.altitude_m = altitude_m;
@@ -36,7 +33,7 @@ radar::RadarConfiguration jammed_by(const radar::Jammer& jammer) {
 }
 
 physics::SweepGeometry geometry_off(double off_deg) {
-  physics::SweepGeometry geometry = test::geometry_north(kAltitude_m, kRange_m);
+  physics::SweepGeometry geometry = test::geometry_north(kStrobesAltitude_m, kStrobesRange_m);
   geometry.azimuth = geo::Bearing::degrees(off_deg);
   return geometry;
 }
@@ -49,7 +46,7 @@ double level(const radar::RadarConfiguration& configuration, const physics::Swee
 TEST(Strobes, HaveThePowerOfTheOneWayRadarEquation) {
   radar::RadarConfiguration configuration = jammed_by(jammer_north(50000.0));
   configuration.fidelity.earth = radar::EarthModel::flat;
-  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::metres(kRange_m));
+  const physics::Receiver receiver = physics::Receivers(configuration).at(geo::Length::metres(kStrobesRange_m));
   const double radar_w = std::pow(10.0, 7.2);
   const double expected = 4.0 * std::numbers::pi * 10.0 / radar_w / (50000.0 * 50000.0) / receiver.full_scale;
   EXPECT_NEAR(level(configuration, geometry_off(0.0)) / expected, 1.0, 1e-6);
@@ -112,8 +109,8 @@ TEST(Strobes, AreEquallyBrightInEverySample) {
   Reference reference(configuration);
   const std::vector<float> nothing(64, 0.0F);
   std::vector<std::uint8_t> quiet(64), jammed(64);
-  reference.form_video({nothing, nothing, nothing}, geo::Length::metres(kRange_m), 3, {}, quiet);
-  reference.form_video({nothing, nothing, nothing, 0.1}, geo::Length::metres(kRange_m), 3, {}, jammed);
+  reference.form_video({nothing, nothing, nothing}, geo::Length::metres(kStrobesRange_m), 3, {}, quiet);
+  reference.form_video({nothing, nothing, nothing, 0.1}, geo::Length::metres(kStrobesRange_m), 3, {}, jammed);
   for (std::size_t i = 0; i < jammed.size(); ++i) {
     EXPECT_EQ(jammed[i], jammed[0]);
     EXPECT_NEAR(jammed[i], 255.0 * (1.0 - 10.0 / 45.0), 1.0);

@@ -53,7 +53,7 @@ TEST(NameFilter, AnUnmatchedNameIsAnErrorThatListsSimilarNames) {
   EXPECT_FALSE(NameFilter("").unmatched_error("ship.flt"));
 }
 
-constexpr geo::GeoPoint kOrigin{37.5, -122.5};
+constexpr geo::GeoPoint kFilteredOrigin{37.5, -122.5};
 
 void write_bytes(const std::filesystem::path& file, const std::vector<std::byte>& bytes) {
   std::ofstream out(file, std::ios::binary);
@@ -62,7 +62,7 @@ void write_bytes(const std::filesystem::path& file, const std::vector<std::byte>
 
 // Ship with a hull 20 m high inside an environment box of 2 km, as in some ship models.
 std::filesystem::path boxed_ship(const std::filesystem::path& folder) {
-  worldgen::OpenFlightWriter writer(kOrigin);
+  worldgen::OpenFlightWriter writer(kFilteredOrigin);
   worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("hull");
   mesh_builder.box({0, 0, 0}, 20, 100, 20);
@@ -99,9 +99,9 @@ TEST(NameFilter, AStoreOmitsTheNamesOfItsSceneAndRefusesAnUnmatchedName) {
                                 std::make_shared<terrain::AnalyticTerrain>([](geo::GeoPoint) { return 10.0; })));
   };
   const auto triangles = [&](SceneStore& store) {
-    const auto view = store.prepare({kOrigin, 3000.0, 0});
+    const auto view = store.prepare({kFilteredOrigin, 3000.0, 0});
     std::vector<const Tile*> tiles;
-    view->tiles_near(kOrigin, 3000.0, tiles);
+    view->tiles_near(kFilteredOrigin, 3000.0, tiles);
     std::size_t sum = 0;
     for (const Tile* tile : tiles) sum += tile->triangles();
     return sum;
@@ -124,7 +124,7 @@ TEST(NameFilter, EachOfSeveralScenesOmitsTheNamesThatItHas) {
   const std::string ship = boxed_ship(folder.path());
   std::filesystem::create_directory(folder.path() / "other");
   const std::string other = folder.path() / "other" / "pier.flt";
-  worldgen::OpenFlightWriter writer(kOrigin);
+  worldgen::OpenFlightWriter writer(kFilteredOrigin);
   worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object("pier");
   mesh_builder.box({0, 0, 0}, 10, 50, 2);

@@ -17,13 +17,13 @@
 namespace yars::model::scene {
 namespace {
 
-constexpr geo::GeoPoint kOrigin{37.5, -122.3};
+constexpr geo::GeoPoint kScattererOrigin{37.5, -122.3};
 
 std::shared_ptr<const Scatterers> scatterers_of(worldgen::OpenFlightWriter& writer,
                                                 double max_reach_m = std::numeric_limits<double>::infinity()) {
   KindTable kinds;
   const terrain::AnalyticTerrain ground(terrain::flat(100.0));
-  return place_model(read(writer), {.position = kOrigin}, ground, 0, kinds, SceneUse::scatterers, max_reach_m)
+  return place_model(read(writer), {.position = kScattererOrigin}, ground, 0, kinds, SceneUse::scatterers, max_reach_m)
       .scatterers;
 }
 
@@ -99,7 +99,7 @@ TEST(Scatterers, OfAFlatFaceOf6000KilometresAreBoundedInNumber) {
       builder.add_lying({geo::Vector3{east_m, north_m, 0}, geo::Vector3{east_m + 2000.0, north_m, 0},
                          geo::Vector3{east_m, north_m + 2000.0, 0}},
                         7);
-  const auto made = builder.take(geo::AzimuthalEquidistant(kOrigin));
+  const auto made = builder.take(geo::AzimuthalEquidistant(kScattererOrigin));
   ASSERT_TRUE(made);
   EXPECT_EQ(made->finest, 3U);
   EXPECT_LE(made->levels[3].covers.size(), 1U << 18U);

@@ -10,7 +10,7 @@
 namespace yars::model::scene {
 namespace {
 
-constexpr geo::GeoPoint kOrigin{37.5, -122.0};
+constexpr geo::GeoPoint kTileOrigin{37.5, -122.0};
 
 // Level right-angled triangle: the right angle is at `position`, the legs point east and north.
 std::array<PlacedCorner, 3> triangle_at(Vector3 position, double side_m, const std::array<Vector3, 3>& normals) {
@@ -20,7 +20,7 @@ std::array<PlacedCorner, 3> triangle_at(Vector3 position, double side_m, const s
 constexpr std::array<Vector3, 3> kUp{Vector3{0, 0, 1}, Vector3{0, 0, 1}, Vector3{0, 0, 1}};
 
 TEST(TileBuilders, FlatTrianglesShareVerticesAtOnePosition) {
-  TileBuilders builders{geo::AzimuthalEquidistant(kOrigin), 0};
+  TileBuilders builders{geo::AzimuthalEquidistant(kTileOrigin), 0};
   builders.add(triangle_at({10, 10, 5}, 4, kUp), {});
   builders.add(triangle_at({10, 10, 5}, 8, kUp), {});
   builders.add(triangle_at({10, 10, 6}, 4, kUp), {});
@@ -36,7 +36,7 @@ TEST(TileBuilders, FlatTrianglesShareVerticesAtOnePosition) {
 
 TEST(TileBuilders, VerticesOfACurvedTriangleHaveNormals) {
   constexpr Vector3 kLeaning{0.6, 0, 0.8};
-  TileBuilders builders{geo::AzimuthalEquidistant(kOrigin), 0};
+  TileBuilders builders{geo::AzimuthalEquidistant(kTileOrigin), 0};
   builders.add(triangle_at({10, 10, 5}, 4, {kLeaning, kUp[1], kUp[2]}), {1, 0, false});
   builders.add(triangle_at({10, 10, 5}, 4, kUp), {2, 0, false});
   const std::vector<Tile> tiles = builders.take(5);
@@ -54,7 +54,7 @@ TEST(TileBuilders, VerticesOfACurvedTriangleHaveNormals) {
 
 TEST(TileBuilders, ASquareWithTooManyVerticesForOneTileBecomesSeveralTilesInOrder) {
   constexpr std::uint32_t kTriangles = 50'000;
-  TileBuilders builders{geo::AzimuthalEquidistant(kOrigin), 0};
+  TileBuilders builders{geo::AzimuthalEquidistant(kTileOrigin), 0};
   for (std::uint32_t i = 0; i < kTriangles; ++i)
     builders.add(triangle_at({10.0 + 0.01 * (i % 1000), 10.0 + 0.01 * i / 1000, 5}, 1, kUp), {0, i, i % 2 == 0});
   const std::vector<Tile> tiles = builders.take(5);

@@ -15,10 +15,10 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr CellCorner kCorner{50, 10};
+constexpr CellCorner kDtedCorner{50, 10};
 
 error::Expected<CellReading> parse(const test::DtedFile& file) {
-  return parse_dted(file.bytes(), "small.dt0", kCorner);
+  return parse_dted(file.bytes(), "small.dt0", kDtedCorner);
 }
 
 TEST(DtedReader, ColumnsRunFromSouthToNorthAndFromWestToEast) {
@@ -27,7 +27,7 @@ TEST(DtedReader, ColumnsRunFromSouthToNorthAndFromWestToEast) {
   EXPECT_THAT(reading->warnings, IsEmpty());
   for (int row = 0; row < 5; ++row)
     for (int column = 0; column < 5; ++column) EXPECT_EQ(reading->cell.post(row, column), 100 * column + row);
-  EXPECT_EQ(reading->cell.corner(), kCorner);
+  EXPECT_EQ(reading->cell.corner(), kDtedCorner);
   EXPECT_EQ(reading->cell.sea_posts(), 1U);
 }
 
@@ -159,13 +159,13 @@ TEST(DtedReader, TapeLabelsBeforeTheHeaderAreSkipped) {
   EXPECT_EQ(reading->cell.post(1, 4), 401);
 }
 
-struct Broken {
+struct BrokenField {
   const char* what;
   void (*spoil)(test::DtedFile&);
   const char* message;
 };
 
-class BrokenDted : public ::testing::TestWithParam<Broken> {};
+class BrokenDted : public ::testing::TestWithParam<BrokenField> {};
 
 TEST_P(BrokenDted, IsRefusedWithTheReason) {
   test::DtedFile file = test::small_dted();
@@ -179,30 +179,32 @@ TEST_P(BrokenDted, IsRefusedWithTheReason) {
 INSTANTIATE_TEST_SUITE_P(
     DtedReader, BrokenDted,
     ::testing::Values(
-        Broken{"Magic", [](test::DtedFile& file) { file.magic = "UHL9"; }, "UHL1"},
-        Broken{"Digits", [](test::DtedFile& file) { file.latitude_count = "00x5"; }, "digits"},
-        Broken{"HalfDegree", [](test::DtedFile& file) { file.latitude = "0503000N"; }, "whole degrees"},
-        Broken{"Hemisphere", [](test::DtedFile& file) { file.longitude = "0100000X"; }, "whole degrees"},
-        Broken{"OtherPlace", [](test::DtedFile& file) { file.longitude = "0100000W"; }, "as the name says"},
-        Broken{"NoPosts", [](test::DtedFile& file) { file.latitude_count = "0000"; }, "span one degree"},
-        Broken{"HugeCounts", [](test::DtedFile& file) { file.latitude_count = file.longitude_count = "9999"; },
-               "span one degree"},
-        Broken{"HalfACell", [](test::DtedFile& file) { file.longitude_interval = "4500"; }, "span one degree"},
-        Broken{"CountBeyondTheFile",
-               [](test::DtedFile& file) { file.latitude_count = "3601", file.latitude_interval = "0010"; },
-               "truncated"},
-        Broken{"HeaderAlone", [](test::DtedFile& file) { file.columns.clear(); }, "truncated"},
-        Broken{"TornColumn", [](test::DtedFile& file) { file.columns.back().words.resize(2); }, "truncated"},
-        Broken{"Sentinel", [](test::DtedFile& file) { file.columns[2].sentinel = 0; }, "begins with AA"},
-        Broken{"LongitudeIndex", [](test::DtedFile& file) { file.columns[2].longitude_index = 5; }, "inside the cell"},
-        Broken{"LatitudeIndex", [](test::DtedFile& file) { file.columns[2].latitude_index = 5; }, "inside the cell"}),
+        BrokenField{"Magic", [](test::DtedFile& file) { file.magic = "UHL9"; }, "UHL1"},
+        BrokenField{"Digits", [](test::DtedFile& file) { file.latitude_count = "00x5"; }, "digits"},
+        BrokenField{"HalfDegree", [](test::DtedFile& file) { file.latitude = "0503000N"; }, "whole degrees"},
+        BrokenField{"Hemisphere", [](test::DtedFile& file) { file.longitude = "0100000X"; }, "whole degrees"},
+        BrokenField{"OtherPlace", [](test::DtedFile& file) { file.longitude = "0100000W"; }, "as the name says"},
+        BrokenField{"NoPosts", [](test::DtedFile& file) { file.latitude_count = "0000"; }, "span one degree"},
+        BrokenField{"HugeCounts", [](test::DtedFile& file) { file.latitude_count = file.longitude_count = "9999"; },
+                    "span one degree"},
+        BrokenField{"HalfACell", [](test::DtedFile& file) { file.longitude_interval = "4500"; }, "span one degree"},
+        BrokenField{"CountBeyondTheFile",
+                    [](test::DtedFile& file) { file.latitude_count = "3601", file.latitude_interval = "0010"; },
+                    "truncated"},
+        BrokenField{"HeaderAlone", [](test::DtedFile& file) { file.columns.clear(); }, "truncated"},
+        BrokenField{"TornColumn", [](test::DtedFile& file) { file.columns.back().words.resize(2); }, "truncated"},
+        BrokenField{"Sentinel", [](test::DtedFile& file) { file.columns[2].sentinel = 0; }, "begins with AA"},
+        BrokenField{"LongitudeIndex", [](test::DtedFile& file) { file.columns[2].longitude_index = 5; },
+                    "inside the cell"},
+        BrokenField{"LatitudeIndex", [](test::DtedFile& file) { file.columns[2].latitude_index = 5; },
+                    "inside the cell"}),
     [](const auto& information) { return std::string(information.param.what); });
 
 TEST(DtedReader, EveryTruncationIsRefusedOrLacksCompleteColumns) {
   const std::vector<std::byte> complete = test::small_dted().bytes();
   const std::size_t record = 12 + 2 * test::kSmallSide;
   for (std::size_t length = 0; length < complete.size(); ++length) {
-    const auto reading = parse_dted(std::span(complete).first(length), "cut.dt0", kCorner);
+    const auto reading = parse_dted(std::span(complete).first(length), "cut.dt0", kDtedCorner);
     const bool at_boundary = length > 3428 && (length - 3428) % record == 0;
     EXPECT_EQ(reading.has_value(), at_boundary) << "cut at " << length;
   }
@@ -222,7 +224,7 @@ TEST(DtedReader, RandomDamageNeverReadsBeyondTheFile) {
     for (int change = 0; change < 3; ++change)
       damaged[interpreted[random() % interpreted.size()]] = static_cast<std::byte>(random());
     if (random() % 2 == 0) damaged.resize(random() % (damaged.size() + 1));
-    const auto reading = parse_dted(damaged, "damaged.dt0", kCorner);
+    const auto reading = parse_dted(damaged, "damaged.dt0", kDtedCorner);
     if (!reading)
       ++refused;
     else

@@ -22,16 +22,16 @@ using test::rough_cell;
 using test::same_posts;
 using ::testing::HasSubstr;
 
-constexpr CellCorner kCorner{36, -122};
+constexpr CellCorner kPackCorner{36, -122};
 
 Cell smooth_cell(int rows, int columns) {
-  return cell_of(kCorner, rows, columns, [&](int row, int column) {
+  return cell_of(kPackCorner, rows, columns, [&](int row, int column) {
     return static_cast<int>(800 + 300 * std::sin(6.0 * row / rows) + 400 * std::cos(9.0 * column / columns));
   });
 }
 
 error::Expected<CellReading> read_back(const PackedCell& packed, int reduction) {
-  return parse_pack(packed.jp2, packed.side, "n36.jp2", kCorner, reduction);
+  return parse_pack(packed.jp2, packed.side, "n36.jp2", kPackCorner, reduction);
 }
 
 struct Sides {
@@ -41,7 +41,7 @@ class PackOf : public ::testing::TestWithParam<Sides> {};
 
 TEST_P(PackOf, UnpacksToTheSamePosts) {
   for (unsigned seed = 0; seed < 2; ++seed) {
-    const Cell cell = rough_cell(kCorner, GetParam().rows, GetParam().columns, seed);
+    const Cell cell = rough_cell(kPackCorner, GetParam().rows, GetParam().columns, seed);
     const auto packed = pack_cell(cell);
     ASSERT_TRUE(packed.has_value()) << packed.error().message();
     const auto reading = read_back(*packed, 0);
@@ -52,7 +52,7 @@ TEST_P(PackOf, UnpacksToTheSamePosts) {
 }
 
 TEST_P(PackOf, HasTheVoidsSeaEdgesAndPeaksOfReduceAtEachReduction) {
-  const Cell cell = rough_cell(kCorner, GetParam().rows, GetParam().columns, 5);
+  const Cell cell = rough_cell(kPackCorner, GetParam().rows, GetParam().columns, 5);
   const auto packed = pack_cell(cell);
   ASSERT_TRUE(packed.has_value());
   for (int reduction = 1; reduction <= 6; ++reduction) {
@@ -96,17 +96,17 @@ TEST(Pack, HasTheMeansOfSmoothGroundAtEachReduction) {
 }
 
 TEST(Pack, KeepsACellOfVoidsAndExtremeHeights) {
-  const Cell nothing = cell_of(kCorner, 9, 9, [](int, int) { return int{kVoidPost}; });
+  const Cell nothing = cell_of(kPackCorner, 9, 9, [](int, int) { return int{kVoidPost}; });
   EXPECT_TRUE(same_posts(read_back(*pack_cell(nothing), 0)->cell, nothing));
   EXPECT_EQ(read_back(*pack_cell(nothing), 2)->cell.voids(), 9U);
   const Cell cliffs =
-      cell_of(kCorner, 17, 17, [](int row, int column) { return (row + column) % 2 == 0 ? 32767 : -32767; });
+      cell_of(kPackCorner, 17, 17, [](int row, int column) { return (row + column) % 2 == 0 ? 32767 : -32767; });
   EXPECT_TRUE(same_posts(read_back(*pack_cell(cliffs), 0)->cell, cliffs));
 }
 
 TEST(Pack, KeepsTheUnitOfThePostsAtEachReduction) {
-  const Cell rough = rough_cell(kCorner, 61, 61, 4);
-  const Cell cell(kCorner, 61, 61, rough.posts(), 0.3);
+  const Cell rough = rough_cell(kPackCorner, 61, 61, 4);
+  const Cell cell(kPackCorner, 61, 61, rough.posts(), 0.3);
   const auto packed = pack_cell(cell);
   ASSERT_TRUE(packed.has_value()) << packed.error().message();
   EXPECT_EQ(packed->side[11], std::byte{2}) << "version 2: posts in a unit other than metres";
@@ -132,7 +132,7 @@ TEST(Pack, ASmoothCellHasLessThanAThirdOfTheBytesOfItsPosts) {
 }
 
 TEST(Pack, DamageToEitherFileIsRefused) {
-  const auto packed = pack_cell(rough_cell(kCorner, 33, 33, 8));
+  const auto packed = pack_cell(rough_cell(kPackCorner, 33, 33, 8));
   ASSERT_TRUE(packed.has_value());
   constexpr unsigned kSeed = 3;
   std::mt19937 random(kSeed);
@@ -152,26 +152,26 @@ TEST(Pack, DamageToEitherFileIsRefused) {
 }
 
 TEST(Pack, TheSideFileOfAnotherCellIsRefused) {
-  const auto one = pack_cell(rough_cell(kCorner, 33, 33, 8));
-  const auto other = pack_cell(rough_cell(kCorner, 33, 33, 9));
-  EXPECT_THAT(parse_pack(one->jp2, other->side, "n36.jp2", kCorner, 0).error().message(), HasSubstr("beside it"));
+  const auto one = pack_cell(rough_cell(kPackCorner, 33, 33, 8));
+  const auto other = pack_cell(rough_cell(kPackCorner, 33, 33, 9));
+  EXPECT_THAT(parse_pack(one->jp2, other->side, "n36.jp2", kPackCorner, 0).error().message(), HasSubstr("beside it"));
 }
 
 TEST(Pack, IsIndexedByItsHeaderAndReadFromADirectory) {
   const test::TemporaryFolder folder;
-  const Cell cell = rough_cell(kCorner, 121, 61, 4);
+  const Cell cell = rough_cell(kPackCorner, 121, 61, 4);
   const auto path = write_pack(folder.path(), cell);
   ASSERT_TRUE(path.has_value()) << path.error().message();
   EXPECT_EQ(std::filesystem::relative(*path, folder.path()), "w122/n36.jp2");
   const auto index = index_directory(folder.path());
   ASSERT_TRUE(index.has_value()) << index.error().message();
-  const CellFile& file = index->at(slot_of(kCorner));
+  const CellFile& file = index->at(slot_of(kPackCorner));
   EXPECT_EQ(file.format, CellFormat::pack);
   EXPECT_EQ(file.posts_per_degree, 120);
   EXPECT_EQ(file.posts_per_degree_east, 60);
-  EXPECT_TRUE(same_posts(read_cell(file, kCorner)->cell, cell));
+  EXPECT_TRUE(same_posts(read_cell(file, kPackCorner)->cell, cell));
   std::filesystem::remove(folder.path() / "w122/n36.side");
-  EXPECT_THAT(read_cell(file, kCorner).error().message(), HasSubstr("n36.side"));
+  EXPECT_THAT(read_cell(file, kPackCorner).error().message(), HasSubstr("n36.side"));
 }
 
 TEST(Pack, IsReadUnderNamesInUpperCase) {
@@ -182,7 +182,7 @@ TEST(Pack, IsReadUnderNamesInUpperCase) {
   std::filesystem::create_directory(upper);
   std::filesystem::rename(lower / "n36.jp2", upper / "N36.JP2");
   std::filesystem::rename(lower / "n36.side", upper / "N36.SIDE");
-  const auto reading = read_pack(upper / "N36.JP2", kCorner, 0);
+  const auto reading = read_pack(upper / "N36.JP2", kPackCorner, 0);
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
   EXPECT_TRUE(same_posts(reading->cell, cell));
 }

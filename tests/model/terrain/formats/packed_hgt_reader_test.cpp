@@ -14,7 +14,7 @@ namespace {
 using ::testing::HasSubstr;
 
 constexpr std::size_t kSide = 1201;
-constexpr CellCorner kCorner{43, 7};
+constexpr CellCorner kPackedCorner{43, 7};
 
 // The north-west post is 111 m, the rest 5 m.
 std::vector<std::byte> hgt(std::size_t bytes = 2 * kSide * kSide) {
@@ -45,7 +45,7 @@ std::filesystem::path gzipped(const test::TemporaryFolder& folder, const std::ve
 
 // Error message of the reader, or "none".
 std::string reason(const std::filesystem::path& path) {
-  const auto reading = read_compressed_hgt(path, kCorner);
+  const auto reading = read_compressed_hgt(path, kPackedCorner);
   return reading ? "none" : reading.error().message();
 }
 
@@ -65,7 +65,7 @@ TEST(PackedHgt, ZipAndGzipAreRead) {
   const test::TemporaryFolder folder;
   for (const auto& path : {zipped(folder, "N43E007.hgt", hgt()), gzipped(folder, hgt())}) {
     EXPECT_EQ(compressed_hgt_posts(path), 1201);
-    const auto reading = read_compressed_hgt(path, kCorner);
+    const auto reading = read_compressed_hgt(path, kPackedCorner);
     ASSERT_TRUE(reading.has_value()) << reading.error().message();
     EXPECT_EQ(reading->cell.post(1200, 0), 111);
     EXPECT_EQ(reading->cell.post(0, 0), 5);
@@ -139,9 +139,9 @@ TEST(PackedHgt, TheIndexPrefersTheFinerSpacing) {
   folder.write("e007/n43.dt0", test::level_dted(43, 7, 9).bytes());
   const auto index = index_directory(folder.path());
   ASSERT_TRUE(index.has_value());
-  const CellFile& file = index->at(slot_of(kCorner));
+  const CellFile& file = index->at(slot_of(kPackedCorner));
   EXPECT_EQ(file.format, CellFormat::compressed_hgt);
-  const auto reading = read_cell(file, kCorner, 2);
+  const auto reading = read_cell(file, kPackedCorner, 2);
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
   EXPECT_EQ(reading->cell.rows(), 301);
   ASSERT_TRUE(reading->peaks.has_value());

@@ -15,7 +15,7 @@ using test::cell_of;
 using test::rough_cell;
 using test::same_posts;
 
-constexpr CellCorner kCorner{50, 10};
+constexpr CellCorner kReducedCorner{50, 10};
 
 // Weight of a post in the mean of a coarse post, along one axis. `offset`: posts between the two. A post on the border
 // between two coarse posts has weight 0.5.
@@ -63,7 +63,7 @@ class ReducedBy : public ::testing::TestWithParam<Factors> {};
 TEST_P(ReducedBy, MeansAndPeaksEqualTheirDefinition) {
   const Factors f = GetParam();
   for (unsigned seed = 0; seed < 3; ++seed) {
-    const Cell cell = rough_cell(kCorner, f.rows, f.columns, seed);
+    const Cell cell = rough_cell(kReducedCorner, f.rows, f.columns, seed);
     const ReducedCell coarse = reduce_by(cell, f.row_factor, f.column_factor);
     ASSERT_EQ(coarse.means.rows(), (f.rows - 1) / f.row_factor + 1);
     ASSERT_EQ(coarse.means.columns(), (f.columns - 1) / f.column_factor + 1);
@@ -87,7 +87,7 @@ TEST(Reduce, ADimensionIsHalvedAsOftenAsItsIntervalsDivideByTwo) {
   EXPECT_EQ(halvings(2), 0);
   EXPECT_EQ(halvings(121), 3);
   EXPECT_EQ(halvings(1201), 4);
-  const Cell cell = rough_cell(kCorner, 13, 9, 1);  // 12 and 8 intervals: two and three halvings
+  const Cell cell = rough_cell(kReducedCorner, 13, 9, 1);  // 12 and 8 intervals: two and three halvings
   const ReducedCell coarse = reduce(cell, 5);
   EXPECT_EQ(coarse.means.rows(), 4);
   EXPECT_EQ(coarse.means.columns(), 2);
@@ -96,7 +96,7 @@ TEST(Reduce, ADimensionIsHalvedAsOftenAsItsIntervalsDivideByTwo) {
 }
 
 TEST(Reduce, ZeroReductionsGiveTheSameCell) {
-  const Cell cell = rough_cell(kCorner, 9, 9, 2);
+  const Cell cell = rough_cell(kReducedCorner, 9, 9, 2);
   const ReducedCell same = reduce(cell, 0);
   EXPECT_TRUE(same_posts(same.means, cell));
   EXPECT_TRUE(same_posts(same.peaks, cell));
@@ -122,7 +122,7 @@ TEST(Reduce, NeighboursKeepTheirCommonEdgeEqual) {
 
 TEST(Reduce, InterpolatedPeaksAreNeverBelowAPost) {
   for (unsigned seed = 0; seed < 3; ++seed) {
-    const Cell cell = rough_cell(kCorner, 33, 17, seed);
+    const Cell cell = rough_cell(kReducedCorner, 33, 17, seed);
     for (int reduction = 1; reduction <= 3; ++reduction) {
       const Cell peaks = reduce(cell, reduction).peaks;
       for (int row = 0; row < cell.rows(); ++row)
@@ -137,33 +137,35 @@ TEST(Reduce, InterpolatedPeaksAreNeverBelowAPost) {
 }
 
 TEST(Reduce, PeaksOfReducedPeaksEqualPeaksOfTheCell) {
-  const Cell cell = rough_cell(kCorner, 33, 33, 7);
+  const Cell cell = rough_cell(kReducedCorner, 33, 33, 7);
   EXPECT_TRUE(same_posts(reduce(reduce(cell, 1).peaks, 2).peaks, reduce(cell, 3).peaks));
 }
 
 TEST(Reduce, LandNeverBecomesSea) {
   // Posts of -1 m and 1 m alternate. Their means are near 0, but a post of 0 would be sea.
-  const Cell cell = cell_of(kCorner, 17, 17, [](int row, int column) { return (row + column) % 2 == 0 ? 1 : -1; });
+  const Cell cell =
+      cell_of(kReducedCorner, 17, 17, [](int row, int column) { return (row + column) % 2 == 0 ? 1 : -1; });
   EXPECT_EQ(reduce(cell, 2).means.sea_posts(), 0U);
   const Cell low =
-      cell_of(kCorner, 17, 17, [](int row, int column) { return row % 4 == 0 && column % 4 == 0 ? -1 : 0; });
+      cell_of(kReducedCorner, 17, 17, [](int row, int column) { return row % 4 == 0 && column % 4 == 0 ? -1 : 0; });
   EXPECT_EQ(reduce(low, 2).means.post(1, 1), 0) << "mostly sea stays sea";
 }
 
 TEST(Resample, ATenthOfTheIntervalsGivesTheMeansOfReduction) {
-  const Cell cell = rough_cell(kCorner, 121, 61, 9);
+  const Cell cell = rough_cell(kReducedCorner, 121, 61, 9);
   EXPECT_TRUE(same_posts(resample(cell, 13, 7), reduce_by(cell, 10, 10).means));
 }
 
 TEST(Resample, AFinerGridKeepsTheOriginalPosts) {
-  const Cell cell = cell_of(kCorner, 5, 5, [](int row, int column) { return 100 + 40 * row - 20 * column; });
+  const Cell cell = cell_of(kReducedCorner, 5, 5, [](int row, int column) { return 100 + 40 * row - 20 * column; });
   const Cell fine = resample(cell, 17, 9);
   for (int row = 0; row < 17; ++row)
     for (int column = 0; column < 9; ++column) EXPECT_EQ(fine.post(row, column), 100 + 10 * row - 10 * column);
 }
 
 TEST(Resample, AGridThatDoesNotDivideTheIntervalsKeepsAPlane) {
-  const Cell cell = cell_of(kCorner, 101, 101, [](int row, int column) { return 1000 + 10 * row + 20 * column; });
+  const Cell cell =
+      cell_of(kReducedCorner, 101, 101, [](int row, int column) { return 1000 + 10 * row + 20 * column; });
   const Cell other = resample(cell, 41, 31);
   for (int row = 0; row < 41; ++row)
     for (int column = 0; column < 31; ++column)

@@ -16,11 +16,11 @@ namespace {
 using ::testing::ElementsAre;
 
 // Centre of the cell at the equator with this western edge.
-geo::GeoPoint middle(int west_deg) {
+geo::GeoPoint middle_of_cell(int west_deg) {
   return {0.5, west_deg + 0.5};
 }
 
-std::unique_ptr<DirectoryTerrainStore> store_over(const test::TemporaryFolder& folder) {
+std::unique_ptr<DirectoryTerrainStore> steps_over(const test::TemporaryFolder& folder) {
   auto store = DirectoryTerrainStore::open(folder.path(), {});
   EXPECT_TRUE(store.has_value()) << store.error().message();
   return std::move(store.value());
@@ -36,7 +36,7 @@ void write_row(const test::TemporaryFolder& folder) {
 TEST(DirectoryStoreSteps, NearCellsComeFirstAndCellsToComeAreMarkedAsNotLoaded) {
   const test::TemporaryFolder folder;
   write_row(folder);
-  const auto store = store_over(folder);
+  const auto store = steps_over(folder);
   std::vector<TerrainViewPointer> interim;
   const auto whole = store->prepare_in_steps(kRow, [&](const TerrainViewPointer& view) {
     interim.push_back(view);
@@ -46,12 +46,12 @@ TEST(DirectoryStoreSteps, NearCellsComeFirstAndCellsToComeAreMarkedAsNotLoaded) 
   for (int step = 0; step < 2; ++step) {
     SCOPED_TRACE(step);
     for (int west = 0; west < 3; ++west) {
-      const Surface ground = interim[step]->surface_at(middle(west));
+      const Surface ground = interim[step]->surface_at(middle_of_cell(west));
       EXPECT_EQ(ground.loaded, west <= step);
       EXPECT_EQ(std::isnan(ground.elevation_m), west > step);
     }
     EXPECT_FALSE(interim[step]->has_detail(0));
-    EXPECT_EQ(test::fast_path(*interim[step], {middle(step + 1)}).not_loaded, 1U);
+    EXPECT_EQ(test::fast_path(*interim[step], {middle_of_cell(step + 1)}).not_loaded, 1U);
   }
   EXPECT_LT(interim[0]->generation(), interim[1]->generation());
   EXPECT_LT(interim[1]->generation(), whole->generation());
@@ -62,7 +62,7 @@ TEST(DirectoryStoreSteps, NearCellsComeFirstAndCellsToComeAreMarkedAsNotLoaded) 
 TEST(DirectoryStoreSteps, ACellToComeIsReplacedByItsCoarserVersionAndTheViewServesNoDetail) {
   const test::TemporaryFolder folder;
   write_row(folder);
-  const auto store = store_over(folder);
+  const auto store = steps_over(folder);
   TerrainRegion coarse = kRow;
   coarse.detail = detail_for(4100.0);  // every fourth post
   const auto before = store->prepare(coarse);
@@ -86,7 +86,7 @@ TEST(DirectoryStoreSteps, ACellToComeIsReplacedByItsCoarserVersionAndTheViewServ
 TEST(DirectoryStoreSteps, ACellToComeIsReplacedByItsNextCoarserVersionInMemory) {
   const test::TemporaryFolder folder;
   write_row(folder);
-  const auto store = store_over(folder);
+  const auto store = steps_over(folder);
   const auto at = [&](int reduction) {
     TerrainRegion region = kRow;
     region.detail = reduction == 0 ? 0 : detail_for(1100.0 * std::ldexp(1.0, reduction));
@@ -107,7 +107,7 @@ TEST(DirectoryStoreSteps, ACellToComeIsReplacedByItsNextCoarserVersionInMemory) 
 TEST(DirectoryStoreSteps, AViewServesTheDetailOnceAllCellsWithinReachAreLoaded) {
   const test::TemporaryFolder folder;
   write_row(folder);
-  const auto store = store_over(folder);
+  const auto store = steps_over(folder);
   TerrainRegion region = kRow;
   region.reach_m = 100000.0;  // touches the first two cells
   std::vector<bool> served;
@@ -121,14 +121,14 @@ TEST(DirectoryStoreSteps, AViewServesTheDetailOnceAllCellsWithinReachAreLoaded) 
 TEST(DirectoryStoreSteps, AnInterruptedLoadingIsContinuedByTheNextPrepare) {
   const test::TemporaryFolder folder;
   write_row(folder);
-  const auto store = store_over(folder);
+  const auto store = steps_over(folder);
   const auto first = store->prepare_in_steps(kRow, [](const TerrainViewPointer&) { return false; });
   EXPECT_FALSE(first->has_detail(0));
-  EXPECT_TRUE(std::isnan(first->elevation_m(middle(1))));
-  const auto small = store->prepare({middle(0), 1000.0});
+  EXPECT_TRUE(std::isnan(first->elevation_m(middle_of_cell(1))));
+  const auto small = store->prepare({middle_of_cell(0), 1000.0});
   EXPECT_TRUE(small->has_detail(0)) << "all cells of the smaller region are already loaded";
   const auto whole = store->prepare(kRow);
-  for (int west = 0; west < 3; ++west) EXPECT_TRUE(whole->surface_at(middle(west)).loaded);
+  for (int west = 0; west < 3; ++west) EXPECT_TRUE(whole->surface_at(middle_of_cell(west)).loaded);
 }
 
 }  // namespace
