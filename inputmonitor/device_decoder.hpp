@@ -65,7 +65,7 @@ struct DeviceState {
 };
 
 // Decoder from raw events to input events by a device map.
-// TDC deflection is the sum of the deflections of all TDC axes and held TDC switches, clamped to [-1, 1] in x and in y.
+// TDC deflection is the sum of all TDC axes and the `tdc` events of all held switches, clamped to [-1, 1] in x and y.
 // Values are sent on change, at most once per kValueInterval_ns. A pending change is sent at once before a press or
 // release. The initial positions of controls other than TDC axes send no event.
 class DeviceDecoder {
@@ -96,7 +96,7 @@ class DeviceDecoder {
   struct Switch {
     SwitchAction action;
     bool held = false;
-    double deflection = 1.0;   // [0, 1]; also the factor of the repetition rate, which is at least 0.1
+    double deflection = 1.0;   // [0, 1]; 1 for a button. The factor of the repetition rate is max(deflection, 0.1)
     std::int64_t next_ns = 0;  // time of the next repetition
   };
   struct Axis {

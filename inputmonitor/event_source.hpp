@@ -3,7 +3,7 @@
 // Outputs: input events without time stamps and sequence numbers; InputMonitorShell adds these.
 // Units: nanoseconds; waits in milliseconds.
 // Errors: parse_script() reports file name and line.
-// Threads: one thread for each source. No source reads a clock.
+// Threads: all calls of a source come from one thread; a source starts no thread. No source reads a clock.
 #pragma once
 
 #include <poll.h>
@@ -42,7 +42,8 @@ class EventSource {
   // Appends the file descriptors that become readable with new input. Returns false if the source has input without a
   // descriptor, so that only its own wait() detects this input.
   virtual bool add_descriptors(std::vector<pollfd>&) const { return true; }
-  // Time [ns, CLOCK_MONOTONIC] at which the next event is due without new input; nullopt if no such event is pending.
+  // Time [ns, CLOCK_MONOTONIC] at which take() is due even without new input, for an event or a check for devices.
+  // nullopt: take() is due on input only.
   virtual std::optional<std::int64_t> deadline_ns() const { return std::nullopt; }
   // Returns events that no earlier call returned, without time stamps and sequence numbers. Never waits. A source may
   // leave a part of its input to the next call.

@@ -40,8 +40,8 @@ class Keyboard {
 
 // Help line: the functions of the keys.
 inline constexpr const char* kKeyHelp =
-    "2-9 a-k: buttons 2-20, arrows: TDC, Enter: TDC switch, Tab: next point, PgUp PgDn: ACQ, Space: freeze, "
-    "[ ]: elevation, F1 F2 F3: A/G A/A ranging, F4: navigator, Esc: ends";
+    "2-9 a-k: buttons 2-20, arrows: TDC, Enter: TDC switch, Tab: castle switch up (next point), PgUp PgDn: ACQ, "
+    "Space: freeze, [ ]: elevation, F1 F2 F3: A/G A/A ranging, F4: navigator, Esc: ends";
 
 // Keys typed in a small window. Keys are identified by their position on a US keyboard. Key repeats are ignored. Loss
 // of the keyboard focus releases all keys. `session` is shown in the title. Error: no display.

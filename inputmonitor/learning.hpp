@@ -55,8 +55,7 @@ class Learning {
     double rest = 0.0;          // [raw units]
     double return_error = 0.0;  // [raw units] hat or axis: distance from rest after the return
   };
-  // Rest value, minimum and maximum of an axis [raw units]. Minimum and maximum are of the time since the last answer
-  // to a press or a completed move, skip() or back().
+  // Rest value, minimum and maximum of an axis [raw units]. begin_prompt() sets minimum and maximum to the rest value.
   struct Watched {
     double rest = 0.0;
     double min = 0.0;

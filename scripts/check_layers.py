@@ -265,7 +265,7 @@ def check_source(root, name, text):
                 yield number, "header", f"<{header}> is heavy; include it in the source"
         clock = CLOCKS.search(line)
         if clock and not is_among(name, CLOCK_FOLDERS):
-            yield number, "clock", f"{clock.group()} outside of a shell (*_main.cpp, *_shell.*)"
+            yield number, "clock", f"{clock.group()} outside of the folders that may read a clock (CLOCK_FOLDERS)"
         opening = OPENING.search(line)
         if opening and not any(reader.search(name) for reader in READERS):
             yield number, "reader", f"{opening.group()} opens files; only READERS of check_layers.py do"

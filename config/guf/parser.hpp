@@ -21,7 +21,9 @@ inline constexpr std::size_t kMaxTextBytes = 1 << 20;  // [bytes] one file
 inline constexpr int kMaxTokens =
     200'000;                          // tokens of one text with its includes; a token takes about 200 bytes of tree
 inline constexpr int kMaxDepth = 64;  // nested brackets
-inline constexpr std::size_t kMaxWarnings = 200;  // warnings about one file; further ones are dropped
+// Maximum number of the parser's warnings about one file. config/schema appends its warnings to those of all files, but
+// only while the list has fewer than kMaxWarnings.
+inline constexpr std::size_t kMaxWarnings = 200;
 
 struct ParsedText {
   std::vector<Slot> arguments;        // top-level arguments: those outside all parentheses, in order

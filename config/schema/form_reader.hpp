@@ -2,8 +2,9 @@
 // Inputs: the top-level arguments of the text, which must be forms.
 // Outputs: the builder; warnings for old spellings, unknown forms and slots, and unused slots (validated, no effect).
 // Errors: ParseError with the location of the value.
-// Order: forms are read in the order of the text. A later value of a slot replaces the earlier one. The forms Devices,
-// Materials and MgDbase add to what earlier forms gave.
+// Order: forms are read in the order of the text. A slot's value in a later form replaces its value in an earlier form.
+// A second value of a slot in one form is an error. The forms Devices, Materials and MgDbase add to what earlier forms
+// gave.
 #pragma once
 
 #include <optional>

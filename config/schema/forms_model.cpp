@@ -243,7 +243,7 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
       flag("crossTrackSlope", YARS_FIELD(radar.fidelity.cross_track_slope),
            "incidence angle includes the slope across the sweep"),
       flag("noise", YARS_FIELD(radar.fidelity.noise),
-           "sweeps: thermal noise, speckle and texture; patch maps: speckle"),
+           "random fluctuation: of sweeps by speckle and texture, of patch maps by speckle"),
       flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over the beam width"),
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
       {.name = "beam",

@@ -18,8 +18,8 @@ namespace {
 // [ns] Maximum gap of sim time across which a restarted program resumes the flight. After a longer gap, the flight
 // begins again at its start, or at the session's last repositioning.
 constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
-// [ticks] Interval of ownship records, 20 ms. A longer interval would move the apex of the sweeps in visible steps. A
-// shorter interval would change no sweep.
+// [ticks] Interval of ownship records, 20 ms. At 300 m/s the apex of the sweeps then moves in steps of 6 m. A longer
+// interval would make these steps visible.
 constexpr std::int64_t kTicksBetweenRecords = 4;
 
 }  // namespace
@@ -74,8 +74,8 @@ void FlightShell::begin_epoch(const ClockState& clock) {
     log::info("repositioned, epoch " + std::to_string(clock.epoch));
     return;
   }
-  session_->note(NoteKind::refusal, "repositioning: " + source_.description + " only replays its file");
-  log::warning("repositioning is refused: " + source_.description + " only replays its file");
+  session_->note(NoteKind::refusal, "repositioning: the source only replays its file (" + source_.description + ")");
+  log::warning("repositioning is refused: the source only replays its file (" + source_.description + ")");
 }
 
 // Hot standby: while the radar uses another lane, this model follows the ownship of that lane. This lane can then take

@@ -212,12 +212,12 @@ std::optional<std::string> EntityTable::update(const EntityState& state, geo::Du
     if (state.deactivated) return std::nullopt;
     if (entries_.size() >= kMaxEntities) forget_silent(now);
     if (entries_.size() >= kMaxEntities)
-      return "expected at most " + std::to_string(kMaxEntities) + " entities, found one more";
+      return "more than " + std::to_string(kMaxEntities) + " entities";
     found = entries_.try_emplace(state.id).first;
   }
   Entry& entry = found->second;
   if (const auto reason = entry.order.order_fault(state.stamp))
-    return "entity " + text_of(state.id) + ": expected a newer report, found " + *reason;
+    return "no newer report of entity " + text_of(state.id) + ": " + *reason;
   if (state.deactivated) {
     entries_.erase(found);
     return std::nullopt;

@@ -1,5 +1,5 @@
 // Table of the records in records.idl with the name, offset, type, unit and range of each field. layout_json() writes
-// this table for programs in other languages.
+// the sizes of the records, and the names, offsets and sizes of their fields, for programs in other languages.
 #pragma once
 
 #include <cstddef>

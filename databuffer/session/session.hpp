@@ -3,7 +3,7 @@
 // Outputs: the mapped layout, sim time [ns], claims (exclusive rights) on roles and lanes.
 // Errors: a segment of another build or user; a role or lane that another process has claimed; a clock out of range.
 // Threads: clock() and note() may be called from any thread of the process; all other functions from one thread.
-// Only shells (*_main.cpp, *_shell.*) use a Session; kernels do not.
+// Only shells (folders in SHELLS of scripts/check_layers.py) use a Session; kernels do not.
 // Source: docs/shared_memory.md.
 #pragma once
 

@@ -65,7 +65,8 @@ struct Counters {
   std::atomic<std::uint64_t> frames_failing;  // 1: radar-display could not write its last frame to a file
 };
 
-// Entry of the process table, which only informs the user. Locks decide which process is present.
+// Entry of the process table, which informs the user. Checks of the clock also use the heartbeat (session_state.cpp).
+// Locks decide which process is present.
 struct ProcessEntry {
   std::atomic<std::int64_t> heartbeat_ns;          // CLOCK_MONOTONIC
   std::atomic<std::int32_t> pid;                   // 0: free
@@ -124,7 +125,7 @@ struct SessionLayout {
   shm::NoteRing<Note, kNotes> notes;  // any number of writers
   std::array<PatchSlot, kPatchSlots> patches;
   shm::LatestValue<Traffic> traffic;                // written by an instructor's station or a bridge
-  shm::BroadcastRing<Traffic, 64> traffic_latched;  // copies that radar-model latched; a replay reads them
+  shm::BroadcastRing<Traffic, 64> traffic_latched;  // copies that radar-model latched; the recorder reads them
   std::array<FrameSlot, kFrameSlots> frames;
   Counters counters;
   std::array<std::atomic<std::uint64_t>, (kSpareBytes - sizeof(Counters)) / 8> spare;

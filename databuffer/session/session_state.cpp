@@ -146,7 +146,8 @@ bool SessionState::has_foreign_clock() const {
   return false;
 }
 
-// Locks a free entry of the process table and fills it in. A full table is no error: the table only informs the user.
+// Locks a free entry of the process table and fills it in. A full table is no error: the process then runs without an
+// entry and a heartbeat.
 void SessionState::enter_table() {
   for (std::size_t i = 0; i < kProcesses; ++i) {
     if (!segment->try_lock(kFirstProcessByte + i)) continue;

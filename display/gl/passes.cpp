@@ -12,7 +12,8 @@ namespace yars::display::gl {
 
 namespace {
 
-// Floats of one instance, from the members of Wedge: apex (2), left (2), right (2), range, half width, row, samples.
+// Floats of one instance, from the members of Wedge: apex (2) [units], unit vectors along the left edge (2) and the
+// right edge (2), range [units], half width [rad], row, samples.
 constexpr int kFloatsPerWedge = 10;
 
 // The number 240 in the shaders is half of kDisplayUnits.
@@ -23,7 +24,7 @@ constexpr int kFloatsPerWedge = 10;
 constexpr const char* kVideoVertex = R"(#version 330 core
 layout(location = 0) in vec2 apex;
 layout(location = 1) in vec4 edges;
-layout(location = 2) in vec4 shape;  // range, half width, row, samples
+layout(location = 2) in vec4 shape;  // range [units], half width [rad], row, samples
 out vec2 offset;
 flat out vec3 wedge;                 // range, row, samples
 const float kMargin = 0.25;          // units
@@ -219,7 +220,7 @@ constexpr const char* kOverlayVertex = R"(#version 330 core
 layout(location = 0) in vec4 ends;
 layout(location = 1) in vec4 style;  // half width, color
 uniform float pixels_per_unit;
-out vec2 at;                         // pixels, as all below
+out vec2 at;                         // [pixels], like ends and half width below
 flat out vec4 segment;
 flat out vec4 stroke;
 void main() {

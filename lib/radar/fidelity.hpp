@@ -37,7 +37,7 @@ struct Fidelity {
   int sub_beams = 1;               // rays across the beam in azimuth, weighted by the beam pattern; 1: at the centre
   bool slant_range = false;        // true: samples at equal steps of slant range; false: of ground range
   bool cross_track_slope = false;  // the angle of incidence includes the slope across the sweep
-  bool noise = true;               // thermal noise, speckle and texture
+  bool noise = true;               // random fluctuation: speckle and texture of sweeps, speckle of maps
   bool azimuth_smear = true;       // smear over the beam width
   bool pulse_smear = true;         // smear over the pulse length
   BeamPattern beam = BeamPattern::cosecant_squared;

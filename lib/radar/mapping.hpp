@@ -116,7 +116,7 @@ struct MapCentre {
 struct MapWindow {
   geo::Length size;  // zero: the pilot has selected BLANK and the window is not determined yet
   // true: window_of_blank_selection() has determined `size`. The map is then possible if the cursor limits of `size`
-  // permit its range, or if any window would suit that range.
+  // permit its range, or if a blank selection gives `size` at that range.
   bool blank = false;
 };
 

@@ -88,8 +88,8 @@ bool Axis::reached() const {
 }
 
 namespace {
-// Maximum rate [deg/s] at which the scan's centre follows the ground track and aim(). It exceeds the turn rate of
-// aircraft. If a scan is slower than the movement of its centre, the beam can move against the scan's direction.
+// Maximum rate [deg/s] at which the sector's middle follows the ground track and aim(). It exceeds the turn rate of
+// aircraft. If a scan is slower than the movement of this middle, the beam can move against the scan's direction.
 constexpr double kMaxCentreRate_dps = 30.0;
 
 AxisLimits azimuth_limits(const radar::AntennaConfiguration& antenna) {

@@ -19,7 +19,7 @@ struct AntennaConfiguration;
 
 namespace yars::model::antenna {
 
-// Centre of the scan: the ground track, limited to `drift_limit_deg` either side of the nose.
+// Middle of a sector without offset: the ground track, limited to `drift_limit_deg` either side of the nose.
 geo::Bearing scan_centre(const radar::Platform& platform, const radar::AntennaConfiguration& antenna);
 
 // Beam azimuth and bar (elevation of one pass) as functions of the tick within the scan, so that rounding errors do not
@@ -38,11 +38,11 @@ struct ScanPattern {
   int pass_ticks() const { return sweep_ticks + turn_ticks; }
   int scan_ticks() const { return bars * pass_ticks(); }
 
-  // Azimuth of sweep edge `index` in [0, sweep_ticks], relative to the scan centre, clockwise positive.
+  // Azimuth of sweep edge `index` in [0, sweep_ticks], relative to the middle of the sector, clockwise positive.
   // Sweep i lies between edges i and i + 1. A pass with direction +1 starts at the left.
   double edge_deg(int index, int direction) const;
-  // Azimuth of the antenna relative to the scan centre, `ticks` in [0, turn_ticks] after the start of the turn-around.
-  // `direction`: direction of the pass before the turn-around.
+  // Azimuth of the antenna relative to the middle of the sector, `ticks` in [0, turn_ticks] after the start of the
+  // turn-around. `direction`: direction of the pass before the turn-around.
   double turn_deg(int ticks, int direction) const;
   // Elevation of a bar above the commanded elevation. Bar 0 is the highest.
   double bar_deg(int bar) const;
@@ -107,9 +107,9 @@ struct Sector {
   double rate_dps = 0.0;    // 0: rate and bars of the configuration; above 0: azimuth rate of a scan with one bar
 };
 
-// Two-axis antenna. It slews to an edge of a sector, then scans the sector about the scan centre. It is stabilized:
-// pitch and roll of the aircraft do not move the beam. Relative to the moving centre of the scan, the edges of the
-// sweeps depend only on the tick within the scan and the direction of the pass, so they repeat exactly.
+// Two-axis antenna. It slews to an edge of a sector, then scans the sector. It is stabilized: pitch and roll of the
+// aircraft do not move the beam. Relative to the moving middle of the sector, sweep edges depend only on the tick
+// within the scan and the direction of the pass. So they repeat exactly.
 // Within a pass, a sweep ends at the edge at which the next sweep begins, also while the aircraft turns.
 class Antenna {
  public:
@@ -119,12 +119,12 @@ class Antenna {
   struct State {
     double azimuth_deg = 0.0;    // right of the nose
     double elevation_deg = 0.0;  // above the horizontal
-    double centre_deg = 0.0;     // true bearing of the scan's centre
+    double centre_deg = 0.0;     // true bearing of the sector's middle in the last tick; it moves at a limited rate
     double width_deg = 0.0;
     int tick = 0;  // within the scan
     int direction = 1;
     Phase phase = Phase::parked;
-    double offset_deg = 0.0;  // sector's middle, right of the scan centre
+    double offset_deg = 0.0;  // commanded middle of the sector, right of scan_centre()
     double rate_dps = 0.0;    // 0: the rate of the configuration
   };
   State state() const;
@@ -158,11 +158,11 @@ class Antenna {
 
   std::shared_ptr<const radar::AntennaConfiguration> configuration_;
   ScanPattern pattern_;
-  double offset_deg_ = 0.0;  // sector's middle, right of the scan centre
+  double offset_deg_ = 0.0;  // commanded middle of the sector, right of scan_centre()
   double rate_dps_ = 0.0;    // 0: the rate of the configuration
   Axis azimuth_;
   Axis elevation_;
-  geo::Bearing centre_;  // true bearing of the scan's centre at the end of the last tick
+  geo::Bearing centre_;  // true bearing of the sector's middle at the end of the last tick
   Phase phase_ = Phase::parked;
   int tick_ = 0;                  // within the scan
   int direction_ = 1;             // direction of the current pass, +1 clockwise

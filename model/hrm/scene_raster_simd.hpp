@@ -1,8 +1,8 @@
 // Vector loops that draw scene triangles onto the polar grid.
-// Standing surfaces are all surfaces that do not lie on the ground. Their triangles of up to 12 columns are drawn many
-// at a time, one per lane. A wider triangle, and each triangle on the ground, is drawn with one column per lane. The
-// order in which standing surfaces are drawn has no effect: at each grid point the higher surface wins, and at equal
-// height the surface with the greater gamma.
+// Standing surfaces are all surfaces that do not lie on the ground. Those of up to 12 columns, and walls of any width,
+// are drawn many at a time, one triangle per lane. A wider surface, and each triangle on the ground, is drawn with one
+// column per lane. The order in which standing surfaces are drawn has no effect: at each grid point the higher surface
+// wins, and at equal height the surface with the greater gamma.
 // Cardinal effect: stronger return of walls that face the radar (docs/spec/physics.md#land).
 // Determinism: all targets (instruction sets) of the library Highway give equal bits.
 #pragma once

@@ -28,8 +28,8 @@ struct TileVertices {
   const float *normal_east, *normal_north, *normal_up;
 };
 // Vertices on the grid: column, row, height above the map plane [m]. The first `first_with_normal` vertices have no
-// normals: they belong to flat triangles. `facing`: cosine between the normal and the direction to the radar; element 0
-// is vertex `first_with_normal`.
+// normals, because their triangles belong to flat, not curved, surfaces. `facing`: cosine between the normal and the
+// direction to the radar; element 0 is vertex `first_with_normal`.
 struct GridVertices {
   float *column, *row, *height_m, *facing;
   std::uint32_t first_with_normal;

@@ -140,7 +140,7 @@ void MapSchedule::start(const ModelTick& tick, const Pose& pose, double ground_m
 std::optional<std::string_view> MapSchedule::exceeded_limit(const RadarCommand& command, const Pose& pose,
                                                             double ground_m) const {
   const geo::GeoPoint centre = next_centre(command, pose);
-  if (!is_position(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // no map is commanded or shown
+  if (!is_position(centre) || !(command.map_window_nm > 0.0F)) return std::nullopt;  // order_of() gives no order
   const radar::MapWindow window{geo::Length::nautical_miles(static_cast<double>(command.map_window_nm)),
                                 (command.flags & databuffer::kMapWindowBlank) != 0U};
   return radar::map_rejection(viewpoint_of(pose), {centre, ground_m}, window, parameters_.limits);

@@ -1,6 +1,7 @@
 // Ground reflectivity of one vector of samples: land by material, with texture and walls; sea by grazing angle.
-// Results are equal on every vector target and do not depend on the other samples of a vector.
-// Included once for each vector target.
+// Results are equal on all targets (instruction sets) of the library Highway, and do not depend on the other samples of
+// a vector.
+// Included once for each target.
 #if defined(YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL
 #undef YARS_MODEL_PHYSICS_CLUTTER_SIMD_INL

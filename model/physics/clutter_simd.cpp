@@ -7,7 +7,7 @@
 #define HWY_TARGET_INCLUDE "model/physics/clutter_simd.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
-// Included after highway.h, which defines the vector target.
+// These headers need the target (instruction set) that highway.h defines.
 #include "lib/simd/fused-inl.hpp"
 #include "model/physics/clutter_simd-inl.hpp"
 #include "model/physics/polynomials-inl.hpp"

@@ -72,7 +72,9 @@ struct RadarParameters {
   radar::BeamPattern beam;
   radar::Interpolation interpolation;
   radar::Algorithm algorithm;
-  bool noise;           // of sweeps: thermal noise, speckle and texture; of patch maps: speckle
+  // Fluctuation of sweeps (speckle, thermal noise, texture) and of patch maps (speckle). False: the mean power of
+  // thermal noise remains.
+  bool noise;
   std::size_t samples;  // number of samples of a sweep, clamped to [1, kMaxSamples]
   double frequency_ghz;
   double azimuth_beamwidth_deg;    // [deg] one-way 3 dB

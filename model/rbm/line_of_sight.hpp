@@ -35,7 +35,7 @@ class RayCrests {
     int knots = physics::kExactPositions;  // method of physics::sample_positions() for the pieces
   };
   // Writes the tangent of each sample's crest. `positions` and `sight` describe the samples. Returns false, and writes
-  // nothing, if the ground has no posts.
+  // nothing, if the ground is a formula without posts.
   bool find(const terrain::TerrainView& terrain, const Ray& ray, const physics::PositionArrays& positions,
             const terrain::RaySight& sight, std::span<float> tangent);
 

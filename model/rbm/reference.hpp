@@ -28,7 +28,7 @@ class Reference : public Algorithm {
   void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                   std::span<std::uint8_t> video) override;
 
-  // Intermediate results of the last measure() for one sample; read by tests and `yars trade`.
+  // Intermediate results of the last measure() for one sample; read by tests.
   struct Sample {
     double distance_m = 0.0;  // over ground; NaN: the slant range is too short to meet the ground
     geo::GeoPoint position;

@@ -51,7 +51,10 @@ void record_live(Session& session, Recorder& recorder, const recording::Recordin
     const std::uint64_t bytes_before = writer.bytes();
     recorder.drain(tick_of(session));
     quiet_polls = writer.bytes() == bytes_before ? quiet_polls + 1 : 0;
-    if (quiet_polls >= kQuietPolls) recorder.flush();
+    if (quiet_polls >= kQuietPolls) {
+      recorder.flush();
+      quiet_polls = 0;
+    }
     session.heartbeat();
     const timespec pause{0, kRecordInterval_ns};
     nanosleep(&pause, nullptr);

@@ -24,7 +24,8 @@ struct Candidate {
 // Errors: an unknown preset.
 error::Expected<std::vector<Candidate>> preset_candidates(std::string_view list);
 
-// The fidelity without thermal noise, speckle and texture, and without the random brightness of 1996.
+// The fidelity with its random parts off: speckle of scans and maps, texture of scans, brightness noise of 1996 maps.
+// The mean power of thermal noise stays.
 radar::Fidelity without_noise(radar::Fidelity fidelity);
 
 // Kind of picture that a trade compares. knob_candidates() accepts only knobs that affect this kind.

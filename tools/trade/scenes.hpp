@@ -33,8 +33,8 @@ error::Expected<Scene> scene_of(std::string_view text);
 // Name of a scene, such as "37 -122 15000 ft 60 deg 40 NM".
 std::string scene_name(const Scene& scene);
 
-// One scan of the scene. On a flat earth, the antenna points at sea level at the end of the range, as a
-// cosecant-squared beam needs. The elevation of the antenna is clamped between the lower limit of the gimbal and the
+// One scan of the scene. The antenna points at sea level at the end of the range, as a cosecant-squared beam needs. The
+// elevation is computed for a flat earth with any fidelity. It is clamped between the lower limit of the gimbal and the
 // horizontal.
 model::kernel::ScanRequest request_of(const Scene& scene, geo::Angle width, const radar::AntennaConfiguration& antenna);
 

@@ -23,7 +23,7 @@ namespace yars::model::scene {
 
 // A file beyond these limits is an error, so that a damaged or malicious file cannot exhaust memory.
 inline constexpr std::size_t kMaxPushDepth = 512;  // nesting of records
-// The next three limits bound the memory of nodes to about 0.5 GB, of faces to 0.8 GB and of vertices to 2.6 GB.
+// The next three limits bound the memory of nodes to about 0.5 GB, of faces to 0.5 GB and of vertices to 2.6 GB.
 inline constexpr std::size_t kMaxNodes = 4'000'000;
 inline constexpr std::size_t kMaxFaces = 32'000'000;
 inline constexpr std::size_t kMaxVertices = 64'000'000;  // also the limit of corners of faces: 0.3 GB more

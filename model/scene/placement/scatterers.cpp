@@ -32,7 +32,8 @@ std::uint64_t Scatterers::bytes() const {
 
 namespace {
 
-// Bins of a normal's direction. Cardinal effect: stronger return of walls that face the radar within 6 degrees.
+// Bins of a normal's direction. Cardinal effect: stronger return of walls that face the radar. Its half-power width is
+// 6 degrees by default.
 constexpr double kAzimuthBin_rad = std::numbers::pi / 45.0;    // 4 degrees, below the width of the cardinal effect
 constexpr double kElevationBin_rad = std::numbers::pi / 12.0;  // 15 degrees
 constexpr std::uint32_t kWall = 1U << 31U;                     // bit of a key: the face is a wall

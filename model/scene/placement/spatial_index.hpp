@@ -22,7 +22,7 @@ struct Disc {
 // Finds the discs that overlap a circle about a position. The grid divides the earth into rows of squares (cells). A
 // search tests the discs in nearby cells, and all discs with a radius above two cell sides. A wide search tests every
 // disc. Longitudes wrap, and callers need no special case at poles. Distances are computed from the chord through the
-// WGS84 ellipsoid. Their error is below 1 m up to 500 km.
+// WGS84 ellipsoid. Their error is below 2 m up to 500 km.
 class GridIndex {
  public:
   GridIndex() = default;

@@ -32,7 +32,7 @@ std::string impossible_heights_warning(std::size_t posts) {
 error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    return error::fail(path.string(), "an elevation file", code ? code.message() : "not a plain file");
+    return error::fail(path.string(), "an elevation file", code ? code.message() : "not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(path, code);
   if (code) return error::fail(path.string(), "a readable file", code.message());
   return size;

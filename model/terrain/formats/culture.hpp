@@ -75,7 +75,7 @@ inline constexpr int kMaxCulturePosts = 10801;  // per edge, 1/3 arc second apar
 std::filesystem::path culture_path(const std::filesystem::path& elevation);
 
 // Path of the folder's entry with the name of culture_path(), in upper or lower case. nullopt if there is no such
-// entry. An entry that is not a plain file is found, too; read_culture() then fails.
+// entry. An entry that is not a regular file is found, too; read_culture() then fails.
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation, file::FolderNames& names);
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation);
 

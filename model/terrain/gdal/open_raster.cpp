@@ -102,16 +102,16 @@ error::Expected<Raster> open_raster(const std::filesystem::path& path) {
   const std::string subject = path.string();
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    return error::fail(subject, "a raster of heights in a plain file", code ? code.message() : "not a plain file");
+    return error::fail(subject, "a raster of heights in a regular file", code ? code.message() : "not a regular file");
   const MessageCapture messages;
-  // GDAL cannot mistake an absolute path for a driver's prefix or a virtual folder.
+  // An absolute path cannot begin with a prefix of a GDAL driver. The check above refuses virtual folders (/vsizip/...).
   Raster raster;
   raster.dataset.reset(GDALOpenEx(std::filesystem::absolute(path).c_str(),
                                   GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers.data(), nullptr,
                                   nullptr));
   GDALDatasetH const dataset = raster.dataset.get();
   if (dataset == nullptr)
-    return error::fail(subject, "a raster of heights in a plain file (GeoTIFF, JPEG 2000, Erdas Imagine, ...)",
+    return error::fail(subject, "a raster of heights in a regular file (GeoTIFF, JPEG 2000, Erdas Imagine, ...)",
                        messages.first_or("one that GDAL does not open"));
   if (!has_heights(dataset))
     return error::fail(subject, "one band of heights, 16 bits or more", bands_of(dataset), "it may be a picture");

@@ -82,7 +82,8 @@ class CellView final : public TerrainView {
   struct Run {
     std::uint16_t table_entry = static_cast<std::uint16_t>(Absence::none);
     std::size_t first = 0, count = 1;
-    bool beyond_pole = false;  // the cell counts lead beyond a pole; table_entry is then that of a cell at the pole
+    // PositionRun::cells_north leads to a cell beyond a pole; table_entry is then that of the cell at the pole.
+    bool beyond_pole = false;
   };
   Run run_at(const PositionRun& positions, std::size_t first) const;
   void raise_first_crest(const PositionRun& positions, const RaySight& sight, float& tangent) const;

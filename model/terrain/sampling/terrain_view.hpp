@@ -120,7 +120,7 @@ class TerrainView {
   // the horizontal, between the previous position and this one. For the first position: between the ray's start and
   // this one. Candidates are the points where the ray crosses rows and columns of posts, with heights linear between
   // two posts, and one point shortly before each position. Reduced cells use their peaks. kNoTangent where there is no
-  // candidate. Returns false, and writes nothing, if the ground has no posts.
+  // candidate. Returns false, and writes nothing, if the ground is a formula without posts.
   virtual bool crests(const PositionRun& /*positions*/, const RaySight& /*sight*/, std::span<float> /*tangent*/) const {
     return false;
   }

@@ -66,8 +66,8 @@ TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& 
   return view_;
 }
 
-// Reports a problem when a region has no cell with a file and the region before it had one, or was the first. Ignores
-// regions of radius 0 (a single position).
+// Reports a problem when a region has no cell with a file, and it is the first region or the one before had a cell.
+// Ignores regions of radius 0 (a single position).
 void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
   if (region.radius_m <= 0.0) return;
   const bool outside = !touches(index_, region);

@@ -207,7 +207,7 @@ TEST(Raster, FilesOtherThanRastersOfHeightsAreRefusedWithTheReason) {
   write_text(folder.path() / "text.tif", "hello");
   EXPECT_THAT(refusal(folder.path() / "text.tif"), HasSubstr("GDAL"));
   EXPECT_THAT(refusal(folder.path() / "gone.tif"), HasSubstr("gone.tif"));
-  EXPECT_THAT(refusal("/vsicurl/http://localhost/a.tif"), HasSubstr("plain file"));
+  EXPECT_THAT(refusal("/vsicurl/http://localhost/a.tif"), HasSubstr("regular file"));
 }
 
 // GDAL itself reads these files as WGS84 and mean sea level.
