@@ -18,7 +18,7 @@ namespace {
 struct ConfigOptions {
   std::string file;
   bool defaults = false;
-  bool markdown = false;
+  std::string markdown;  // group of forms; empty: prints a configuration
   std::string out;
 };
 
@@ -42,8 +42,8 @@ void check(const ConfigOptions& options, const CommonOptions& common) {
 }
 
 void print(const ConfigOptions& options, const CommonOptions& common) {
-  if (options.markdown) {
-    std::fputs(config::print_markdown().c_str(), stdout);
+  if (!options.markdown.empty()) {
+    std::fputs(config::print_markdown(options.markdown).c_str(), stdout);
     return;
   }
   const auto configuration = loaded(chosen_file(options, common));
@@ -92,8 +92,8 @@ void add_config_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Option defaults =
       print_command.flag("--defaults", options->defaults, "explain every slot: position, kind, range, default");
   databuffer::Option markdown =
-      print_command.flag("--markdown", options->markdown, "the slots of every form as tables");
-  markdown.excludes(file).excludes(defaults);
+      print_command.option("--markdown", options->markdown, "group of forms: prints their slots as tables");
+  markdown.one_of(config::form_groups()).excludes(file).excludes(defaults);
   print_command.callback([options, &common] { print(*options, common); });
 
   databuffer::Command convert_command =

@@ -355,20 +355,59 @@ std::string print_devices(const std::vector<radar::Device>& devices) {
   return Printer(builder, false).print("Devices");
 }
 
-std::string print_markdown() {
-  std::string text;
-  for (const FormSchema& form : schema()) {
-    text +=
-        "### " + heading(form) + "\n\n| position | slot | value | default | for |\n| --- | --- | --- | --- | --- |\n";
-    for (std::size_t i = 0; i < form.slots.size(); ++i) {
-      const SlotSchema& slot = form.slots[i];
-      const std::string default_value = default_text(form, slot);
-      text += "| " + std::to_string(i + 1) + " | `" + std::string(slot.name) + "` | " + value_kind(slot) + " | " +
-              (default_value.empty() ? "" : "`` " + default_value + " ``") + " | " + std::string(slot.purpose) +
-              use_of(form, slot) + " |\n";
-    }
-    text += "\n";
+namespace {
+
+// Forms that the manual describes on one page.
+struct FormGroup {
+  std::string_view name;
+  std::vector<std::string_view> forms;
+};
+
+const std::vector<FormGroup>& groups() {
+  static const std::vector<FormGroup> table{
+      {"radar", {"System", "Apg70"}},
+      {"antenna", {"AntennaServo", "RbmAntenna", "Receiver", "Noise"}},
+      {"modes",
+       {"Mode", "OffMode", "StbyMode", "RealBeamMode", "SarMode", "HighResolution", "WindowLimits", "HeightRanges"}},
+      {"display", {"Window", "ColorScheme", "Display", "RbmDisplay", "SarDisplay", "MgDisplay"}},
+      {"terrain", {"Terrain", "Database", "DedDbase", "MgDbase"}},
+      {"world",
+       {"Land", "Materials", "Material", "Sea", "Rain", "RainCell", "Atmosphere", "Jammers", "Jammer", "Movers",
+        "Mover", "Beacons", "Beacon", "Scenes", "Scene"}},
+      {"route", {"Route", "Point", "Navigation"}},
+      {"devices", {"Devices", "Device", "Button", "Axis"}},
+      {"fidelity", {"Fidelity"}},
+      {"values", {"rgb", "rgba", "hsv", "hsva", "lat-long"}}};
+  return table;
+}
+
+// Heading and table of one form, in Markdown.
+std::string form_table(const FormSchema& form) {
+  std::string text = "## " + std::string(form.name) + "\n\n" + heading(form) +
+                     ".\n\n| position | slot | value | default | for |\n| --- | --- | --- | --- | --- |\n";
+  for (std::size_t i = 0; i < form.slots.size(); ++i) {
+    const SlotSchema& slot = form.slots[i];
+    const std::string default_value = default_text(form, slot);
+    text += "| " + std::to_string(i + 1) + " | `" + std::string(slot.name) + "` | " + value_kind(slot) + " | " +
+            (default_value.empty() ? "" : "`` " + default_value + " ``") + " | " + std::string(slot.purpose) +
+            use_of(form, slot) + " |\n";
   }
+  return text + "\n";
+}
+
+}  // namespace
+
+std::vector<std::string> form_groups() {
+  std::vector<std::string> names;
+  for (const FormGroup& group : groups()) names.emplace_back(group.name);
+  return names;
+}
+
+std::string print_markdown(std::string_view group) {
+  std::string text;
+  const auto found = std::ranges::find(groups(), group, &FormGroup::name);
+  if (found == groups().end()) return text;
+  for (const std::string_view form : found->forms) text += form_table(*find_form(form).schema);
   return text;
 }
 

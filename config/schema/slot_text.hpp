@@ -6,6 +6,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "config/guf/tree.hpp"
@@ -37,7 +38,12 @@ std::string print_explained(const radar::RadarConfiguration& configuration);
 // The form Devices as GUF text. Each radar::Device states what the buttons and axes of one input device do.
 std::string print_devices(const std::vector<radar::Device>& devices);
 
-// Manual of all forms in Markdown, one table for each form: position, slot, value, default, purpose.
-std::string print_markdown();
+// Names of the groups of forms. Every form is in one group. The manual has a page for each group:
+// docs/configuration.md#forms-and-slots.
+std::vector<std::string> form_groups();
+
+// Manual of the forms of one group in Markdown, one table for each form: position, slot, value, default, purpose.
+// Empty: `group` is not in form_groups().
+std::string print_markdown(std::string_view group);
 
 }  // namespace yars::config

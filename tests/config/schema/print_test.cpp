@@ -1,5 +1,5 @@
 // Tests of printed configurations: they read back equal. Also compares the APG-70 files of config/ with the built-in
-// defaults, and the tables of docs/configuration.md with the printer's.
+// defaults, and the tables in docs/configuration/ with the printer's.
 #include <gmock/gmock.h>
 
 #include <limits>
@@ -254,9 +254,7 @@ TEST(Print, OfRandomConfigurationsReadsBackEqual) {
 
 TEST(Print, ExplainsEverySlotOfTheSchema) {
   const std::string text = print_explained({});
-  const std::string tables = print_markdown();
   for (const FormSchema& form : schema()) {
-    EXPECT_THAT(tables, HasSubstr("### " + std::string(form.name)));
     for (const SlotSchema& slot : form.slots) {
       EXPECT_THAT(text, HasSubstr(std::string(":").append(slot.name) + " (")) << form.name;
       EXPECT_FALSE(slot.purpose.empty()) << form.name << " :" << slot.name;
@@ -264,9 +262,29 @@ TEST(Print, ExplainsEverySlotOfTheSchema) {
   }
 }
 
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+TEST(Manual, HasEveryFormInOneGroup) {
+  std::string tables;
+  for (const std::string& group : form_groups()) tables += print_markdown(group);
+  for (const FormSchema& form : schema())
+    EXPECT_EQ(occurrences(tables, "## " + std::string(form.name) + "\n"), 1U) << form.name;
+}
+
 TEST(Manual, ContainsTheTablesOfPrintMarkdown) {
-  const std::string manual = text_of_file("docs/configuration.md");
-  EXPECT_THAT(manual, HasSubstr(print_markdown())) << "paste the output of `yars config print --markdown`";
+  for (const std::string& group : form_groups()) {
+    const std::string page = "docs/configuration/" + group + ".md";
+    EXPECT_THAT(text_of_file(page), HasSubstr(print_markdown(group)))
+        << page << ": paste the output of `yars config print --markdown " << group << "`";
+  }
+}
+
+TEST(Manual, HasNoTablesForAnUnknownGroup) {
+  EXPECT_EQ(print_markdown("unknown"), "");
 }
 
 }  // namespace
