@@ -52,8 +52,7 @@ std::optional<Part> part_of(const Cell& cell, const SmoothParameters& parameters
   part.first_column = static_cast<int>(std::floor(post(parameters.box.west_deg - west - turn_deg, column_intervals)));
   part.last_column = static_cast<int>(std::ceil(post(parameters.box.east_deg - west - turn_deg, column_intervals)));
   if (part.first_row >= part.last_row || part.first_column >= part.last_column) return std::nullopt;
-  // Neighbouring cells with equal posts have equal nodes on their common edge, because all use the box's middle
-  // latitude.
+  // All cells take the box's middle latitude: neighbours with equal posts have equal nodes on their common edge.
   const double cos_latitude =
       std::cos(0.5 * (parameters.box.south_deg + parameters.box.north_deg) * geo::kRadiansPerDegree);
   const double rows_m = geo::kMetresPerDegree / row_intervals,
