@@ -71,8 +71,8 @@ int scan_detail(const radar::Fidelity& fidelity, geo::Length range) {
 
 namespace {
 // Expected ratio of a preset's cost to the cost of the next cheaper preset. It is used if no load of the preset has
-// been measured recently. The ratios follow from the counts of samples, rays and effects. Source: docs/performance.md.
-constexpr std::array<double, FidelityGovernor::kLadder.size()> kCostOverLower{1.0, 3.0, 30.0, 25.0};
+// been measured recently. The ratios are the greatest ones measured: docs/performance.md, "What to choose".
+constexpr std::array<double, FidelityGovernor::kLadder.size()> kCostOverLower{1.0, 1.4, 12.0, 140.0};
 // A finer preset is selected if its expected load is below this fraction of the core share. The margin keeps two
 // presets from alternating at small changes of the load.
 constexpr double kUpgradeMargin = 0.7;
