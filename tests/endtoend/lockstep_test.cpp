@@ -11,7 +11,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* kSource = "fixed:37.5,-123.0,15000,90,480";
+constexpr const char* kLockstepSource = "fixed:37.5,-123.0,15000,90,480";
 
 const std::vector<ScriptedStep>& steps() {
   static const std::vector<ScriptedStep> kSteps{
@@ -101,7 +101,7 @@ void expect_rbm_legends(const json& state) {
 }
 
 TEST(Lockstep, EveryRealBeamMapEventHasItsEffectAndTheRunRepeatsBitForBit) {
-  const LockstepRun first("lockstep-a", steps(), kSource);
+  const LockstepRun first("lockstep-a", steps(), kLockstepSource);
   EXPECT_FALSE(first.segment_exists());
   const auto entries = first.entries();
   expect_steps(entries, steps());
@@ -118,7 +118,7 @@ TEST(Lockstep, EveryRealBeamMapEventHasItsEffectAndTheRunRepeatsBitForBit) {
   EXPECT_EQ(replayed["ticks_lost"], 0);
   EXPECT_GT(replayed["equal"], 1000);
 
-  const LockstepRun second("lockstep-b", steps(), kSource);
+  const LockstepRun second("lockstep-b", steps(), kLockstepSource);
   EXPECT_EQ(second.replayed(), replayed);
   const auto frames = first.frame_bytes();
   EXPECT_GE(frames.size(), 7U);
@@ -143,7 +143,7 @@ TEST(Lockstep, TheVtrStopsAndStartsTheRecordingInOneFile) {
                          {"pb 9", true, "scan", "QTR", 1.0},
                          {"pb 12", true, "vtr", true, 3.0},
                          {"pb 3", true, "gain", 2, 2.0}},
-                        kSource);
+                        kLockstepSource);
   const auto entries = run.entries();
   ASSERT_EQ(entries.size(), 4U);
   EXPECT_EQ(entries[2].state["vtr"], true) << "the press that stops the recording is the last recorded one";
