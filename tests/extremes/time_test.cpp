@@ -23,8 +23,8 @@ namespace {
 using databuffer::flight::FlightModel;
 using databuffer::flight::FlightSample;
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kTimeNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTimeInfinity = std::numeric_limits<double>::infinity();
 constexpr std::int64_t kThirtyDaysOfTicks = std::int64_t{30} * 24 * 3600 * 200;  // 518,400,000
 
 // Calls `body` with two new, equal flight models of each kind. They fly at about 240 m/s to the north-east.
@@ -59,7 +59,7 @@ double apart_m(const FlightSample& a, const FlightSample& b) {
 TEST(ExtremeTimes, ZeroNegativeAndNonFiniteStepsDoNotMoveTheAircraft) {
   for_each_flight([](FlightModel& flight, FlightModel&) {
     const FlightSample before = flight.step(geo::Duration::seconds(7.0));
-    for (const double dt_s : {0.0, -0.0, -1e-9, -0.005, -10.0, -1e300, kNan, -kNan, kInfinity, -kInfinity}) {
+    for (const double dt_s : {0.0, -0.0, -1e-9, -0.005, -10.0, -1e300, kTimeNan, -kTimeNan, kTimeInfinity, -kTimeInfinity}) {
       const FlightSample after = flight.step(geo::Duration::seconds(dt_s));
       ASSERT_EQ(databuffer::validate(after.ownship), std::nullopt) << dt_s;
       ASSERT_EQ(std::memcmp(&before.ownship, &after.ownship, sizeof before.ownship), 0) << dt_s;

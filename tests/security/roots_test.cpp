@@ -32,7 +32,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr terrain::CellCorner kCorner{36, -122};
+constexpr terrain::CellCorner kRootCorner{36, -122};
 
 struct PathReader {
   const char* name;  // file name that the reader accepts
@@ -46,13 +46,13 @@ const std::vector<PathReader>& readers() {
       {"flight.route", [](const auto& path) { return refusal_of(file::read_text_file(path)); }},
       {"flight.yrec", [](const auto& path) { return refusal_of(tools::recording::RecordingReader::open(path)); }},
       {"picture.png", [](const auto& path) { return refusal_of(imageio::read_indexed_png(path, 100)); }},
-      {"n36.smc.png", [](const auto& path) { return refusal_of(terrain::read_culture(path, kCorner)); }},
-      {"w122/n36.dt1", [](const auto& path) { return refusal_of(terrain::read_dted(path, kCorner)); }},
-      {"N36W122.hgt", [](const auto& path) { return refusal_of(terrain::read_hgt(path, kCorner)); }},
-      {"N36W122.hgt.zip", [](const auto& path) { return refusal_of(terrain::read_compressed_hgt(path, kCorner)); }},
-      {"N36W122.hgt.gz", [](const auto& path) { return refusal_of(terrain::read_compressed_hgt(path, kCorner)); }},
-      {"w122/n36.jp2", [](const auto& path) { return refusal_of(terrain::read_pack(path, kCorner, 0)); }},
-      {"N36W122.ded", [](const auto& path) { return refusal_of(terrain::read_ded(path, kCorner)); }},
+      {"n36.smc.png", [](const auto& path) { return refusal_of(terrain::read_culture(path, kRootCorner)); }},
+      {"w122/n36.dt1", [](const auto& path) { return refusal_of(terrain::read_dted(path, kRootCorner)); }},
+      {"N36W122.hgt", [](const auto& path) { return refusal_of(terrain::read_hgt(path, kRootCorner)); }},
+      {"N36W122.hgt.zip", [](const auto& path) { return refusal_of(terrain::read_compressed_hgt(path, kRootCorner)); }},
+      {"N36W122.hgt.gz", [](const auto& path) { return refusal_of(terrain::read_compressed_hgt(path, kRootCorner)); }},
+      {"w122/n36.jp2", [](const auto& path) { return refusal_of(terrain::read_pack(path, kRootCorner, 0)); }},
+      {"N36W122.ded", [](const auto& path) { return refusal_of(terrain::read_ded(path, kRootCorner)); }},
       {"heights.tif", [](const auto& path) { return refusal_of(terrain::gdal::describe_raster(path)); }},
       {"scene.flt", [](const auto& path) { return refusal_of(scene::read_openflight(path)); }},
       {"scene.flt", [](const auto& path) { return refusal_of(scene::read_openflight_header(path)); }},
@@ -89,7 +89,7 @@ TEST_F(Roots, AFolderInThePlaceOfAFileIsRefused) {
 TEST_F(Roots, APipeAsTheSideFileOfAPackIsRefused) {
   write("w122/n36.jp2", "any");
   fifo("w122/n36.side");
-  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n36.jp2", kCorner, 0)), HasSubstr("not a regular file"));
+  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n36.jp2", kRootCorner, 0)), HasSubstr("not a regular file"));
 }
 
 // ---- Files that a configuration includes ----
