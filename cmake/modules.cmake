@@ -57,8 +57,7 @@ endfunction()
 # yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [COMPUTES] [OPENGL] [SEPARATE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from
 # tests/FOLDER/*_test.cpp, those of its subfolders named, and its support sources, found when ctest runs. ALONE: its tests
 # have the machine to themselves. COMPUTES: its own code takes long to run, so it is compiled without YARS_TEST_FLAGS.
-# SEPARATE: each source stays a unit of its own with YARS_UNITY, because names in its sources are the same, or because
-# GCC gives wrong warnings for the large unit (test_endtoend: -Warray-bounds in std::string).
+# SEPARATE: each source stays a unit of its own with YARS_UNITY, because names in its sources are the same.
 # OPENGL: it draws, so leaks are not looked for (the search crashes now and then beside the threads of llvmpipe).
 function(yars_test folder)
   cmake_parse_arguments(ARG "ALONE;COMPUTES;OPENGL;SEPARATE" "TIMEOUT" "DEPENDS;LABELS;SUBFOLDERS;SUPPORT;PROGRAMS" ${ARGN})

@@ -207,7 +207,7 @@ void Watch::judge_event(const databuffer::AppliedEvent& applied) {
   ++verdict_.witnessed;
   if (event.number == *number && event.x == witness_tdc_x(*number) && event.y == witness_tdc_y(*number)) return;
   ++verdict_.torn;
-  verdict_.first.push_back("applied event: its number, text and deflections are of different events");
+  verdict_.first.emplace_back("applied event: its number, text and deflections are of different events");
 }
 
 void Watch::check_rings(SegmentState& last) {
