@@ -26,8 +26,9 @@ constexpr bool kMemoryIsKept = false;
 #endif
 
 constexpr double kTimeout_s = 30.0;
-// [MiB] allowed growth of a role's memory during the run. The role has loaded further terrain and has made maps.
-constexpr double kMaxGrowth_mib = 24.0;
+// [MiB] allowed growth of a role's memory during the run. The role has loaded further terrain and has made maps: by 5
+// MiB on a quiet machine, by 31 on a loaded one. A leak shows in a thousand faults.
+constexpr double kMaxGrowth_mib = 48.0;
 
 struct Count {
   int faults = 0;

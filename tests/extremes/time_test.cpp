@@ -59,7 +59,8 @@ double apart_m(const FlightSample& a, const FlightSample& b) {
 TEST(ExtremeTimes, ZeroNegativeAndNonFiniteStepsDoNotMoveTheAircraft) {
   for_each_flight([](FlightModel& flight, FlightModel&) {
     const FlightSample before = flight.step(geo::Duration::seconds(7.0));
-    for (const double dt_s : {0.0, -0.0, -1e-9, -0.005, -10.0, -1e300, kTimeNan, -kTimeNan, kTimeInfinity, -kTimeInfinity}) {
+    for (const double dt_s :
+         {0.0, -0.0, -1e-9, -0.005, -10.0, -1e300, kTimeNan, -kTimeNan, kTimeInfinity, -kTimeInfinity}) {
       const FlightSample after = flight.step(geo::Duration::seconds(dt_s));
       ASSERT_EQ(databuffer::validate(after.ownship), std::nullopt) << dt_s;
       ASSERT_EQ(std::memcmp(&before.ownship, &after.ownship, sizeof before.ownship), 0) << dt_s;

@@ -89,7 +89,8 @@ TEST_F(Roots, AFolderInThePlaceOfAFileIsRefused) {
 TEST_F(Roots, APipeAsTheSideFileOfAPackIsRefused) {
   write("w122/n36.jp2", "any");
   fifo("w122/n36.side");
-  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n36.jp2", kRootCorner, 0)), HasSubstr("not a regular file"));
+  EXPECT_THAT(refusal_of(terrain::read_pack(folder_ / "w122/n36.jp2", kRootCorner, 0)),
+              HasSubstr("not a regular file"));
 }
 
 // ---- Files that a configuration includes ----
