@@ -18,6 +18,7 @@ class HarbourScene {
 
   void make() {
     builder_.half_side_m = 3000;
+    builder_.turn(0.0);
     define();
     builder_.out.begin_group("quays");
     quays();

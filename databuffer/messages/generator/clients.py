@@ -13,14 +13,15 @@ C_NAMES = {"ClockState": "yars_clock", "Ownship": "yars_ownship", "Nav": "yars_n
            "DrawnPoint": "yars_drawn_point", "NavigatorError": "yars_navigator_error", "Mark": "yars_mark",
            "RadarState": "yars_radar_state", "ModelStatus": "yars_model_status", "Outputs": "yars_outputs",
            "TrafficEntity": "yars_traffic_entity", "Traffic": "yars_traffic", "GlassFrame": "yars_glass_frame",
-           "Sweep": "yars_sweep"}
+           "Sweep": "yars_sweep", "CaptionLine": "yars_caption_line", "Caption": "yars_caption"}
 # Record -> its name in yars.py, for the records that yars.py reads or writes as a whole.
 PYTHON_NAMES = {"ClockState": "CLOCK", "Ownship": "OWNSHIP", "Nav": "NAV", "InputEvent": "INPUT_EVENT",
-                "GlassFrame": "GLASS_FRAME", "Sweep": "SWEEP", "Outputs": "OUTPUTS", "Mark": "MARK"}
+                "GlassFrame": "GLASS_FRAME", "Sweep": "SWEEP", "Outputs": "OUTPUTS", "Mark": "MARK",
+                "CaptionLine": "CAPTION_LINE", "Caption": "CAPTION"}
 STRUCT_CODES = {"double": "d", "float": "f", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H", "int32": "i",
                 "uint32": "I", "int64": "q", "uint64": "Q"}
 OFFSETS = ["clock", "ownship_priority", "ownship", "nav", "radar_state", "model_status", "outputs", "sweeps", "input",
-           "processes", "traffic", "frames"]
+           "processes", "traffic", "frames", "caption"]
 
 
 def constants_of(chapters):
