@@ -128,7 +128,6 @@ Expected<Tour> parse_tour(std::string_view text, std::string_view name) {
     return fail(std::string(name), "at most " + std::to_string(databuffer::kMaxCaptions) + " captions",
                 std::to_string(captions_in(tour)));
   tour.end_ns = *times->end_ns;
-  tour.from_start = times->from_start;
   return tour;
 }
 
@@ -136,7 +135,7 @@ TourSource::TourSource(Tour tour, std::string name, bool for_pilot)
     : tour_(std::move(tour)), name_(std::move(name)), for_pilot_(for_pilot), steps_(captions_in(tour_)) {}
 
 void TourSource::begin(std::int64_t sim_time_ns) {
-  origin_ns_ = tour_.from_start ? sim_time_ns : 0;
+  origin_ns_ = sim_time_ns;
   next_ = 0;
   step_ = 0;
   caption_.reset();

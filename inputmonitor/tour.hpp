@@ -30,14 +30,13 @@ struct TourItem {
 
 // Lines of a tour, besides those of a script (script_lines.hpp):
 //   title TEXT             name of the tour
-//   [TIME_S] caption TEXT  a step; `|` separates up to 3 lines of up to 44 characters. Without TEXT: no caption
+//   [TIME_S] caption TEXT  a step; `|` separates up to 3 lines of up to 47 characters. Without TEXT: no caption
 //   TIME_S auto EVENT      an event that the pilot need not do
-// The last line is `end`.
+// All times count from the moment when the tour starts. The last line is `end`.
 struct Tour {
   std::string title;
   std::vector<TourItem> items;  // sorted by time, ascending
   std::int64_t end_ns = 0;
-  bool from_start = false;  // as Script::from_start
 };
 
 // `name`: file name for error messages.
