@@ -21,6 +21,7 @@ namespace {
 using nlohmann::json;
 
 constexpr geo::GeoPoint kApron{38.10558, -121.31794};  // point 4. of config/coast.guf
+constexpr geo::GeoPoint kTransport{38.105530, -121.318930};  // the westernmost transport on the apron
 
 // The terrain of scripts/start with its scenes, made once for all tests of this file.
 class Coast : public ::testing::Test {
@@ -195,11 +196,9 @@ TEST_F(Coast, TheTourOfTheRadarDoesWhatItsCaptionsSay) {
   keep_pictures(tour, "tour", kEnd_s);
   expect_steps(tour.run.entries(), radar_steps());
   const auto states = tour.run.states();
-  // The aircraft that is designated stands 60 m west of the middle of the apron.
   const json target = field_at(states, 90.0, "target");
   ASSERT_TRUE(target.is_object());
-  EXPECT_LT(metres_between(target, kApron), 130.0);
-  EXPECT_GT(metres_between(target, kApron), 50.0);
+  EXPECT_LT(metres_between(target, kTransport), 25.0) << "a transport is 24 m long and wide";
   // The update corrects what the instructor has spoiled: 583 ft.
   const json error = field_at(states, 105.0, "update_error");
   ASSERT_TRUE(error.is_object());
@@ -226,6 +225,60 @@ TEST_F(Coast, TheTourOfTheSecondRadarShowsItsOwnRangesAndWindows) {
                                     {"sp 4.01", true, "sequence_point", "4.01"},
                                     {"tdc release", true, "range_nm", 40.0}});
   EXPECT_EQ(field_at(tour.run.states(), 32.0, "mode"), "PATCH");
+}
+
+// The events of docs/first_sortie.md: the rows "| key | `event` | ..." of its tables, by section.
+std::vector<std::vector<std::string>> events_of_the_page() {
+  std::vector<std::vector<std::string>> sections;
+  std::ifstream page(YARS_SOURCE_DIR "/docs/first_sortie.md");
+  for (std::string line; std::getline(page, line);) {
+    if (line.starts_with("## ")) sections.emplace_back();
+    const auto cells = text::fields_of(line, '|');
+    if (sections.empty() || cells.size() < 5 || cells[2].size() < 3 || !cells[2].starts_with('`')) continue;
+    sections.back().emplace_back(cells[2].substr(1, cells[2].size() - 2));
+  }
+  std::erase_if(sections, [](const auto& section) { return section.empty(); });
+  return sections;
+}
+
+// What the state is after each event of the page.
+const std::vector<ScriptedStep>& sortie_steps() {
+  static const std::vector<ScriptedStep> kSteps{
+      {"pb 14", true, "range_nm", 20.0},       {"pb 13", true, "range_nm", 40.0},
+      {"pb 17", true, "sequence_point", "2"},  {"pb 17", true, "sequence_point", "3"},
+      {"pb 17", true, "sequence_point", "4."}, {"tdc press", true, "mode", "RBM"},
+      {"tdc release", true, "window_nm", 4.7}, {"acq aft", true, "window_nm", 3.3},
+      {"acq aft", true, "window_nm", 1.3},     {"acq aft", true, "window_nm", 0.67},
+      {"tdc press", true, "mode", "PATCH"},    {"tdc release", true, "mode", "PATCH"},
+      {"pb 7", true, "cursor_function", "UPDT"}, {"pb 7", true, "cursor_function", "CUE"},
+      {"pb 7", true, "cursor_function", "TGT"},  {"tdc -1 0", true, "mode", "PATCH"},
+      {"tdc 0 0", true, "mode", "PATCH"},      {"tdc press", true, "cursor_function", "TGT"},
+      {"tdc release", true, "cursor_function", "TGT"}};
+  return kSteps;
+}
+
+TEST_F(Coast, TheFirstSortieOfTheDocumentsDesignatesAnAircraftOnTheApron) {
+  constexpr double kReading_s = 12.0, kTap_s = 0.15;  // before each section; a short tap of an arrow key
+  std::vector<ScriptedStep> steps{{"power opr", true, "power", "OPR"}, {"elevation -3", true, "range_nm", 40.0, 1.0}};
+  std::size_t row = 0;
+  for (const auto& section : events_of_the_page()) {
+    double after_s = kReading_s;
+    for (const std::string& event : section) {
+      ASSERT_LT(row, sortie_steps().size()) << event;
+      steps.push_back(sortie_steps()[row++]);
+      EXPECT_EQ(steps.back().event, event) << "row " << row << " of docs/first_sortie.md";
+      steps.back().after_s = after_s;
+      after_s = event == "tdc -1 0" ? kTap_s : 1.0;
+    }
+  }
+  ASSERT_EQ(row, sortie_steps().size());
+  const LockstepRun run("first-sortie", steps, "route:" YARS_SOURCE_DIR "/config/routes/default.route",
+                        {terrain(), YARS_SOURCE_DIR "/config/default.guf"});
+  expect_steps(run.entries(), steps);
+  const json target = run.states().rbegin()->second["target"];
+  ASSERT_TRUE(target.is_object());
+  EXPECT_EQ(target["name"], "4.02");
+  EXPECT_LT(metres_between(target, kTransport), 25.0) << "a transport is 24 m long and wide";
 }
 
 // In the first half minute of scripts/start there is something to see: RBM, 40 NM, coast, towns, mountains, ships.
