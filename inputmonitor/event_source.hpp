@@ -103,8 +103,8 @@ class SourceGroup final : public EventSource {
   std::vector<std::unique_ptr<EventSource>> sources_;
 };
 
-// Script: one event per line, with its simulation time. script_lines.hpp has the syntax of times and of `end`. EVENT has
-// the syntax of databuffer/messages/input_event.hpp. Except in lockstep, the input monitor ends with the script.
+// Script: one event per line, with its simulation time. script_lines.hpp has the syntax of times and of `end`. EVENT
+// has the syntax of databuffer/messages/input_event.hpp. Except in lockstep, the input monitor ends with the script.
 struct ScriptedEvent {
   std::int64_t time_ns = 0;
   databuffer::InputEvent event{};

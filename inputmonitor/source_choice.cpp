@@ -238,7 +238,8 @@ Expected<SourceChoice> parse_source(std::string_view text) {
     const SourceChoice choice = device_choice(text.substr(kDevice.size()));
     if (!choice.file.empty()) return choice;
   }
-  return tl::unexpected(error::usage_error("--source", "window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto",
+  return tl::unexpected(error::usage_error("--source",
+                                           "window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto",
                                            '"' + std::string(text) + '"'));
 }
 

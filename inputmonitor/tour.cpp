@@ -120,8 +120,8 @@ bool satisfies(const InputEvent& done, const InputEvent& wanted) {
 
 Expected<Tour> parse_tour(std::string_view text, std::string_view name) {
   Tour tour;
-  const auto times = read_script_lines(text, name, kForms, kTimeless,
-                                       [&](const ScriptLine& line) { return take_line(line, tour); });
+  const auto times =
+      read_script_lines(text, name, kForms, kTimeless, [&](const ScriptLine& line) { return take_line(line, tour); });
   if (!times) return tl::unexpected(times.error());
   if (!times->end_ns) return fail(std::string(name), "a last line `end`", "none", "add [TIME_S] end");
   if (captions_in(tour) > databuffer::kMaxCaptions)
@@ -221,7 +221,8 @@ std::vector<InputEvent> TourSource::take(const Moment& moment) {
       continue;
     }
     if (waits_at(item)) break;
-    const auto missing = std::ranges::find_if(wanted_, [&](const InputEvent& one) { return same_event(one, item.event); });
+    const auto missing =
+        std::ranges::find_if(wanted_, [&](const InputEvent& one) { return same_event(one, item.event); });
     if (missing == wanted_.end()) continue;
     wanted_.erase(missing);
     send(item.event, due);
@@ -242,7 +243,8 @@ void TourSource::observe(const std::vector<SeenEvent>& seen) {
   for (const SeenEvent& one : seen) {
     if (one.own) {
       // The sources of one program share a lane. What the tour itself has sent comes back first.
-      const auto echo = std::ranges::find_if(echoes_, [&](const InputEvent& sent) { return same_event(sent, one.event); });
+      const auto echo =
+          std::ranges::find_if(echoes_, [&](const InputEvent& sent) { return same_event(sent, one.event); });
       if (echo != echoes_.end()) {
         echoes_.erase(echo);
         continue;

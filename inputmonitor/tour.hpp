@@ -23,9 +23,9 @@ namespace yars::inputmonitor {
 struct TourItem {
   std::int64_t time_ns = 0;
   bool is_caption = false;
-  std::vector<std::string> lines;   // caption: its text, at most kCaptionLines; empty takes the caption off
-  databuffer::InputEvent event{};   // event
-  bool automatic = false;           // event: the tour sends it also when it waits for the pilot
+  std::vector<std::string> lines;  // caption: its text, at most kCaptionLines; empty takes the caption off
+  databuffer::InputEvent event{};  // event
+  bool automatic = false;          // event: the tour sends it also when it waits for the pilot
 };
 
 // Lines of a tour, besides those of a script (script_lines.hpp):

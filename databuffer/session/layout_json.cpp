@@ -159,8 +159,8 @@ std::string offsets() {
 std::string lock_bytes() {
   ObjectText object;
   object.add("participation", std::size_t{0});
-  for (const Role role :
-       {Role::radar_model, Role::state_machine, Role::recorder, Role::clock, Role::traffic, Role::glass_frames, Role::tour})
+  for (const Role role : {Role::radar_model, Role::state_machine, Role::recorder, Role::clock, Role::traffic,
+                          Role::glass_frames, Role::tour})
     object.add(name_of(role), static_cast<std::size_t>(role));
   object.add("first_ownship_lane", kFirstOwnshipByte);
   object.add("first_input_lane", kFirstInputByte);

@@ -106,10 +106,10 @@ struct FrameSlot {
 };
 
 // [bytes] Part of the reserve that containers occupy: Counters, padding to a cache line, the caption.
-inline constexpr std::size_t kUsedSpareBytes =
-    (sizeof(Counters) + alignof(shm::LatestValue<Caption>) - 1) / alignof(shm::LatestValue<Caption>) *
-        alignof(shm::LatestValue<Caption>) +
-    sizeof(shm::LatestValue<Caption>);
+inline constexpr std::size_t kUsedSpareBytes = (sizeof(Counters) + alignof(shm::LatestValue<Caption>) - 1) /
+                                                   alignof(shm::LatestValue<Caption>) *
+                                                   alignof(shm::LatestValue<Caption>) +
+                                               sizeof(shm::LatestValue<Caption>);
 
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is the layout, and cache lines need the padding
 struct SessionLayout {

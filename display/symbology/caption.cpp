@@ -59,8 +59,7 @@ void draw_caption(const databuffer::Caption& caption, DrawList& list) {
   list.text(number, {plate.right - kPadding, y}, {kHeadHeight, Align::right});
   y += kHeadPitch + (kLineHeight - kHeadHeight) / 2.0F;
   for (std::size_t i = 0; i < lines; ++i, y += kLinePitch)
-    list.text(upper_case(text::text_of(caption.lines[i].text)), {plate.left + kPadding, y},
-              {kLineHeight, Align::left});
+    list.text(upper_case(text::text_of(caption.lines[i].text)), {plate.left + kPadding, y}, {kLineHeight, Align::left});
   list.draw_on(Layer::symbols);
 }
 

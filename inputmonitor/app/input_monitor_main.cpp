@@ -70,9 +70,10 @@ int main(int argc, char** argv) {
   std::string learn_path;
   std::string map_file;
   databuffer::add_common_options(app, options, true);
-  app.option("--source", sources,
-             "window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto (default); may be given several "
-             "times")
+  app.option(
+         "--source", sources,
+         "window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto (default); may be given several "
+         "times")
       .repeatable();
   const databuffer::Option learn = app.option(
       "--learn", learn_path, "path of a device: prompts for its controls and makes a device map; needs no session");

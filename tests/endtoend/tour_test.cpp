@@ -20,7 +20,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr geo::GeoPoint kApron{38.10558, -121.31794};  // point 4. of config/coast.guf
+constexpr geo::GeoPoint kApron{38.10558, -121.31794};        // point 4. of config/coast.guf
 constexpr geo::GeoPoint kTransport{38.105530, -121.318930};  // the westernmost transport on the apron
 
 // The terrain of scripts/start with its scenes, made once for all tests of this file.
@@ -109,12 +109,10 @@ void keep_pictures(const TourRun& tour, const std::string& prefix, int end_s) {
   if (folder == nullptr) return;
   for (auto caption = tour.captions.begin(); caption != tour.captions.end(); ++caption) {
     const auto next = std::next(caption);
-    const double until_s =
-        next == tour.captions.end() ? end_s : static_cast<double>(next->second.sim_time_ns) * 1e-9;
+    const double until_s = next == tour.captions.end() ? end_s : static_cast<double>(next->second.sim_time_ns) * 1e-9;
     const int time_s = static_cast<int>((until_s - 1.0) / 2.0) * 2;
     const std::string number = std::to_string(100 + caption->first).substr(1);
-    std::filesystem::copy_file(tour.run.frame(time_s),
-                               std::filesystem::path(folder) / (prefix + "_" + number + ".png"),
+    std::filesystem::copy_file(tour.run.frame(time_s), std::filesystem::path(folder) / (prefix + "_" + number + ".png"),
                                std::filesystem::copy_options::overwrite_existing);
   }
 }
@@ -243,17 +241,25 @@ std::vector<std::vector<std::string>> events_of_the_page() {
 
 // What the state is after each event of the page.
 const std::vector<ScriptedStep>& sortie_steps() {
-  static const std::vector<ScriptedStep> kSteps{
-      {"pb 14", true, "range_nm", 20.0},       {"pb 13", true, "range_nm", 40.0},
-      {"pb 17", true, "sequence_point", "2"},  {"pb 17", true, "sequence_point", "3"},
-      {"pb 17", true, "sequence_point", "4."}, {"tdc press", true, "mode", "RBM"},
-      {"tdc release", true, "window_nm", 4.7}, {"acq aft", true, "window_nm", 3.3},
-      {"acq aft", true, "window_nm", 1.3},     {"acq aft", true, "window_nm", 0.67},
-      {"tdc press", true, "mode", "PATCH"},    {"tdc release", true, "mode", "PATCH"},
-      {"pb 7", true, "cursor_function", "UPDT"}, {"pb 7", true, "cursor_function", "CUE"},
-      {"pb 7", true, "cursor_function", "TGT"},  {"tdc -1 0", true, "mode", "PATCH"},
-      {"tdc 0 0", true, "mode", "PATCH"},      {"tdc press", true, "cursor_function", "TGT"},
-      {"tdc release", true, "cursor_function", "TGT"}};
+  static const std::vector<ScriptedStep> kSteps{{"pb 14", true, "range_nm", 20.0},
+                                                {"pb 13", true, "range_nm", 40.0},
+                                                {"pb 17", true, "sequence_point", "2"},
+                                                {"pb 17", true, "sequence_point", "3"},
+                                                {"pb 17", true, "sequence_point", "4."},
+                                                {"tdc press", true, "mode", "RBM"},
+                                                {"tdc release", true, "window_nm", 4.7},
+                                                {"acq aft", true, "window_nm", 3.3},
+                                                {"acq aft", true, "window_nm", 1.3},
+                                                {"acq aft", true, "window_nm", 0.67},
+                                                {"tdc press", true, "mode", "PATCH"},
+                                                {"tdc release", true, "mode", "PATCH"},
+                                                {"pb 7", true, "cursor_function", "UPDT"},
+                                                {"pb 7", true, "cursor_function", "CUE"},
+                                                {"pb 7", true, "cursor_function", "TGT"},
+                                                {"tdc -1 0", true, "mode", "PATCH"},
+                                                {"tdc 0 0", true, "mode", "PATCH"},
+                                                {"tdc press", true, "cursor_function", "TGT"},
+                                                {"tdc release", true, "cursor_function", "TGT"}};
   return kSteps;
 }
 
@@ -283,8 +289,10 @@ TEST_F(Coast, TheFirstSortieOfTheDocumentsDesignatesAnAircraftOnTheApron) {
 
 // In the first half minute of scripts/start there is something to see: RBM, 40 NM, coast, towns, mountains, ships.
 TEST_F(Coast, TheFirstHalfMinuteOfTheDefaultFlightShowsLandAndSea) {
-  const LockstepRun run("first", {{"power opr", true, "power", "OPR"}, {"elevation -3", true, "mode", "RBM", 1.0},
-                                  {"contrast up", true, "range_nm", 40.0, 26.0}},
+  const LockstepRun run("first",
+                        {{"power opr", true, "power", "OPR"},
+                         {"elevation -3", true, "mode", "RBM", 1.0},
+                         {"contrast up", true, "range_nm", 40.0, 26.0}},
                         "route:" YARS_SOURCE_DIR "/config/routes/default.route",
                         {terrain(), YARS_SOURCE_DIR "/config/default.guf"});
   for (const int time_s : {4, 16, 30}) {

@@ -1,5 +1,5 @@
-// Any text as a tour: an error with the file's name, or a tour that plays to its end by itself and with a pilot who goes
-// on at each step. Its captions and events are valid.
+// Any text as a tour: an error with the file's name, or a tour that plays to its end by itself and with a pilot who
+// goes on at each step. Its captions and events are valid.
 #include <cstdint>
 #include <string>
 

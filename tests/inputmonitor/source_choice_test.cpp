@@ -28,11 +28,13 @@ TEST(SourceChoice, EachKindIsParsed) {
 }
 
 TEST(SourceChoice, AnythingElseIsBadUsage) {
-  for (const char* text : {"", "script", "script:", "tour:", "tour:,pilot", "keyboard", "evdev", "evdev:", "evdev:,map"}) {
+  for (const char* text :
+       {"", "script", "script:", "tour:", "tour:,pilot", "keyboard", "evdev", "evdev:", "evdev:,map"}) {
     const auto choice = parse_source(text);
     ASSERT_FALSE(choice) << text;
     EXPECT_TRUE(choice.error().bad_usage);
-    EXPECT_THAT(choice.error().message(), HasSubstr("window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto"));
+    EXPECT_THAT(choice.error().message(),
+                HasSubstr("window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto"));
   }
 }
 

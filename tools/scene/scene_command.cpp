@@ -218,7 +218,9 @@ void add_scene_generate(databuffer::Command scene) {
       .range(std::uint64_t{1}, worldgen::kMaxGenerated)
       .show_default();
   command.option("--seed", options->seed, "seed; each seed gives another scene").show_default();
-  command.option("--origin", options->origin, "LAT,LON or LAT,LON,HDG [deg]: centre of the scene, true bearing of its north (else by the seed)")
+  command
+      .option("--origin", options->origin,
+              "LAT,LON or LAT,LON,HDG [deg]: centre of the scene, true bearing of its north (else by the seed)")
       .required();
   command.option("--out", options->out, "OpenFlight file").required();
   command.callback([options] { generate(*options); });

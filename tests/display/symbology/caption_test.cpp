@@ -29,7 +29,8 @@ databuffer::Caption widest() {
 Rect plate_of(const DrawList& list, const DrawList& without) {
   const auto& plates = list.content(Layer::notices).plates;
   for (const Rect& plate : plates)
-    if (std::ranges::find(without.content(Layer::notices).plates, plate) == without.content(Layer::notices).plates.end())
+    if (std::ranges::find(without.content(Layer::notices).plates, plate) ==
+        without.content(Layer::notices).plates.end())
       return plate;
   return {};
 }
