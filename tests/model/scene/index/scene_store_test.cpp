@@ -380,6 +380,26 @@ TEST(SceneView, TrianglesAreCounterClockwiseAndWithinTheirBounds) {
   EXPECT_EQ(wrong, 0U);
 }
 
+// The folder `scenes` of a terrain's folder, without being named in the configuration.
+TEST(OpenScenes, FilesInATerrainsFolderBelongToTheTerrain) {
+  const Folder folder;
+  radar::TerrainConfiguration terrain;
+  terrain.directory = folder.path().string();
+  folder.write("N37W123.hgt", std::vector<std::byte>(std::size_t{1201} * 1201 * 2));
+  const auto without = open_scenes({}, terrain);
+  ASSERT_TRUE(without) << without.error().message();
+  EXPECT_EQ(*without, nullptr);
+  folder.write("scenes/a.flt", box_and_road(kOrigin));
+  const auto with = open_scenes({}, terrain);
+  ASSERT_TRUE(with) << with.error().message();
+  ASSERT_NE(*with, nullptr);
+  EXPECT_EQ(objects_near(*(*with)->prepare({kOrigin, 1000, 0}), kOrigin, 1000).size(), 2U);
+  // Beside those of the configuration.
+  const auto both = open_scenes({scene_of(folder.write("b.flt", box(kOrigin)))}, terrain);
+  ASSERT_TRUE(both) << both.error().message();
+  EXPECT_EQ(objects_near(*(*both)->prepare({kOrigin, 1000, 0}), kOrigin, 1000).size(), 3U);
+}
+
 TEST(SceneSource, ReadsFilePositionAndHeading) {
   const auto scene = parse_scene("some/airfield.flt@37.5,-122.25,45");
   ASSERT_TRUE(scene);
