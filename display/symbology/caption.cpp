@@ -36,9 +36,12 @@ std::size_t lines_of(const databuffer::Caption& caption) {
   return count;
 }
 
-bool hides_cursor(const Rect& plate, const DrawList& list) {
+// True if the plate is below the middle of the cursor. The arms of the cursor may reach over the plate's edge, because
+// the cursor is drawn above it.
+bool is_below_cursor(const Rect& plate, const DrawList& list) {
   return std::ranges::any_of(list.occupied(), [&](const OccupiedBox& box) {
-    return box.kind == BoxKind::cursor && intersect(plate, box.rect);
+    const float x = (box.rect.left + box.rect.right) / 2.0F, y = (box.rect.top + box.rect.bottom) / 2.0F;
+    return box.kind == BoxKind::cursor && intersect(plate, {x, y, x, y});
   });
 }
 
@@ -49,7 +52,7 @@ void draw_caption(const databuffer::Caption& caption, DrawList& list) {
   const std::size_t lines = lines_of(caption);
   const float height = 2.0F * kPadding + kHeadPitch + kLinePitch * static_cast<float>(lines);
   Rect plate{kPlateLeft, kLowerEnd - height, kPlateRight, kLowerEnd};
-  if (hides_cursor(plate, list)) plate = {kPlateLeft, kUpperBegin, kPlateRight, kUpperBegin + height};
+  if (is_below_cursor(plate, list)) plate = {kPlateLeft, kUpperBegin, kPlateRight, kUpperBegin + height};
   list.draw_on(Layer::notices);
   list.plate(plate);
   float y = plate.top + kPadding + kHeadHeight / 2.0F;

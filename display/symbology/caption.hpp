@@ -8,8 +8,8 @@
 
 namespace yars::display {
 
-// Draws the caption in the lower part of the picture, above the messages; in the upper part while the cursor is where
-// the plate would be. A caption with step 0 draws nothing. Call it last.
+// Draws the caption in the lower part of the picture, above the messages; in the upper part while the middle of
+// the cursor is where the plate would be. A caption with step 0 draws nothing. Call it last.
 void draw_caption(const databuffer::Caption& caption, DrawList& list);
 
 }  // namespace yars::display

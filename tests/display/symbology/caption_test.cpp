@@ -5,6 +5,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
 
 #include "display/symbology/readouts.hpp"
 #include "lib/radar/modes.hpp"
@@ -92,6 +96,33 @@ TEST(Caption, TheWidestLineStaysOnThePlate) {
       EXPECT_GE(box.rect.top, plate.top);
       EXPECT_LE(box.rect.bottom, plate.bottom);
     }
+}
+
+// Strokes of a text, as numbers.
+std::vector<float> strokes_of(std::string_view text) {
+  struct Numbers final : StrokeSink {
+    std::vector<float> all;
+    void polyline(std::span<const Point> points) override {
+      for (const Point& point : points) all.insert(all.end(), {point.x, point.y});
+    }
+  } numbers;
+  stroke_text(text, numbers);
+  return numbers.all;
+}
+
+TEST(Caption, EveryCharacterOfTheShippedToursIsInTheFont) {
+  const auto unknown = strokes_of("~");
+  for (const auto& file : std::filesystem::directory_iterator(YARS_SOURCE_DIR "/config/tours")) {
+    if (file.path().extension() != ".tour") continue;
+    std::ifstream lines(file.path());
+    for (std::string line; std::getline(lines, line);) {
+      const auto at = line.find("caption ");
+      if (line.starts_with('#') || at == std::string::npos) continue;
+      for (const char character : line.substr(at))
+        if (character != '|' && character != ' ')
+          EXPECT_NE(strokes_of(std::string(1, character)), unknown) << character << " in " << line;
+    }
+  }
 }
 
 // On the ground track at an eighth of the range the cursor is 50 units above the apex, inside the lower plate.
