@@ -69,6 +69,7 @@ TEST(SceneBuilder, RotatesInstancesLikeOtherFaces) {
 TEST(Generator, GivesEveryFaceAMaterialAndStaysWithinTheExtentOfItsHeader) {
   for (const worldgen::GeneratedKind kind : kKinds) {
     const Model model = model_of({.kind = kind, .triangles = 30'000, .seed = 2, .origin = kOrigin});
+    EXPECT_TRUE(model.warnings.empty()) << model.warnings.front();
     for (const SurfaceKind& surface : model.kinds) EXPECT_NE(surface.material, 0);
     ASSERT_TRUE(model.header.south_west && model.header.north_east && model.header.origin);
     const double reach_m = geo::geodesic_inverse(*model.header.origin, *model.header.north_east).distance.metres();
