@@ -130,8 +130,8 @@ class HarbourScene {
         water.push_back({along * length_m / 2 * 0.96, half * 0.88, 0});
         deck.push_back({along * length_m / 2, half, freeboard_m});
       };
-      // From the starboard side of the stern around the bow to the port side. No corner lies on a straight side: the deck
-      // would have triangles without area.
+      // From the starboard side of the stern around the bow to the port side. No corner lies on a straight side: the
+      // deck would have triangles without area.
       add(-1.0, -1.0);
       add(0.4, -1.0);
       for (int i = 1; i < parts; ++i) add(0.4 + 0.6 * i / parts, -std::sqrt(1.0 - 1.0 * i * i / (parts * parts)));
