@@ -97,6 +97,7 @@ std::string containers() {
   parts.add("model_status", latest_value<shm::LatestValue<ModelStatus>>("ModelStatus"));
   parts.add("outputs", latest_value<shm::LatestValue<Outputs>>("Outputs"));
   parts.add("recorder_status", latest_value<shm::LatestValue<RecorderStatus>>("RecorderStatus"));
+  parts.add("advice", latest_value<shm::LatestValue<PilotAdvice>>("PilotAdvice"));
   parts.add("model_ticks", ring<decltype(SessionLayout::model_ticks)>("ModelTick"));
   parts.add("applied_events", ring<decltype(SessionLayout::applied_events)>("AppliedEvent"));
   parts.add("sweeps", ring<decltype(SessionLayout::sweeps)>("Sweep"));
@@ -151,7 +152,8 @@ std::string offsets() {
                     {"traffic", offsetof(SessionLayout, traffic)},
                     {"traffic_latched", offsetof(SessionLayout, traffic_latched)},
                     {"frames", offsetof(SessionLayout, frames)},
-                    {"counters", offsetof(SessionLayout, counters)}});
+                    {"counters", offsetof(SessionLayout, counters)},
+                    {"advice", offsetof(SessionLayout, advice)}});
 }
 
 std::string lock_bytes() {

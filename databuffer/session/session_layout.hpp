@@ -104,6 +104,12 @@ struct FrameSlot {
   std::array<std::atomic<std::uint64_t>, kMaxFramePixels * kMaxFramePixels * 4 / 8> pixels;  // RGBA
 };
 
+// [bytes] Part of the reserve that containers occupy: Counters, padding to a cache line, PilotAdvice.
+inline constexpr std::size_t kUsedSpareBytes =
+    (sizeof(Counters) + alignof(shm::LatestValue<PilotAdvice>) - 1) / alignof(shm::LatestValue<PilotAdvice>) *
+        alignof(shm::LatestValue<PilotAdvice>) +
+    sizeof(shm::LatestValue<PilotAdvice>);
+
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is the layout, and cache lines need the padding
 struct SessionLayout {
   shm::SegmentHeader header;
@@ -128,7 +134,8 @@ struct SessionLayout {
   shm::BroadcastRing<Traffic, 64> traffic_latched;  // copies that radar-model latched; the recorder reads them
   std::array<FrameSlot, kFrameSlots> frames;
   Counters counters;
-  std::array<std::atomic<std::uint64_t>, (kSpareBytes - sizeof(Counters)) / 8> spare;
+  shm::LatestValue<PilotAdvice> advice;
+  std::array<std::atomic<std::uint64_t>, (kSpareBytes - kUsedSpareBytes) / 8> spare;
 };
 
 // Identity that a segment must have: layout version, size, and a hash over name, version and size of each record.
