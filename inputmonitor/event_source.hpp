@@ -30,6 +30,7 @@ struct Moment {
 struct Notice {
   bool is_warning = false;
   std::string text;
+  bool for_pilot = false;  // an answer to a key, such as the help: for the log alone
 };
 
 // A source of input events: a window, a terminal, a script, a device.

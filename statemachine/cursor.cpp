@@ -107,7 +107,8 @@ void point_cursor(Step& step) {
   if (!std::isfinite(event.x) || !std::isfinite(event.y) || !step.inputs.ownship_valid) return;
   if (!shows_cursor(step.state) || slews_steering_line(step.state)) return;
   const auto plane = plane_of(step.state, step.inputs, step.parameters.view);
-  if (plane) put_cursor(step.state, plane->ground_from_display(plane->at_fractions(event.x, event.y)), step.inputs.tick);
+  if (plane)
+    put_cursor(step.state, plane->ground_from_display(plane->at_fractions(event.x, event.y)), step.inputs.tick);
 }
 
 void next_cursor_function(Step& step) {

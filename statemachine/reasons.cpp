@@ -66,16 +66,15 @@ Reason reason_in_mode(const RadarState& state, const InputEvent& event) {
   const auto mode = button ? static_cast<radar::Mode>(state.mode) : running_mode(state);
   std::string words = "dead in " + std::string(name_of(mode));
   if (mode == radar::Mode::menu) return {words, "back to the radar: pb 6 (6)"};
-  if (mode == radar::Mode::air_to_air || mode == radar::Mode::ranging)
-    return {words, "back to A/G: mode ag (F5)"};
+  if (mode == radar::Mode::air_to_air || mode == radar::Mode::ranging) return {words, "back to A/G: mode ag (F5)"};
   return {words, live_modes(event)};
 }
 
 Reason reason_without_update(const RadarState& state) {
   if (state.sequence_point[0] == '\0') return {"no sequence point is selected", "select one: sp 1"};
-  if (has(state, databuffer::kUpdateInvalid))
-    return {"INV: the cursor is too old for an update", kRemedyForInv};
-  if (!has(state, databuffer::kUpdateShown)) return {"no update error is shown", "put the cursor onto the point's echo"};
+  if (has(state, databuffer::kUpdateInvalid)) return {"INV: the cursor is too old for an update", kRemedyForInv};
+  if (!has(state, databuffer::kUpdateShown))
+    return {"no update error is shown", "put the cursor onto the point's echo"};
   return {"changed nothing: the errors are 0", "move the cursor onto the point's echo (arrows)"};
 }
 

@@ -100,8 +100,7 @@ std::string other_window(const RefusedMap& map, const Parameters& parameters, do
     if (!best_nm || std::abs(window_nm - present_nm) < std::abs(*best_nm - present_nm)) best_nm = window_nm;
   }
   if (!best_nm) return {};
-  return formatted(", or take window %g: %s", *best_nm,
-                   *best_nm > present_nm ? "acq fwd (PgUp)" : "acq aft (PgDn)");
+  return formatted(", or take window %g: %s", *best_nm, *best_nm > present_nm ? "acq fwd (PgUp)" : "acq aft (PgDn)");
 }
 
 std::string into_range(const RefusedMap& map, const Parameters& parameters, double range_nm) {
@@ -109,8 +108,10 @@ std::string into_range(const RefusedMap& map, const Parameters& parameters, doub
   if (!limits) return "select another window: acq fwd (PgUp), acq aft (PgDn)";
   const bool near = map.path.distance < limits->min;
   const double limit_nm = (near ? limits->min : limits->max).nautical_miles();
-  if (map.again) return formatted(near ? "%.1f NM or more are needed" : "fly nearer: %.1f NM or less are needed", limit_nm);
-  return formatted(near ? "move the cursor out to %.1f NM or more" : "move the cursor in to %.1f NM or less", limit_nm) +
+  if (map.again)
+    return formatted(near ? "%.1f NM or more are needed" : "fly nearer: %.1f NM or less are needed", limit_nm);
+  return formatted(near ? "move the cursor out to %.1f NM or more" : "move the cursor in to %.1f NM or less",
+                   limit_nm) +
          other_window(map, parameters, range_nm);
 }
 

@@ -75,7 +75,7 @@ struct ButtonRow {
   Columns columns;
   Conditions live_when;  // the button has an effect while these conditions are true
   Action action;
-  const char* does;                                        // what a press does, for advice.hpp: "scan width"
+  const char* does;  // what a press does, for advice.hpp: "scan width"
   Legend legend;
   Conditions shown_when;                                   // the legend is shown while these conditions are true
   bool (*boxed)(const databuffer::RadarState&) = nullptr;  // true: the legend has a box; null = never

@@ -7,8 +7,9 @@
 //   2..9 a..k: pb 2..20 | arrows: tdc (full deflection while held) | Enter: tdc press, release | Tab: coolie up |
 //   Page Up, Page Down: acq fwd, aft | Space: freeze | [ ]: elevation down, up | F4: nav toggle |
 //   F5 F6 F7: mode ag, aa, agr | o: power opr | s: power stby.
-// Keys without an event: ? and F1 (help), F8 (bezel), F11 (full screen), Escape (ends help, full screen, input-monitor).
-// pb: push button; tdc: throttle designator control, which moves the cursor; coolie: castle switch; acq: acquisition
+// Keys without an event: ? and F1 (help), F8 (bezel), F11 (full screen), Escape (ends help, full screen,
+// input-monitor). pb: push button; tdc: throttle designator control, which moves the cursor; coolie: castle switch;
+// acq: acquisition
 //   switch, which selects the window; ag, aa, agr: air-to-ground, air-to-air, air-to-ground ranging.
 #pragma once
 

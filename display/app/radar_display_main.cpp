@@ -104,7 +104,9 @@ class HeadlessDisplay {
 
   error::Expected<void> write(std::int64_t number) {
     if (frames_) {
-      if (auto written = frames_->write(panel_edge_ > 0 ? mpd_.read_panel(view_, panel_edge_) : mpd_.read(), number); !written) return written;
+      if (auto written = frames_->write(panel_edge_ > 0 ? mpd_.read_panel(view_, panel_edge_) : mpd_.read(), number);
+          !written)
+        return written;
     }
     mpd_.note_shown();
     return {};
@@ -250,7 +252,8 @@ int main(int argc, char** argv) {
   app.flag("--no-bezel", display_options.no_bezel, "a window without the bezel; key F8 shows and hides it");
   app.flag("--publish", display_options.publish,
            "also publish pictures in the session for other programs, with edges of at most 1024 pixels");
-  app.option("--size", display_options.size, "edge of the picture in pixels, without the bezel (else the configuration's)")
+  app.option("--size", display_options.size,
+             "edge of the picture in pixels, without the bezel (else the configuration's)")
       .range(120, 4096);
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, display_options); });
 }

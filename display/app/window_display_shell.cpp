@@ -97,7 +97,8 @@ void WindowDisplay::step(std::int64_t sim_time_ns) {
   mpd_.update(sim_time_ns);
   if (redraw(monotonic_ns())) mpd_.note_shown();
   const auto pixels = window_.pixels();
-  if (publisher_) publisher_->work(mpd_, std::min(pixels.width, pixels.height));
+  const auto edge = static_cast<float>(std::min(pixels.width, pixels.height));
+  if (publisher_) publisher_->work(mpd_, static_cast<int>(std::lround(edge * kDisplayUnits / layout().edge())));
 }
 
 // Returns true if the window shows the result of the last update.

@@ -73,9 +73,9 @@ class MapPass {
   std::vector<StoredMap> maps_;
 };
 
-// Draws a DrawList over the video: panels, the gray scale, then the layers. A layer has plates (black rectangles), halos (black
-// margins of strokes) and strokes. Strokes have round ends. Edges of strokes and halos are antialiased over one pixel
-// at any display size: the alpha of a pixel depends on its distance from the stroke's centre line.
+// Draws a DrawList over the video: panels, the gray scale, then the layers. A layer has plates (black rectangles),
+// halos (black margins of strokes) and strokes. Strokes have round ends. Edges of strokes and halos are antialiased
+// over one pixel at any display size: the alpha of a pixel depends on its distance from the stroke's centre line.
 class OverlayPass {
  public:
   OverlayPass();

@@ -57,7 +57,7 @@ struct Display::State {
   ColorScheme colors;
   gl::Display renderer;
   gl::PanelPass panel_pass;
-  DrawList panel, painted_panel;  // surround to draw, and surround of the last paint_panel()
+  DrawList panel, painted_panel;                 // surround to draw, and surround of the last paint_panel()
   std::optional<gl::Framebuffer> panel_picture;  // made by the first read_panel()
   bool help = false, hints = false;
   gl::Readback readback;

@@ -14,9 +14,9 @@ namespace yars::display {
 
 namespace {
 
-constexpr float kHalfButton = 17.0F;         // [units] half the edge of a button
-constexpr float kMiddle = 28.0F;             // [units] from the panel's edge to the middle of a button
-constexpr float kBevel = 2.0F;               // [units] width of lit and shaded edges
+constexpr float kHalfButton = 17.0F;           // [units] half the edge of a button
+constexpr float kMiddle = 28.0F;               // [units] from the panel's edge to the middle of a button
+constexpr float kBevel = 2.0F;                 // [units] width of lit and shaded edges
 constexpr Color kFace{0.085F, 0.09F, 0.095F};  // dark, so that the picture stays the brightest
 constexpr Color kLitEdge{0.20F, 0.21F, 0.22F};
 constexpr Color kShade{0.02F, 0.02F, 0.02F};

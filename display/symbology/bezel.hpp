@@ -1,7 +1,8 @@
 // The MPD's bezel with its twenty buttons around the picture, tooltips and notices of the window.
 // Inputs: DisplayInput for the words of a tooltip; a position of the mouse.
 // Outputs: a draw list in panel units; the button or the position on the picture under the mouse.
-// Units: panel units. One panel unit is one display unit; origin upper left of the panel, x right, y down. The picture's
+// Units: panel units. One panel unit is one display unit; origin upper left of the panel, x right, y down. The
+// picture's
 //   upper left corner lies at (border, border).
 // Source: docs/spec/pilots_interface.md#bezel
 #pragma once
@@ -25,8 +26,8 @@ struct PanelLayout {
   Point on_picture(Point on_panel) const { return {on_panel.x - border, on_panel.y - border}; }
 };
 
-// Number of the button at a position: a drawn button or the click zone of its legend (readouts.hpp). Without a bezel the
-// legend alone. nullopt: none.
+// Number of the button at a position: a drawn button or the click zone of its legend (readouts.hpp). Without a bezel
+// the legend alone. nullopt: none.
 std::optional<int> button_at(const PanelLayout& layout, Point on_panel);
 
 // Draws the bezel, if the layout has one. `lit`: button under the mouse, drawn brighter; 0: none.

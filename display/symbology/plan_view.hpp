@@ -33,7 +33,7 @@ struct DisplayInput {
   databuffer::PatchMap map{};     // map with the id state.map_shown; another id: that map could not be read
   bool state_machine_alive = true;
   bool model_alive = true;
-  bool ownship_fresh = true;  // a source still delivers the position and motion of the aircraft
+  bool ownship_fresh = true;         // a source still delivers the position and motion of the aircraft
   databuffer::PilotAdvice advice{};  // what each button does; remedy of the message
   bool hints = false;                // a state without a picture says how to get back; OFF says how to switch on
   bool help = false;                 // the help covers the picture

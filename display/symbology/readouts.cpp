@@ -204,7 +204,7 @@ void draw_message(const DisplayInput& input, DrawList& list) {
   const std::string_view message = text_of(input.state.message);
   if (message.empty()) return;
   constexpr float kLowestRow = 413.0F, kRowPitch = 12.0F;  // [units] above the azimuth scale
-  constexpr float kMaxWidth = 300.0F;                      // [units] between elevation scale and gray scale
+  constexpr float kMaxWidth = 270.0F;                      // [units] between elevation scale and gray scale
   constexpr std::size_t kMaxLines = 2;
   auto lines = wrapped(in_capitals(text_of(input.advice.remedy)), kMaxWidth / kHintHeight);
   if (lines.size() > kMaxLines) lines.resize(kMaxLines);
@@ -222,11 +222,11 @@ namespace {
 
 // Words of a state without a picture.
 struct StateCard {
-  const char* name;       // large
-  const char* is;         // what the state is
-  const char* back;       // how to get back
-  float y = 240.0F;       // [units] of the name
-  float height = 13.0F;   // [units] cap height of the name
+  const char* name;      // large
+  const char* is;        // what the state is
+  const char* back;      // how to get back
+  float y = 240.0F;      // [units] of the name
+  float height = 13.0F;  // [units] cap height of the name
 };
 constexpr StateCard kOff{"OFF", "", "SWITCH ON: POWER OPR (O)"};
 constexpr StateCard kStandby{"STBY", "STANDBY: NO TRANSMISSION, NO SCAN", "SWITCH ON: POWER OPR (O)", 240.0F,

@@ -16,6 +16,7 @@
 #include "inputmonitor/learning.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::inputmonitor {
 
@@ -26,7 +27,10 @@ constexpr int kMaxWait_ms = 200;  // maximum delay of a stop request and maximum
 }  // namespace
 
 InputMonitorShell::InputMonitorShell(databuffer::Session& session, std::unique_ptr<EventSource> source, int lane)
-    : session_(&session), source_(std::move(source)), lane_(static_cast<std::size_t>(lane)) {}
+    : session_(&session), source_(std::move(source)), lane_(static_cast<std::size_t>(lane)) {
+  advice_.refresh(session.layout().advice);
+  idle_count_ = advice_.value().idle_count;
+}
 
 void InputMonitorShell::run(databuffer::TickLoop& loop) {
   if (loop.lockstep() || source_->follows_sim_time())
@@ -54,7 +58,18 @@ void InputMonitorShell::run_by_input() {
     const Moment moment = now();
     push(source_->take(moment), moment);
     report_notices();
+    report_idle_event();
   }
+}
+
+// Says why the newest event of this source was without effect. Of several at once, only the last is known.
+void InputMonitorShell::report_idle_event() {
+  if (!advice_.refresh(session_->layout().advice)) return;
+  const databuffer::PilotAdvice& advice = advice_.value();
+  if (std::exchange(idle_count_, advice.idle_count) == advice.idle_count || advice.idle_lane != lane_) return;
+  const databuffer::InputEvent& event = recent_[advice.idle_number % recent_.size()];
+  const std::string what = event.number == advice.idle_number ? databuffer::text_of(event) : "an event";
+  log::info(what + ": " + std::string(text::text_of(advice.idle_reason)));
 }
 
 void InputMonitorShell::report_notices() {
@@ -63,7 +78,8 @@ void InputMonitorShell::report_notices() {
       log::warning(notice.text);
     else
       log::info(notice.text);
-    session_->note(notice.is_warning ? databuffer::NoteKind::loss : databuffer::NoteKind::restart, notice.text);
+    if (!notice.for_pilot)
+      session_->note(notice.is_warning ? databuffer::NoteKind::loss : databuffer::NoteKind::restart, notice.text);
   }
 }
 
@@ -72,6 +88,7 @@ void InputMonitorShell::push(const std::vector<databuffer::InputEvent>& events, 
     event.session_time_ns = moment.sim_time_ns;
     event.monotonic_ns = moment.monotonic_ns;
     event.number = ++number_;
+    recent_[event.number % recent_.size()] = event;
     log::debug(databuffer::text_of(event));
     if (session_->layout().input.push(lane_, event)) continue;
     session_->note(databuffer::NoteKind::loss, "input lane full, dropped: " + databuffer::text_of(event));

@@ -164,8 +164,8 @@ void StateMachineShell::publish_if_changed(std::int64_t tick) {
   nothing_published_ = false;
 }
 
-// Each advice tries all buttons, so it is made 10 times a second, and in ticks with an event. A change of the tick alone
-// does not count as a change.
+// Each advice tries all buttons, so it is made 10 times a second, and in ticks with an event. A change of the tick
+// alone does not count as a change.
 void StateMachineShell::publish_advice() {
   constexpr std::int64_t kTicksBetween = 20;  // 0.1 s
   if (!std::exchange(advice_due_, false) && inputs_.tick % kTicksBetween != 0) return;

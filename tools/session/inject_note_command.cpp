@@ -147,10 +147,8 @@ void report(const statemachine::AppliedSequence& applied) {
     if (reason && !reason->remedy.empty()) remedies += (remedies.empty() ? "" : "; ") + reason->remedy;
   }
   if (remedies.empty()) remedies = "see points, cursor and limits in `yars watch --json`";
-  throw_failure(
-      {"inject", "events that can be carried out", refused,
-       all_certain ? remedies : "send an event alone for its reason",
-       false});
+  throw_failure({"inject", "events that can be carried out", refused,
+                 all_certain ? remedies : "send an event alone for its reason", false});
 }
 
 void inject(const CommonOptions& common, const std::vector<std::string>& arguments) {
