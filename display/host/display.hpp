@@ -38,9 +38,9 @@ struct Viewport {
 // What surrounds the picture: the MPD's bezel, a tooltip, a line of text.
 struct PanelView {
   bool bezel = true;
-  int lit = 0;         // button that is drawn brighter, 1..20; 0: none
-  int tooltip = 0;     // button whose tooltip is shown, 1..20; 0: none
-  std::string notice;  // line of text at the lower edge; empty: none
+  int lit = 0;           // button that is drawn brighter, 1..20; 0: none
+  int tooltip = 0;       // button whose tooltip is shown, 1..20; 0: none
+  std::string notice{};  // line of text at the lower edge; empty: none
   friend bool operator==(const PanelView&, const PanelView&) = default;
 };
 
