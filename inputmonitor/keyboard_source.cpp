@@ -23,6 +23,7 @@ std::string key_help_text() {
 
 void Keyboard::change(databuffer::Key key, bool pressed) {
   if (pressed && databuffer::is_help(key)) notices_.push_back({false, key_help_text(), true});
+  if (pressed && databuffer::is_dead_letter(key)) notices_.push_back({false, databuffer::kDeadKeyHelp, true});
   if (pressed && key == databuffer::Key::escape && !ended_) {
     notices_.push_back({false, "Esc ended " + name_ + "; the set runs on. input-monitor starts them again", true});
     ended_ = true;

@@ -51,6 +51,14 @@ std::string refusal(const RadarState& after, const Inputs& inputs, const Paramet
   return text_of(Reason{std::string(text::text_of(after.message)), remedy_of_message(after, inputs, parameters)});
 }
 
+// Reason and remedy of a button that is dead, or that would change nothing.
+std::string idle_words(const RadarState& state, const InputEvent& event) {
+  constexpr std::string_view kUnchanged = "changed nothing: ";
+  std::string words = text_of(reason_without_effect(state, event));
+  if (words.starts_with(kUnchanged)) words.erase(0, kUnchanged.size());
+  return words;
+}
+
 std::string miles(double range_nm) {
   std::array<char, 24> buffer;
   std::snprintf(buffer.data(), buffer.size(), ": %g NM", range_nm);
@@ -77,10 +85,10 @@ bool advise_button(PilotAdvice& advice, int button, const RadarState& state, con
   const InputEvent event = event_of(EventKind::push_button, button);
   auto& field = advice.buttons[button];
   const ButtonRow* row = live_button(state, button);
-  if (row == nullptr) return put_words(field, text_of(reason_without_effect(state, event)), false);
+  if (row == nullptr) return put_words(field, idle_words(state, event), false);
   const Trial trial = tried(row->action, event, state, inputs, parameters);
   if (trial.refused) return put_words(field, refusal(trial.after, inputs, parameters), false);
-  if (!trial.changed) return put_words(field, text_of(reason_without_effect(state, event)), false);
+  if (!trial.changed) return put_words(field, idle_words(state, event), false);
   return put_words(field, row->does + new_setting(*row, state, trial.after), true);
 }
 
@@ -89,10 +97,10 @@ bool advise_tdc_switch(PilotAdvice& advice, const RadarState& state, const Input
   const InputEvent event = event_of(EventKind::tdc_release);
   auto& field = advice.buttons[0];
   const ControlRow* row = live_control(state, event);
-  if (row == nullptr) return put_words(field, text_of(reason_without_effect(state, event)), false);
+  if (row == nullptr) return put_words(field, idle_words(state, event), false);
   const Trial trial = tried(row->action, event, state, inputs, parameters);
   if (trial.refused) return put_words(field, refusal(trial.after, inputs, parameters), false);
-  if (!trial.changed) return put_words(field, text_of(reason_without_effect(state, event)), false);
+  if (!trial.changed) return put_words(field, idle_words(state, event), false);
   return put_words(field, row->does, true);
 }
 

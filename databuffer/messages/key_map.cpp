@@ -96,6 +96,12 @@ Key key_of_glfw(int code) {
   return code >= ' ' && code <= '~' ? key_of_character(static_cast<char>(code)) : Key::none;
 }
 
+bool is_dead_letter(Key key) {
+  const int code = static_cast<int>(key);
+  const bool letter_or_digit = (code >= 'a' && code <= 'z') || (code >= '0' && code <= '9');
+  return letter_or_digit && !event_of_key(key);
+}
+
 std::span<const KeyHelp> key_help() {
   static constexpr std::array kRows{
       KeyHelp{"arrows", "cursor (TDC)"},

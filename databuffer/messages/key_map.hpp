@@ -59,6 +59,10 @@ inline bool is_help(Key key) {
   return key == Key{'?'} || key == Key::f1;
 }
 
+// True for a letter or digit without an event. Who types it is told so.
+bool is_dead_letter(Key key);
+inline constexpr const char* kDeadKeyHelp = "this key does nothing; ? shows the keys";
+
 // One row of the help: keys and what they do, in words. A new row here appears in the help over the display, in the
 // terminal and in the window of input-monitor.
 struct KeyHelp {

@@ -47,6 +47,7 @@ void WindowDisplay::take_input(std::int64_t max_wait_ns) {
 
 void WindowDisplay::take_key(const gl::KeyEdge& edge) {
   const bool is_of_window = databuffer::is_help(edge.key) || edge.key == Key::f8 || edge.key == Key::f11;
+  if (edge.pressed && databuffer::is_dead_letter(edge.key)) return say(databuffer::kDeadKeyHelp);
   if (!is_of_window && edge.key != Key::escape) return pilot_.send_key(edge);
   if (!edge.pressed) return;
   if (databuffer::is_help(edge.key)) mpd_.show_help(help_ = !help_);

@@ -154,7 +154,8 @@ bool Display::paint_panel(const PanelView& view, int edge) {
 }
 
 void Display::draw_panel(const PanelView& view, const Viewport& viewport) {
-  const int edge = std::min({viewport.width, viewport.height, kMaxPixels});
+  const auto max_edge = static_cast<int>(static_cast<float>(kMaxPixels) * layout_of(view).edge() / kDisplayUnits);
+  const int edge = std::min({viewport.width, viewport.height, max_edge});
   if (edge <= 0) return;
   const gl::Square square{viewport.left + (viewport.width - edge) / 2, viewport.bottom + (viewport.height - edge) / 2,
                           edge};

@@ -40,7 +40,7 @@ struct PanelView {
   bool bezel = true;
   int lit = 0;           // button that is drawn brighter, 1..20; 0: none
   int tooltip = 0;       // button whose tooltip is shown, 1..20; 0: none
-  std::string notice{};  // line of text at the lower edge; empty: none
+  std::string notice{};  // line of text in the upper part of the picture; empty: none
   friend bool operator==(const PanelView&, const PanelView&) = default;
 };
 

@@ -117,8 +117,7 @@ void draw_tooltip(const PanelLayout& layout, const DisplayInput& input, int butt
 
 void draw_notice(const PanelLayout& layout, std::string_view words, DrawList& list) {
   list.draw_on(Layer::cover);
-  list.text(in_capitals(words), {layout.edge() / 2.0F, layout.edge() - layout.border - 70.0F},
-            {9.0F, Align::center, true, true});
+  list.text(in_capitals(words), {layout.edge() / 2.0F, layout.border + 74.0F}, {9.0F, Align::center, true, true});
   list.draw_on(Layer::symbols);
 }
 

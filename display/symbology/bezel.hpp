@@ -36,7 +36,7 @@ void draw_bezel(const PanelLayout& layout, int lit, DrawList& list);
 // Draws the tooltip of a button beside it: number, key, legend, what it does now, or why it is dead and the remedy.
 void draw_tooltip(const PanelLayout& layout, const DisplayInput& input, int button, DrawList& list);
 
-// Draws a line of text at the lower edge of the picture.
+// Draws a line of text in the upper part of the picture.
 void draw_notice(const PanelLayout& layout, std::string_view words, DrawList& list);
 
 }  // namespace yars::display

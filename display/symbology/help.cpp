@@ -23,7 +23,7 @@ constexpr float kWordsWidth = (kEnd - kWords) / kHeight;  // [cap heights]
 
 // Keys of the window, which have no event.
 constexpr std::array kWindowHelp{
-    databuffer::KeyHelp{"mouse", "click: cursor there, TDC switch; right button: cursor"},
+    databuffer::KeyHelp{"mouse", "click: TDC switch there; right: cursor"},
     databuffer::KeyHelp{"F8 F11", "bezel; full screen"},
 };
 

@@ -65,6 +65,12 @@ TEST(KeyMap, QuestionMarkAndF1AskForHelp) {
   EXPECT_FALSE(is_help(Key::f4));
 }
 
+TEST(KeyMap, LettersAndDigitsWithoutAnEventAreDead) {
+  for (const char character : std::string("01lmz")) EXPECT_TRUE(is_dead_letter(key_of_character(character)));
+  for (const char character : std::string("2kos?[ ")) EXPECT_FALSE(is_dead_letter(key_of_character(character)));
+  EXPECT_FALSE(is_dead_letter(Key::none));
+}
+
 TEST(KeyMap, TheNameOfAButtonsKeyIsTheKeyThatPressesIt) {
   EXPECT_EQ(key_of_button(1), "");
   for (int button = 2; button <= 20; ++button)
