@@ -51,6 +51,11 @@ std::string refusal(const RadarState& after, const Inputs& inputs, const Paramet
   return text_of(Reason{std::string(text::text_of(after.message)), remedy_of_message(after, inputs, parameters)});
 }
 
+// The TDC's switch has no legend.
+std::string new_setting(const ControlRow&, const RadarState&, const RadarState&) {
+  return {};
+}
+
 // Reason and remedy of a button that is dead, or that would change nothing.
 std::string idle_words(const RadarState& state, const InputEvent& event) {
   constexpr std::string_view kUnchanged = "changed nothing: ";
@@ -73,44 +78,49 @@ std::string new_setting(const ButtonRow& row, const RadarState& before, const Ra
   return legend.empty() || legend == row.legend.of(before) ? std::string() : ": " + legend;
 }
 
-// Puts the text of one button or switch; returns true if it has an effect.
-template <std::size_t N>
-bool put_words(char (&field)[N], const std::string& words, bool live) {
-  put_text(field, words);
-  return live;
-}
+// Tries events on copies of one state, and puts what they do into words.
+class Advisor {
+ public:
+  Advisor(const RadarState& state, const Inputs& inputs, const Parameters& parameters)
+      : state_(state), inputs_(inputs), parameters_(parameters) {}
 
-bool advise_button(PilotAdvice& advice, int button, const RadarState& state, const Inputs& inputs,
-                   const Parameters& parameters) {
-  const InputEvent event = event_of(EventKind::push_button, button);
-  auto& field = advice.buttons[button];
-  const ButtonRow* row = live_button(state, button);
-  if (row == nullptr) return put_words(field, idle_words(state, event), false);
-  const Trial trial = tried(row->action, event, state, inputs, parameters);
-  if (trial.refused) return put_words(field, refusal(trial.after, inputs, parameters), false);
-  if (!trial.changed) return put_words(field, idle_words(state, event), false);
-  return put_words(field, row->does + new_setting(*row, state, trial.after), true);
-}
+  // Puts the words of a button or of the TDC's switch; true if it has an effect. `row`: its live row, or nullptr.
+  template <class Row, std::size_t N>
+  bool put(char (&field)[N], const InputEvent& event, const Row* row) {
+    refused_ = false;
+    const std::string words = row == nullptr ? std::string() : words_of(event, *row);
+    put_text(field, words.empty() ? idle_words(state_, event) : words);
+    return !words.empty() && !refused_;
+  }
 
-bool advise_tdc_switch(PilotAdvice& advice, const RadarState& state, const Inputs& inputs,
-                       const Parameters& parameters) {
-  const InputEvent event = event_of(EventKind::tdc_release);
-  auto& field = advice.buttons[0];
-  const ControlRow* row = live_control(state, event);
-  if (row == nullptr) return put_words(field, idle_words(state, event), false);
-  const Trial trial = tried(row->action, event, state, inputs, parameters);
-  if (trial.refused) return put_words(field, refusal(trial.after, inputs, parameters), false);
-  if (!trial.changed) return put_words(field, idle_words(state, event), false);
-  return put_words(field, row->does, true);
-}
+ private:
+  // Empty if the event would change nothing.
+  template <class Row>
+  std::string words_of(const InputEvent& event, const Row& row) {
+    const Trial trial = tried(row.action, event, state_, inputs_, parameters_);
+    refused_ = trial.refused;
+    if (trial.refused) return refusal(trial.after, inputs_, parameters_);
+    return trial.changed ? row.does + new_setting(row, state_, trial.after) : std::string();
+  }
+
+  const RadarState& state_;
+  const Inputs& inputs_;
+  const Parameters& parameters_;
+  bool refused_ = false;  // the last event tried was refused
+};
 
 }  // namespace
 
 void advise(PilotAdvice& advice, const RadarState& state, const Inputs& inputs, const Parameters& parameters) {
   put_text(advice.remedy, remedy_of_message(state, inputs, parameters));
-  advice.live = advise_tdc_switch(advice, state, inputs, parameters) ? 1 : 0;
-  for (int button = 1; button <= radar::kBezelButtons; ++button)
-    if (advise_button(advice, button, state, inputs, parameters)) advice.live |= 1U << static_cast<unsigned>(button);
+  Advisor advisor(state, inputs, parameters);
+  const InputEvent release = event_of(EventKind::tdc_release);
+  advice.live = advisor.put(advice.buttons[0], release, live_control(state, release)) ? 1 : 0;
+  for (int button = 1; button <= radar::kBezelButtons; ++button) {
+    const InputEvent press = event_of(EventKind::push_button, button);
+    const bool live = advisor.put(advice.buttons[button], press, live_button(state, button));
+    if (live) advice.live |= 1U << static_cast<unsigned>(button);
+  }
 }
 
 void note_idle(PilotAdvice& advice, const IdleEvent& idle, const RadarState& state, const Inputs& inputs,
