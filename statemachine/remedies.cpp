@@ -86,7 +86,8 @@ std::string return_into_gimbal(const RefusedMap& map, const radar::MapLimits& li
   if (down_deg <= antenna.elevation_limit_deg) return "level the wings";
   const double height_m = map.from.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
   const auto least = Length::metres(height_m / std::tan(antenna.elevation_limit_deg * geo::kRadiansPerDegree));
-  return formatted("descend, or move the cursor out to %.1f NM or more", least.nautical_miles());
+  const double tenths = std::ceil(least.nautical_miles() * 10.0);  // rounded up, so that the map is possible there
+  return formatted("descend, or move the cursor out to %.1f NM or more", tenths / 10.0);
 }
 
 // Text " or window 1.3: acq fwd (PgUp)" if another window can be mapped at this range; empty if none can. Of several

@@ -31,7 +31,6 @@ TEST(Advice, ALiveButtonSaysWhatThePressWillGive) {
   Pilot pilot;
   pilot.press("power opr");
   pilot.press("pb 13");
-  pilot.press("pb 13");
   EXPECT_EQ(words(pilot, 2), "declutter: on");
   EXPECT_EQ(words(pilot, 3), "receiver gain: GAIN 2");
   EXPECT_EQ(words(pilot, 6), "next mode: HRM");

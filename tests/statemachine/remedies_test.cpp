@@ -64,7 +64,7 @@ TEST(Remedies, TheGimbalNamesTheTurnTowardTheCursorAndTheTurnMakesTheMapPossible
 TEST(Remedies, ADepressionBeyondTheGimbalNamesTheDistance) {
   AtCursor pilot(30.0, 5.0);
   pilot.around.ownship.altitude_msl_m = 20'000.0;
-  EXPECT_EQ(pilot.refused(), "GIMBAL: descend, or move the cursor out to 6.2 NM or more");
+  EXPECT_EQ(pilot.refused(), "GIMBAL: descend, or move the cursor out to 6.3 NM or more");
 }
 
 TEST(Remedies, ARangeBeyondItsLimitsNamesTheLimitOrAnotherWindow) {

@@ -96,19 +96,19 @@ TEST(Remedy, ItStandsBelowTheMessageInSmallerLettersOnAtMostTwoLines) {
   testing::set_text(input.state.message, "MIN RANGE");
   testing::set_text(input.advice.remedy, "move the cursor out to 10.0 NM or more, or take window 4.7: acq aft (PgDn)");
   const DrawList list = testing::drawn(input);
-  const auto box = [&](const std::string& begin) {
+  const auto box = [&](const std::string& part) {
     for (const OccupiedBox& one : list.occupied())
-      if (one.name.starts_with(begin)) return one.rect;
-    ADD_FAILURE() << begin;
+      if (one.name.find(part) != std::string::npos) return one.rect;
+    ADD_FAILURE() << part;
     return Rect{};
   };
-  const Rect message = box("MIN RANGE"), first = box("MOVE THE CURSOR"), second = box("OR TAKE");
+  const Rect message = box("MIN RANGE"), first = box("MOVE THE CURSOR"), second = box("(PGDN)");
   EXPECT_LT(message.bottom, first.top);
   EXPECT_LT(first.bottom, second.top);
   EXPECT_LT(first.bottom - first.top, message.bottom - message.top);
   input.state.message[0] = '\0';
-  EXPECT_THAT(testing::words(input), Not(Contains("MOVE THE CURSOR OUT TO 10.0 NM OR MORE,")))
-      << "no remedy without a message";
+  for (const std::string& words : testing::words(input))
+    EXPECT_FALSE(words.starts_with("MOVE")) << "no remedy without a message";
 }
 
 TEST(States, OffIsDarkInACockpitAndSaysInAWindowHowToSwitchOn) {
