@@ -133,7 +133,7 @@ Expected<Script> parse_script(std::string_view text, std::string_view name) {
       continue;
     }
     const auto event = databuffer::event_from_text(rest);
-    if (!event) return fail(location, event.error().expected, event.error().found);
+    if (!event) return fail(location, event.error().expected, event.error().found, event.error().action);
     script.events.push_back({previous_ns, *event});
   }
   return script;
