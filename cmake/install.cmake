@@ -12,7 +12,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copy
 
 # The start script: installed it finds the programs beside it.
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/start DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-start)
-install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/supervise DESTINATION libexec/yars)
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/supervise ${PROJECT_SOURCE_DIR}/scripts/nearest_word.py DESTINATION libexec/yars)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/plot_trade DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-plot-trade)
 
 # Units of the user's systemd, for the installed start script.

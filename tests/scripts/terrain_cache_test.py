@@ -16,6 +16,7 @@ import time
 
 HOME = pathlib.Path(__file__).resolve().parents[2]
 YARS = """#!/bin/bash
+[ "$1 $2" = "config user" ] && exit 0
 [ "$1 $2" = "terrain generate" ] || exit 1
 echo started >>"$YARS_TEST_COUNT"
 mkdir -p "$4/w122"
