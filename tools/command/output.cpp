@@ -103,8 +103,8 @@ void Progress::done(const std::string& note) {
 
 ProgressLine::ProgressLine() {
   const char* terminal = std::getenv("TERM");
-  const bool erases = terminal != nullptr && std::string_view(terminal) != "dumb";
-  terminal_ = erases && isatty(STDERR_FILENO) != 0;
+  const bool is_dumb = terminal != nullptr && std::string_view(terminal) == "dumb";
+  terminal_ = !is_dumb && isatty(STDERR_FILENO) != 0;
 }
 
 void ProgressLine::show(const std::string& text) {
