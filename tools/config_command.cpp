@@ -83,16 +83,17 @@ void print_user_defaults(const ConfigOptions& options) {
   nlohmann::ordered_json values = nlohmann::ordered_json::object();
   for (const auto& [name, value] : defaults->values) values[name] = value.value;
   const std::string path = databuffer::user_defaults_path();
-  if (options.json)
-    return print_json({{"file", path}, {"exists", !defaults->file.empty()}, {"values", values}});
-  std::printf("# %s\n", path.empty() ? "no file" : (path + (defaults->file.empty() ? " (does not exist)" : "")).c_str());
+  if (options.json) return print_json({{"file", path}, {"exists", !defaults->file.empty()}, {"values", values}});
+  std::printf("# %s\n",
+              path.empty() ? "no file" : (path + (defaults->file.empty() ? " (does not exist)" : "")).c_str());
   for (const auto& [name, value] : defaults->values) std::printf("%s = %s\n", name.c_str(), value.value.c_str());
 }
 
 }  // namespace
 
 void add_config_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command command = app.subcommand("config", "check, print and convert configurations; print user defaults");
+  databuffer::Command command =
+      app.subcommand("config", "check, print and convert configurations; print user defaults");
   command.require_subcommand();
   const auto options = std::make_shared<ConfigOptions>();
   // Resolves names of installed files in the same way as --config does.

@@ -26,8 +26,8 @@ Refusal validate(const InputEvent& event);
 // Words are separated by blanks; case is ignored.
 
 // Parses an event. The times and the sequence number of the result are zero. A value out of range is an error, too. The
-// error names the event that a misspelled one most likely means. Else it lists the valid forms of the verb, or all forms
-// if the verb is unknown.
+// error names the event that a misspelled one most likely means. Else it lists the valid forms of the verb, or all
+// forms if the verb is unknown.
 error::Expected<InputEvent> event_from_text(std::string_view text);
 
 // All forms, separated by " | ".

@@ -248,8 +248,11 @@ void CommandLine::add_help_command() {
       path += (path.empty() ? "" : " ") + command->get_name();
       command = command_below(*command, word);
     }
-    std::fputs(command->get_formatter()->make_help(command, (path.empty() ? "" : path + " ") + command->get_name(),
-                                                   CLI::AppFormatMode::Normal).c_str(), stdout);
+    std::fputs(
+        command->get_formatter()
+            ->make_help(command, (path.empty() ? "" : path + " ") + command->get_name(), CLI::AppFormatMode::Normal)
+            .c_str(),
+        stdout);
   });
 }
 

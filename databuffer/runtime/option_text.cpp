@@ -86,8 +86,8 @@ std::vector<std::string> facts_of(const CLI::Option& option, bool is_positional)
   for (const CLI::Option* other : option.get_excludes()) facts.push_back("not with " + other->get_name());
   const bool in_two_ways = option.get_positional() && option.nonpositional();
   if (option.get_required())
-    facts.push_back(in_two_ways ? "required, " + (is_positional ? "or as " + option.get_name()
-                                                                : "or as " + option.get_name(true))
+    facts.push_back(in_two_ways ? "required, " +
+                                      (is_positional ? "or as " + option.get_name() : "or as " + option.get_name(true))
                                 : "required");
   if (!option.get_option_text().empty()) facts.push_back("else " + option.get_option_text());
   if (!option.get_default_str().empty() && !option.get_required())

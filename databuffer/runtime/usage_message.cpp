@@ -54,8 +54,8 @@ UsageMessage message_of(const CLI::App* command, const Error& error) {
 UsageMessage unknown_command(const CLI::App* command, const std::string& word) {
   const auto names = names_below(*command);
   const std::string meant = text::did_you_mean(word, names);
-  return message_of(command, {"", meant.empty() ? "a command: " + joined_by_or(names) : "a command", "'" + word + "'",
-                              meant, true});
+  return message_of(
+      command, {"", meant.empty() ? "a command: " + joined_by_or(names) : "a command", "'" + word + "'", meant, true});
 }
 
 // Words that no command has taken, in the order of the command line.
@@ -92,7 +92,8 @@ std::optional<UsageMessage> about_what_is_required(const std::vector<const CLI::
   std::string names;
   for (const CLI::App* command : chain)
     for (const CLI::Option* option : command->get_options())
-      if (option->get_required() && option->count() == 0) names += (names.empty() ? "" : ", ") + name_with_value(*option);
+      if (option->get_required() && option->count() == 0)
+        names += (names.empty() ? "" : ", ") + name_with_value(*option);
   if (!names.empty()) return message_of(chain.back(), {"", names, "none", "", true});
   const CLI::App* command = chain.back();
   if (command->get_require_subcommand_min() == 0) return std::nullopt;
@@ -108,7 +109,8 @@ std::optional<UsageMessage> about_relations(const std::vector<const CLI::App*>& 
           return message_of(chain.back(), {option->get_name(), other->get_name() + " with it", "none", "", true});
       for (const CLI::Option* other : option->get_excludes())
         if (other->count() > 0)
-          return message_of(chain.back(), {option->get_name(), "no " + other->get_name() + " with it", "both", "", true});
+          return message_of(chain.back(),
+                            {option->get_name(), "no " + other->get_name() + " with it", "both", "", true});
     }
   return std::nullopt;
 }

@@ -16,8 +16,8 @@ namespace {
 
 enum class Value {
   text,
-  path,           // of a file or folder
-  path_or_name,   // or the name of an installed file
+  path,          // of a file or folder
+  path_or_name,  // or the name of an installed file
 };
 
 struct Name {

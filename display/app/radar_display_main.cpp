@@ -143,7 +143,8 @@ error::Expected<void> run_headless(databuffer::Session& session, const radar::Ra
                                    int size, std::optional<display::FramePublisher> publisher) {
   std::optional<display::FrameWriter> frames;
   if (!display_options.frames.empty()) {
-    auto created = display::FrameWriter::create(display_options.frames, static_cast<std::size_t>(display_options.keep.value_or(0)));
+    auto created = display::FrameWriter::create(display_options.frames,
+                                                static_cast<std::size_t>(display_options.keep.value_or(0)));
     if (!created) return tl::unexpected(created.error());
     frames = std::move(*created);
   }

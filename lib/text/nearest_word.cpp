@@ -53,8 +53,8 @@ int edit_distance(std::string_view from, std::string_view to) {
       const bool equal = from[i - 1] == to[j - 1];
       if (equal) last_match = j;
       const int transposed = table.at(row, column) + static_cast<int>((i - row - 1) + 1 + (j - column - 1));
-      table.at(i + 1, j + 1) = std::min({table.at(i, j) + (equal ? 0 : 1), table.at(i + 1, j) + 1,
-                                         table.at(i, j + 1) + 1, transposed});
+      table.at(i + 1, j + 1) =
+          std::min({table.at(i, j) + (equal ? 0 : 1), table.at(i + 1, j) + 1, table.at(i, j + 1) + 1, transposed});
     }
     last_row[from[i - 1]] = i;
   }

@@ -12,7 +12,8 @@ import tempfile
 import time
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
-DOCUMENT = pathlib.Path(__file__).resolve().parents[2] / "docs/spec/commands.md"
+SOURCE = "docs/spec/commands.md#json"
+DOCUMENT = pathlib.Path(__file__).resolve().parents[2] / SOURCE.partition("#")[0]
 SESSION = f"json-{os.getpid()}"
 faults = []
 
@@ -42,7 +43,7 @@ def object_of(*words, code=0):
         return {}
     text = DOCUMENT.read_text()
     for field in found:
-        expect(words, f"`{field}`" in text, f"expected {field} in docs/spec/commands.md")
+        expect(words, f"`{field}`" in text, f"expected {field} in {SOURCE}")
     expect(words, code != 0 or not done.stderr, f"expected nothing on standard error, found {done.stderr}")
     return found
 

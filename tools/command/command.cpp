@@ -9,8 +9,8 @@
 namespace yars::tools {
 
 databuffer::Option add_terrain_option(databuffer::Command command, std::string& directory) {
-  databuffer::Option option = command.option(
-      "--terrain", directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)");
+  databuffer::Option option =
+      command.option("--terrain", directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)");
   return option.value_name("DIR").in_user_file();
 }
 

@@ -33,8 +33,8 @@ double wall_ms();
 double median(std::vector<double> values);
 
 // Progress of a long command on standard error: items done, total, estimated time left. Prints at most one line per
-// second, and a line for the last item if a line precedes it. With 64 items or fewer it also prints each item that has a
-// note. Prints nothing if standard error is not a terminal.
+// second, and a line for the last item if a line precedes it. With 64 items or fewer it also prints each item that has
+// a note. Prints nothing if standard error is not a terminal.
 class Progress {
  public:
   explicit Progress(std::size_t total);

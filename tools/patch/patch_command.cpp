@@ -273,8 +273,7 @@ void add_patch_command(databuffer::Command app, const CommonOptions& common) {
       .otherwise("the configuration's at power-up");
   command.flag("--force", options->force, "ignore the radar's limits; the blind zone stays blank");
   command.option("--looks", options->looks, "number of looks to average").range(1, 16).otherwise("that of ML1");
-  add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset")
-      .otherwise("the configuration's");
+  add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset").otherwise("the configuration's");
   command.option("--size", options->size, "[pixels] per side").range(16, 1024).otherwise("the configuration's");
   command.option("--time-s", options->time_s, "[s] sim time at the start, for moving targets").range(0.0, 1e8);
   command.option("--threads", options->threads, "number of threads").range(1, 256);

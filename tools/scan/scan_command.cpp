@@ -300,8 +300,7 @@ void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   command.option("--elevation", options->elevation_deg, "[deg] antenna elevation above the horizontal")
       .range(-90.0, 90.0);
   command.flag("--force", options->force, "allow angles beyond the gimbal limits, and an aircraft below the ground");
-  add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset")
-      .otherwise("the configuration's");
+  add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset").otherwise("the configuration's");
   command.option("--samples", options->samples, "samples of a sweep")
       .range(1, radar::kMaxSamples)
       .otherwise("the configuration's");

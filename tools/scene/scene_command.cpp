@@ -212,10 +212,8 @@ void generate(const GenerateOptions& options) {
   const std::filesystem::path path = std::filesystem::absolute(options.out);
   if (const auto written = file::write_file_and_folders(path, made.file); !written) throw_failure(written.error());
   if (options.json)
-    return print_json({{"file", options.out},
-                       {"kind", options.kind},
-                       {"triangles", made.triangles},
-                       {"bytes", made.file.size()}});
+    return print_json(
+        {{"file", options.out}, {"kind", options.kind}, {"triangles", made.triangles}, {"bytes", made.file.size()}});
   std::printf("%s  %s of %llu triangles, %zu bytes\n", options.out.c_str(), options.kind.c_str(),
               static_cast<unsigned long long>(made.triangles), made.file.size());
 }
@@ -225,8 +223,7 @@ void generate(const GenerateOptions& options) {
 void add_scene_generate(databuffer::Command scene) {
   const auto options = std::make_shared<GenerateOptions>();
   databuffer::Command command = scene.subcommand("generate", "write a made-up scene as an OpenFlight file");
-  command.option("--kind", options->kind, "kind of scene")
-      .one_of({"airfield", "harbour", "bridge", "town"});
+  command.option("--kind", options->kind, "kind of scene").one_of({"airfield", "harbour", "bridge", "town"});
   command.option("--triangles", options->triangles, "approximate number; an instance counts at each use")
       .range(std::uint64_t{1}, worldgen::kMaxGenerated);
   command.option("--seed", options->seed, "seed; each seed gives another scene");

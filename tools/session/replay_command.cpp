@@ -34,8 +34,8 @@ struct ReplayOptions {
   std::string terrain;
   bool events = false;
   bool print = false;
-  bool json = false;           // the result of playing; --events and --print always print JSON
-  bool has_own_file = false;   // --config names the configuration, in place of the recording
+  bool json = false;          // the result of playing; --events and --print always print JSON
+  bool has_own_file = false;  // --config names the configuration, in place of the recording
   double rate = 1.0;
   std::optional<double> seek_s;
 };
@@ -121,8 +121,8 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
     player_world = recording::PlayerWorld{std::make_shared<radar::RadarConfiguration>(world->configuration),
                                           world->store.get(), world->scenes.get()};
   }
-  if (auto played =
-          play_recording(reader, std::move(player_world), {options.file, session, options.rate, options.seek_s, options.json});
+  if (auto played = play_recording(reader, std::move(player_world),
+                                   {options.file, session, options.rate, options.seek_s, options.json});
       !played)
     throw_failure(played.error());
   report_missing(reader, options.file);
@@ -264,14 +264,15 @@ void add_replay_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Option rate =
       command.option("--rate", options->rate, "rate relative to real time; 0 freezes the picture");
   rate.range(0.0, 10.0).excludes(events).excludes(print);
-  databuffer::Option seek =
-      command.option("--seek", options->seek_s, "[s] sim time at which to begin");
+  databuffer::Option seek = command.option("--seek", options->seek_s, "[s] sim time at which to begin");
   seek.range(0.0, databuffer::kLatestSimTime_s)
       .excludes(events)
       .excludes(print)
       .otherwise("the begin of the recording");
   // The user's file does not set this one: a recording is replayed over its own terrain.
-  command.option("--terrain", options->terrain, "folder of elevation cells").value_name("DIR").otherwise("the recording's");
+  command.option("--terrain", options->terrain, "folder of elevation cells")
+      .value_name("DIR")
+      .otherwise("the recording's");
   add_json_flag(command, options->json);
   const databuffer::Option session = app.find("--session"), config = app.find("--config");
   command.callback([&common, options, session, config] {

@@ -30,7 +30,7 @@ struct SimOptions {
   bool json = false;
 };
 
-constexpr double kMaxRate = 10.0;  // sim time / real time; at higher rates programs skip late ticks
+constexpr double kMaxRate = 10.0;         // sim time / real time; at higher rates programs skip late ticks
 constexpr int kMaxSteps = 1'000'000'000;  // of one `step`: 58 days of sim time
 // Ticks by which `step` advances the clock at once. At most kMaxTicksBehind (20): programs skip ticks that are further
 // behind the clock.
@@ -68,10 +68,8 @@ void report(const Session& session, bool json) {
   const ClockState clock = session.clock();
   const double sim_time_s = static_cast<double>(session.sim_time_ns()) * 1e-9;
   if (json)
-    return print_json({{"sim_time", sim_time_s},
-                       {"rate", clock.rate},
-                       {"running", clock.running != 0},
-                       {"epoch", clock.epoch}});
+    return print_json(
+        {{"sim_time", sim_time_s}, {"rate", clock.rate}, {"running", clock.running != 0}, {"epoch", clock.epoch}});
   std::printf("sim time %.3f s, rate %g, %s, epoch %u\n", sim_time_s, clock.rate,
               clock.running != 0 ? "running" : "frozen", clock.epoch);
 }

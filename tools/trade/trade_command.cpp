@@ -55,8 +55,7 @@ nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::Plot
 }  // namespace
 
 void add_trade_options(databuffer::Command command, TradeOptions& options) {
-  command.option("--presets", options.presets, "preset names separated by commas, or all, or none")
-      .value_name("NAMES");
+  command.option("--presets", options.presets, "preset names separated by commas, or all, or none").value_name("NAMES");
   command.option("--knob", options.knobs, "KNOB=VALUE,VALUE,...: values of one setting of --base; repeatable")
       .value_name("VALUES")
       .repeatable()

@@ -105,8 +105,9 @@ TEST_F(Program, WhatIsMissingIsSaid) {
                  "prog draw: --corner: expected 2 values, found 1; see prog draw --help");
   expect_refused({"draw", "a.png", "--light", "3"},
                  "prog draw: --light: expected --shade with it, found none; see prog draw --help");
-  expect_refused({"draw", "a.png", "--session", "--width", "3"},
-                 "prog draw: --session: expected the name of a session, found the option '--width'; see prog draw --help");
+  expect_refused(
+      {"draw", "a.png", "--session", "--width", "3"},
+      "prog draw: --session: expected the name of a session, found the option '--width'; see prog draw --help");
 }
 
 TEST_F(Program, WhatIsTooMuchIsSaid) {

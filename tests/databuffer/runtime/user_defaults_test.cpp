@@ -12,18 +12,19 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string fault_of(const std::string& text) {
-  const auto parsed = parse_user_defaults(text, "yars.conf", "/home/pilot");
+  const auto parsed = parse_user_defaults(text, "yars.conf", "/users/pilot");
   return parsed ? "none" : parsed.error().message();
 }
 
 TEST(UserDefaults, AreNamesAndValues) {
   const auto parsed = parse_user_defaults(
-      "# mine\n\nsession = fly\n terrain=~/dted  # of the coast\nconfig = apg68.guf\nlog-dir = /var/log/yars\nsize = 900\n",
-      "yars.conf", "/home/pilot");
+      "# mine\n\nsession = fly\n terrain=~/dted  # of the coast\nconfig = apg68.guf\nlog-dir = /var/log/yars\nsize = "
+      "900\n",
+      "yars.conf", "/users/pilot");
   ASSERT_TRUE(parsed) << parsed.error().message();
   ASSERT_EQ(parsed->values.size(), 5U);
   EXPECT_EQ(parsed->values.at("session").value, "fly");
-  EXPECT_EQ(parsed->values.at("terrain").value, "/home/pilot/dted");
+  EXPECT_EQ(parsed->values.at("terrain").value, "/users/pilot/dted");
   EXPECT_EQ(parsed->values.at("terrain").line, 4);
   EXPECT_EQ(parsed->values.at("config").value, "apg68.guf");
   EXPECT_EQ(parsed->values.at("log-dir").value, "/var/log/yars");
@@ -46,7 +47,8 @@ TEST(UserDefaults, FaultNamesFileLineAndWhatIsExpected) {
 }
 
 TEST(UserDefaults, PathsDoNotDependOnTheCurrentFolder) {
-  for (const char* line : {"terrain = dted", "terrain = ./dted", "log-dir = logs", "config = ../a.guf", "terrain = ~pilot/x"})
+  for (const char* line :
+       {"terrain = dted", "terrain = ./dted", "log-dir = logs", "config = ../a.guf", "terrain = ~pilot/x"})
     EXPECT_THAT(fault_of(line), HasSubstr("a path that begins with / or ~/")) << line;
 }
 
@@ -55,17 +57,17 @@ class UserDefaultsPath : public ::testing::Test {
   void SetUp() override {
     ::unsetenv("YARS_USER_CONFIG");
     ::unsetenv("XDG_CONFIG_HOME");
-    ::setenv("HOME", "/home/pilot", 1);
+    ::setenv("HOME", "/users/pilot", 1);
   }
   void TearDown() override { ::setenv("YARS_USER_CONFIG", "", 1); }
 };
 
 TEST_F(UserDefaultsPath, FollowsXdgAndTheEnvironment) {
-  EXPECT_EQ(user_defaults_path(), "/home/pilot/.config/yars/yars.conf");
+  EXPECT_EQ(user_defaults_path(), "/users/pilot/.config/yars/yars.conf");
   ::setenv("XDG_CONFIG_HOME", "/etc/pilot", 1);
   EXPECT_EQ(user_defaults_path(), "/etc/pilot/yars/yars.conf");
   ::setenv("XDG_CONFIG_HOME", "relative", 1);
-  EXPECT_EQ(user_defaults_path(), "/home/pilot/.config/yars/yars.conf");
+  EXPECT_EQ(user_defaults_path(), "/users/pilot/.config/yars/yars.conf");
   ::setenv("YARS_USER_CONFIG", "/tmp/other.conf", 1);
   EXPECT_EQ(user_defaults_path(), "/tmp/other.conf");
   ::setenv("YARS_USER_CONFIG", "", 1);
