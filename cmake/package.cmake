@@ -5,7 +5,7 @@ set(CPACK_PACKAGE_CONTACT "YARS <yars@users.noreply.example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "air-to-ground radar simulation after the APG-70")
 set(CPACK_PACKAGE_DESCRIPTION "YARS shows the ground map of an airborne radar as a pilot sees it: a real
 beam map computed from digital terrain in real time, high resolution patch
-maps with shadow and speckle, and a glass with twenty bezel buttons. It is a
+maps with shadow and speckle, and a display with twenty bezel buttons. It is a
 set of separate programs over lock-free shared memory: attach a flight model
 or a panel, or read the sweeps, from C, Python or by UDP.")
 set(CPACK_STRIP_FILES ON)
@@ -14,7 +14,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-# What the programs are linked with, and what they open when the glass is drawn.
+# What the programs are linked with, and what they open when the display draws.
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libegl1, libgl1, python3:any")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "libgl1-mesa-dri")

@@ -3,6 +3,7 @@ Inputs to the session: ownship, navigators, events. Outputs: radar state, output
 Errors: YarsError. No error means only that a record was sent; `yars status` shows the refused ones.
 Platform: Linux on x86-64, where a store of an aligned 64-bit word is atomic and stores stay in order.
 Usage: docs/attach.md. Segment: docs/shared_memory.md. A test compares all offsets here with `yars status --layout`."""
+import enum
 import fcntl
 import math
 import mmap
@@ -80,6 +81,150 @@ RADAR_STATE = [("tick", 0, "q"), ("range_nm", 8, "d"), ("scan_width_deg", 16, "d
                ("asked_latitude_deg", 1336, "d"), ("asked_longitude_deg", 1344, "d"), ("asked_tick", 1352, "q"),
                ("asked_for", 1360, "I")]
 RADAR_STATE_SIZE, LEGENDS_AT, LEGENDS = 1392, 504, 21
+
+
+class Event(enum.IntEnum):
+    """Kind of the action. input_event.hpp lists the text forms of the kinds."""
+
+    NONE = 0
+    PUSH_BUTTON = 1       # argument: 1..20
+    TDC = 2               # x right, y up: -1..1, held until changed
+    TDC_PRESS = 3
+    TDC_RELEASE = 4
+    CASTLE_UP = 5
+    ACQUISITION = 6       # argument: +1 fwd, -1 aft
+    FREEZE = 7
+    ELEVATION = 8         # x: [deg] above the horizontal, independent of the elevation before
+    ELEVATION_STEP = 9    # argument: steps of 0.5 deg, up positive
+    MASTER_MODE = 10      # argument: Master
+    RADAR_MODE = 11       # argument: Mode
+    POWER = 12            # argument: Power
+    NAVIGATOR = 13        # argument: Navigator, or -1 to toggle
+    SEQUENCE_POINT = 14   # text: name of the sequence point
+    ALTIMETER = 15        # argument: 1 the radar altimeter works, 0 it has failed
+    CONTRAST = 16         # argument: +1 up, -1 down
+    NAVIGATOR_ERROR = 17  # by the instructor; argument: Navigator; x, y: [ft] position error north, east
+    NAVIGATOR_DRIFT = 18  # by the instructor; argument: Navigator; x, y: [ft/s] velocity error north, east
+
+
+class Power(enum.IntEnum):
+    OFF = 0
+    STANDBY = 1
+    OPERATE = 2
+
+
+class Mode(enum.IntEnum):
+    RBM = 0
+    HRM = 1
+    PATCH = 2
+    BEACON = 3
+    PVU = 4
+    AIR_TO_AIR = 5
+    RANGING = 6
+    MENU = 7
+
+
+class Master(enum.IntEnum):
+    AIR_TO_GROUND = 0
+    AIR_TO_AIR = 1
+    RANGING = 2
+
+
+class ScanWidth(enum.IntEnum):
+    FULL = 0
+    HALF = 1
+    QUARTER = 2
+
+
+class CursorFunction(enum.IntEnum):
+    MAP = 0
+    UPDATE = 1
+    CUE = 2
+    TARGET = 3
+    MARK = 4
+
+
+class Navigator(enum.IntEnum):
+    MISSION = 0
+    INS = 1
+
+
+class PointKind(enum.IntEnum):
+    STEER = 0
+    INITIAL = 1
+    TARGET = 2
+    STEER_OFFSET = 3
+    TARGET_OFFSET = 4
+
+
+class Recall(enum.IntEnum):
+    NONE = 0
+    NEWEST = 1
+    OLD = 2
+    STORE = 3
+
+
+class SteeringLine(enum.IntEnum):
+    NONE = 0
+    LINE_OF_SIGHT = 1
+    SLEWING = 2
+    FIXED = 3
+
+
+class SteeringCommand(enum.IntEnum):
+    NONE = 0
+    AZIMUTH = 1
+    BANK = 2
+
+
+class RadarFlags(enum.IntFlag):
+    """Bits of RadarState::flags."""
+
+    DECLUTTER = 1
+    FREEZE = 2                      # frozen by the pilot, by SNIFF in HRM or by leaving HRM; the scan stops at its end
+    SNIFF = 4
+    IPVU = 8
+    VTR = 16
+    SET = 32
+    MENU = 64
+    MULTI_LOOK2 = 128
+    PROGRESSIVE = 256               # PROG; else STAB
+    ALTIMETER_FAILED = 512
+    CURSOR_VALID = 1024
+    TDC_PRESSED = 2048
+    FROZEN_BY_HRM_EXIT = 4096       # leaving a high resolution mode froze the picture
+    RANGE_SET = 8192                # since power-up a range was selected, by height or by the pilot
+    MAPPING = 16384                 # a map was commanded and is not complete
+    UPDATE_SHOWN = 32768            # update_north_m and update_east_m are valid
+    UPDATE_INVALID = 65536          # INV: the cursor's position is too old for an INS update
+    TARGET_DESIGNATED = 131072
+    VELOCITY_SHOWN = 262144         # velocity_along_mps, velocity_across_mps and velocity_vertical_mps are valid
+    MAP_WINDOW_BLANK = 524288       # no window was selected; the range selected map_window_nm
+    RECALLED_BY_HRM_EXIT = 1048576  # leaving a high resolution mode recalled the newest map
+
+
+class SweepFlags(enum.IntFlag):
+    BLANK = 1       # no video: the sweep is beyond the gimbal limits, or the ownship is invalid
+    NOISE_ONLY = 2  # SNIFF: receiver noise and jamming, no returns
+    SCAN_START = 4  # first sweep of its scan
+    SCAN_END = 8    # last sweep of its scan
+    NOT_READY = 16  # terrain or scenes were not loaded completely, or not in the wanted detail
+
+
+class ModelFlags(enum.IntFlag):
+    FROZEN = 1  # the scan has stopped at its end
+    SCANNING = 2
+    STALE = 4   # no fresh ownship
+
+
+class OwnshipFlags(enum.IntFlag):
+    ON_GROUND = 1
+
+
+class NavFlags(enum.IntFlag):
+    ATTITUDE_INVALID = 1  # the display crosses out the pitch ball, its symbol of the aircraft's pitch
+    # the attitude is that of the attitude and heading reference system: the pitch ball is square instead of round
+    ATTITUDE_FROM_AHRS = 2
 # end: databuffer/messages/generate.py
 
 # Expected values by struct code, for messages.
@@ -271,8 +416,7 @@ class Session:
         raise YarsError("input lane: all are taken; `yars status` names the sources")
 
     def push_event(self, kind, argument=0, x=0.0, y=0.0, text=""):
-        """Sends an input event. Kinds and arguments: databuffer/messages/input_event_record.idl. Example: kind 1 is
-        push_button, with the number of the button as argument."""
+        """Sends an input event. `kind`: an Event, which names the argument. Example: push_event(Event.PUSH_BUTTON, 13)."""
         self._needs(self.input_lane, "push_event", "an input lane", "claim_input_lane(source)")
         record = pack("push_event", INPUT_EVENT, {
             "session_time_ns": self.sim_time_ns(), "monotonic_ns": time.monotonic_ns(), "x": x, "y": y, "kind": kind,

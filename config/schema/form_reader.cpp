@@ -5,7 +5,7 @@
 
 #include "config/guf/parser.hpp"
 #include "config/guf/tree.hpp"
-#include "config/schema/slot_text.hpp"
+#include "config/schema/slot_value.hpp"
 
 namespace yars::config {
 

@@ -211,8 +211,7 @@ std::optional<std::string> EntityTable::update(const EntityState& state, geo::Du
   if (found == entries_.end()) {
     if (state.deactivated) return std::nullopt;
     if (entries_.size() >= kMaxEntities) forget_silent(now);
-    if (entries_.size() >= kMaxEntities)
-      return "more than " + std::to_string(kMaxEntities) + " entities";
+    if (entries_.size() >= kMaxEntities) return "more than " + std::to_string(kMaxEntities) + " entities";
     found = entries_.try_emplace(state.id).first;
   }
   Entry& entry = found->second;

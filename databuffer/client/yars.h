@@ -248,8 +248,8 @@ static inline int yars_claim_input_lane(yars_session* s, const char* source) {
   return yars_fail(s, "input lane", "all are taken; `yars status` names the sources");
 }
 
-/* Sends an event. The caller sets kind, argument, x, y and text (databuffer/messages/input_event_record.idl). This
- * function sets the times and the number. */
+/* Sends an event. The caller sets kind (YARS_EVENT_...), argument, x, y and text; yars_records.h has their meaning.
+ * This function sets the times and the number. */
 static inline int yars_push_event(yars_session* s, const yars_input_event* event) {
   if (s->input_lane < 0) return yars_fail(s, "yars_push_event", "claim an input lane first");
   const size_t at = yars_input_at(s->input_lane);

@@ -57,6 +57,164 @@
 #define YARS_LATEST_PICTURE_ID UINT64_C(9007199254740992)
 #define YARS_LATEST_CLOCK_BASE_NS INT64_C(576460752303423488)
 
+/* Kind of the action. input_event.hpp lists the text forms of the kinds. */
+enum {
+  YARS_EVENT_NONE = 0,
+  YARS_EVENT_PUSH_BUTTON = 1,     /* argument: 1..20 */
+  YARS_EVENT_TDC = 2,             /* x right, y up: -1..1, held until changed */
+  YARS_EVENT_TDC_PRESS = 3,
+  YARS_EVENT_TDC_RELEASE = 4,
+  YARS_EVENT_CASTLE_UP = 5,
+  YARS_EVENT_ACQUISITION = 6,     /* argument: +1 fwd, -1 aft */
+  YARS_EVENT_FREEZE = 7,
+  YARS_EVENT_ELEVATION = 8,       /* x: [deg] above the horizontal, independent of the elevation before */
+  YARS_EVENT_ELEVATION_STEP = 9,  /* argument: steps of 0.5 deg, up positive */
+  YARS_EVENT_MASTER_MODE = 10,    /* argument: YARS_MASTER_... */
+  YARS_EVENT_RADAR_MODE = 11,     /* argument: YARS_MODE_... */
+  YARS_EVENT_POWER = 12,          /* argument: YARS_POWER_... */
+  YARS_EVENT_NAVIGATOR = 13,      /* argument: YARS_NAVIGATOR_..., or -1 to toggle */
+  YARS_EVENT_SEQUENCE_POINT = 14, /* text: name of the sequence point */
+  YARS_EVENT_ALTIMETER = 15,      /* argument: 1 the radar altimeter works, 0 it has failed */
+  YARS_EVENT_CONTRAST = 16,       /* argument: +1 up, -1 down */
+  /* by the instructor; argument: YARS_NAVIGATOR_...; x, y: [ft] position error north, east */
+  YARS_EVENT_NAVIGATOR_ERROR = 17,
+  /* by the instructor; argument: YARS_NAVIGATOR_...; x, y: [ft/s] velocity error north, east */
+  YARS_EVENT_NAVIGATOR_DRIFT = 18
+};
+
+/* Values of Power. */
+enum {
+  YARS_POWER_OFF = 0,
+  YARS_POWER_STANDBY = 1,
+  YARS_POWER_OPERATE = 2
+};
+
+/* Values of Mode. */
+enum {
+  YARS_MODE_RBM = 0,
+  YARS_MODE_HRM = 1,
+  YARS_MODE_PATCH = 2,
+  YARS_MODE_BEACON = 3,
+  YARS_MODE_PVU = 4,
+  YARS_MODE_AIR_TO_AIR = 5,
+  YARS_MODE_RANGING = 6,
+  YARS_MODE_MENU = 7
+};
+
+/* Values of Master. */
+enum {
+  YARS_MASTER_AIR_TO_GROUND = 0,
+  YARS_MASTER_AIR_TO_AIR = 1,
+  YARS_MASTER_RANGING = 2
+};
+
+/* Values of ScanWidth. */
+enum {
+  YARS_SCAN_FULL = 0,
+  YARS_SCAN_HALF = 1,
+  YARS_SCAN_QUARTER = 2
+};
+
+/* Values of CursorFunction. */
+enum {
+  YARS_CURSOR_MAP = 0,
+  YARS_CURSOR_UPDATE = 1,
+  YARS_CURSOR_CUE = 2,
+  YARS_CURSOR_TARGET = 3,
+  YARS_CURSOR_MARK = 4
+};
+
+/* Values of Navigator. */
+enum {
+  YARS_NAVIGATOR_MISSION = 0,
+  YARS_NAVIGATOR_INS = 1
+};
+
+/* Values of PointKind. */
+enum {
+  YARS_POINT_STEER = 0,
+  YARS_POINT_INITIAL = 1,
+  YARS_POINT_TARGET = 2,
+  YARS_POINT_STEER_OFFSET = 3,
+  YARS_POINT_TARGET_OFFSET = 4
+};
+
+/* Values of Recall. */
+enum {
+  YARS_RECALL_NONE = 0,
+  YARS_RECALL_NEWEST = 1,
+  YARS_RECALL_OLD = 2,
+  YARS_RECALL_STORE = 3
+};
+
+/* Values of SteeringLine. */
+enum {
+  YARS_STEERING_LINE_NONE = 0,
+  YARS_STEERING_LINE_LINE_OF_SIGHT = 1,
+  YARS_STEERING_LINE_SLEWING = 2,
+  YARS_STEERING_LINE_FIXED = 3
+};
+
+/* Values of SteeringCommand. */
+enum {
+  YARS_STEERING_NONE = 0,
+  YARS_STEERING_AZIMUTH = 1,
+  YARS_STEERING_BANK = 2
+};
+
+/* Bits of RadarState::flags. */
+enum {
+  YARS_RADAR_DECLUTTER = 0x1,
+  YARS_RADAR_FREEZE = 0x2, /* frozen by the pilot, by SNIFF in HRM or by leaving HRM; the scan stops at its end */
+  YARS_RADAR_SNIFF = 0x4,
+  YARS_RADAR_IPVU = 0x8,
+  YARS_RADAR_VTR = 0x10,
+  YARS_RADAR_SET = 0x20,
+  YARS_RADAR_MENU = 0x40,
+  YARS_RADAR_MULTI_LOOK2 = 0x80,
+  YARS_RADAR_PROGRESSIVE = 0x100,         /* PROG; else STAB */
+  YARS_RADAR_ALTIMETER_FAILED = 0x200,
+  YARS_RADAR_CURSOR_VALID = 0x400,
+  YARS_RADAR_TDC_PRESSED = 0x800,
+  YARS_RADAR_FROZEN_BY_HRM_EXIT = 0x1000, /* leaving a high resolution mode froze the picture */
+  YARS_RADAR_RANGE_SET = 0x2000,          /* since power-up a range was selected, by height or by the pilot */
+  YARS_RADAR_MAPPING = 0x4000,            /* a map was commanded and is not complete */
+  YARS_RADAR_UPDATE_SHOWN = 0x8000,       /* update_north_m and update_east_m are valid */
+  YARS_RADAR_UPDATE_INVALID = 0x10000,    /* INV: the cursor's position is too old for an INS update */
+  YARS_RADAR_TARGET_DESIGNATED = 0x20000,
+  YARS_RADAR_VELOCITY_SHOWN = 0x40000, /* velocity_along_mps, velocity_across_mps and velocity_vertical_mps are valid */
+  YARS_RADAR_MAP_WINDOW_BLANK = 0x80000,     /* no window was selected; the range selected map_window_nm */
+  YARS_RADAR_RECALLED_BY_HRM_EXIT = 0x100000 /* leaving a high resolution mode recalled the newest map */
+};
+
+/* Bits of SweepFlags. */
+enum {
+  YARS_SWEEP_BLANK = 0x1,      /* no video: the sweep is beyond the gimbal limits, or the ownship is invalid */
+  YARS_SWEEP_NOISE_ONLY = 0x2, /* SNIFF: receiver noise and jamming, no returns */
+  YARS_SWEEP_SCAN_START = 0x4, /* first sweep of its scan */
+  YARS_SWEEP_SCAN_END = 0x8,   /* last sweep of its scan */
+  YARS_SWEEP_NOT_READY = 0x10  /* terrain or scenes were not loaded completely, or not in the wanted detail */
+};
+
+/* Bits of ModelFlags. */
+enum {
+  YARS_MODEL_FROZEN = 0x1, /* the scan has stopped at its end */
+  YARS_MODEL_SCANNING = 0x2,
+  YARS_MODEL_STALE = 0x4   /* no fresh ownship */
+};
+
+/* Bits of OwnshipFlags. */
+enum {
+  YARS_OWNSHIP_ON_GROUND = 0x1
+};
+
+/* Bits of NavFlags. */
+enum {
+  YARS_NAV_ATTITUDE_INVALID = 0x1, /* the display crosses out the pitch ball, its symbol of the aircraft's pitch */
+  /* the attitude is that of the attitude and heading reference system: the pitch ball is square instead of round */
+  YARS_NAV_ATTITUDE_FROM_AHRS = 0x2
+};
+
 /* The session's clock. While it runs: sim time [ns] = base_sim_ns + rate x (CLOCK_MONOTONIC - base_monotonic_ns).
  * While it is frozen: base_sim_ns. */
 typedef struct {
@@ -391,7 +549,7 @@ typedef struct {
   yars_ownship ownship;   /* the ownship used in this tick */
   yars_nav nav;           /* nav of the same lane */
   /* Values from which a restarted model, or a replay from the middle of a scan, continues with the next sweep. */
-  double scan_centre_deg;  /* [deg] [-360, 360] true bearing, after this tick */
+  double scan_centre_deg;  /* [deg] [-360, 360] true bearing of the sector's middle, after this tick */
   double scan_width_deg;   /* [deg] [0, 360] of the present scan */
   double scan_range_m;     /* [m] [0, 20001600] of the present scan */
   uint32_t scan_tick;      /* [tick] number of ticks since the start of the scan */

@@ -58,7 +58,8 @@ Refusal validate(const ClockState& clock) {
 Refusal validate(const Outputs& outputs) {
   Inspection inspection;
   check_fields(inspection, outputs);
-  // Not checked: elevations of marks, unused entries of marks, positions and elevations of cue and target.
+  // Of the marks in use, latitude and longitude are checked; their elevation is not, although the IDL gives it a range.
+  // Numbers without a range in the IDL are not checked.
   for (const Mark& mark : used(outputs.marks, outputs.mark_count)) {
     inspection.latitude("marks.latitude_deg", mark.latitude_deg);
     inspection.longitude("marks.longitude_deg", mark.longitude_deg);

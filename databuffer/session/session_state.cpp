@@ -160,8 +160,8 @@ void SessionState::enter_table() {
   }
 }
 
-// Rewrites name and process id in this process's table entry, because another process may have overwritten them. An
-// entry with process id 0 would count as free.
+// Rewrites name and process id in this process's table entry, because another process may have overwritten them.
+// Session::processes() leaves out an entry with process id 0.
 void SessionState::restore_entry() {
   ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
   shm::store_text(entry.name.data(), entry.name.size(), process_name);

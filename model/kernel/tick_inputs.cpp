@@ -16,7 +16,7 @@ namespace yars::model::kernel {
 namespace {
 constexpr double kMinAltitude_m = -1000.0;  // limits of the ownship's altitude above mean sea level
 constexpr double kMaxAltitude_m = 200000.0;
-// 18.5 m. At much shorter ranges the inverse cube of the range exceeds the largest float.
+// 18.5 m. The inverse of a denormal range would be infinite as a float.
 constexpr double kMinRange_nm = 0.01;
 constexpr double kMaxRange_nm = 1000.0;  // at longer ranges the series of the earth's curvature lose accuracy
 }  // namespace
@@ -71,8 +71,8 @@ int scan_detail(const radar::Fidelity& fidelity, geo::Length range) {
 
 namespace {
 // Expected ratio of a preset's cost to the cost of the next cheaper preset. It is used if no load of the preset has
-// been measured recently. The ratios follow from the counts of samples, rays and effects. Source: docs/performance.md.
-constexpr std::array<double, FidelityGovernor::kLadder.size()> kCostOverLower{1.0, 3.0, 30.0, 25.0};
+// been measured recently. The ratios are the greatest ones in the tables of docs/performance.md.
+constexpr std::array<double, FidelityGovernor::kLadder.size()> kCostOverLower{1.0, 1.5, 12.0, 140.0};
 // A finer preset is selected if its expected load is below this fraction of the core share. The margin keeps two
 // presets from alternating at small changes of the load.
 constexpr double kUpgradeMargin = 0.7;

@@ -134,7 +134,7 @@ def what_cannot_be_done_is_an_error(session):
     same("marks", [(mark["latitude_deg"], mark["sim_time_ns"]) for mark in told["marks"]],
          [(36.0, 0), (37.0, 1), (38.0, 2)])
     session.publish_ownship(latitude_deg=36.5, source=b"mine")
-    session.push_event(14, text="2.01")
+    session.push_event(yars.Event.SEQUENCE_POINT, text="2.01")
     lane = yars.AT_INPUT + session.input_lane * yars.INPUT_STRIDE
     same("events of faulty calls", session.words[lane // 8], 1)
     event = yars.unpack(yars.INPUT_EVENT, session.memory[lane + yars.INPUT_RECORDS:lane + yars.INPUT_RECORDS + 56])

@@ -64,8 +64,8 @@ Ruler make_ruler(const radar::RadarConfiguration& configuration, const model::ke
 struct Errors {
   double position_m = 0.0;      // [m] ScanObservation::position_m of the compared scan
   double shadow_percent = 0.0;  // [%] share of the ruler's samples with known ground that are lit in one scan only
-  // [dB] RMS ratio of powers, over samples that return power in both scans and exceed the noise in the ruler. NaN:
-  // there is no such sample, or the compared scan is by the algorithm of 1996.
+  // [dB] RMS ratio of powers, over samples with known ground that return power in both scans and exceed the noise in
+  // the ruler. NaN: there is no such sample, or the compared scan is by the algorithm of 1996.
   double power_db = 0.0;
   double gray_levels = 0.0;  // [0 to 255] RMS difference of the video
 };

@@ -6,7 +6,7 @@ import re
 import textwrap
 
 from . import comments, schema
-from .schema import Record
+from .schema import Bitmask, Enumeration, Record
 
 # Record -> its name in yars_records.h. Records that only YARS itself uses are left out.
 C_NAMES = {"ClockState": "yars_clock", "Ownship": "yars_ownship", "Nav": "yars_nav", "InputEvent": "yars_input_event",
@@ -14,11 +14,21 @@ C_NAMES = {"ClockState": "yars_clock", "Ownship": "yars_ownship", "Nav": "yars_n
            "RadarState": "yars_radar_state", "ModelStatus": "yars_model_status", "Outputs": "yars_outputs",
            "TrafficEntity": "yars_traffic_entity", "Traffic": "yars_traffic", "GlassFrame": "yars_glass_frame",
            "Sweep": "yars_sweep"}
+# Enumeration -> prefix of its values in yars_records.h, and name of its class in yars.py.
+ENUMERATIONS = {"EventKind": ("EVENT", "Event"), "Power": ("POWER", "Power"), "Mode": ("MODE", "Mode"),
+                "Master": ("MASTER", "Master"), "ScanWidth": ("SCAN", "ScanWidth"),
+                "CursorFunction": ("CURSOR", "CursorFunction"), "Navigator": ("NAVIGATOR", "Navigator"),
+                "PointKind": ("POINT", "PointKind"), "Recall": ("RECALL", "Recall"),
+                "SteeringLine": ("STEERING_LINE", "SteeringLine"), "SteeringCommand": ("STEERING", "SteeringCommand"),
+                "RadarFlags": ("RADAR", "RadarFlags"), "SweepFlags": ("SWEEP", "SweepFlags"),
+                "ModelFlags": ("MODEL", "ModelFlags"), "OwnshipFlags": ("OWNSHIP", "OwnshipFlags"),
+                "NavFlags": ("NAV", "NavFlags")}
 # Record -> its name in yars.py, for the records that yars.py reads or writes as a whole.
 PYTHON_NAMES = {"ClockState": "CLOCK", "Ownship": "OWNSHIP", "Nav": "NAV", "InputEvent": "INPUT_EVENT",
                 "GlassFrame": "GLASS_FRAME", "Sweep": "SWEEP", "Outputs": "OUTPUTS", "Mark": "MARK"}
 STRUCT_CODES = {"double": "d", "float": "f", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H", "int32": "i",
                 "uint32": "I", "int64": "q", "uint64": "Q"}
+PYTHON_COMMENTS = comments.Style("  ", "# ", "", "# ", "# ")
 OFFSETS = ["clock", "ownship_priority", "ownship", "nav", "radar_state", "model_status", "outputs", "sweeps", "input",
            "processes", "traffic", "frames"]
 
@@ -48,7 +58,40 @@ def segment_numbers(layout, chapters):
     ]
 
 
+def values_of(one):
+    """Values of an enumeration or bit mask: [(name in upper case without its prefix, number, C++ name, doc)]."""
+    if isinstance(one, Enumeration):
+        return [(name.upper(), number, f"{one.scoped}::{name}", doc) for number, (name, doc) in enumerate(one.values)]
+    prefix = ENUMERATIONS[one.name][0]
+    values = []
+    for name, position, doc in one.flags:
+        words = re.sub(r"(?<=.)([A-Z])", r"_\1", name.removeprefix("k")).upper()
+        values.append((words.removeprefix(prefix + "_"), 1 << position, name, doc))
+    return values
+
+
+def in_client(text, spell):
+    """Text with the names of C++ enumerations, radar::Mode, as a client's: `spell` of the entry in ENUMERATIONS."""
+    return re.sub(r"\bradar::(\w+)", lambda found: spell(ENUMERATIONS[found.group(1)]), text)
+
+
+def enumerations_of(chapters):
+    named = {one.name: one for chapter in chapters for one in chapter.declarations if isinstance(one, (Enumeration, Bitmask))}
+    return [named[name] for name in ENUMERATIONS if name in named]
+
+
 # ---- C
+def c_enumeration(one):
+    prefix = ENUMERATIONS[one.name][0]
+    values = values_of(one)
+    shown = (lambda number: f"0x{number:X}") if isinstance(one, Bitmask) else str
+    items = [([], f"YARS_{prefix}_{name} = {shown(number)}" + ("," if at + 1 < len(values) else ""),
+              in_client(" ".join(doc), lambda names: f"YARS_{names[0]}_..."))
+             for at, (name, number, _, doc) in enumerate(values)]
+    about = " ".join(one.doc) or ("Bits of " if isinstance(one, Bitmask) else "Values of ") + one.name + "."
+    return comments.C.above(about) + "enum {\n" + comments.aligned(items, comments.C, "  ") + "};\n"
+
+
 def c_type(field):
     if isinstance(field.type, int):
         return "char"
@@ -83,6 +126,7 @@ def c_header(chapters, layout):
     text += ("\n/* The greatest id of a picture; the latest base [ns] of the session's clock. */\n"
              f"#define YARS_LATEST_PICTURE_ID UINT64_C({constants['kLatestPictureId']})\n"
              f"#define YARS_LATEST_CLOCK_BASE_NS INT64_C({constants['kLatestClockBase_ns']})\n")
+    text += "".join("\n" + c_enumeration(one) for one in enumerations_of(chapters))
     text += "".join("\n" + c_record(one) for one in schema.records_of(chapters) if one.name in C_NAMES)
     return text + "\n#endif\n"
 
@@ -99,10 +143,23 @@ def c_asserts(chapters):
         for field in one.fields:
             text += (f"static_assert(offsetof({C_NAMES[one.name]}, {field.name}) == offsetof({one.name}, {field.name}) &&\n"
                      f"              sizeof({C_NAMES[one.name]}::{field.name}) == sizeof({one.name}::{field.name}));\n")
+    for one in enumerations_of(chapters):
+        text += "\n"
+        for name, _, original, _ in values_of(one):
+            text += f"static_assert(YARS_{ENUMERATIONS[one.name][0]}_{name} == static_cast<int>({original}));\n"
     return text + "\n}  // namespace yars::databuffer\n"
 
 
 # ---- Python
+def python_enumeration(one):
+    kind = "IntFlag" if isinstance(one, Bitmask) else "IntEnum"
+    text = f"\n\nclass {ENUMERATIONS[one.name][1]}(enum.{kind}):\n"
+    if one.doc:
+        text += textwrap.fill('"""' + " ".join(one.doc) + '"""', comments.WIDTH, initial_indent="    ", subsequent_indent="    ") + "\n\n"
+    items = [([], f"{name} = {number}", in_client(" ".join(doc), lambda names: names[1])) for name, number, _, doc in values_of(one)]
+    return text + comments.aligned(items, PYTHON_COMMENTS, "    ")
+
+
 def python_code(field):
     return STRUCT_CODES[field.number] if field.number and not field.dimensions else f"{field.size}s"
 
@@ -156,5 +213,6 @@ def python_records(chapters, layout):
     text += "# The numbers and texts of the radar state: name, offset, struct code; the legends are of 8 characters each.\n"
     text += python_list("RADAR_STATE", [f'("{field.name}", {field.offset}, "{python_code(field)}")' for field in state.fields
                                         if not field.reserved and not field.dimensions and not isinstance(field.type, Record)])
+    classes = "".join(python_enumeration(one) for one in enumerations_of(chapters))
     legends = next(field for field in state.fields if field.name == "legends")
-    return text + python_constants([("RADAR_STATE_SIZE", state.size), ("LEGENDS_AT", legends.offset), ("LEGENDS", legends.entries)])
+    return text + python_constants([("RADAR_STATE_SIZE", state.size), ("LEGENDS_AT", legends.offset), ("LEGENDS", legends.entries)]) + classes

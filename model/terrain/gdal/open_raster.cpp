@@ -104,7 +104,8 @@ error::Expected<Raster> open_raster(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, code))
     return error::fail(subject, "a raster of heights in a regular file", code ? code.message() : "not a regular file");
   const MessageCapture messages;
-  // An absolute path cannot begin with a prefix of a GDAL driver. The check above refuses virtual folders (/vsizip/...).
+  // An absolute path cannot begin with a prefix of a GDAL driver. The check above refuses virtual folders
+  // (/vsizip/...).
   Raster raster;
   raster.dataset.reset(GDALOpenEx(std::filesystem::absolute(path).c_str(),
                                   GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, kDrivers.data(), nullptr,

@@ -52,8 +52,7 @@ std::optional<Part> part_of(const Cell& cell, const SmoothParameters& parameters
   part.first_column = static_cast<int>(std::floor(post(parameters.box.west_deg - west - turn_deg, column_intervals)));
   part.last_column = static_cast<int>(std::ceil(post(parameters.box.east_deg - west - turn_deg, column_intervals)));
   if (part.first_row >= part.last_row || part.first_column >= part.last_column) return std::nullopt;
-  // All cells use the latitude of the box's middle. Neighbouring cells with an equal number of posts then have equal
-  // nodes on their common edge.
+  // All cells take the box's middle latitude: neighbours with equal posts have equal nodes on their common edge.
   const double cos_latitude =
       std::cos(0.5 * (parameters.box.south_deg + parameters.box.north_deg) * geo::kRadiansPerDegree);
   const double rows_m = geo::kMetresPerDegree / row_intervals,
@@ -92,9 +91,8 @@ class Posts {
     }
     const double north_deg = static_cast<double>(row) / (cell.rows() - 1);
     const double east_deg = static_cast<double>(column) / (cell.columns() - 1);
-    const double height_m = view.elevation_m(
-        {cell.corner().south_deg + north_deg, geo::wrapped_degrees(cell.corner().west_deg + east_deg)});
-    return static_cast<float>(height_m);
+    return static_cast<float>(view.elevation_m(
+        {cell.corner().south_deg + north_deg, geo::wrapped_degrees(cell.corner().west_deg + east_deg)}));
   }
 
   Part part_;
@@ -386,11 +384,11 @@ std::size_t SmoothView::surfaces(const PositionRun& positions, Interpolation int
 }  // namespace
 
 TerrainViewPointer smooth_between_posts(const TerrainViewPointer& view, const SmoothParameters& parameters) {
-  const bool near_pole =
-      std::max(std::abs(parameters.box.south_deg), std::abs(parameters.box.north_deg)) > kMaxLatitude_deg;
+  const auto& box = parameters.box;
+  const bool near_pole = std::max(std::abs(box.south_deg), std::abs(box.north_deg)) > kMaxLatitude_deg;
   if (near_pole || !(parameters.spacing_m > 0.0)) return view;
   std::vector<Grid> grids;
-  for (const std::shared_ptr<const Cell>& cell : view->cells_within(parameters.box))
+  for (const std::shared_ptr<const Cell>& cell : view->cells_within(box))
     if (const std::optional<Part> part = part_of(*cell, parameters)) {
       grids.emplace_back(*view, *cell, *part);
       grids.back().flatten(parameters.bilinear_boxes);

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Facts about databuffer/messages/generate.py: what it reads, what it refuses, what it writes, what it finds stale."""
 import contextlib
+import enum
 import io
 import json
 import pathlib
@@ -128,7 +129,7 @@ class TheRecordsOfTheTree(unittest.TestCase):
                 self.assertEqual(dimensions, re.sub(r"^\w+", "", text))
 
     def test_come_back_from_python_as_they_went(self):
-        made = {}
+        made = {"enum": enum}
         exec(clients.python_records(self.chapters, layout_of(self.chapters)), made)  # what yars.py has
         for name, python_name in clients.PYTHON_NAMES.items():
             at, fields = 0, {field.name: field.offset for field in self.records[name].fields}
@@ -137,6 +138,19 @@ class TheRecordsOfTheTree(unittest.TestCase):
                     self.assertEqual(at, fields[field], f"{name}.{field}")
                 at += struct.calcsize("<" + code)
             self.assertEqual(at, next((f.offset for f in self.records[name].fields if f.cut), self.records[name].size))
+
+    def test_values_have_the_same_numbers_in_c_and_in_python(self):
+        header = clients.c_header(self.chapters, layout_of(self.chapters))
+        in_c = {name: int(number, 0) for name, number in re.findall(r"^  (YARS_\w+) = (\w+),?", header, re.M)}
+        made = {"enum": enum}
+        exec(clients.python_records(self.chapters, layout_of(self.chapters)), made)
+        declared = {one.name for chapter in self.chapters for one in chapter.declarations
+                    if isinstance(one, (schema.Enumeration, schema.Bitmask))}
+        self.assertLessEqual(set(clients.ENUMERATIONS), declared)
+        found = {f"YARS_{prefix}_{value.name}": int(value) for prefix, name in clients.ENUMERATIONS.values()
+                 for value in made[name].__members__.values()}
+        self.assertEqual(found, in_c)
+        self.assertEqual((in_c["YARS_EVENT_PUSH_BUTTON"], in_c["YARS_RADAR_FREEZE"], in_c["YARS_MODE_PATCH"]), (1, 2, 2))
 
     def test_a_default_becomes_an_initialiser(self):
         place = schema.records_of(chapters_of(GOOD))[0]

@@ -1,0 +1,184 @@
+#include "config/schema/slot_value.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "lib/error/error.hpp"
+
+namespace yars::config {
+
+namespace {
+
+constexpr const char* kManual = "`yars config print --defaults` explains every slot";
+
+// Validates one value and writes it into the field of its slot. One operator() for each kind of slot.
+class Reader {
+ public:
+  Reader(ConfigurationBuilder& builder, const SlotSchema& slot, const Value& value)
+      : builder_(builder), slot_(slot), value_(value) {}
+
+  void operator()(const NumberSlot& kind) const {
+    const double number = in_range(value_);
+    if (kind.of) kind.of(builder_) = number * kind.si_per_unit;
+  }
+  void operator()(const IntegerSlot& kind) const {
+    const double number = whole(value_);
+    if (kind.of) kind.of(builder_) = static_cast<int>(number);
+  }
+  void operator()(const CounterSlot& kind) const {
+    const double number = whole(value_);
+    if (kind.of) kind.of(builder_) = static_cast<std::uint64_t>(number);
+  }
+  void operator()(const BooleanSlot& kind) const {
+    const auto* flag = std::get_if<bool>(&value_.data);
+    if (flag == nullptr) wrong(value_);
+    if (kind.of) kind.of(builder_) = *flag;
+  }
+  void operator()(const TextSlot& kind) const {
+    const std::string& text = string();
+    if (kind.of) kind.of(builder_) = text;
+  }
+  void operator()(const PathSlot& kind) const {
+    const std::filesystem::path path = string();
+    if (kind.of == nullptr) return;
+    const bool unchanged = path.empty() || path.is_absolute();
+    const auto folder = value_.where.file ? std::filesystem::path(*value_.where.file).parent_path() : path;
+    kind.of(builder_) = (unchanged ? path : (folder / path).lexically_normal()).string();
+  }
+  void operator()(const AngleSlot& kind) const {
+    const double degrees = in_range(value_);
+    if (kind.of) kind.of(builder_) = degrees;
+  }
+  void operator()(const ChoiceSlot& kind) const {
+    const std::string word = chosen_word();
+    const auto found = std::find(kind.words.begin(), kind.words.end(), word);
+    if (found == kind.words.end()) wrong(value_);
+    if (kind.set) kind.set(builder_, static_cast<int>(found - kind.words.begin()));
+  }
+  void operator()(const ListSlot& kind) const {
+    std::vector<double> numbers = list(kind.min_count, kind.max_count);
+    const bool descending = kind.order == Order::descending;
+    for (std::size_t i = 1; i < numbers.size() && kind.order != Order::any; ++i) {
+      if (descending ? numbers[i] >= numbers[i - 1] : numbers[i] <= numbers[i - 1]) {
+        const Value& item = std::get<List>(value_.data).items[i];
+        wrong(item, number_text(numbers[i]) + " after " + number_text(numbers[i - 1]));
+      }
+    }
+    if (kind.of) kind.of(builder_) = std::move(numbers);
+  }
+  void operator()(const FirstSlot& kind) const {
+    constexpr std::size_t kMaxItems = 16;
+    const auto* items = std::get_if<List>(&value_.data);
+    if (items == nullptr) {
+      kind.of(builder_) = static_cast<int>(whole(value_));
+      return;
+    }
+    if (items->items.empty() || items->items.size() > kMaxItems) wrong(value_);
+    for (const Value& item : items->items) whole(item);
+    kind.of(builder_) = static_cast<int>(whole(items->items.front()));
+  }
+  void operator()(const PairSlot& kind) const {
+    const auto numbers = list(2, 2);
+    if (kind.first == nullptr) return;
+    kind.first(builder_) = numbers[0];
+    kind.second(builder_) = numbers[1];
+  }
+  void operator()(const SpanSlot& kind) const {
+    const auto [low, high] = span(kind.centred);
+    if (low >= high) wrong(value_, number_text(low) + " and " + number_text(high));
+    if (kind.low == nullptr) return;
+    kind.low(builder_) = low;
+    kind.high(builder_) = high;
+  }
+  void operator()(const SymmetricSlot& kind) const {
+    const auto* items = std::get_if<List>(&value_.data);
+    if (items == nullptr || items->items.size() != 2) wrong(value_);
+    const double low = number(items->items[0]);
+    const double high = in_range(items->items[1]);
+    if (low != -high) wrong(items->items[0], number_text(low) + " and " + number_text(high));
+    if (kind.of) kind.of(builder_) = high;
+  }
+  void operator()(const FormSlot&) const {
+    error::requirement_broken("a slot of forms is read by FormReader", slot_.name, __FILE__, __LINE__);
+  }
+
+ private:
+  [[noreturn]] void wrong(const Value& value, std::string found = {}) const {
+    if (found.empty()) found = description(value);
+    reject(value.where, value_kind(slot_) + " for :" + std::string(slot_.name), std::move(found), kManual);
+  }
+
+  double number(const Value& value) const {
+    const auto* number = std::get_if<double>(&value.data);
+    if (number == nullptr) wrong(value);
+    return *number;
+  }
+
+  double in_range(const Value& value) const {
+    const double found = number(value);
+    if (!(found >= slot_.lowest && found <= slot_.highest)) wrong(value);
+    return found;
+  }
+
+  double whole(const Value& value) const {
+    const double found = in_range(value);
+    if (found != std::floor(found)) wrong(value);
+    return found;
+  }
+
+  const std::string& string() const {
+    const auto* text = std::get_if<std::string>(&value_.data);
+    if (text == nullptr) wrong(value_);
+    return *text;
+  }
+
+  // The text of a choice, which can be written as a number, an identifier or a string: `1996`, `draft`, "draft".
+  std::string chosen_word() const {
+    if (const auto* identifier = std::get_if<Identifier>(&value_.data)) return identifier->name;
+    if (const auto* number = std::get_if<double>(&value_.data)) return number_text(*number);
+    return string();
+  }
+
+  std::vector<double> list(std::size_t min_count, std::size_t max_count) const {
+    const auto* items = std::get_if<List>(&value_.data);
+    if (items == nullptr || items->items.size() < min_count || items->items.size() > max_count) wrong(value_);
+    std::vector<double> numbers;
+    for (const Value& item : items->items) numbers.push_back(in_range(item));
+    return numbers;
+  }
+
+  std::pair<double, double> span(bool centred) const {
+    if (std::holds_alternative<double>(value_.data)) {
+      const double whole_span = in_range(value_);
+      return centred ? std::pair(-whole_span / 2, whole_span / 2) : std::pair(0.0, whole_span);
+    }
+    const auto numbers = list(2, 2);
+    return {numbers[0], numbers[1]};
+  }
+
+  ConfigurationBuilder& builder_;
+  const SlotSchema& slot_;
+  const Value& value_;
+};
+
+}  // namespace
+
+void read_simple(ConfigurationBuilder& builder, const SlotSchema& slot, const Value& value) {
+  std::visit(Reader(builder, slot, value), slot.binding);
+}
+
+void read_sexagesimal(ConfigurationBuilder& builder, const SlotSchema& slot, const Location& where) {
+  const auto& kind = std::get<AngleSlot>(slot.binding);
+  const SexagesimalAngle& angle = builder.angle;
+  const bool north_south = angle.direction < 2;
+  if (north_south != kind.latitude) {
+    reject(where, kind.latitude ? "N or S for a latitude" : "E or W for a longitude",
+           north_south ? "N or S" : "E or W");
+  }
+  const double size_deg = angle.degrees + angle.minutes / 60.0 + angle.seconds / 3600.0;
+  const bool negative = angle.direction % 2 == 1;
+  read_simple(builder, slot, {where, negative ? -size_deg : size_deg});
+}
+
+}  // namespace yars::config
