@@ -177,18 +177,20 @@ bool is_verb(std::string_view word) {
   return std::ranges::any_of(kForms, [word](const Form& form) { return form.verb == word; });
 }
 
+std::string text_of(const Form& form) {
+  std::string text(form.verb);
+  if (!form.word.empty()) text += ' ' + std::string(form.word);
+  if (form.operand == Operand::steps) text += " [STEPS]";
+  if (form.operand == Operand::error) text += form.kind == EventKind::navigator_error ? " N_FT E_FT" : " N_FPS E_FPS";
+  return text;
+}
+
 // The forms of a verb; of an unknown verb the forms of all.
 std::string expected_forms(std::string_view verb) {
   const bool known = is_verb(verb);
   std::string list;
-  for (const Form& form : kForms) {
-    if (known && form.verb != verb) continue;
-    if (!list.empty()) list += " | ";
-    list += form.verb;
-    if (!form.word.empty()) list += ' ' + std::string(form.word);
-    if (form.operand == Operand::steps) list += " [STEPS]";
-    if (form.operand == Operand::error) list += form.kind == EventKind::navigator_error ? " N_FT E_FT" : " N_FPS E_FPS";
-  }
+  for (const Form& form : kForms)
+    if (!known || form.verb == verb) list += (list.empty() ? "" : " | ") + text_of(form);
   return list;
 }
 
@@ -318,7 +320,14 @@ std::optional<InputEvent> parsed(const Words& words) {
 }  // namespace
 
 std::string event_forms() {
-  return expected_forms({});
+  std::string lines;
+  std::string_view verb;
+  for (const Form& form : kForms) {
+    if (!lines.empty()) lines += form.verb == verb ? " | " : "\n";
+    lines += text_of(form);
+    verb = form.verb;
+  }
+  return lines;
 }
 
 Expected<InputEvent> event_from_text(std::string_view text) {

@@ -30,7 +30,7 @@ Refusal validate(const InputEvent& event);
 // forms if the verb is unknown.
 error::Expected<InputEvent> event_from_text(std::string_view text);
 
-// All forms, separated by " | ".
+// All forms, a line for each verb: "acq fwd | acq aft".
 std::string event_forms();
 
 // Shortest text that event_from_text() parses to an event of the same kind and values. An event without a text form

@@ -240,7 +240,9 @@ void CommandLine::before_callbacks(const std::function<void()>& call) {
 
 void CommandLine::add_help_command() {
   Command help = subcommand("help", "print the help of a command");
-  help.option("COMMAND", help_words_, "command, as in " + name_ + " help terrain info").otherwise("all commands");
+  help.option("COMMAND", help_words_, "command, as in " + name_ + " help terrain info")
+      .value_name("COMMAND")
+      .otherwise("all commands");
   help.callback([this] {
     const CLI::App* command = app_;
     std::string path;
@@ -304,8 +306,9 @@ std::optional<int> CommandLine::parse(int argc, char** argv) {
     app_->parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::ParseError& outcome) {
-    const bool is_help = outcome.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
-    if (is_help && !has_unknown_command(*app_)) return app_->exit(outcome);
+    const bool is_success = outcome.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
+    const bool is_version = dynamic_cast<const CLI::CallForVersion*>(&outcome) != nullptr;
+    if (is_version || (is_success && !has_unknown_command(*app_))) return app_->exit(outcome);
     const UsageMessage message = usage_message(*app_, outcome, words);
     print_failure(message.command, message.text);
     return kExitUsage;

@@ -152,7 +152,8 @@ std::optional<Error> flag_with_value(const std::vector<const CLI::App*>& chain, 
 // The last option of the command line, after which there are too few words.
 std::optional<Error> missing_value(const std::vector<const CLI::App*>& chain, const std::vector<std::string>& words) {
   for (std::size_t after = 0; after < words.size(); ++after) {
-    const std::string& word = words[words.size() - 1 - after];
+    std::string word = words[words.size() - 1 - after];
+    if (word.ends_with('=')) word.pop_back();
     const CLI::Option* option = is_option_like(word) ? option_named(chain, word) : nullptr;
     if (option == nullptr) continue;
     const int min = option->get_items_expected_min();

@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
   databuffer::ProgramOptions options;
   databuffer::add_common_options(app, options, true);
   ModelOptions model_options;
-  app.option("--terrain", model_options.terrain, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
+  app.option("--terrain", model_options.terrain, "folder of elevation cells: DTED, HGT, DED, packs, rasters")
       .value_name("DIR")
       .otherwise("the configuration's")
       .in_user_file();

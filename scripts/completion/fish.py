@@ -21,7 +21,8 @@ function __{0}_path
 end
 
 function __{0}_at
-    test (string join ' ' (__{0}_path)) = "$argv[1]"
+    set -l path (__{0}_path)
+    test "$path" = "$argv[1]"
 end
 '''
 SESSIONS_FUNCTION = '''

@@ -13,8 +13,8 @@ def shape(entry):
     text = "\n".join(entry.lines)
     if entry.values:
         return entry.values
-    if entry.kind == "EVENT":  # "event: pb 1..20 | tdc press | ... (required)"
-        return sorted(set(re.findall(r"(?<![\w.])[a-z]{2,}(?![\w:.])", text.partition(":")[2].rpartition(" (")[0])))
+    if entry.kind == "EVENT":  # lines like "acq fwd | acq aft" between the first and the last
+        return sorted(set(re.findall(r"(?<![\w.])[a-z]{2,}(?![\w.])", re.sub(r"\(.*?\)", "", "\n".join(entry.lines[1:])))))
     if entry.kind == "SOURCE":  # "route:FILE  a route", "window, terminal, script:FILE or auto"
         return sorted(set(re.findall(r"(?<!\S)[a-z]+:(?=[A-Z[])", text)) | set(re.findall(r"\b(?:window|terminal|auto)\b", text)))
     return {"FILE": FILES, "DIR": FOLDERS, "SESSION": SESSIONS}.get(entry.kind, NOTHING)

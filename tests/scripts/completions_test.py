@@ -90,8 +90,8 @@ def zsh(line, folder):
 
 
 def fish(line, folder):
-    script = f"set -p fish_complete_path {FOLDER}/fish; complete -C '{line}'"
-    done = subprocess.run(["fish", "--no-config", "-c", script], capture_output=True, text=True, timeout=60, cwd=folder)
+    script = f"source {FOLDER}/fish/{line.split()[0]}.fish; complete -C '{line}'"
+    done = subprocess.run(["fish", "-c", script], capture_output=True, text=True, timeout=60, cwd=folder)
     return {row.split("\t")[0].rstrip("/") for row in done.stdout.splitlines()}, done
 
 

@@ -10,7 +10,7 @@ namespace yars::tools {
 
 databuffer::Option add_terrain_option(databuffer::Command command, std::string& directory) {
   databuffer::Option option =
-      command.option("--terrain", directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)");
+      command.option("--terrain", directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters");
   return option.value_name("DIR").in_user_file();
 }
 

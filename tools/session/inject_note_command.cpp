@@ -71,20 +71,23 @@ constexpr std::int64_t kTimeout_ns = 2'000'000'000;  // [ns] 2 s: docs/spec/comm
 
 // Parses the arguments. Either all arguments together are one event (pb 13), or each is one event ('pb 13' 'sp 2').
 std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) {
-  std::vector<InputEvent> events;
+  const auto refuse = [](const error::Error& error) {
+    const std::string& meant = error.action;
+    throw_failure(error::usage_error("inject", error.expected, error.found,
+                                     meant + (meant.empty() ? "see" : " See") + " yars inject --help"));
+  };
   std::string joined;
   for (const auto& argument : arguments) joined += (joined.empty() ? "" : " ") + argument;
-  if (auto single = databuffer::event_from_text(joined)) {
-    events.push_back(*single);
-    return events;
-  }
+  const auto single = databuffer::event_from_text(joined);
+  if (single) return {*single};
+  // Words of one event are single words, of which the first names the event.
+  const auto is_word = [](const std::string& argument) { return argument.find(' ') == std::string::npos; };
+  if (std::ranges::all_of(arguments, is_word) && !databuffer::event_from_text(arguments.front()))
+    refuse(single.error());
+  std::vector<InputEvent> events;
   for (const auto& argument : arguments) {
-    auto event = databuffer::event_from_text(argument);
-    if (!event) {
-      auto error = event.error();
-      error.bad_usage = true;
-      throw_failure(error);
-    }
+    const auto event = databuffer::event_from_text(argument);
+    if (!event) refuse(event.error());
     events.push_back(*event);
   }
   return events;
@@ -246,7 +249,9 @@ void add_inject_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command command =
       app.subcommand("inject", "send events, e.g. yars inject 'power opr' 'pb 13' 'elevation -5'");
   auto options = std::make_shared<InjectOptions>();
-  command.option("EVENT", options->events, "event: " + databuffer::event_forms()).value_name("EVENT").required();
+  command.option("EVENT", options->events, "event, in upper or lower case:\n" + databuffer::event_forms())
+      .value_name("EVENT")
+      .required();
   add_json_flag(command, options->json);
   command.callback([&common, options] { inject(common, *options); });
 }

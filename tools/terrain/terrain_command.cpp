@@ -257,8 +257,7 @@ void add_terrain_info(databuffer::Command terrain) {
   };
   const auto options = std::make_shared<InfoOptions>();
   databuffer::Command command = terrain.subcommand("info", "cells of a directory: posts, heights, voids, problems");
-  command
-      .option("--terrain,DIR", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
+  command.option("--terrain,DIR", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters")
       .value_name("DIR")
       .required()
       .in_user_file();
