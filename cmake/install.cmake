@@ -5,7 +5,7 @@ set(documents ${CMAKE_INSTALL_DATADIR}/doc/yars)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/databuffer/client/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/yars FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${share}/config
-  FILES_MATCHING PATTERN "*.guf" PATTERN "*.route" PATTERN "*.script")
+  FILES_MATCHING PATTERN "*.guf" PATTERN "*.route" PATTERN "*.script" PATTERN "*.scenes" PATTERN "*.tour")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.dot")
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${documents})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copyright)

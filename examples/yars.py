@@ -15,14 +15,14 @@ import time
 
 MAGIC, LINE, SLOTS = 0x314D485353524159, 64, 4
 # begin: databuffer/messages/generate.py
-VERSION, SIZE, HASH = 3, 27471872, 0xEB33F49407411935
+VERSION, SIZE, HASH = 3, 27471808, 0x6EEB89B3DE94B834
 AT_CLOCK, AT_OWNSHIP_PRIORITY, AT_OWNSHIP, AT_NAV = 448, 1024, 1088, 4416
 AT_RADAR_STATE, AT_MODEL_STATUS, AT_OUTPUTS, AT_SWEEPS = 7744, 13440, 16320, 543680
-AT_INPUT, AT_PROCESSES, AT_TRAFFIC, AT_FRAMES = 4934656, 5051392, 13587584, 13840128
+AT_INPUT, AT_PROCESSES, AT_TRAFFIC, AT_FRAMES, AT_CAPTION = 4934656, 5051392, 13587584, 13840128, 26423936
 FRAMES, FRAME_STRIDE, FRAME_WORDS, FRAME_PIXELS, MOST_FRAME_BYTES = 3, 4194376, 8, 72, 4194304
 SWEEPS, SWEEP_STRIDE, MOST_SAMPLES = 1024, 4288, 4096
-RADAR_MODEL_BYTE, STATE_MACHINE_BYTE, TRAFFIC_BYTE, FIRST_OWNSHIP_BYTE, FIRST_INPUT_BYTE = 1, 2, 5, 8, 16
-FIRST_PROCESS_BYTE, OWNSHIP_LANES, INPUT_LANES, PROCESSES = 32, 4, 16, 32
+RADAR_MODEL_BYTE, STATE_MACHINE_BYTE, TRAFFIC_BYTE, TOUR_BYTE, FIRST_OWNSHIP_BYTE = 1, 2, 5, 7, 8
+FIRST_INPUT_BYTE, FIRST_PROCESS_BYTE, OWNSHIP_LANES, INPUT_LANES, PROCESSES = 16, 32, 4, 16, 32
 INPUT_DEPTH = 128
 LATEST_PICTURE_ID, PROCESS_STRIDE = 9007199254740992, 40
 INPUT_STRIDE, INPUT_POPPED, INPUT_RECORDS = 7296, 64, 128
@@ -54,6 +54,9 @@ OUTPUTS = [("tick", "q"), ("sim_time_ns", "q"), ("cue_latitude_deg", "d"), ("cue
            ("target_count", "I"), ("steering", "B"), ("mark_count", "B"), ("_reserved", "2s"), ("marks", "320s"),
            ("_reserved", "64s")]
 MARK = [("latitude_deg", "d"), ("longitude_deg", "d"), ("elevation_m", "d"), ("sim_time_ns", "q")]
+CAPTION_LINE = [("text", "48s")]
+CAPTION = [("sim_time_ns", "q"), ("step", "I"), ("steps", "I"), ("waiting", "I"), ("_reserved", "4s"), ("title", "48s"),
+           ("lines", "144s"), ("_reserved", "64s")]
 # The numbers and texts of the radar state: name, offset, struct code; the legends are of 8 characters each.
 RADAR_STATE = [("tick", 0, "q"), ("range_nm", 8, "d"), ("scan_width_deg", 16, "d"), ("antenna_elevation_deg", 24, "d"),
                ("cursor_latitude_deg", 32, "d"), ("cursor_longitude_deg", 40, "d"), ("cursor_elevation_m", 48, "d"),
@@ -105,6 +108,7 @@ class Event(enum.IntEnum):
     CONTRAST = 16         # argument: +1 up, -1 down
     NAVIGATOR_ERROR = 17  # by the instructor; argument: Navigator; x, y: [ft] position error north, east
     NAVIGATOR_DRIFT = 18  # by the instructor; argument: Navigator; x, y: [ft/s] velocity error north, east
+    NEXT = 19             # asks a tour that waits for the pilot to go on
 
 
 class Power(enum.IntEnum):
@@ -454,6 +458,16 @@ class Session:
         records = (outputs["marks"][size * i:size * (i + 1)] for i in range(outputs["mark_count"]))
         outputs["marks"] = [unpack(MARK, record) for record in records if len(record) == size]
         return outputs
+
+    def caption(self):
+        """Dict of the record Caption (databuffer/messages/caption.idl) of the tour that runs; `lines` is a list of
+        texts. None while no tour runs, or while it shows no caption."""
+        caption = self._read(AT_CAPTION, CAPTION) if self._is_held(TOUR_BYTE) else None
+        if caption is None:
+            return None
+        size = struct.calcsize(code_of(CAPTION_LINE))
+        lines = [text_of(caption["lines"][at:at + size]) for at in range(0, len(caption["lines"]), size)]
+        return {**caption, "title": text_of(caption["title"]), "lines": [line for line in lines if line]}
 
     def sweeps(self):
         """List of the sweeps since the last call, oldest first. The first call returns all sweeps in the segment, those

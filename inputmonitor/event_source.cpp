@@ -1,14 +1,11 @@
 #include "inputmonitor/event_source.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 #include <utility>
 
 #include "databuffer/messages/input_event.hpp"
-#include "databuffer/messages/world_state.hpp"
-#include "lib/file/text_file.hpp"
-#include "lib/text/plain_text.hpp"
+#include "inputmonitor/script_lines.hpp"
 
 namespace yars::inputmonitor {
 
@@ -88,54 +85,38 @@ std::vector<Notice> SourceGroup::notices() {
   return all;
 }
 
+bool SourceGroup::has_captions() const {
+  return std::ranges::any_of(sources_, [](const auto& source) { return source->has_captions(); });
+}
+
+const databuffer::Caption* SourceGroup::caption() const {
+  for (const auto& source : sources_)
+    if (const auto* caption = source->caption()) return caption;
+  return nullptr;
+}
+
+void SourceGroup::observe(const std::vector<SeenEvent>& seen) {
+  for (const auto& source : sources_) source->observe(seen);
+}
+
 std::string SourceGroup::description() const {
   std::string all;
   for (const auto& source : sources_) all += (all.empty() ? "" : "; ") + source->description();
   return all;
 }
 
-namespace {
-
-using error::Expected;
-using error::fail;
-
-// Time [ns] of a word such as "12.5", or "+0.5" relative to `previous_ns`; nullopt if the word is not a valid time.
-std::optional<std::int64_t> time_of(std::string_view word, std::int64_t previous_ns) {
-  const auto seconds = text::finite_number(word);
-  if (!seconds || *seconds < 0.0 || *seconds > databuffer::kLatestSimTime_s) return std::nullopt;
-  const std::int64_t time_ns = std::llround(*seconds * 1e9);
-  return word.starts_with('+') ? previous_ns + time_ns : time_ns;
-}
-
-}  // namespace
-
-Expected<Script> parse_script(std::string_view text, std::string_view name) {
+error::Expected<Script> parse_script(std::string_view text, std::string_view name) {
   Script script;
-  std::int64_t previous_ns = 0;
-  for (const auto& line : text::numbered_lines(text)) {
-    const std::string location = file::line_location(name, line.number);
-    const std::string found = '"' + std::string(line.text) + '"';
-    if (script.end_ns) return fail(location, "no line after end", found);
-    if (line.text == "end") {
-      script.end_ns = previous_ns;
-      continue;
-    }
-    const std::string_view word = text::words_of(line.text).front();
-    const auto time_ns = time_of(word, previous_ns);
-    if (!time_ns) return fail(location, "TIME_S EVENT, +DT_S EVENT or end", found);
-    if (*time_ns < previous_ns)
-      return fail(location, "a time not earlier than the time of the line above", found, "sort the lines by time");
-    if (script.events.empty()) script.from_start = word.starts_with('+');
-    previous_ns = *time_ns;
-    const std::string_view rest = text::trimmed(line.text.substr(word.size()));
-    if (rest == "end") {
-      script.end_ns = previous_ns;
-      continue;
-    }
-    const auto event = databuffer::event_from_text(rest);
-    if (!event) return fail(location, event.error().expected, event.error().found);
-    script.events.push_back({previous_ns, *event});
-  }
+  const auto times = read_script_lines(
+      text, name, "TIME_S EVENT, +DT_S EVENT or end", {}, [&](const ScriptLine& line) -> error::Expected<void> {
+        const auto event = databuffer::event_from_text(line.what);
+        if (!event) return error::fail(line.location, event.error().expected, event.error().found);
+        script.events.push_back({line.time_ns, *event});
+        return {};
+      });
+  if (!times) return tl::unexpected(times.error());
+  script.end_ns = times->end_ns;
+  script.from_start = times->from_start;
   return script;
 }
 

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "databuffer/messages/caption.hpp"
 #include "databuffer/messages/input_event.hpp"
 #include "lib/error/error.hpp"
 
@@ -30,6 +31,13 @@ struct Moment {
 struct Notice {
   bool is_warning = false;
   std::string text;
+};
+
+// An event that the state machine has applied.
+struct SeenEvent {
+  databuffer::InputEvent event{};
+  bool done = false;  // it changed the state or was for a tour; false: refused or without effect
+  bool own = false;   // it came from this program's input lane
 };
 
 // A source of input events: a window, a terminal, a script, a device.
@@ -57,6 +65,12 @@ class EventSource {
   virtual bool follows_sim_time() const = 0;
   // Notices since the last call.
   virtual std::vector<Notice> notices() { return {}; }
+  // True for a source with captions (tour.hpp).
+  virtual bool has_captions() const { return false; }
+  // The caption to show over the display; nullptr: none now.
+  virtual const databuffer::Caption* caption() const { return nullptr; }
+  // Takes events that the state machine has applied since the last call, of all senders. Call it before take().
+  virtual void observe(const std::vector<SeenEvent>&) {}
   // Text for the log and the user: what the source reads, and how to use it.
   virtual std::string description() const = 0;
 };
@@ -80,19 +94,17 @@ class SourceGroup final : public EventSource {
   bool ended() const override;
   bool follows_sim_time() const override;
   std::vector<Notice> notices() override;
+  bool has_captions() const override;
+  const databuffer::Caption* caption() const override;
+  void observe(const std::vector<SeenEvent>& seen) override;
   std::string description() const override;
 
  private:
   std::vector<std::unique_ptr<EventSource>> sources_;
 };
 
-// Script: one event per line, with its simulation time.
-//   TIME_S EVENT     simulation time [s], not before the time of the line above
-//   +DT_S EVENT      interval after the time of the line above [s]. If the first event has this form, all times count
-//                    from the moment when the script starts.
-//   [TIME_S] end     end of the script, by default at the time of the line above; must be the last line. Except in
-//                    lockstep, the input monitor then ends, too.
-// `#` begins a comment. EVENT has the syntax of databuffer/messages/input_event.hpp.
+// Script: one event per line, with its simulation time. script_lines.hpp has the syntax of times and of `end`. EVENT
+// has the syntax of databuffer/messages/input_event.hpp. Except in lockstep, the input monitor ends with the script.
 struct ScriptedEvent {
   std::int64_t time_ns = 0;
   databuffer::InputEvent event{};

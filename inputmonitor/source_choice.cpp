@@ -12,6 +12,7 @@
 #include "inputmonitor/event_source.hpp"
 #include "inputmonitor/keyboard_source.hpp"
 #include "inputmonitor/terminal.hpp"
+#include "inputmonitor/tour.hpp"
 #include "lib/file/text_file.hpp"
 
 namespace yars::inputmonitor {
@@ -118,6 +119,8 @@ using error::Expected;
 using SourcePointer = std::unique_ptr<EventSource>;
 
 constexpr std::string_view kScript = "script:";
+constexpr std::string_view kTour = "tour:";
+constexpr std::string_view kForPilot = ",pilot";  // behind the file of a tour
 constexpr std::string_view kDevice = "evdev:";
 
 // Source without events, for a system with neither a display nor a terminal, such as a container.
@@ -148,6 +151,14 @@ Expected<SourcePointer> open_script(const std::string& file) {
   return std::make_unique<ScriptSource>(std::move(*script), file);
 }
 
+Expected<SourcePointer> open_tour(const std::string& file, bool for_pilot) {
+  const auto text = file::read_text_file(file);
+  if (!text) return tl::unexpected(text.error());
+  auto tour = parse_tour(*text, file);
+  if (!tour) return tl::unexpected(tour.error());
+  return std::make_unique<TourSource>(std::move(*tour), file, for_pilot);
+}
+
 // A window if one can be opened, else the terminal if there is one, else nullptr.
 SourcePointer open_keyboard(const std::string& session) {
   if (display_is_named()) {
@@ -172,6 +183,15 @@ SourcePointer open_automatic(const SourceContext& context, const std::vector<Sou
   return std::make_unique<SourceGroup>(std::move(sources));
 }
 
+// Splits FILE[,pilot].
+SourceChoice tour_choice(std::string_view text) {
+  SourceChoice choice{SourceKind::tour, {}, {}};
+  choice.for_pilot = text.ends_with(kForPilot);
+  if (choice.for_pilot) text.remove_suffix(kForPilot.size());
+  choice.file = text;
+  return choice;
+}
+
 // Splits PATH[,NAME] at the last comma. A comma before a slash is part of PATH, because NAME contains no slash.
 SourceChoice device_choice(std::string_view text) {
   const std::size_t comma = text.rfind(',');
@@ -189,6 +209,8 @@ Expected<SourcePointer> open_one(const SourceChoice& choice, const std::vector<S
       return open_terminal_source();
     case SourceKind::script:
       return open_script(choice.file);
+    case SourceKind::tour:
+      return open_tour(choice.file, choice.for_pilot);
     case SourceKind::device: {
       auto device = DeviceSource::create(choice.file, choice.map_name, context.maps);
       if (!device) return tl::unexpected(device.error());
@@ -208,11 +230,16 @@ Expected<SourceChoice> parse_source(std::string_view text) {
   if (text == "auto") return SourceChoice{SourceKind::automatic, {}, {}};
   if (text.starts_with(kScript) && text.size() > kScript.size())
     return SourceChoice{SourceKind::script, std::string(text.substr(kScript.size())), {}};
+  if (text.starts_with(kTour)) {
+    const SourceChoice choice = tour_choice(text.substr(kTour.size()));
+    if (!choice.file.empty()) return choice;
+  }
   if (text.starts_with(kDevice)) {
     const SourceChoice choice = device_choice(text.substr(kDevice.size()));
     if (!choice.file.empty()) return choice;
   }
-  return tl::unexpected(error::usage_error("--source", "window, terminal, script:FILE, evdev:PATH[,MAP] or auto",
+  return tl::unexpected(error::usage_error("--source",
+                                           "window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto",
                                            '"' + std::string(text) + '"'));
 }
 

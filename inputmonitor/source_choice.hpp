@@ -54,16 +54,18 @@ class FoundDevicesSource final : public EventSource {
   std::int64_t next_scan_ns_ = 0;
 };
 
-enum class SourceKind { window, terminal, script, device, automatic };
+enum class SourceKind { window, terminal, script, tour, device, automatic };
 
 // Parsed argument of --source.
 struct SourceChoice {
   SourceKind kind = SourceKind::automatic;
-  std::string file;      // path of a script or a device
-  std::string map_name;  // device only; empty: the map that fits
+  std::string file;        // path of a script, a tour or a device
+  std::string map_name;    // device only; empty: the map that fits
+  bool for_pilot = false;  // tour only; it waits for the pilot
 };
 
-// Parses window, terminal, script:FILE, evdev:PATH[,MAP] or auto. Error: any other text is a usage error.
+// Parses window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto. Error: any other text is a usage
+// error.
 error::Expected<SourceChoice> parse_source(std::string_view text);
 
 // Parameters common to all choices.

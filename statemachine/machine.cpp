@@ -108,6 +108,7 @@ RadarState initial_state(const Parameters& parameters) {
 
 Effect apply(RadarState& state, const databuffer::InputEvent& event, const Inputs& inputs,
              const Parameters& parameters) {
+  if (is_for_tour(event)) return Effect::done;
   const Action action = action_for(state, event);
   if (!action) return Effect::none;
   if (is_press(event)) return Effect::done;

@@ -24,7 +24,8 @@ databuffer::RadarState initial_state(const Parameters& parameters);
 // Result of an event.
 enum class Effect : std::uint32_t {
   none = databuffer::kEventDead,  // no row of the transition table applies, or the state is unchanged
-  done = databuffer::kEventDone,  // the state has changed, or the event is a press, which takes effect at its release
+  // The state has changed, or the event is a press, which takes effect at its release, or it is for the tour.
+  done = databuffer::kEventDone,
   refused = databuffer::kEventRefused,  // the event cannot be carried out; the display shows the reason
 };
 

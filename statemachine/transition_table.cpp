@@ -277,6 +277,10 @@ bool is_press(const databuffer::InputEvent& event) {
   return event.kind == static_cast<std::uint16_t>(EventKind::tdc_press);
 }
 
+bool is_for_tour(const databuffer::InputEvent& event) {
+  return event.kind == static_cast<std::uint16_t>(EventKind::next);
+}
+
 namespace {
 bool is_row_of(const ControlRow& row, const databuffer::InputEvent& event) {
   return row.kind == (is_press(event) ? EventKind::tdc_release : static_cast<EventKind>(event.kind));

@@ -95,6 +95,9 @@ bool hold(Conditions conditions, const databuffer::RadarState& state);
 // True for the press of the TDC. The caller does not run the action of a press, because the TDC acts on release.
 bool is_press(const databuffer::InputEvent& event);
 
+// True for `next`, which a tour reads among the applied events. It changes nothing in the radar, in any state.
+bool is_for_tour(const databuffer::InputEvent& event);
+
 // Action of the event in this state; nullptr: the event has no effect (is dead). For a press of the TDC it is the
 // action of the release, which only tells whether the press is dead.
 Action action_for(const databuffer::RadarState& state, const databuffer::InputEvent& event);

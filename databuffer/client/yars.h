@@ -284,6 +284,11 @@ static inline int yars_read_model_status(const yars_session* s, yars_model_statu
   return yars_read(s, YARS_AT_MODEL_STATUS, status, sizeof *status);
 }
 
+/* Reads the caption of the tour that runs. Returns 0 if no tour runs, or if it shows no caption now. */
+static inline int yars_read_caption(const yars_session* s, yars_caption* caption) {
+  return yars_is_held(s, YARS_TOUR_BYTE) && yars_read(s, YARS_AT_CAPTION, caption, sizeof *caption);
+}
+
 /* Reads the newest frame of a radar-display with --publish. Returns 1 if its id differs from `after`; with 0 as `after`
  * any id differs. Returns 0 if there is no such frame, or if it was overwritten during each of 8 attempts; `frame` and
  * `pixels` are then unspecified. `pixels`: buffer of YARS_MOST_FRAME_BYTES, which gets the rows from the top, without

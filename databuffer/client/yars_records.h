@@ -9,8 +9,8 @@
 
 /* What this header was made for. */
 #define YARS_LAYOUT_VERSION UINT32_C(3)
-#define YARS_LAYOUT_SIZE UINT64_C(27471872)
-#define YARS_LAYOUT_HASH UINT64_C(0xeb33f49407411935)
+#define YARS_LAYOUT_SIZE UINT64_C(27471808)
+#define YARS_LAYOUT_HASH UINT64_C(0x6eeb89b3de94b834)
 
 /* Offsets [bytes] from the segment's begin. */
 #define YARS_AT_CLOCK 448
@@ -25,6 +25,7 @@
 #define YARS_AT_PROCESSES 5051392
 #define YARS_AT_TRAFFIC 13587584
 #define YARS_AT_FRAMES 13840128
+#define YARS_AT_CAPTION 26423936
 
 /* Pictures of the display: number of slots, distance of slots [bytes]. Offsets in a slot [bytes]: WORDS of the
  * record yars_glass_frame, PIXELS of the pixels; the id is at offset 0. MOST: maximum size of the pixels. */
@@ -43,6 +44,7 @@
 #define YARS_RADAR_MODEL_BYTE 1
 #define YARS_STATE_MACHINE_BYTE 2
 #define YARS_TRAFFIC_BYTE 5
+#define YARS_TOUR_BYTE 7
 #define YARS_FIRST_OWNSHIP_BYTE 8
 #define YARS_FIRST_INPUT_BYTE 16
 #define YARS_FIRST_PROCESS_BYTE 32
@@ -79,7 +81,8 @@ enum {
   /* by the instructor; argument: YARS_NAVIGATOR_...; x, y: [ft] position error north, east */
   YARS_EVENT_NAVIGATOR_ERROR = 17,
   /* by the instructor; argument: YARS_NAVIGATOR_...; x, y: [ft/s] velocity error north, east */
-  YARS_EVENT_NAVIGATOR_DRIFT = 18
+  YARS_EVENT_NAVIGATOR_DRIFT = 18,
+  YARS_EVENT_NEXT = 19 /* asks a tour that waits for the pilot to go on */
 };
 
 /* Values of Power. */
@@ -597,5 +600,23 @@ typedef struct {
   uint32_t height;     /* [pixels] [1, 1024] */
   uint64_t reserved[4];
 } yars_glass_frame;
+
+/* One line of a caption. */
+typedef struct {
+  char text[48];
+} yars_caption_line;
+
+/* The caption of the tour that runs (docs/tour.md). Without a tour the container has no value. In a live session the
+ * display shows the caption only while a process holds the role `tour`. */
+typedef struct {
+  int64_t sim_time_ns;        /* [ns] [0, 4611686018427387904] when this caption came up */
+  uint32_t step;              /* [0, 1000] number of this caption, from 1; 0 = none */
+  uint32_t steps;             /* [0, 1000] number of captions of the tour */
+  uint32_t waiting;           /* [0, 1] 1: the tour waits for the pilot */
+  uint32_t reserved0;
+  char title[48];             /* name of the tour */
+  yars_caption_line lines[3]; /* unused lines are empty */
+  uint64_t reserved[8];
+} yars_caption;
 
 #endif

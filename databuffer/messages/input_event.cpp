@@ -18,7 +18,7 @@ namespace {
 constexpr double kMaxInjectedError_ft = 600'000.0;
 constexpr double kMaxInjectedDrift_fps = 1'000.0;
 
-constexpr EventKind kLastKind = EventKind::navigator_drift;
+constexpr EventKind kLastKind = EventKind::next;
 
 void inspect_argument(Inspection& inspection, const InputEvent& event, int lower, int upper) {
   inspection.range("argument", event.argument, lower, upper);
@@ -100,6 +100,7 @@ Refusal validate(const InputEvent& event) {
     case EventKind::tdc_release:
     case EventKind::castle_up:
     case EventKind::freeze:
+    case EventKind::next:
       break;
     case EventKind::none:
     default:
@@ -164,6 +165,7 @@ constexpr std::array kForms{
     Form{"altimeter", Operand::word, "fail", EventKind::altimeter, 0},
     Form{"contrast", Operand::word, "up", EventKind::contrast, 1},
     Form{"contrast", Operand::word, "down", EventKind::contrast, -1},
+    Form{"next", Operand::none, "", EventKind::next, 0},
 };
 
 std::string lower_case(std::string_view text) {

@@ -22,7 +22,7 @@ Refusal validate(const InputEvent& event);
 //   pb 13 | tdc 0.5 0 | tdc press | tdc release | coolie up | acq fwd|aft | freeze | elevation -5 |
 //   elevation up|down [STEPS] (0.5 deg each, project choice) | mode ag|aa|agr | radar rbm|hrm|bcn|pvu |
 //   power off|stby|opr | nav mn|ins|toggle | nav error|drift mn|ins NORTH EAST (ft, ft/s) | sp 2.1 |
-//   altimeter ok|fail | contrast up|down
+//   altimeter ok|fail | contrast up|down | next
 // Words are separated by blanks; case is ignored.
 
 // Parses an event. The times and the sequence number of the result are zero. A value out of range is an error, too. The

@@ -28,6 +28,7 @@ constexpr std::array kKeyActions{
     KeyAction{Key::space, EventKind::freeze, 0},
     KeyAction{Key{'['}, EventKind::elevation_step, -1},
     KeyAction{Key{']'}, EventKind::elevation_step, 1},
+    KeyAction{Key{'n'}, EventKind::next, 0},
     KeyAction{Key::f1, EventKind::master_mode, static_cast<int>(radar::Master::air_to_ground)},
     KeyAction{Key::f2, EventKind::master_mode, static_cast<int>(radar::Master::air_to_air)},
     KeyAction{Key::f3, EventKind::master_mode, static_cast<int>(radar::Master::ranging)},

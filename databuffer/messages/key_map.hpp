@@ -6,7 +6,7 @@
 // Keys and their events, in the text form of input_event.hpp:
 //   2..9 a..k: pb 2..20 | arrows: tdc (full deflection while held) | Enter: tdc press, release | Tab: coolie up |
 //   Page Up, Page Down: acq fwd, aft | Space: freeze | [ ]: elevation down, up | F1 F2 F3: mode ag, aa, agr |
-//   F4: nav toggle | Escape: no event, but input-monitor ends.
+//   F4: nav toggle | n: next | Escape: no event, but input-monitor ends.
 // pb: push button; tdc: throttle designator control, which moves the cursor; coolie: castle switch; acq: acquisition
 //   switch, which selects the window; ag, aa, agr: air-to-ground, air-to-air, air-to-ground ranging.
 #pragma once

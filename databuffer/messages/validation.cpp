@@ -79,6 +79,10 @@ Refusal validate(const RecorderStatus& status) {
   return validate_fields(status);
 }
 
+Refusal validate(const Caption& caption) {
+  return validate_fields(caption);
+}
+
 Refusal validate(const PatchMap& map) {
   return validate_fields(map);
 }

@@ -8,6 +8,7 @@
 // ClockState whose reposition latitude is NaN.
 #pragma once
 
+#include "databuffer/messages/caption.hpp"
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/messages/model_records.hpp"
@@ -26,6 +27,7 @@ Refusal validate(const Traffic& traffic);
 Refusal validate(const GlassFrame& frame);
 Refusal validate(const Outputs& outputs);
 Refusal validate(const RadarState& state);
+Refusal validate(const Caption& caption);
 // Records of radar-model.
 Refusal validate(const ModelStatus& status);
 Refusal validate(const Sweep& sweep);

@@ -97,6 +97,7 @@ std::string containers() {
   parts.add("model_status", latest_value<shm::LatestValue<ModelStatus>>("ModelStatus"));
   parts.add("outputs", latest_value<shm::LatestValue<Outputs>>("Outputs"));
   parts.add("recorder_status", latest_value<shm::LatestValue<RecorderStatus>>("RecorderStatus"));
+  parts.add("caption", latest_value<shm::LatestValue<Caption>>("Caption"));
   parts.add("model_ticks", ring<decltype(SessionLayout::model_ticks)>("ModelTick"));
   parts.add("applied_events", ring<decltype(SessionLayout::applied_events)>("AppliedEvent"));
   parts.add("sweeps", ring<decltype(SessionLayout::sweeps)>("Sweep"));
@@ -151,14 +152,15 @@ std::string offsets() {
                     {"traffic", offsetof(SessionLayout, traffic)},
                     {"traffic_latched", offsetof(SessionLayout, traffic_latched)},
                     {"frames", offsetof(SessionLayout, frames)},
-                    {"counters", offsetof(SessionLayout, counters)}});
+                    {"counters", offsetof(SessionLayout, counters)},
+                    {"caption", offsetof(SessionLayout, caption)}});
 }
 
 std::string lock_bytes() {
   ObjectText object;
   object.add("participation", std::size_t{0});
-  for (const Role role :
-       {Role::radar_model, Role::state_machine, Role::recorder, Role::clock, Role::traffic, Role::glass_frames})
+  for (const Role role : {Role::radar_model, Role::state_machine, Role::recorder, Role::clock, Role::traffic,
+                          Role::glass_frames, Role::tour})
     object.add(name_of(role), static_cast<std::size_t>(role));
   object.add("first_ownship_lane", kFirstOwnshipByte);
   object.add("first_input_lane", kFirstInputByte);

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "databuffer/messages/caption.hpp"
 #include "databuffer/messages/model_records.hpp"
 #include "databuffer/messages/note.hpp"
 #include "databuffer/messages/pictures.hpp"
@@ -104,6 +105,12 @@ struct FrameSlot {
   std::array<std::atomic<std::uint64_t>, kMaxFramePixels * kMaxFramePixels * 4 / 8> pixels;  // RGBA
 };
 
+// [bytes] Part of the reserve that containers occupy: Counters, padding to a cache line, the caption.
+inline constexpr std::size_t kUsedSpareBytes = (sizeof(Counters) + alignof(shm::LatestValue<Caption>) - 1) /
+                                                   alignof(shm::LatestValue<Caption>) *
+                                                   alignof(shm::LatestValue<Caption>) +
+                                               sizeof(shm::LatestValue<Caption>);
+
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is the layout, and cache lines need the padding
 struct SessionLayout {
   shm::SegmentHeader header;
@@ -128,7 +135,8 @@ struct SessionLayout {
   shm::BroadcastRing<Traffic, 64> traffic_latched;  // copies that radar-model latched; the recorder reads them
   std::array<FrameSlot, kFrameSlots> frames;
   Counters counters;
-  std::array<std::atomic<std::uint64_t>, (kSpareBytes - sizeof(Counters)) / 8> spare;
+  shm::LatestValue<Caption> caption;  // written by the holder of the role `tour`
+  std::array<std::atomic<std::uint64_t>, (kSpareBytes - kUsedSpareBytes) / 8> spare;
 };
 
 // Identity that a segment must have: layout version, size, and a hash over name, version and size of each record.

@@ -46,6 +46,8 @@ std::string_view name_of(Role role) {
       return "traffic";
     case Role::glass_frames:
       return "glass frames";
+    case Role::tour:
+      return "tour";
   }
   return "unknown role";
 }

@@ -26,7 +26,8 @@ enum class Role : std::uint8_t {
   recorder = 3,
   clock = 4,
   traffic = 5,
-  glass_frames = 6
+  glass_frames = 6,
+  tour = 7
 };
 std::string_view name_of(Role role);
 

@@ -37,6 +37,7 @@ void SessionFeed::refresh(std::int64_t sim_time_ns) {
   take_state();
   take_maps();
   take_model(sim_time_ns);
+  take_caption();
   take_sweeps();
 }
 
@@ -44,6 +45,7 @@ void SessionFeed::take_health() {
   if (lockstep_) {
     input_.state_machine_alive = takes_part(session_->layout(), databuffer::LockstepRole::state_machine);
     input_.model_alive = takes_part(session_->layout(), databuffer::LockstepRole::radar_model);
+    tour_runs_ = true;
     return;
   }
   const std::int64_t now_ns = databuffer::monotonic_ns();
@@ -57,6 +59,14 @@ void SessionFeed::take_health() {
   };
   input_.state_machine_alive = is_alive(databuffer::Role::state_machine);
   input_.model_alive = is_alive(databuffer::Role::radar_model);
+  tour_runs_ = session_->role_is_held(databuffer::Role::tour);
+}
+
+// A tour that was killed leaves its caption in the segment.
+void SessionFeed::take_caption() {
+  const auto& slot = session_->layout().caption;
+  caption_.refresh(slot, *session_, "display: caption");
+  input_.caption = tour_runs_ && slot.has_value() ? caption_.value() : databuffer::Caption{};
 }
 
 void SessionFeed::take_state() {

@@ -44,6 +44,7 @@ class SessionFeed {
   void take_model(std::int64_t sim_time_ns);
   void take_status();
   void take_health();
+  void take_caption();
 
   databuffer::Session* session_;
   bool lockstep_;
@@ -58,6 +59,8 @@ class SessionFeed {
   databuffer::WantedMaps wanted_maps_{*session_, "display: patch map"};
   databuffer::Validated<databuffer::RadarState> state_;
   databuffer::Validated<databuffer::ModelStatus> status_;
+  databuffer::Validated<databuffer::Caption> caption_;
+  bool tour_runs_ = false;           // a process holds the role `tour`; always true in lockstep
   std::int64_t next_health_ns_ = 0;  // CLOCK_MONOTONIC time of the next reading of the process table
 };
 

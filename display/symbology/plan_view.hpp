@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "databuffer/messages/caption.hpp"
 #include "databuffer/messages/model_records.hpp"
 #include "databuffer/messages/pictures.hpp"
 #include "databuffer/messages/radar_state.hpp"
@@ -31,6 +32,7 @@ struct DisplayInput {
   databuffer::Ownship ownship{};  // true position and motion
   databuffer::Nav nav{};          // navigation data of the same time
   databuffer::PatchMap map{};     // map with the id state.map_shown; another id: that map could not be read
+  databuffer::Caption caption{};  // of the tour that runs; step 0: none
   bool state_machine_alive = true;
   bool model_alive = true;
   bool ownship_fresh = true;  // a source still delivers the position and motion of the aircraft

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "databuffer/messages/derived_values.hpp"
+#include "display/symbology/caption.hpp"
 #include "display/symbology/ground_symbols.hpp"
 #include "display/symbology/plan_view.hpp"
 #include "display/symbology/radar_video.hpp"
@@ -352,10 +353,12 @@ bool shows_map(const DisplayInput& input) {
          input.map.id == state.map_shown;
 }
 
-void draw_symbology(const DisplayInput& input, const SymbologyParameters& parameters, const PlanView& view,
-                    const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
+namespace {
+
+// Everything that power and mode require.
+void draw_radar(const DisplayInput& input, const SymbologyParameters& parameters, const PlanView& view,
+                const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
   const databuffer::RadarState& state = input.state;
-  list.clear();
   if (has_power(state, radar::Power::off)) {
     // With power OFF the display is dark. A session that never had a state machine has power OFF, too. Therefore a
     // missing state machine is reported even with power OFF.
@@ -373,6 +376,15 @@ void draw_symbology(const DisplayInput& input, const SymbologyParameters& parame
   } else {
     draw_format(input, format_of(state), parameters, view, frame, labels, list);
   }
+}
+
+}  // namespace
+
+void draw_symbology(const DisplayInput& input, const SymbologyParameters& parameters, const PlanView& view,
+                    const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
+  list.clear();
+  draw_radar(input, parameters, view, frame, labels, list);
+  draw_caption(input.caption, list);
 }
 
 }  // namespace yars::display

@@ -47,6 +47,12 @@ Expected<void> run(const databuffer::ProgramOptions& options, const std::vector<
   if (!session) return tl::unexpected(session.error());
   auto lane = session->claim_input_lane("input-monitor");
   if (!lane) return tl::unexpected(lane.error());
+  std::optional<databuffer::Claim> tour;
+  if ((*source)->has_captions()) {
+    auto claim = session->claim(databuffer::Role::tour);
+    if (!claim) return tl::unexpected(error::usage_error(claim.error()));
+    tour = std::move(*claim);
+  }
   auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::input_monitor, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   log::info("reads " + (*source)->description());
@@ -64,8 +70,10 @@ int main(int argc, char** argv) {
   std::string learn_path;
   std::string map_file;
   databuffer::add_common_options(app, options, true);
-  app.option("--source", sources,
-             "window, terminal, script:FILE, evdev:PATH[,MAP] or auto (default); may be given several times")
+  app.option(
+         "--source", sources,
+         "window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto (default); may be given several "
+         "times")
       .repeatable();
   const databuffer::Option learn = app.option(
       "--learn", learn_path, "path of a device: prompts for its controls and makes a device map; needs no session");

@@ -4,12 +4,14 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <utility>
 
 #include "config/schema/slot_text.hpp"
 #include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/process.hpp"
 #include "inputmonitor/device_decoder.hpp"
 #include "inputmonitor/device_source.hpp"
@@ -26,7 +28,10 @@ constexpr int kMaxWait_ms = 200;  // maximum delay of a stop request and maximum
 }  // namespace
 
 InputMonitorShell::InputMonitorShell(databuffer::Session& session, std::unique_ptr<EventSource> source, int lane)
-    : session_(&session), source_(std::move(source)), lane_(static_cast<std::size_t>(lane)) {}
+    : session_(&session),
+      source_(std::move(source)),
+      lane_(static_cast<std::size_t>(lane)),
+      applied_cursor_(session.layout().applied_events.next()) {}
 
 void InputMonitorShell::run(databuffer::TickLoop& loop) {
   if (loop.lockstep() || source_->follows_sim_time())
@@ -34,12 +39,15 @@ void InputMonitorShell::run(databuffer::TickLoop& loop) {
   else
     run_by_input();
   push(source_->release(), {databuffer::monotonic_ns(), session_->sim_time_ns()});
+  if (caption_shown_) session_->layout().caption.clear();
 }
 
 void InputMonitorShell::run_by_ticks(databuffer::TickLoop& loop) {
   while (const auto due = loop.wait()) {
     const Moment moment{databuffer::monotonic_ns(), due->sim_time_ns};
+    if (source_->has_captions()) observe();
     if (!source_->ended()) push(source_->take(moment), moment);
+    if (source_->has_captions()) publish_caption();
     report_notices();
     loop.done(*due);
     if (source_->ended() && !loop.lockstep()) return;
@@ -55,6 +63,30 @@ void InputMonitorShell::run_by_input() {
     push(source_->take(moment), moment);
     report_notices();
   }
+}
+
+void InputMonitorShell::observe() {
+  const auto& ring = std::as_const(*session_).layout().applied_events;
+  std::vector<SeenEvent> seen;
+  databuffer::AppliedEvent applied{};
+  while (ring.read(applied_cursor_, applied).delivered) {
+    if (databuffer::validate(applied.event)) continue;
+    seen.push_back({applied.event, applied.effective == databuffer::kEventDone, applied.lane == lane_});
+  }
+  source_->observe(seen);
+}
+
+void InputMonitorShell::publish_caption() {
+  const databuffer::Caption* caption = source_->caption();
+  auto& slot = session_->layout().caption;
+  if (caption == nullptr) {
+    if (caption_shown_) slot.clear();
+    caption_shown_.reset();
+    return;
+  }
+  if (caption_shown_ && std::memcmp(&*caption_shown_, caption, sizeof *caption) == 0) return;
+  slot.publish(*caption);
+  caption_shown_ = *caption;
 }
 
 void InputMonitorShell::report_notices() {

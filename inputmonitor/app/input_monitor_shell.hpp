@@ -1,7 +1,7 @@
 // Shells of input-monitor. One feeds events into a session. The other (--learn) makes a device map, which assigns
 // events to the controls of a device.
 // Inputs: an EventSource; for --learn, a device and the commands on standard input.
-// Outputs: events in an input lane; for --learn, a device map as GUF text.
+// Outputs: events in an input lane; the caption of a tour; for --learn, a device map as GUF text.
 // Time stamps: an event in the lane has the sim time [ns] and the CLOCK_MONOTONIC time [ns] at which it was taken from
 // its source, and a sequence number.
 // Errors: an event for a full lane is dropped. The drop is written to the log and to the session's flight recorder.
@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,12 +34,18 @@ class InputMonitorShell {
   void run_by_ticks(databuffer::TickLoop& loop);
   void run_by_input();
   void report_notices();
+  // Hands the source what the state machine has applied, and publishes the source's caption. Only for a source with
+  // captions.
+  void observe();
+  void publish_caption();
   void push(const std::vector<databuffer::InputEvent>& events, const Moment& moment);
 
   databuffer::Session* session_;
   std::unique_ptr<EventSource> source_;
   std::size_t lane_;
   std::uint32_t number_ = 0;
+  std::uint64_t applied_cursor_ = 0;                  // applied event to read next
+  std::optional<databuffer::Caption> caption_shown_;  // caption in the segment; nullopt: none
 };
 
 // `input-monitor --learn PATH [--out FILE]`: prompts for each control, reads the device and writes its map as GUF.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -27,6 +28,9 @@ std::size_t lit_pixels(const std::filesystem::path& path) {
 namespace {
 
 constexpr int kFrameEvery_s = 2;
+constexpr double kTimeout_s = 240.0;
+constexpr std::array kRoles{"flight-model", "input-monitor", "state-machine",
+                            "radar-model",  "radar-display", "recorder"};
 
 std::string bytes_of(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -53,10 +57,28 @@ LockstepRun::LockstepRun(const std::string& name, const std::vector<ScriptedStep
                          const Place& place)
     : set_(name), recording_(set_.folder() / "run.yars") {
   const int seconds = write_script(set_.folder() / "script", steps);
+  start("script:" + (set_.folder() / "script").string(), seconds, source, place);
+  wait();
+}
+
+LockstepRun::LockstepRun(const std::string& name, const std::string& input, int seconds, const std::string& source,
+                         const Place& place, const std::function<void(const ProcessSet&)>& meanwhile)
+    : set_(name), recording_(set_.folder() / "run.yars") {
+  start(input, seconds, source, place);
+  eventually(
+      [&] {
+        meanwhile(set_);
+        return std::ranges::none_of(kRoles, [this](const char* role) { return set_.runs(role); });
+      },
+      kTimeout_s);
+  wait();
+}
+
+void LockstepRun::start(const std::string& input, int seconds, const std::string& source, const Place& place) {
   const std::string plan =
       "flight-model,input-monitor,state-machine,radar-model,radar-display,recorder@" + std::to_string(seconds * 200);
   std::filesystem::create_directories(frames());
-  const auto start = [&](const std::string& role, std::vector<std::string> arguments) {
+  const auto start_role = [&](const std::string& role, std::vector<std::string> arguments) {
     if (!place.configuration.empty()) arguments.insert(arguments.begin() + 1, {"--config", place.configuration});
     arguments.insert(arguments.end(), {"--lockstep", plan});
     set_.start(role, arguments);
@@ -66,16 +88,17 @@ LockstepRun::LockstepRun(const std::string& name, const std::vector<ScriptedStep
   std::vector<std::string> recorder{"yars", "record", "--patches", recording_.string()}, model{"radar-model"};
   recorder.insert(recorder.end(), terrain.begin(), terrain.end());
   model.insert(model.end(), terrain.begin(), terrain.end());
-  start("recorder", recorder);
-  start("flight-model", {"flight-model", "--source", source});
-  start("input-monitor", {"input-monitor", "--source", "script:" + (set_.folder() / "script").string()});
-  start("state-machine", {"state-machine"});
-  start("radar-model", model);
-  start("radar-display",
-        {"radar-display", "--headless", "--frames", frames().string(), "--every", std::to_string(kFrameEvery_s)});
-  for (const auto* role :
-       {"flight-model", "input-monitor", "state-machine", "radar-model", "radar-display", "recorder"})
-    EXPECT_EQ(set_.wait(role, 240.0), 0) << role << ": " << set_.log_of(role);
+  start_role("recorder", recorder);
+  start_role("flight-model", {"flight-model", "--source", source});
+  start_role("input-monitor", {"input-monitor", "--source", input});
+  start_role("state-machine", {"state-machine"});
+  start_role("radar-model", model);
+  start_role("radar-display",
+             {"radar-display", "--headless", "--frames", frames().string(), "--every", std::to_string(kFrameEvery_s)});
+}
+
+void LockstepRun::wait() {
+  for (const char* role : kRoles) EXPECT_EQ(set_.wait(role, kTimeout_s), 0) << role << ": " << set_.log_of(role);
 }
 
 std::filesystem::path LockstepRun::frame(int time_s) const {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -39,6 +40,9 @@ class LockstepRun {
  public:
   LockstepRun(const std::string& name, const std::vector<ScriptedStep>& steps, const std::string& source,
               const Place& place = {});
+  // `input`: source of input-monitor, such as "tour:FILE". `meanwhile` is called again and again while the set runs.
+  LockstepRun(const std::string& name, const std::string& input, int seconds, const std::string& source,
+              const Place& place, const std::function<void(const ProcessSet&)>& meanwhile);
 
   const std::filesystem::path& recording() const { return recording_; }
   std::filesystem::path frames() const { return set_.folder() / "frames"; }
@@ -55,6 +59,9 @@ class LockstepRun {
   std::vector<nlohmann::json> printed() const;
 
  private:
+  void start(const std::string& input, int seconds, const std::string& source, const Place& place);
+  void wait();
+
   ProcessSet set_;
   std::filesystem::path recording_;
 };

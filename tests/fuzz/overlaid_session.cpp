@@ -108,6 +108,8 @@ OverlaidSession::Records OverlaidSession::well_formed() {
   records.frame.width = records.frame.height = 32;
   std::strcpy(records.note.process, "radar-model");
   std::strcpy(records.note.text, "resumes");
+  records.caption.step = records.caption.steps = 1;
+  std::strcpy(records.caption.lines[0].text, "Range down: key E");
   return records;
 }
 
@@ -138,6 +140,7 @@ std::vector<OverlaidSession::Part> OverlaidSession::parts() {
   add(whole.traffic_latched);
   for (const auto& slot : whole.frames) add(slot);
   add(whole.counters);
+  add(whole.caption);
   return parts;
 }
 
@@ -151,7 +154,7 @@ void OverlaidSession::lay_raw(std::size_t what, std::size_t offset, std::span<co
 
 void OverlaidSession::publish(std::size_t what, std::size_t offset, std::span<const std::uint8_t> bytes) {
   SessionLayout& to = layout();
-  constexpr std::size_t kKinds = 15;
+  constexpr std::size_t kKinds = 16;
   const std::size_t lane = what / kKinds % kOwnshipLanes;
   const auto with = [&](auto& record) -> auto& {
     lay(record, offset, bytes);
@@ -200,9 +203,11 @@ void OverlaidSession::publish(std::size_t what, std::size_t offset, std::span<co
       publish_frame(to, with(records_.frame), pixels);
       break;
     }
-    default:
+    case 14:
       to.notes.append(with(records_.note));
       break;
+    default:
+      return to.caption.publish(with(records_.caption));
   }
 }
 

@@ -53,6 +53,7 @@ class OverlaidSession {
     databuffer::PatchMap map;
     databuffer::GlassFrame frame;
     databuffer::Note note;
+    databuffer::Caption caption;
   };
   static Records well_formed();
   std::byte* memory() { return reinterpret_cast<std::byte*>(&session_.layout()); }

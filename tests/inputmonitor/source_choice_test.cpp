@@ -18,14 +18,23 @@ TEST(SourceChoice, EachKindIsParsed) {
   const auto script = parse_source("script:a:b.script");
   EXPECT_EQ(script->kind, SourceKind::script);
   EXPECT_EQ(script->file, "a:b.script");
+  const auto tour = parse_source("tour:a,b.tour");
+  EXPECT_EQ(tour->kind, SourceKind::tour);
+  EXPECT_EQ(tour->file, "a,b.tour");
+  EXPECT_FALSE(tour->for_pilot);
+  const auto waiting = parse_source("tour:a,b.tour,pilot");
+  EXPECT_EQ(waiting->file, "a,b.tour");
+  EXPECT_TRUE(waiting->for_pilot);
 }
 
 TEST(SourceChoice, AnythingElseIsBadUsage) {
-  for (const char* text : {"", "script", "script:", "keyboard", "evdev", "evdev:", "evdev:,map"}) {
+  for (const char* text :
+       {"", "script", "script:", "tour:", "tour:,pilot", "keyboard", "evdev", "evdev:", "evdev:,map"}) {
     const auto choice = parse_source(text);
     ASSERT_FALSE(choice) << text;
     EXPECT_TRUE(choice.error().bad_usage);
-    EXPECT_THAT(choice.error().message(), HasSubstr("window, terminal, script:FILE, evdev:PATH[,MAP] or auto"));
+    EXPECT_THAT(choice.error().message(),
+                HasSubstr("window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto"));
   }
 }
 

@@ -57,6 +57,8 @@ def check(prefix, elsewhere):
     expect("the licence", (share / "doc/yars/copyright").is_file())
     expect("the configurations' includes", {file.name for file in (share / "yars/config").glob("*.guf")} >= {
         "apg70.guf", "apg70nd.guf", "apg70d.guf", "apg68.guf"})
+    expect("what yars-start makes and plays", (share / "yars/config/coast.scenes").is_file() and
+           {file.name for file in (share / "yars/config/tours").glob("*.tour")} >= {"radar.tour", "second_radar.tour"})
     expect("no sources among the configurations", not list((share / "yars").rglob("*.?pp")))
     other_radar = run(prefix / "bin/yars", "--config", "apg68.guf", "config", "print", folder=elsewhere)
     expect("a configuration by its bare name", '"APG-68"' in other_radar.stdout, other_radar.stderr)

@@ -2,7 +2,8 @@
 """The default terrain of scripts/start is whole or made again, whoever starts at once and whoever is stopped.
 
 usage: terrain_cache_test.py
-The script runs as it is installed, with programs that stand in for the real ones: `yars` makes 14 small cells, slowly.
+The script runs as it is installed, with programs that stand in for the real ones: `yars` makes 14 small cells, slowly,
+and scenes.
 """
 import os
 import pathlib
@@ -16,6 +17,12 @@ import time
 
 HOME = pathlib.Path(__file__).resolve().parents[2]
 YARS = """#!/bin/bash
+if [ "$1 $2" = "scene generate" ]; then
+  [ -z "$YARS_TEST_NO_SCENES" ] || { echo "no scene today" >&2; exit 1; }
+  out="${@: -1}"
+  echo "$@" >"$out"
+  exit
+fi
 [ "$1 $2" = "terrain generate" ] || exit 1
 echo started >>"$YARS_TEST_COUNT"
 mkdir -p "$4/w122"
@@ -37,10 +44,13 @@ class Place:
             path.write_text(text)
             path.chmod(0o755)
         shutil.copy(HOME / "scripts/start", self.folder / "bin/yars-start")
+        self.scene_list = self.folder / "share/yars/config/coast.scenes"
+        self.scene_list.parent.mkdir(parents=True)
+        shutil.copy(HOME / "config/coast.scenes", self.scene_list)
 
-    def start(self, pause="0"):
+    def start(self, pause="0", no_scenes=""):
         environment = dict(os.environ, XDG_CACHE_HOME=str(self.folder / "cache"), YARS_TEST_COUNT=str(self.count),
-                           YARS_TEST_PAUSE=pause)
+                           YARS_TEST_PAUSE=pause, YARS_TEST_NO_SCENES=no_scenes)
         return subprocess.Popen([self.folder / "bin/yars-start", "--headless", "1", "--log-dir", "", "--frames",
                                  str(self.folder / "frames")], env=environment, stdout=subprocess.PIPE,
                                 stderr=subprocess.STDOUT, text=True, start_new_session=True)
@@ -57,6 +67,9 @@ class Place:
     def check_whole(self):
         cells = sorted(self.terrain.glob("w122/*.dt1"))
         assert len(cells) == 14, cells
+        scenes = sorted(self.terrain.glob("scenes/*.flt"))
+        assert len(scenes) >= 3, scenes
+        assert "--kind airfield --triangles 60000 --origin 38.108333,-121.316667,20 --out" in scenes[1].read_text(), scenes
         left = sorted(path.name for path in self.terrain.parent.iterdir())
         assert left == ["terrain", "terrain.lock"], left
 
@@ -116,7 +129,9 @@ def what_is_broken_is_made_again(place):
     (place.terrain / "complete").write_text(generator + "\n")
     place.run()
     place.check_whole()
-    breaks = [lambda cell: cell.write_text("cell"), lambda cell: cell.write_text("cell x"), lambda cell: cell.unlink(),
+    breaks = [lambda cell: (place.terrain / "scenes/harbour.flt").unlink(),
+              lambda cell: place.scene_list.write_text(place.scene_list.read_text() + "# another list\n"),
+              lambda cell: cell.write_text("cell"), lambda cell: cell.write_text("cell x"), lambda cell: cell.unlink(),
               lambda cell: (place.terrain / "w122/n99.dt1").write_text("no cell of its own")]
     for number, damage in enumerate(breaks):
         damage(place.terrain / "w122/n3.dt1")
@@ -125,17 +140,27 @@ def what_is_broken_is_made_again(place):
         assert place.made() == 3 + number, place.made()
 
 
+def without_its_scenes_there_is_no_terrain(place):
+    process = place.start(no_scenes="yes")
+    text = process.communicate(timeout=WATCHDOG_S)[0]
+    assert process.returncode == 1 and "no scene today" in text and "terrain generation failed" in text, text
+    assert not place.terrain.exists()
+    place.run()
+    place.check_whole()
+
+
 def sources_of_the_generator_are_there(_):
     """A checkout's start sums the sources of the generator. Each that it names exists."""
     sources = re.search(r'generator_sources="([^"]+)"', (HOME / "scripts/start").read_text())[1].split()
-    assert "worldgen/terrain" in sources, sources
+    assert "worldgen" in sources and "config/coast.scenes" in sources, sources
     for source in sources:
-        assert (HOME / source).is_file() or list((HOME / source).glob("*.cpp")), source
+        assert (HOME / source).is_file() or list((HOME / source).rglob("*.cpp")), source
 
 
 def main():
     for test in (is_made_once, sources_of_the_generator_are_there, two_at_once_make_it_once, two_at_once_and_the_maker_is_stopped,
-                 a_killed_maker_leaves_nothing_that_is_used, what_is_broken_is_made_again):
+                 a_killed_maker_leaves_nothing_that_is_used, what_is_broken_is_made_again,
+                 without_its_scenes_there_is_no_terrain):
         with tempfile.TemporaryDirectory() as folder:
             test(Place(folder))
         print(f"{test.__name__}: ok", flush=True)

@@ -27,7 +27,8 @@ same("SIZE", yars.SIZE, layout["size"])
 same("HASH", f"{yars.HASH:016x}", layout["hash"])
 for name, key in [("AT_CLOCK", "clock"), ("AT_OWNSHIP_PRIORITY", "ownship_priority"), ("AT_OWNSHIP", "ownship"),
                   ("AT_NAV", "nav"), ("AT_OUTPUTS", "outputs"), ("AT_RADAR_STATE", "radar_state"),
-                  ("AT_SWEEPS", "sweeps"), ("AT_INPUT", "input"), ("AT_PROCESSES", "processes"), ("AT_FRAMES", "frames")]:
+                  ("AT_SWEEPS", "sweeps"), ("AT_INPUT", "input"), ("AT_PROCESSES", "processes"), ("AT_FRAMES", "frames"),
+                  ("AT_CAPTION", "caption")]:
     same(name, getattr(yars, name), layout["offsets"][key])
 locks, parts = layout["lock_bytes"], layout["containers"]
 same("FIRST_OWNSHIP_BYTE", yars.FIRST_OWNSHIP_BYTE, locks["first_ownship_lane"])
@@ -35,6 +36,7 @@ same("FIRST_INPUT_BYTE", yars.FIRST_INPUT_BYTE, locks["first_input_lane"])
 same("FIRST_PROCESS_BYTE", yars.FIRST_PROCESS_BYTE, locks["first_process"])
 same("RADAR_MODEL_BYTE", yars.RADAR_MODEL_BYTE, locks["radar-model"])
 same("STATE_MACHINE_BYTE", yars.STATE_MACHINE_BYTE, locks["state-machine"])
+same("TOUR_BYTE", yars.TOUR_BYTE, locks["tour"])
 same("SWEEPS", (yars.LINE, yars.SWEEPS, yars.SWEEP_STRIDE, 0, 8, 16),
      tuple(parts["sweeps"][key] for key in ("slots", "slot_count", "slot_stride", "slot_sequence", "slot_used_words",
                                             "slot_words")))
@@ -52,7 +54,8 @@ for name, fields in [("ownship", yars.OWNSHIP), ("nav", yars.NAV), ("clock", yar
          tuple(parts[name][key] for key in ("slots", "slot_count", "slot_stride", "stride")))
 for record, fields in [("ClockState", yars.CLOCK), ("Ownship", yars.OWNSHIP), ("Nav", yars.NAV),
                        ("InputEvent", yars.INPUT_EVENT), ("Outputs", yars.OUTPUTS), ("Mark", yars.MARK),
-                       ("GlassFrame", yars.GLASS_FRAME), ("Sweep", yars.SWEEP)]:
+                       ("GlassFrame", yars.GLASS_FRAME), ("Sweep", yars.SWEEP), ("Caption", yars.CAPTION),
+                       ("CaptionLine", yars.CAPTION_LINE)]:
     expected, at = layout["records"][record], 0
     for name, code in fields:
         if not name.startswith("_"):
@@ -144,6 +147,24 @@ def what_cannot_be_done_is_an_error(session):
     same("radar altitude is NaN", own["radar_altitude_m"] != own["radar_altitude_m"], True)
 
 
+def a_caption_is_there_while_its_tour_runs(session):
+    lines = b"Range down: key E.".ljust(48, b"\0") + b"Then once more.".ljust(48, b"\0") + bytes(48)
+    record = struct.pack(yars.code_of(yars.CAPTION), *({"step": 3, "steps": 27, "waiting": 1, "title": b"A tour", "lines": lines}.get(
+        name, b"" if code.endswith("s") else 0) for name, code in yars.CAPTION))
+    # The protocol of a first value: version 1 in slot 1, then the state word.
+    slot = yars.AT_CAPTION + yars.LINE + yars.slot_stride(yars.CAPTION)
+    session.memory[slot:slot + 16 + len(record)] = struct.pack("<QQ", 2, 1) + record
+    session.memory[yars.AT_CAPTION:yars.AT_CAPTION + 8] = struct.pack("<Q", 3)
+    same("caption without a tour", session.caption(), None)
+    tour = os.open(session.path, os.O_RDWR)
+    fcntl.fcntl(tour, fcntl.F_OFD_SETLK, struct.pack("@hhqqi0q", fcntl.F_WRLCK, os.SEEK_SET, yars.TOUR_BYTE, 1, 0))
+    found = session.caption() or {}
+    same("caption", [found.get(name) for name in ("title", "step", "steps", "waiting", "lines")],
+         ["A tour", 3, 27, 1, ["Range down: key E.", "Then once more."]])
+    os.close(tour)
+    same("caption after the tour", session.caption(), None)
+
+
 def sweeps_come_once_and_the_lost_are_counted(session, made_up):
     same("sweeps at first", session.sweeps(), [])
     made_up.publish_sweep(0, 5)
@@ -180,6 +201,7 @@ def a_name_leads_nowhere_else():
 a_name_leads_nowhere_else()
 with MadeUpSession() as made_up, yars.Session(made_up.name, "yars_py_test") as session:
     what_cannot_be_done_is_an_error(session)
+    a_caption_is_there_while_its_tour_runs(session)
     sweeps_come_once_and_the_lost_are_counted(session, made_up)
     a_set_runs_while_a_role_is_held(session, made_up)
 print("\n".join(faults) or "yars.py: as the layout")

@@ -268,6 +268,17 @@ TEST_F(Rules, ARestartedStateMachineContinuesFromTheState) {
   EXPECT_EQ(fields_of(successor).at("freeze"), "true");
 }
 
+TEST_F(Rules, NextIsForATourAndChangesNothingInAnyPower) {
+  for (const char* power : {"power off", "power stby", "power opr"}) {
+    pilot.send(power);
+    const databuffer::RadarState before = pilot.state;
+    const auto next = databuffer::event_from_text("next");
+    ASSERT_TRUE(next);
+    EXPECT_EQ(apply(pilot.state, *next, pilot.around, pilot.configuration), Effect::done) << power;
+    EXPECT_EQ(std::memcmp(&pilot.state, &before, sizeof before), 0) << power;
+  }
+}
+
 TEST_F(Rules, EventsWithInvalidNumbersAreDead) {
   using databuffer::EventKind;
   databuffer::InputEvent event{};

@@ -69,6 +69,7 @@ TEST(SceneBuilder, RotatesInstancesLikeOtherFaces) {
 TEST(Generator, GivesEveryFaceAMaterialAndStaysWithinTheExtentOfItsHeader) {
   for (const worldgen::GeneratedKind kind : kKinds) {
     const Model model = model_of({.kind = kind, .triangles = 30'000, .seed = 2, .origin = kOrigin});
+    EXPECT_TRUE(model.warnings.empty()) << model.warnings.front();
     for (const SurfaceKind& surface : model.kinds) EXPECT_NE(surface.material, 0);
     ASSERT_TRUE(model.header.south_west && model.header.north_east && model.header.origin);
     const double reach_m = geo::geodesic_inverse(*model.header.origin, *model.header.north_east).distance.metres();
@@ -85,6 +86,32 @@ TEST(Generator, MakesAnAirfieldOfHangarsRunwayTanksAircraftFencesAndRevetments) 
                            "tanker", "fence", "embankment", "revetment"})
     EXPECT_GT(names[name], 0) << name;
   EXPECT_EQ(names["fighter_far"], 0);
+}
+
+// Farthest corner of an object from the origin, as a true bearing [deg].
+double bearing_of_farthest(const Model& model, const std::string& name) {
+  Vector3 farthest;
+  for (const ModelTriangle& triangle : model.triangles)
+    for (const std::uint32_t corner : triangle.corners)
+      if (model.objects[triangle.object] == name && length(position_of(model, corner)) > length(farthest))
+        farthest = position_of(model, corner);
+  return std::atan2(farthest.x, farthest.y) * 180.0 / M_PI;
+}
+
+TEST(Generator, TurnsEachKindToTheRequestedHeading) {
+  // Half the runway's width of 45 m at its end, 1250 m away, is 1 degree.
+  const Model airfield = model_of({.origin = kOrigin, .heading_deg = 20.0});
+  EXPECT_NEAR(std::fmod(bearing_of_farthest(airfield, "runway") + 360.0, 180.0), 110.0, 1.1);
+  for (const auto& [kind, name] :
+       {std::pair{worldgen::GeneratedKind::harbour, "quay"}, std::pair{worldgen::GeneratedKind::bridge, "bridge"}}) {
+    const double straight = bearing_of_farthest(model_of({.kind = kind, .origin = kOrigin}), name);
+    const double turned = bearing_of_farthest(model_of({.kind = kind, .origin = kOrigin, .heading_deg = 30.0}), name);
+    EXPECT_NEAR(std::remainder(turned - straight - 30.0, 360.0), 0.0, 0.01) << name;
+  }
+  const worldgen::SceneRequest town{.kind = worldgen::GeneratedKind::town, .origin = kOrigin, .heading_deg = 0.0};
+  worldgen::SceneRequest east = town;
+  east.heading_deg = 90.0;
+  EXPECT_NE(worldgen::generate_scene(town).file, worldgen::generate_scene(east).file);
 }
 
 TEST(Generator, MakesATownOfAMillionTrianglesInLessThan16Mebibytes) {

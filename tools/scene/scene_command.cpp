@@ -188,11 +188,14 @@ void generate(const GenerateOptions& options) {
   check_file_name("--out", options.out, {".flt"});
   worldgen::SceneRequest order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
   order.kind = *worldgen::generated_kind(options.kind);
-  // parse_scene() reads FILE@LAT,LON. The option's name stands for the file, because only the position is used.
+  // parse_scene() reads FILE@LAT,LON,HDG. The option's name stands for the file.
   const auto parsed = parse_scene("--origin@" + options.origin);
   if (!parsed)
-    throw CommandFailed{"--origin: expected LATITUDE,LONGITUDE in degrees, found '" + options.origin + "'", 2};
+    throw CommandFailed{"--origin: expected LATITUDE,LONGITUDE or LATITUDE,LONGITUDE,HEADING in degrees, found '" +
+                            options.origin + "'",
+                        2};
   order.origin = parsed->position;
+  if (std::ranges::count(options.origin, ',') == 2) order.heading_deg = parsed->heading_deg;
   constexpr std::uint64_t kStep = 10'000;  // triangles per progress report
   Progress progress(options.triangles / kStep + 1, stderr);
   const worldgen::GeneratedScene made = worldgen::generate_scene(
@@ -215,7 +218,10 @@ void add_scene_generate(databuffer::Command scene) {
       .range(std::uint64_t{1}, worldgen::kMaxGenerated)
       .show_default();
   command.option("--seed", options->seed, "seed; each seed gives another scene").show_default();
-  command.option("--origin", options->origin, "LAT,LON [deg] of the centre of the scene").required();
+  command
+      .option("--origin", options->origin,
+              "LAT,LON or LAT,LON,HDG [deg]: centre of the scene, true bearing of its north (else by the seed)")
+      .required();
   command.option("--out", options->out, "OpenFlight file").required();
   command.callback([options] { generate(*options); });
 }

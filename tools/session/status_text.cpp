@@ -107,6 +107,14 @@ void print_frames(const ordered_json& frames) {
               frames["height"].get<unsigned>());
 }
 
+void print_tour(const ordered_json& caption) {
+  if (caption.is_null()) return;
+  std::string words;
+  for (const auto& line : caption["lines"]) words += (words.empty() ? "" : " ") + text(line);
+  std::printf("tour: step %u of %u%s: %s\n", caption["step"].get<unsigned>(), caption["steps"].get<unsigned>(),
+              caption["waiting"].get<bool>() ? ", waits for the pilot (key n goes on)" : "", words.c_str());
+}
+
 void print_traffic(const ordered_json& traffic) {
   if (traffic.is_null()) return;
   std::printf("traffic: pid %d reports %u ships and vehicles\n", traffic["holder"].get<int>(),
@@ -138,6 +146,7 @@ void print_status(const ordered_json& status, const std::map<int, double>& loads
   print_radar(status);
   print_frames(status["glass_frames"]);
   print_traffic(status["traffic"]);
+  print_tour(status["watch"]["caption"]);
   print_notes(status);
 }
 

@@ -207,6 +207,20 @@ void add_legends(ordered_json& object, const RadarState& state) {
   object["boxed"] = boxed;
 }
 
+// Caption of the tour that runs; null without one.
+ordered_json caption_json(const databuffer::Session& session) {
+  const auto caption = databuffer::read_valid(session.layout().caption);
+  if (!caption || caption->step == 0 || !session.role_is_held(databuffer::Role::tour)) return nullptr;
+  ordered_json lines = ordered_json::array();
+  for (const databuffer::CaptionLine& line : caption->lines)
+    if (line.text[0] != '\0') lines.push_back(text_of(line.text));
+  return {{"title", text_of(caption->title)},
+          {"step", caption->step},
+          {"steps", caption->steps},
+          {"waiting", caption->waiting != 0},
+          {"lines", lines}};
+}
+
 void add_health(ordered_json& object, const databuffer::Session& session, const ModelStatus& model) {
   const auto& layout = session.layout();
   object["sweeps"] = model.sweeps;
@@ -251,6 +265,7 @@ nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   no_outputs.slant_range_m = std::nan("");
   object["ranging"] = ranging(databuffer::read_valid(layout.outputs).value_or(no_outputs));
   add_ownship(object, model, session.sim_time_ns());
+  object["caption"] = caption_json(session);
   add_health(object, session, model);
   return object;
 }

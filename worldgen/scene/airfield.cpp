@@ -9,7 +9,7 @@ namespace yars::worldgen {
 namespace {
 
 // Airfield scene. The runway lies along x, centred on the origin. The flight line (apron, hangars, parked aircraft) is
-// south of the runway. MeshBuilder::map rotates all faces about the vertical axis through the origin by a random angle.
+// south of the runway.
 constexpr double kRunway_m = 2500, kRunwayWidth_m = 45, kTaxiway_m = 23, kTaxiwayY_m = -220;
 constexpr double kApronSouth_m = -430, kFenceX_m = 1400, kFenceY_m = 620;
 
@@ -19,7 +19,7 @@ class AirfieldScene {
 
   void make() {
     builder_.half_side_m = 3200;
-    mesh_.map = rotation_about_up(builder_.rng.uniform(-0.6, 0.6));
+    builder_.turn(0.6);
     define();
     builder_.out.begin_group("paved");
     pave();

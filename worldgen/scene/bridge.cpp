@@ -19,6 +19,7 @@ class BridgeScene {
 
   void make() {
     builder_.half_side_m = 3000;
+    builder_.turn(0.0);
     define();
     // The bridge is one object, so that it stays level over uneven ground.
     builder_.object("bridge", surface::kConcrete, [&](MeshBuilder& s) {

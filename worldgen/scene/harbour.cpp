@@ -18,6 +18,7 @@ class HarbourScene {
 
   void make() {
     builder_.half_side_m = 3000;
+    builder_.turn(0.0);
     define();
     builder_.out.begin_group("quays");
     quays();
@@ -129,8 +130,10 @@ class HarbourScene {
         water.push_back({along * length_m / 2 * 0.96, half * 0.88, 0});
         deck.push_back({along * length_m / 2, half, freeboard_m});
       };
-      // From the starboard side of the stern around the bow to the port side.
-      for (int i = 0; i <= parts; ++i) add(-1.0 + 1.4 * i / parts, -1.0);
+      // From the starboard side of the stern around the bow to the port side. No corner lies on a straight side: the
+      // deck would have triangles without area.
+      add(-1.0, -1.0);
+      add(0.4, -1.0);
       for (int i = 1; i < parts; ++i) add(0.4 + 0.6 * i / parts, -std::sqrt(1.0 - 1.0 * i * i / (parts * parts)));
       add(1.0, 0.0);
       const std::size_t bow = deck.size() - 1;

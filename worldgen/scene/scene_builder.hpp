@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "lib/geo/frames.hpp"
+#include "lib/geo/quantity.hpp"
 #include "lib/random/counter_rng.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 
@@ -71,6 +72,9 @@ struct SceneRequest {
   std::uint64_t triangles = 20'000;  // approximate; each kind has a minimum of its own
   std::uint64_t seed = 1;
   geo::GeoPoint origin;
+  // [deg] True bearing of the scene's y axis. Runway and quay lie along x. nullopt: the seed turns airfield and town;
+  // harbour and bridge are not turned.
+  std::optional<double> heading_deg{};
 };
 
 inline constexpr std::uint64_t kMaxGenerated = 8'000'000;  // [triangles] limit of a request
@@ -116,6 +120,14 @@ class SceneBuilder {
 
   std::uint64_t triangles() const { return mesh.triangles(); }
   bool is_full() const { return mesh.triangles() >= request.triangles; }
+
+  // Turns all faces about the vertical axis through the origin: by the requested heading, else by a random angle of at
+  // most `max_random_rad` to either side.
+  void turn(double max_random_rad) {
+    const double random_rad = max_random_rad > 0.0 ? rng.uniform(-max_random_rad, max_random_rad) : 0.0;
+    // A heading counts clockwise, a rotation counter-clockwise.
+    mesh.map = rotation_about_up(request.heading_deg ? -*request.heading_deg * geo::kRadiansPerDegree : random_rad);
+  }
 
   // Number of sides of round shapes, `min` to `max`. It increases with the requested number of triangles.
   int sides(int min, int max) const {

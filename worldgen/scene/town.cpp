@@ -20,7 +20,7 @@ class Town {
   explicit Town(SceneBuilder& builder) : builder_(builder) {}
 
   void make() {
-    builder_.mesh.map = rotation_about_up(builder_.rng.uniform(-0.5, 0.5));
+    builder_.turn(0.5);
     define();
     // Quarters are added ring by ring from the centre, up to the requested number of triangles.
     for (int ring = 0; !builder_.is_full(); ++ring) {

@@ -74,7 +74,8 @@ class LandscapeRows {
   std::vector<const Airfield*> airfields_;
 };
 
-// Region that scripts/start generates. config/routes/default.route follows its coast.
+// Region that scripts/start generates. config/coast.guf, config/coast.scenes and config/routes/default.route name
+// positions in it.
 struct DefaultLandscape {
   static constexpr int kSouth_deg = 36, kWest_deg = -124;
   static constexpr int kCellsNorth = 4, kCellsEast = 4;

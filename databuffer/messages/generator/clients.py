@@ -13,7 +13,7 @@ C_NAMES = {"ClockState": "yars_clock", "Ownship": "yars_ownship", "Nav": "yars_n
            "DrawnPoint": "yars_drawn_point", "NavigatorError": "yars_navigator_error", "Mark": "yars_mark",
            "RadarState": "yars_radar_state", "ModelStatus": "yars_model_status", "Outputs": "yars_outputs",
            "TrafficEntity": "yars_traffic_entity", "Traffic": "yars_traffic", "GlassFrame": "yars_glass_frame",
-           "Sweep": "yars_sweep"}
+           "Sweep": "yars_sweep", "CaptionLine": "yars_caption_line", "Caption": "yars_caption"}
 # Enumeration -> prefix of its values in yars_records.h, and name of its class in yars.py.
 ENUMERATIONS = {"EventKind": ("EVENT", "Event"), "Power": ("POWER", "Power"), "Mode": ("MODE", "Mode"),
                 "Master": ("MASTER", "Master"), "ScanWidth": ("SCAN", "ScanWidth"),
@@ -25,12 +25,13 @@ ENUMERATIONS = {"EventKind": ("EVENT", "Event"), "Power": ("POWER", "Power"), "M
                 "NavFlags": ("NAV", "NavFlags")}
 # Record -> its name in yars.py, for the records that yars.py reads or writes as a whole.
 PYTHON_NAMES = {"ClockState": "CLOCK", "Ownship": "OWNSHIP", "Nav": "NAV", "InputEvent": "INPUT_EVENT",
-                "GlassFrame": "GLASS_FRAME", "Sweep": "SWEEP", "Outputs": "OUTPUTS", "Mark": "MARK"}
+                "GlassFrame": "GLASS_FRAME", "Sweep": "SWEEP", "Outputs": "OUTPUTS", "Mark": "MARK",
+                "CaptionLine": "CAPTION_LINE", "Caption": "CAPTION"}
 STRUCT_CODES = {"double": "d", "float": "f", "int8": "b", "uint8": "B", "int16": "h", "uint16": "H", "int32": "i",
                 "uint32": "I", "int64": "q", "uint64": "Q"}
 PYTHON_COMMENTS = comments.Style("  ", "# ", "", "# ", "# ")
 OFFSETS = ["clock", "ownship_priority", "ownship", "nav", "radar_state", "model_status", "outputs", "sweeps", "input",
-           "processes", "traffic", "frames"]
+           "processes", "traffic", "frames", "caption"]
 
 
 def constants_of(chapters):
@@ -50,7 +51,7 @@ def segment_numbers(layout, chapters):
             "SWEEPS": sweeps["slot_count"], "SWEEP_STRIDE": sweeps["slot_stride"], "MOST_SAMPLES": constants["kMaxSamples"]}),
         ("Lock bytes of the file, and how many there are of a kind.", {
             "RADAR_MODEL_BYTE": locks["radar-model"], "STATE_MACHINE_BYTE": locks["state-machine"],
-            "TRAFFIC_BYTE": locks["traffic"], "FIRST_OWNSHIP_BYTE": locks["first_ownship_lane"],
+            "TRAFFIC_BYTE": locks["traffic"], "TOUR_BYTE": locks["tour"], "FIRST_OWNSHIP_BYTE": locks["first_ownship_lane"],
             "FIRST_INPUT_BYTE": locks["first_input_lane"], "FIRST_PROCESS_BYTE": locks["first_process"],
             "OWNSHIP_LANES": parts["ownship"]["count"], "INPUT_LANES": parts["input"]["count"],
             "PROCESSES": parts["processes"]["count"]}),

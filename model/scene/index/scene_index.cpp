@@ -160,7 +160,9 @@ error::Expected<void> check_names(const radar::Scene& scene) {
   return {};
 }
 
-std::vector<fs::path> files_in(const fs::path& folder) {
+}  // namespace
+
+std::vector<fs::path> scene_files_in(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code code;
   for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
@@ -172,8 +174,6 @@ std::vector<fs::path> files_in(const fs::path& folder) {
   std::sort(files.begin(), files.end());
   return files;
 }
-
-}  // namespace
 
 error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar::Scene>& scenes,
                                                         std::vector<std::string>& problems) {
@@ -187,7 +187,7 @@ error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar:
       index.push_back(std::move(*found));
       continue;
     }
-    const std::vector<fs::path> files = files_in(scene.file);
+    const std::vector<fs::path> files = scene_files_in(scene.file);
     if (files.empty())
       return error::fail(scene.file, "a folder with .flt files", "none", "give a file or another folder");
     const fs::path root = fs::weakly_canonical(scene.file, code);

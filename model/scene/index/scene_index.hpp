@@ -47,6 +47,9 @@ struct IndexedScene {
   std::string without{};             // names of parts to leave out, as in radar::Scene::without
 };
 
+// OpenFlight files of a folder (.flt in either case), sorted by name. Empty if the folder cannot be read.
+std::vector<std::filesystem::path> scene_files_in(const std::filesystem::path& folder);
+
 // Indexes scenes. A folder is replaced by its .flt files, sorted by name. Unusable files in folders, and links that
 // lead out of their folder, are skipped and reported in `problems`. Errors: a scene that is a single file is unusable,
 // or a name to leave out matches none of its parts; a folder has no .flt file.

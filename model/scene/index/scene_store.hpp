@@ -111,8 +111,12 @@ class SceneStore {
   std::vector<std::string> problems_;
 };
 
-// Opens the store of configured scenes over configured terrain. Null if there is no scene.
-error::Expected<std::unique_ptr<SceneStore>> open_scenes(const std::vector<radar::Scene>& scenes,
+// Folder of scenes inside a folder of terrain. Its .flt files belong to the terrain.
+inline constexpr const char* kTerrainScenes = "scenes";
+
+// Opens the store of configured scenes and of the terrain's own scenes, over configured terrain. Null if there is no
+// scene.
+error::Expected<std::unique_ptr<SceneStore>> open_scenes(const std::vector<radar::Scene>& configured,
                                                          const radar::TerrainConfiguration& terrain,
                                                          SceneUse use = SceneUse::triangles);
 

@@ -51,6 +51,7 @@ const std::vector<EventSpelling> kEvents{
     {"altimeter fail", EventKind::altimeter, 0},
     {"contrast up", EventKind::contrast, 1},
     {"contrast down", EventKind::contrast, -1},
+    {"next", EventKind::next, 0},
     {"pb 1", EventKind::push_button, 1},
     {"pb 20", EventKind::push_button, 20},
 };

@@ -41,6 +41,7 @@ TEST(KeyMap, EachNamedKeyGivesItsEvents) {
   EXPECT_EQ(typed(Key::space), "freeze");
   EXPECT_EQ(typed(key_of_character('[')), "elevation down");
   EXPECT_EQ(typed(key_of_character(']')), "elevation up");
+  EXPECT_EQ(typed(key_of_character('n')), "next");
   EXPECT_EQ(typed(Key::f1), "mode ag");
   EXPECT_EQ(typed(Key::f2), "mode aa");
   EXPECT_EQ(typed(Key::f3), "mode agr");

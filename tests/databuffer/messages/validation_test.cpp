@@ -279,6 +279,24 @@ TEST(Validation, RecorderStatusIsChecked) {
   EXPECT_TRUE(validate(status));
 }
 
+TEST(Validation, CaptionsAreChecked) {
+  Caption caption{};
+  EXPECT_EQ(validate(caption), std::nullopt);
+  caption.step = kMaxCaptions + 1;
+  EXPECT_TRUE(validate(caption));
+  caption = {};
+  caption.waiting = 2;
+  EXPECT_TRUE(validate(caption));
+  caption = {};
+  std::memset(caption.lines[2].text, 'A', sizeof caption.lines[2].text);
+  EXPECT_TRUE(validate(caption)) << "without a zero at its end";
+  std::strcpy(caption.lines[2].text, "\x1b[2J");
+  EXPECT_TRUE(validate(caption));
+  caption = {};
+  caption.sim_time_ns = -1;
+  EXPECT_TRUE(validate(caption));
+}
+
 TEST(Validation, ASequencePointNeedsAName) {
   InputEvent event = event_of(EventKind::sequence_point, 0);
   EXPECT_TRUE(validate(event));

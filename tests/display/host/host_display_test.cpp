@@ -209,6 +209,33 @@ TEST_F(HostDisplay, UpdateReadsThePatchMap) {
   EXPECT_TRUE(radar_display.read().pixels == map);
 }
 
+// In a live session. A tour that was killed leaves its caption in the segment.
+TEST_F(HostDisplay, ACaptionIsShownWhileItsTourRuns) {
+  const auto step = [&] {
+    SessionFeed feed(
+        *session_, false, [](const databuffer::Sweep&) {}, [](const auto&, auto) {});
+    feed.refresh(0);
+    return feed.input().caption.step;
+  };
+  databuffer::Caption caption{};
+  caption.step = caption.steps = 3;
+  session_->layout().caption.publish(caption);
+  EXPECT_EQ(step(), 0U) << "nobody holds the role";
+  {
+    const auto tour = session_->claim(databuffer::Role::tour);
+    ASSERT_TRUE(tour) << tour.error().message();
+    EXPECT_EQ(step(), 3U);
+    caption.waiting = 7;
+    session_->layout().caption.publish(caption);
+    EXPECT_EQ(step(), 0U) << "an invalid caption, and no earlier one";
+    session_->layout().caption.clear();
+    EXPECT_EQ(step(), 0U);
+  }
+  caption.waiting = 0;
+  session_->layout().caption.publish(caption);
+  EXPECT_EQ(step(), 0U);
+}
+
 TEST_F(HostDisplay, AClickOnALegendPressesItsButton) {
   auto attached = Display::attach({name_, "", "cockpit"});
   ASSERT_TRUE(attached) << attached.error().message();

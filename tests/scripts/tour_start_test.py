@@ -1,0 +1,147 @@
+#!/usr/bin/env python3
+"""`--tour` of the start script: two sets one after the other, which end with the tour; what goes with it and what not.
+
+usage: tour_start_test.py
+The script and its supervisor run as they are installed, with programs that stand in for the real ones: each writes its
+arguments down; input-monitor comes to its end at once, the others wait for a signal.
+"""
+import os
+import pathlib
+import re
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+
+HOME = pathlib.Path(__file__).resolve().parents[2]
+ROLE = """#!/bin/bash
+echo "$(basename "$0") $@" >>"$YARS_TEST_LOG"
+case "$(basename "$0") $*" in
+  *--lockstep*) exit 0 ;;
+  input-monitor*) sleep 0.3; exit "${YARS_TEST_CODE:-0}" ;;
+esac
+trap 'kill $waiting; exit 0' TERM INT
+sleep 60 & waiting=$!
+wait $waiting
+"""
+YARS = """#!/bin/bash
+case "$1 $2" in
+  "terrain generate") mkdir -p "$4/w122" && echo cell >"$4/w122/n37.dt1" ;;
+  "scene generate") echo scene >"${@: -1}" ;;
+  *) exit 1 ;;
+esac
+"""
+WATCHDOG_S = 60
+
+
+class Place:
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        self.log = self.folder / "log"
+        for name in ("state-machine", "radar-model", "flight-model", "input-monitor", "radar-display"):
+            self.write(f"bin/{name}", ROLE)
+        self.write("bin/yars", YARS)
+        shutil.copy(HOME / "scripts/start", self.folder / "bin/yars-start")
+        (self.folder / "libexec/yars").mkdir(parents=True)
+        shutil.copy(HOME / "scripts/supervise", self.folder / "libexec/yars/supervise")
+        shutil.copytree(HOME / "config", self.folder / "share/yars/config")
+
+    def write(self, name, text):
+        path = self.folder / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+        path.chmod(0o755)
+
+    def start(self, *arguments, code="0"):
+        environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        environment.update(XDG_CACHE_HOME=str(self.folder / "cache"), YARS_TEST_LOG=str(self.log), YARS_TEST_CODE=code)
+        self.log.unlink(missing_ok=True)
+        return subprocess.Popen([self.folder / "bin/yars-start", "--log-dir", "", "--frames", self.folder / "frames",
+                                 *arguments], env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                stderr=subprocess.STDOUT, text=True)
+
+    def run(self, *arguments, code="0"):
+        process = self.start(*arguments, code=code)
+        text = process.communicate(timeout=WATCHDOG_S)[0]
+        return process.returncode, text
+
+    def lines(self, role):
+        return [line for line in self.log.read_text().splitlines() if line.startswith(role + " ")] if self.log.exists() else []
+
+
+def tour_seconds(file):
+    return float(re.findall(r"^(\S+) end$", (HOME / "config/tours" / file).read_text(), re.M)[0])
+
+
+def two_radars_one_after_the_other(place):
+    code, text = place.run("--tour")
+    assert code == 0 and "running headless until the tour ends" in text, text
+    tours = place.lines("input-monitor")
+    assert len(tours) == 2, tours
+    assert tours[0].endswith("config/tours/radar.tour") and "config/default.guf" in tours[0], tours
+    assert tours[1].endswith("config/tours/second_radar.tour") and "config/default_apg68.guf" in tours[1], tours
+    flights = place.lines("flight-model")
+    assert all("routes/default.route" in flight for flight in flights) and len(flights) == 2, flights
+    displays = place.lines("radar-display")
+    assert "--frames {}/frames --every".format(place.folder) in displays[0], displays
+    assert "--frames {}/frames/apg68 --every".format(place.folder) in displays[1], displays
+
+
+def for_the_pilot(place):
+    code, text = place.run("--tour", "pilot", "--headless", "100")
+    assert code == 0, text
+    assert all(line.endswith(".tour,pilot") for line in place.lines("input-monitor")), place.lines("input-monitor")
+
+
+def in_lockstep_each_part_is_as_long_as_its_tour(place):
+    code, text = place.run("--tour", "--headless", "9999", "--lockstep")
+    assert code == 0, text
+    ends = [int(re.search(r"@(\d+)", line)[1]) for line in place.lines("state-machine")]
+    assert ends == [200 * (tour_seconds(file) + 1) for file in ("radar.tour", "second_radar.tour")], ends
+    code, text = place.run("--tour", "--headless", "10", "--lockstep")
+    ends = [int(re.search(r"@(\d+)", line)[1]) for line in place.lines("state-machine")]
+    assert code == 0 and ends == [2000, 2000], (ends, text)
+
+
+def a_signal_ends_it_all(place):
+    place.write("bin/input-monitor", ROLE.replace("  input-monitor*)", "  nothing*)"))
+    process = place.start("--tour")
+    deadline = time.monotonic() + WATCHDOG_S
+    while len(place.lines("radar-display")) == 0 or not place.lines("input-monitor"):
+        assert time.monotonic() < deadline, "nothing happened"
+        time.sleep(0.05)
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=WATCHDOG_S)
+    time.sleep(0.2)
+    assert len(place.lines("radar-display")) == 1, place.lines("radar-display")
+    place.write("bin/input-monitor", ROLE)
+
+
+def a_tour_that_fails_is_not_followed_by_the_next(place):
+    code, text = place.run("--tour", code="2")
+    assert code == 1 and "input-monitor" in text, text
+    assert len(place.lines("radar-display")) == 1, place.lines("radar-display")
+
+
+def it_goes_with_its_own_world_only(place):
+    for more in (["--terrain", "x"], ["--config", "x.guf"], ["--source", "fixed:1,1,1,1,1"], ["--script", "x"],
+                 ["--record", "x"], ["--no-flight"], ["--no-input"]):
+        code, text = place.run("--tour", *more)
+        assert code == 2 and "--tour: expected none of" in text, (more, text)
+    code, text = place.run("--tour", "autopilot")
+    assert code == 2 and "autopilot" in text, text
+
+
+def main():
+    for test in (two_radars_one_after_the_other, for_the_pilot, in_lockstep_each_part_is_as_long_as_its_tour,
+                 a_signal_ends_it_all, a_tour_that_fails_is_not_followed_by_the_next, it_goes_with_its_own_world_only):
+        with tempfile.TemporaryDirectory() as folder:
+            test(Place(folder))
+        print(f"{test.__name__}: ok", flush=True)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
