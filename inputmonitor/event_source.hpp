@@ -31,6 +31,7 @@ struct Moment {
 struct Notice {
   bool is_warning = false;
   std::string text;
+  bool for_pilot = false;  // an answer to a key, such as the help: for the log alone
 };
 
 // An event that the state machine has applied.

@@ -11,8 +11,29 @@
 
 namespace yars::inputmonitor {
 
+std::string key_help_text() {
+  std::string text = "keys:\n  2-9 A-K        push buttons 2 to 20\n";
+  for (const databuffer::KeyHelp& one : databuffer::key_help()) {
+    std::string keys = one.keys;
+    keys.resize(15, ' ');
+    text += "  " + keys + one.does + '\n';
+  }
+  return text + "  ? or F1        this help\n  Esc            ends these keys; the set runs on";
+}
+
+void Keyboard::change(databuffer::Key key, bool pressed) {
+  if (pressed && databuffer::is_help(key)) notices_.push_back({false, key_help_text(), true});
+  if (pressed && databuffer::is_dead_letter(key)) notices_.push_back({false, databuffer::kDeadKeyHelp, true});
+  if (pressed && key == databuffer::Key::escape && !ended_) {
+    notices_.push_back({false, "Esc ended " + name_ + "; the set runs on. input-monitor starts them again", true});
+    ended_ = true;
+  }
+  append(state_.change(key, pressed));
+}
+
 namespace {
 
+constexpr const char* kShortHelp = "? shows the keys, Esc ends them";
 constexpr int kWidth = 640;  // [pixels] width of the window, which shows a title only
 constexpr int kHeight = 80;  // [pixels]
 
@@ -28,14 +49,22 @@ void on_focus(GLFWwindow* window, int focused) {
   if (focused == GLFW_FALSE) keyboard_of(window).release_all();
 }
 
+// GLFW has no key for "?", whose place depends on the keyboard's layout.
+void on_character(GLFWwindow* window, unsigned code) {
+  if (code == '?') keyboard_of(window).change(databuffer::Key{'?'}, true);
+  if (code == '?') keyboard_of(window).change(databuffer::Key{'?'}, false);
+}
+
 class KeyboardSource : public EventSource {
  public:
+  explicit KeyboardSource(std::string name) : keyboard_(std::move(name)) {}
   std::vector<databuffer::InputEvent> release() override {
     keyboard_.release_all();
     return keyboard_.take();
   }
   bool ended() const override { return keyboard_.ended(); }
   bool follows_sim_time() const override { return false; }
+  std::vector<Notice> notices() override { return keyboard_.notices(); }
 
  protected:
   Keyboard keyboard_;
@@ -43,9 +72,10 @@ class KeyboardSource : public EventSource {
 
 class WindowSource final : public KeyboardSource {
  public:
-  explicit WindowSource(GLFWwindow* window) : window_(window) {
+  explicit WindowSource(GLFWwindow* window) : KeyboardSource("the keys of this window"), window_(window) {
     glfwSetWindowUserPointer(window_, &keyboard_);
     glfwSetKeyCallback(window_, on_key);
+    glfwSetCharCallback(window_, on_character);
     glfwSetWindowFocusCallback(window_, on_focus);
   }
   WindowSource(const WindowSource&) = delete;
@@ -65,7 +95,7 @@ class WindowSource final : public KeyboardSource {
     return keyboard_.take();
   }
 
-  std::string description() const override { return std::string("a window; ") + kKeyHelp; }
+  std::string description() const override { return std::string("a window; ") + kShortHelp; }
 
  private:
   GLFWwindow* window_;
@@ -84,7 +114,9 @@ error::Expected<std::unique_ptr<EventSource>> open_window_source(const std::stri
   if (glfwInit() == GLFW_FALSE) return no_window();
   // No OpenGL context: the window draws nothing.
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
-  const std::string title = "YARS input (" + session + ")  " + kKeyHelp;
+  const std::string title = "YARS input (" + session + ")  " + kShortHelp;
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "yars-input-monitor");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "yars-input-monitor");
   GLFWwindow* window = glfwCreateWindow(kWidth, kHeight, title.c_str(), nullptr, nullptr);
   if (window != nullptr) return std::make_unique<WindowSource>(window);
   auto error = no_window();
@@ -102,7 +134,8 @@ bool readable_within(int descriptor, int milliseconds) {
 
 class TerminalSource final : public KeyboardSource {
  public:
-  explicit TerminalSource(std::unique_ptr<TerminalMode> mode) : mode_(std::move(mode)) {}
+  explicit TerminalSource(std::unique_ptr<TerminalMode> mode)
+      : KeyboardSource("the keys of this terminal"), mode_(std::move(mode)) {}
 
   bool add_descriptors(std::vector<pollfd>& wanted) const override {
     wanted.push_back({STDIN_FILENO, POLLIN, 0});
@@ -122,7 +155,7 @@ class TerminalSource final : public KeyboardSource {
     return keyboard_.take();
   }
 
-  std::string description() const override { return std::string("this terminal; ") + kKeyHelp; }
+  std::string description() const override { return std::string("this terminal; ") + kShortHelp; }
 
  private:
   void apply(const std::vector<KeyChange>& changes) {

@@ -16,32 +16,33 @@
 
 namespace yars::inputmonitor {
 
-// Common part of keyboard sources: turns key edges into events, and ends when Escape is pressed.
+// Common part of keyboard sources: turns key edges into events, and ends when Escape is pressed. Answers the keys of
+// the help and Escape by a notice.
 class Keyboard {
  public:
-  void change(databuffer::Key key, bool pressed) {
-    ended_ = ended_ || (key == databuffer::Key::escape && pressed);
-    append(state_.change(key, pressed));
-  }
+  // `name`: what Escape ends, for its notice: "the keys of this terminal".
+  explicit Keyboard(std::string name) : name_(std::move(name)) {}
+  void change(databuffer::Key key, bool pressed);
   void release_all() { append(state_.release_all()); }
   void end() { ended_ = true; }
   bool ended() const { return ended_; }
   std::vector<databuffer::InputEvent> take() { return std::exchange(events_, {}); }
+  std::vector<Notice> notices() { return std::exchange(notices_, {}); }
 
  private:
   void append(const std::vector<databuffer::InputEvent>& events) {
     events_.insert(events_.end(), events.begin(), events.end());
   }
 
+  std::string name_;
   databuffer::KeyboardState state_;
   std::vector<databuffer::InputEvent> events_;
+  std::vector<Notice> notices_;
   bool ended_ = false;
 };
 
-// Help line: the functions of the keys.
-inline constexpr const char* kKeyHelp =
-    "2-9 a-k: buttons 2-20, arrows: TDC, Enter: TDC switch, Tab: castle switch up (next point), PgUp PgDn: ACQ, "
-    "Space: freeze, [ ]: elevation, F1 F2 F3: A/G A/A ranging, F4: navigator, Esc: ends";
+// The functions of all keys, one row a line.
+std::string key_help_text();
 
 // Keys typed in a small window. Keys are identified by their position on a US keyboard. Key repeats are ignored. Loss
 // of the keyboard focus releases all keys. `session` is shown in the title. Error: no display.

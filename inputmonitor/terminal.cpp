@@ -37,11 +37,20 @@ constexpr std::array<std::pair<char, Key>, 9> kFinals{{{'A', Key::up},
                                                        {'S', Key::f4},
                                                        {'M', Key::enter}}};
 // Keys by the number in sequences such as ESC [ 5 ~.
-constexpr std::array<std::pair<std::string_view, Key>, 6> kNumbers{
-    {{"5", Key::page_up}, {"6", Key::page_down}, {"11", Key::f1}, {"12", Key::f2}, {"13", Key::f3}, {"14", Key::f4}}};
+constexpr std::array<std::pair<std::string_view, Key>, 11> kNumbers{{{"5", Key::page_up},
+                                                                     {"6", Key::page_down},
+                                                                     {"11", Key::f1},
+                                                                     {"12", Key::f2},
+                                                                     {"13", Key::f3},
+                                                                     {"14", Key::f4},
+                                                                     {"15", Key::f5},
+                                                                     {"17", Key::f6},
+                                                                     {"18", Key::f7},
+                                                                     {"19", Key::f8},
+                                                                     {"23", Key::f11}}};
 // Keys by the last byte of sequences such as ESC [ [ A (Linux console).
-constexpr std::array<std::pair<char, Key>, 4> kLinuxFunctions{
-    {{'A', Key::f1}, {'B', Key::f2}, {'C', Key::f3}, {'D', Key::f4}}};
+constexpr std::array<std::pair<char, Key>, 5> kLinuxFunctions{
+    {{'A', Key::f1}, {'B', Key::f2}, {'C', Key::f3}, {'D', Key::f4}, {'E', Key::f5}}};
 
 Key key_of_byte(char byte) {
   if (byte == '\r' || byte == '\n') return Key::enter;

@@ -102,6 +102,15 @@ void deflect(Step& step) {
   step.state.tdc_y = std::clamp(step.event.y, -1.0, 1.0);
 }
 
+void point_cursor(Step& step) {
+  const databuffer::InputEvent& event = step.event;
+  if (!std::isfinite(event.x) || !std::isfinite(event.y) || !step.inputs.ownship_valid) return;
+  if (!shows_cursor(step.state) || slews_steering_line(step.state)) return;
+  const auto plane = plane_of(step.state, step.inputs, step.parameters.view);
+  if (plane)
+    put_cursor(step.state, plane->ground_from_display(plane->at_fractions(event.x, event.y)), step.inputs.tick);
+}
+
 void next_cursor_function(Step& step) {
   constexpr int kFunctions = 5;
   constexpr auto kMap = static_cast<std::uint8_t>(radar::CursorFunction::map);

@@ -18,7 +18,10 @@ namespace yars::statemachine {
 // the selected navigator gives this position.
 // After a change of range or a jump to a distant point the cursor may lie outside the display. The TDC then moves the
 // cursor to the edge of the display first.
-void deflect(Step& step);               // TDC deflection [-1, 1], x right, y up; stays until the next TDC event
+void deflect(Step& step);  // TDC deflection [-1, 1], x right, y up; stays until the next TDC event
+// Moves the cursor to a position on the display: x right, y down, [0, 1] from the upper left corner. Does nothing while
+// the display shows no cursor, while the TDC turns the steering line, and without a valid ownship.
+void point_cursor(Step& step);
 void next_cursor_function(Step& step);  // cycles MAP, UPDT, CUE, TGT, MARK; MAP is skipped while SET is on
 
 // Moves the cursor to the displayed position of a point with navigator coordinates `known`. Without a valid ownship the

@@ -140,7 +140,6 @@ double bank_onto_line(const geo::GeodesicInverse& sight, Bearing approach, const
 }  // namespace
 
 void steer_by_acquisition_switch(Step& step) {
-  if (!has(step.state, databuffer::kTargetDesignated)) return;
   if (step.event.argument < 0) {
     put_line(step.state, SteeringLine::slewing);
   } else if (step.event.argument > 0 && line_of(step.state) != SteeringLine::line_of_sight) {
@@ -195,10 +194,6 @@ using text::text_of;
 
 constexpr int kMaxNumber = 100;  // docs/spec/pilots_interface.md#rule-11
 constexpr int kMaxOffset = 99;
-
-bool has_cursor(const Step& step) {
-  return step.inputs.ownship_valid && has(step.state, databuffer::kCursorValid);
-}
 
 // Navigator coordinates of the cursor. They are computed anew, because the cursor may have jumped in this tick.
 geo::GeoPoint known_cursor(const Step& step) {
@@ -300,14 +295,14 @@ void put_target(Step& step, const radar::RoutePoint* adopted) {
 }  // namespace
 
 void cue_sensor(Step& step) {
-  if (!has_cursor(step)) return;
+  if (refuses_without_cursor(step)) return;
   cue(step.state, known_cursor(step));
   request_elevation(step, databuffer::kAskedForCue);
 }
 
 void designate_target(Step& step) {
   RadarState& state = step.state;
-  if (!has_cursor(step)) return;
+  if (refuses_without_cursor(step)) return;
   const radar::RoutePoint* const adopted = route_point_under_cursor(step);
   const auto free = adopted ? std::nullopt : next_free(state, step.parameters);
   if (!adopted && !free) return refuse(step, "NO FREE NUMBER");
@@ -325,7 +320,7 @@ void designate_target(Step& step) {
 
 void store_mark(Step& step) {
   RadarState& state = step.state;
-  if (!has_cursor(step)) return;
+  if (refuses_without_cursor(step)) return;
   // If the list is full, the oldest mark is dropped. Marks and the bits of their open requests move down by one.
   if (state.mark_count >= databuffer::kMarks) {
     constexpr std::uint32_t every_mark = (1U << databuffer::kMarks) - 1;

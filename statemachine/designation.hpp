@@ -41,7 +41,8 @@ void request_cursor_elevation(databuffer::RadarState& state);
 // PSL: line through the designated target along the approach heading, and the steering onto that line.
 // Source: docs/spec/pilots_interface.md#rule-15.
 
-// Acquisition switch with cursor function TGT. Aft: the TDC turns the line. Forward: steer_line_of_sight().
+// Acquisition switch with cursor function TGT and a designated target. Aft: the TDC turns the line. Forward:
+// steer_line_of_sight().
 void steer_by_acquisition_switch(Step& step);
 // TDC release while slewing: fixes the heading of the line as the approach heading.
 void fix_steering_line(Step& step);
@@ -57,9 +58,8 @@ void advance_steering_line(databuffer::RadarState& state, const Inputs& inputs);
 // line. Requires a designated target and a valid ownship.
 void put_steering(databuffer::Outputs& outputs, const databuffer::RadarState& state, const Inputs& inputs);
 
-// CUE, TGT and MARK at the cursor, in coordinates of the selected navigator. They have no effect without a valid
-// ownship or a cursor position.
-// Source: docs/spec/pilots_interface.md#rule-14.
+// CUE, TGT and MARK at the cursor, in coordinates of the selected navigator. They are refused without a valid ownship
+// or a cursor position. Source: docs/spec/pilots_interface.md#rule-14.
 void cue_sensor(Step& step);
 // Designates a target and cues the sensor to it. If the symbol of a point of the route is under the cursor, that point
 // becomes the target. Refused if no name is free.

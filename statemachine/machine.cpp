@@ -86,11 +86,6 @@ void enter_epoch(RadarState& state, const Inputs& inputs) {
   state.message_until_tick = 0;
 }
 
-// Compares bytes instead of values, because a NaN must equal itself. StateMachineShell compares in the same way.
-bool same_bytes(const RadarState& a, const RadarState& b) {
-  return std::ranges::equal(std::as_bytes(std::span(&a, 1)), std::as_bytes(std::span(&b, 1)));
-}
-
 void end_message(RadarState& state, std::int64_t tick) {
   if (state.message[0] == '\0' || state.message_until_tick == databuffer::kUntilCauseEnds) return;
   if (tick < state.message_until_tick) return;

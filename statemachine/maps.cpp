@@ -189,7 +189,7 @@ void take_commanded(RadarState& state, std::uint64_t id) {
 
 void command_map(Step& step) {
   RadarState& state = step.state;
-  if (!step.inputs.ownship_valid || !has(state, databuffer::kCursorValid)) return;
+  if (refuses_without_cursor(step)) return;
   if (const auto reason = unmappable_reason(step)) return refuse(step, *reason);
   const double window_nm = window_to_map_nm(step);
   if (!(window_nm > 0.0)) return refuse(step, "NO WINDOW");

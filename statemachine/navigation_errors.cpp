@@ -144,7 +144,7 @@ std::int32_t seconds_left(const RadarState& state, std::int64_t tick, double val
 
 void accept_update(Step& step) {
   RadarState& state = step.state;
-  if (!step.inputs.ownship_valid) return;
+  if (refuses_without_cursor(step)) return;
   // The update fields of `state` are from the last tick. The cursor may have jumped since then.
   RadarState present = state;
   advance_update(present, step.inputs, step.parameters);

@@ -12,9 +12,19 @@ constexpr radar::ViewConfiguration kMapView{-0.5, 0.5, -0.5, 0.5};  // a map fil
 constexpr double kDisplayUnits = 480.0;                             // along the longer edge of the display
 }  // namespace
 
+double PicturePlane::edge() const {
+  return std::max(view.width_max - view.width_min, view.height_max - view.height_min);
+}
+
+DisplayPoint PicturePlane::at_fractions(double right, double down) const {
+  // The display is a square. The shorter side of the visible area is centered in it.
+  const double x = (view.width_min + view.width_max) / 2.0 + (right - 0.5) * edge();
+  const double y = (view.height_min + view.height_max) / 2.0 + (0.5 - down) * edge();
+  return {std::clamp(x, view.width_min, view.width_max), std::clamp(y, view.height_min, view.height_max)};
+}
+
 double PicturePlane::units_between(DisplayPoint a, DisplayPoint b) const {
-  const double edge = std::max(view.width_max - view.width_min, view.height_max - view.height_min);
-  return std::hypot(a.x - b.x, a.y - b.y) * kDisplayUnits / edge;
+  return std::hypot(a.x - b.x, a.y - b.y) * kDisplayUnits / edge();
 }
 
 std::optional<PicturePlane> plane_of(const databuffer::RadarState& state, const Inputs& inputs,

@@ -40,9 +40,12 @@ struct PicturePlane {
     return point.x >= view.width_min && point.x <= view.width_max && point.y >= view.height_min &&
            point.y <= view.height_max;
   }
+  // Position at fractions [0, 1] of the square display, from its upper left corner, limited to the visible area.
+  DisplayPoint at_fractions(double right, double down) const;
   // Distance between two positions on the display, in display units. A display unit is 1/480 of the display's longer
   // edge. It is not PicturePlane::unit.
   double units_between(DisplayPoint a, DisplayPoint b) const;
+  double edge() const;  // length of the display's edge, in multiples of `unit`
 };
 
 // Projection of the present picture. nullopt: the shown map has no record, so its position is unknown.

@@ -118,6 +118,11 @@ inline radar::Mode running_mode(const databuffer::RadarState& state) {
   return static_cast<radar::Mode>(state.resume_mode);
 }
 
+// Compares bytes instead of values, because a NaN must equal itself. StateMachineShell compares in the same way.
+inline bool same_bytes(const databuffer::RadarState& a, const databuffer::RadarState& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
 // True ground position under the cursor; may be NaN without kCursorValid.
 inline geo::GeoPoint cursor_of(const databuffer::RadarState& state) {
   return {state.cursor_latitude_deg, state.cursor_longitude_deg};
@@ -145,6 +150,17 @@ inline void show_message(databuffer::RadarState& state, const Inputs& inputs, st
 inline void refuse(Step& step, std::string_view reason) {
   show_message(step.state, step.inputs, reason);
   step.refused = true;
+}
+
+// Refuses the event if the aircraft's position or the cursor's is unknown. Returns true if it is refused.
+// Source: docs/spec/pilots_interface.md#messages
+inline bool refuses_without_cursor(Step& step) {
+  if (!step.inputs.ownship_valid) {
+    refuse(step, "NO OWNSHIP");
+  } else if (!has(step.state, databuffer::kCursorValid)) {
+    refuse(step, "NO CURSOR");
+  }
+  return step.refused;
 }
 
 }  // namespace yars::statemachine

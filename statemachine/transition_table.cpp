@@ -108,32 +108,37 @@ bool stored(const RadarState& state) {
 // Source: docs/spec/pilots_interface.md#buttons. The conditions for freeze, SET and maps are from #rule-8,
 // #rule-10, #rule-20 and #rule-21.
 constexpr std::array kButtons{
-    ButtonRow{2, kAllGround | kRanging, kSetOff, toggle_declutter, "DCL", kAlways, kDeclutterOn},
-    ButtonRow{3, kRbm | kBcn, kSetOff, cycle_gain, gain_legend, kAlways},
-    ButtonRow{3, kBothHrm, kSetOff, toggle_looks, looks_legend, kAlways},
-    ButtonRow{4, kRbm | kBcn | kPvu | kRanging, kAlways, brightness_up, "BRT+", kAlways},
-    ButtonRow{4, kBothHrm, kFrozen, brightness_up, "BRT+", kFrozen},
-    ButtonRow{5, kRbm | kBcn | kPvu | kRanging, kAlways, brightness_down, "BRT-", kAlways},
-    ButtonRow{5, kBothHrm, kFrozen, brightness_down, "BRT-", kFrozen},
-    ButtonRow{6, kAllGround, kThawed, next_mode, mode_legend, kAlways},
-    ButtonRow{6, kMenu, kAlways, close_menu, "A/G RDR", kAlways},
-    ButtonRow{7, kRbm | kBothHrm | kBcn | kRanging, kAlways, next_cursor_function, cursor_function_legend, kAlways},
-    ButtonRow{8, kPatch, kSetOff, toggle_stabilizing, stabilizing_legend, kAlways},
-    ButtonRow{9, kRbm | kHrm | kBcn, kThawed, next_scan_width, scan_legend, kAlways},
-    ButtonRow{10, kBothHrm, kRecallable | kSetOff, flip_recall, recall_legend, kRecallable},
-    ButtonRow{11, kAllGround | kRanging, kAlways, open_menu, "M", kAlways},
-    ButtonRow{12, kAllGround | kRanging, kAlways, toggle_recorder, "VTR", kAlways, kVtrOn},
-    ButtonRow{13, kRbm | kHrm | kBcn, kRangeStepConditions, range_up, "^", kAlways},
-    ButtonRow{14, kRbm | kHrm | kBcn, kRangeStepConditions, range_down, "v", kAlways},
-    ButtonRow{14, kPatch, kThawed, leave_patch, "PPI", kAlways},
-    ButtonRow{15, kBothHrm, kRecallable | kSetOff, toggle_store, "STO", kRecallable, stored},
-    ButtonRow{16, kRbm | kBothHrm | kBcn, kSetOff, toggle_ipvu, "IPVU", kAlways, kIpvuOn},
-    ButtonRow{17, kAllGround | kRanging, kAlways, next_sequence_point, sequence_point_legend, kAlways},
-    ButtonRow{18, kAllGround, kSetOff, toggle_sniff, "SNIFF", kSetOff, kSniffOn},
-    ButtonRow{18, kAllGround, kSetOn, toggle_set, "SET", kSetOn, kSetIsOn},
-    ButtonRow{18, kRanging, kMapShown, toggle_set, "SET", kMapShown, kSetIsOn},
-    ButtonRow{19, kAllGround, kSetOff, next_channel, channel_legend, kAlways},
-    ButtonRow{20, kAllGround, kSetOff, next_band, band_legend, kAlways},
+    ButtonRow{2, kAllGround | kRanging, kSetOff, toggle_declutter, "declutter", "DCL", kAlways, kDeclutterOn},
+    ButtonRow{3, kRbm | kBcn, kSetOff, cycle_gain, "receiver gain", gain_legend, kAlways},
+    ButtonRow{3, kBothHrm, kSetOff, toggle_looks, "looks of a map", looks_legend, kAlways},
+    ButtonRow{4, kRbm | kBcn | kPvu | kRanging, kAlways, brightness_up, "brightness up", "BRT+", kAlways},
+    ButtonRow{4, kBothHrm, kFrozen, brightness_up, "brightness up", "BRT+", kFrozen},
+    ButtonRow{5, kRbm | kBcn | kPvu | kRanging, kAlways, brightness_down, "brightness down", "BRT-", kAlways},
+    ButtonRow{5, kBothHrm, kFrozen, brightness_down, "brightness down", "BRT-", kFrozen},
+    ButtonRow{6, kAllGround, kThawed, next_mode, "next mode", mode_legend, kAlways},
+    ButtonRow{6, kMenu, kAlways, close_menu, "back to the radar", "A/G RDR", kAlways},
+    ButtonRow{7, kRbm | kBothHrm | kBcn | kRanging, kAlways, next_cursor_function, "cursor function",
+              cursor_function_legend, kAlways},
+    ButtonRow{8, kPatch, kSetOff, toggle_stabilizing, "ground that is mapped again", stabilizing_legend, kAlways},
+    ButtonRow{9, kRbm | kHrm | kBcn, kThawed, next_scan_width, "scan width", scan_legend, kAlways},
+    ButtonRow{10, kBothHrm, kRecallable | kSetOff, flip_recall, "recalls a map", recall_legend, kRecallable},
+    ButtonRow{11, kAllGround | kRanging, kAlways, open_menu, "main menu", "M", kAlways},
+    ButtonRow{12, kAllGround | kRanging, kAlways, toggle_recorder, "starts or stops the recorder", "VTR", kAlways,
+              kVtrOn},
+    ButtonRow{13, kRbm | kHrm | kBcn, kRangeStepConditions, range_up, "longer range", "^", kAlways},
+    ButtonRow{14, kRbm | kHrm | kBcn, kRangeStepConditions, range_down, "shorter range", "v", kAlways},
+    ButtonRow{14, kPatch, kThawed, leave_patch, "back to the HRM PPI", "PPI", kAlways},
+    ButtonRow{15, kBothHrm, kRecallable | kSetOff, toggle_store, "keeps the map that is shown", "STO", kRecallable,
+              stored},
+    ButtonRow{16, kRbm | kBothHrm | kBcn, kSetOff, toggle_ipvu, "velocity updates between scans", "IPVU", kAlways,
+              kIpvuOn},
+    ButtonRow{17, kAllGround | kRanging, kAlways, next_sequence_point, "next sequence point", sequence_point_legend,
+              kAlways},
+    ButtonRow{18, kAllGround, kSetOff, toggle_sniff, "listens without transmitting", "SNIFF", kSetOff, kSniffOn},
+    ButtonRow{18, kAllGround, kSetOn, toggle_set, "cursor functions on this map", "SET", kSetOn, kSetIsOn},
+    ButtonRow{18, kRanging, kMapShown, toggle_set, "cursor functions on this map", "SET", kMapShown, kSetIsOn},
+    ButtonRow{19, kAllGround, kSetOff, next_channel, "channel", channel_legend, kAlways},
+    ButtonRow{20, kAllGround, kSetOff, next_band, "band", band_legend, kAlways},
 };
 
 // Source: docs/spec/pilots_interface.md#controls. The action of a TDC release depends on the cursor function.
@@ -141,21 +146,36 @@ constexpr std::array kButtons{
 // TDC deflection is stored in every mode with power on, so that its return to 0 is not lost.
 constexpr std::array kControls{
     ControlRow{EventKind::tdc, kRadar, kAlways, deflect},
-    ControlRow{EventKind::tdc_release, kRbm | kBothHrm | kPvu, kMapCommandConditions, command_map},
-    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsUpdate | kOperating, accept_update},
-    ControlRow{EventKind::tdc_release, kRanging, kCursorIsUpdate | kOperating | kSetOn, accept_update},
-    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsCue | kOperating, cue_sensor},
-    ControlRow{EventKind::tdc_release, kRanging, kCursorIsCue | kOperating | kSetOn, cue_sensor},
-    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsTarget | kOperating | kLineSlews, fix_steering_line},
-    ControlRow{EventKind::tdc_release, kRanging, kCursorIsTarget | kOperating | kLineSlews | kSetOn, fix_steering_line},
-    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsTarget | kOperating, designate_target},
-    ControlRow{EventKind::tdc_release, kRanging, kCursorIsTarget | kOperating | kSetOn, designate_target},
-    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsMark | kOperating, store_mark},
-    ControlRow{EventKind::tdc_release, kRanging, kCursorIsMark | kOperating | kSetOn, store_mark},
+    ControlRow{EventKind::tdc_release, kRbm | kBothHrm | kPvu, kMapCommandConditions, command_map,
+               "commands a map at the cursor"},
+    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsUpdate | kOperating, accept_update,
+               "moves the navigator by the errors shown"},
+    ControlRow{EventKind::tdc_release, kRanging, kCursorIsUpdate | kOperating | kSetOn, accept_update,
+               "moves the navigator by the errors shown"},
+    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsCue | kOperating, cue_sensor,
+               "points another sensor at the cursor"},
+    ControlRow{EventKind::tdc_release, kRanging, kCursorIsCue | kOperating | kSetOn, cue_sensor,
+               "points another sensor at the cursor"},
+    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsTarget | kOperating | kLineSlews, fix_steering_line,
+               "fixes the steering line"},
+    ControlRow{EventKind::tdc_release, kRanging, kCursorIsTarget | kOperating | kLineSlews | kSetOn, fix_steering_line,
+               "fixes the steering line"},
+    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsTarget | kOperating, designate_target,
+               "designates a target at the cursor"},
+    ControlRow{EventKind::tdc_release, kRanging, kCursorIsTarget | kOperating | kSetOn, designate_target,
+               "designates a target at the cursor"},
+    ControlRow{EventKind::tdc_release, kModesWithCursor, kCursorIsMark | kOperating, store_mark,
+               "stores the cursor's place"},
+    ControlRow{EventKind::tdc_release, kRanging, kCursorIsMark | kOperating | kSetOn, store_mark,
+               "stores the cursor's place"},
+    ControlRow{EventKind::cursor, kModesWithCursor, kAlways, point_cursor},
+    ControlRow{EventKind::cursor, kRanging, kSetOn, point_cursor},
     ControlRow{EventKind::castle_up, kRadar, kAlways, next_sequence_point},
     ControlRow{EventKind::acquisition, kAllGround, kCursorIsMap, step_window},
-    ControlRow{EventKind::acquisition, kModesWithCursor, kCursorIsTarget | kOperating, steer_by_acquisition_switch},
-    ControlRow{EventKind::acquisition, kRanging, kCursorIsTarget | kOperating | kSetOn, steer_by_acquisition_switch},
+    ControlRow{EventKind::acquisition, kModesWithCursor, kCursorIsTarget | kOperating | kHasTarget,
+               steer_by_acquisition_switch},
+    ControlRow{EventKind::acquisition, kRanging, kCursorIsTarget | kOperating | kSetOn | kHasTarget,
+               steer_by_acquisition_switch},
     ControlRow{EventKind::freeze, kRbm | kBcn, kAlways, toggle_freeze},
     ControlRow{EventKind::freeze, kBothHrm, kSniffOff | kSetOff, toggle_freeze},
     ControlRow{EventKind::elevation, kRbm | kBcn | kPvu | kRanging, kSetOff, set_elevation},
@@ -234,27 +254,14 @@ Conditions present_conditions(const databuffer::RadarState& state) {
   present |= has(state, databuffer::kSet) ? kSetOn : kSetOff;
   if (state.map_newest != 0) present |= kHasMap;
   if (state.map_shown != 0) present |= kMapShown;
+  if (has(state, databuffer::kTargetDesignated)) present |= kHasTarget;
   return present;
 }
 
-// Reason given for an event that is dead because `condition` is not true. Of several missing conditions, the first in
-// kMissing gives the reason.
-struct MissingCondition {
-  Conditions condition;
-  const char* words;
-};
-constexpr std::array kMissing{MissingCondition{kOperating, "dead in STBY"},
-                              MissingCondition{kThawed, "dead while frozen"},
-                              MissingCondition{kFrozen, "dead unless frozen"},
-                              MissingCondition{kSniffOff, "dead while SNIFF is on"},
-                              MissingCondition{kSetOff, "dead while SET is on"},
-                              MissingCondition{kSetOn, "dead without SET"},
-                              MissingCondition{kHasMap, "dead without a map"},
-                              MissingCondition{kMapShown, "dead without a map on the display"},
-                              MissingCondition{kCursorIsMap, "dead unless the cursor function is MAP"}};
+constexpr Conditions kCursorFunctions = kCursorIsMap | kCursorIsUpdate | kCursorIsCue | kCursorIsTarget | kCursorIsMark;
 
 // Of the rows for this event and column, takes the row with the fewest missing conditions and returns these conditions;
-// nullopt if there is no such row.
+// nullopt if there is no such row. Of rows with as many, the row of the present cursor function is taken.
 template <typename Rows, typename IsOfEvent>
 std::optional<Conditions> fewest_missing(const Rows& rows, Columns column, Conditions present,
                                          const IsOfEvent& is_of_event) {
@@ -262,7 +269,10 @@ std::optional<Conditions> fewest_missing(const Rows& rows, Columns column, Condi
   for (const auto& row : rows) {
     if (!is_of_event(row) || (row.columns & column) == 0) continue;
     const auto missing = static_cast<Conditions>(row.live_when & ~present);
-    if (!fewest || std::popcount(missing) < std::popcount(*fewest)) fewest = missing;
+    const auto rank = [](Conditions conditions) {
+      return 2 * std::popcount(conditions) + ((conditions & kCursorFunctions) != 0 ? 1 : 0);
+    };
+    if (!fewest || rank(missing) < rank(*fewest)) fewest = missing;
   }
   return fewest;
 }
@@ -287,39 +297,69 @@ bool is_row_of(const ControlRow& row, const databuffer::InputEvent& event) {
 }
 }  // namespace
 
-std::string reason_without_effect(const databuffer::RadarState& state, const databuffer::InputEvent& event) {
-  if (action_for(state, event)) return "changed nothing: already at this value or at its limit";
-  if (power_of(state) == radar::Power::off) return "dead while the power is OFF";
+namespace {
+
+bool is_button(const databuffer::InputEvent& event) {
+  return event.kind == static_cast<std::uint16_t>(EventKind::push_button);
+}
+
+// The first live row of the event in this column; nullptr: none.
+template <typename Rows, typename IsOfEvent>
+auto live_row(const Rows& rows, Columns column, const databuffer::RadarState& state, const IsOfEvent& is_of_event) {
+  const auto row = std::ranges::find_if(rows, [&](const auto& candidate) {
+    return is_of_event(candidate) && (candidate.columns & column) != 0 && hold(candidate.live_when, state);
+  });
+  return row == rows.end() ? nullptr : &*row;
+}
+
+template <typename Rows, typename IsOfEvent>
+Columns columns_in(const Rows& rows, const IsOfEvent& is_of_event) {
+  Columns columns = 0;
+  for (const auto& row : rows)
+    if (is_of_event(row)) columns |= row.columns;
+  return columns;
+}
+
+// Calls `visit` with the rows of buttons or of controls, the column that applies to them, and the test for the event.
+template <typename Visit>
+auto with_rows(const databuffer::RadarState& state, const databuffer::InputEvent& event, const Visit& visit) {
+  if (is_button(event))
+    return visit(kButtons, button_column(state),
+                 [&event](const ButtonRow& row) { return row.button == event.argument; });
+  return visit(kControls, control_column(state), [&event](const ControlRow& row) { return is_row_of(row, event); });
+}
+
+}  // namespace
+
+const ButtonRow* live_button(const databuffer::RadarState& state, int button) {
+  return live_row(kButtons, button_column(state), state,
+                  [button](const ButtonRow& row) { return row.button == button; });
+}
+
+const ControlRow* live_control(const databuffer::RadarState& state, const databuffer::InputEvent& event) {
+  return live_row(kControls, control_column(state), state,
+                  [&event](const ControlRow& row) { return is_row_of(row, event); });
+}
+
+std::optional<Conditions> missing_conditions(const databuffer::RadarState& state, const databuffer::InputEvent& event) {
   const Conditions present = present_conditions(state);
-  const bool button = event.kind == static_cast<std::uint16_t>(EventKind::push_button);
-  const auto missing = button ? fewest_missing(kButtons, button_column(state), present,
-                                               [&event](const ButtonRow& row) { return row.button == event.argument; })
-                              : fewest_missing(kControls, control_column(state), present,
-                                               [&event](const ControlRow& row) { return is_row_of(row, event); });
-  const auto mode = button ? static_cast<radar::Mode>(state.mode) : running_mode(state);
-  std::string in_mode = "dead in " + std::string(name_of(mode));
-  if (!missing) return in_mode;
-  const auto first = std::ranges::find_if(
-      kMissing, [missing](const MissingCondition& one) { return (*missing & one.condition) != 0; });
-  return first == kMissing.end() ? in_mode + " with this cursor function" : first->words;
+  return with_rows(state, event, [present](const auto& rows, Columns column, const auto& is_of_event) {
+    return fewest_missing(rows, column, present, is_of_event);
+  });
+}
+
+Columns columns_of(const databuffer::InputEvent& event) {
+  return with_rows({}, event,
+                   [](const auto& rows, Columns, const auto& is_of_event) { return columns_in(rows, is_of_event); });
 }
 
 Action action_for(const databuffer::RadarState& state, const databuffer::InputEvent& event) {
-  const auto live_in = [&state](Columns column) {
-    return [&state, column](const auto& row) { return (row.columns & column) != 0 && hold(row.live_when, state); };
-  };
-  if (event.kind == static_cast<std::uint16_t>(EventKind::push_button)) {
-    const auto live = live_in(button_column(state));
-    const auto row = std::find_if(kButtons.begin(), kButtons.end(), [&](const ButtonRow& candidate) {
-      return candidate.button == event.argument && live(candidate);
-    });
-    return row == kButtons.end() ? nullptr : row->action;
+  if (is_button(event)) {
+    const ButtonRow* row = live_button(state, event.argument);
+    return row == nullptr ? nullptr : row->action;
   }
-  const auto live = live_in(control_column(state));
-  const auto row = std::find_if(kControls.begin(), kControls.end(), [&](const ControlRow& candidate) {
-    return is_row_of(candidate, event) && live(candidate);
-  });
-  return row == kControls.end() ? nullptr : row->action;
+  const ControlRow* row = live_control(state, event);
+  return row == nullptr ? nullptr : row->action;
 }
 
 void write_legends(databuffer::RadarState& state) {

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -56,6 +57,7 @@ inline constexpr Conditions kCursorIsCue = 1U << 10;
 inline constexpr Conditions kCursorIsTarget = 1U << 11;
 inline constexpr Conditions kCursorIsMark = 1U << 12;
 inline constexpr Conditions kLineSlews = 1U << 13;  // the TDC turns the steering line that ends at the target
+inline constexpr Conditions kHasTarget = 1U << 14;  // a target is designated
 
 using Action = void (*)(Step&);
 
@@ -73,6 +75,7 @@ struct ButtonRow {
   Columns columns;
   Conditions live_when;  // the button has an effect while these conditions are true
   Action action;
+  const char* does;  // what a press does, for advice.hpp: "scan width"
   Legend legend;
   Conditions shown_when;                                   // the legend is shown while these conditions are true
   bool (*boxed)(const databuffer::RadarState&) = nullptr;  // true: the legend has a box; null = never
@@ -83,6 +86,7 @@ struct ControlRow {
   Columns columns;
   Conditions live_when;  // the control has an effect while these conditions are true
   Action action;
+  const char* does = nullptr;  // what the TDC's switch does, for advice.hpp; other controls: null
 };
 
 // The column that applies in this state: for the buttons, and for all other controls.
@@ -102,7 +106,15 @@ bool is_for_tour(const databuffer::InputEvent& event);
 // action of the release, which only tells whether the press is dead.
 Action action_for(const databuffer::RadarState& state, const databuffer::InputEvent& event);
 
-// Reason why the event has no effect in this state, as a text: "dead in PVU", "dead while frozen".
-std::string reason_without_effect(const databuffer::RadarState& state, const databuffer::InputEvent& event);
+// Row of the event in this state; nullptr: the event has no effect (is dead).
+const ButtonRow* live_button(const databuffer::RadarState& state, int button);
+const ControlRow* live_control(const databuffer::RadarState& state, const databuffer::InputEvent& event);
+
+// Conditions that keep the event from an effect: of the rows for the event and the present column, the row with the
+// fewest missing conditions. 0: the event is live. nullopt: no row of the event applies in this column.
+std::optional<Conditions> missing_conditions(const databuffer::RadarState& state, const databuffer::InputEvent& event);
+
+// Columns in which the event has a row.
+Columns columns_of(const databuffer::InputEvent& event);
 
 }  // namespace yars::statemachine

@@ -18,7 +18,7 @@ namespace {
 constexpr double kMaxInjectedError_ft = 600'000.0;
 constexpr double kMaxInjectedDrift_fps = 1'000.0;
 
-constexpr EventKind kLastKind = EventKind::next;
+constexpr EventKind kLastKind = EventKind::cursor;
 
 void inspect_argument(Inspection& inspection, const InputEvent& event, int lower, int upper) {
   inspection.range("argument", event.argument, lower, upper);
@@ -61,6 +61,10 @@ Refusal validate(const InputEvent& event) {
     case EventKind::tdc:
       inspection.range("x", event.x, -1.0, 1.0);
       inspection.range("y", event.y, -1.0, 1.0);
+      break;
+    case EventKind::cursor:
+      inspection.range("x", event.x, 0.0, 1.0);
+      inspection.range("y", event.y, 0.0, 1.0);
       break;
     case EventKind::elevation:
       inspection.range("x", event.x, -60.0, 60.0);
@@ -136,6 +140,7 @@ constexpr std::array kForms{
     Form{"tdc", Operand::pair, "X Y (-1..1)", EventKind::tdc, 0},
     Form{"tdc", Operand::word, "press", EventKind::tdc_press, 0},
     Form{"tdc", Operand::word, "release", EventKind::tdc_release, 0},
+    Form{"cursor", Operand::pair, "RIGHT DOWN (0..1)", EventKind::cursor, 0},
     Form{"coolie", Operand::word, "up", EventKind::castle_up, 0},
     Form{"acq", Operand::word, "fwd", EventKind::acquisition, 1},
     Form{"acq", Operand::word, "aft", EventKind::acquisition, -1},

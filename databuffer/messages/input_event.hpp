@@ -19,7 +19,7 @@ namespace yars::databuffer {
 Refusal validate(const InputEvent& event);
 
 // Text form of events, for scripts, `yars inject` and logs. `coolie up` is a push of the castle switch.
-//   pb 13 | tdc 0.5 0 | tdc press | tdc release | coolie up | acq fwd|aft | freeze | elevation -5 |
+//   pb 13 | tdc 0.5 0 | tdc press | tdc release | cursor 0.5 0.4 | coolie up | acq fwd|aft | freeze | elevation -5 |
 //   elevation up|down [STEPS] (0.5 deg each, project choice) | mode ag|aa|agr | radar rbm|hrm|bcn|pvu |
 //   power off|stby|opr | nav mn|ins|toggle | nav error|drift mn|ins NORTH EAST (ft, ft/s) | sp 2.1 |
 //   altimeter ok|fail | contrast up|down | next

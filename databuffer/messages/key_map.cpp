@@ -29,10 +29,12 @@ constexpr std::array kKeyActions{
     KeyAction{Key{'['}, EventKind::elevation_step, -1},
     KeyAction{Key{']'}, EventKind::elevation_step, 1},
     KeyAction{Key{'n'}, EventKind::next, 0},
-    KeyAction{Key::f1, EventKind::master_mode, static_cast<int>(radar::Master::air_to_ground)},
-    KeyAction{Key::f2, EventKind::master_mode, static_cast<int>(radar::Master::air_to_air)},
-    KeyAction{Key::f3, EventKind::master_mode, static_cast<int>(radar::Master::ranging)},
     KeyAction{Key::f4, EventKind::navigator, -1},
+    KeyAction{Key::f5, EventKind::master_mode, static_cast<int>(radar::Master::air_to_ground)},
+    KeyAction{Key::f6, EventKind::master_mode, static_cast<int>(radar::Master::air_to_air)},
+    KeyAction{Key::f7, EventKind::master_mode, static_cast<int>(radar::Master::ranging)},
+    KeyAction{Key{'o'}, EventKind::power, static_cast<int>(radar::Power::operate)},
+    KeyAction{Key{'s'}, EventKind::power, static_cast<int>(radar::Power::standby)},
 };
 
 InputEvent event_of(EventKind kind, int argument = 0) {
@@ -70,7 +72,7 @@ Key key_of_character(char character) {
 }
 
 Key key_of_glfw(int code) {
-  constexpr std::array<std::pair<int, Key>, 14> kNamed{{{GLFW_KEY_UP, Key::up},
+  constexpr std::array<std::pair<int, Key>, 19> kNamed{{{GLFW_KEY_UP, Key::up},
                                                         {GLFW_KEY_DOWN, Key::down},
                                                         {GLFW_KEY_LEFT, Key::left},
                                                         {GLFW_KEY_RIGHT, Key::right},
@@ -83,11 +85,43 @@ Key key_of_glfw(int code) {
                                                         {GLFW_KEY_F1, Key::f1},
                                                         {GLFW_KEY_F2, Key::f2},
                                                         {GLFW_KEY_F3, Key::f3},
-                                                        {GLFW_KEY_F4, Key::f4}}};
+                                                        {GLFW_KEY_F4, Key::f4},
+                                                        {GLFW_KEY_F5, Key::f5},
+                                                        {GLFW_KEY_F6, Key::f6},
+                                                        {GLFW_KEY_F7, Key::f7},
+                                                        {GLFW_KEY_F8, Key::f8},
+                                                        {GLFW_KEY_F11, Key::f11}}};
   const auto* named = std::ranges::find(kNamed, code, &std::pair<int, Key>::first);
   if (named != kNamed.end()) return named->second;
   // The GLFW code of a printable key is the ASCII code of its upper case.
   return code >= ' ' && code <= '~' ? key_of_character(static_cast<char>(code)) : Key::none;
+}
+
+bool is_dead_letter(Key key) {
+  const int code = static_cast<int>(key);
+  const bool letter_or_digit = (code >= 'a' && code <= 'z') || (code >= '0' && code <= '9');
+  return letter_or_digit && !event_of_key(key);
+}
+
+std::span<const KeyHelp> key_help() {
+  static constexpr std::array kRows{
+      KeyHelp{"arrows", "cursor (TDC)"},
+      KeyHelp{"Enter", "TDC switch, acts on release"},
+      KeyHelp{"Tab", "castle switch up: next point"},
+      KeyHelp{"PgUp PgDn", "window up, down; steering line with TGT"},
+      KeyHelp{"Space", "freeze"},
+      KeyHelp{"[ ]", "antenna down, up"},
+      KeyHelp{"O S", "power OPR, STBY"},
+      KeyHelp{"F4", "navigator MN, INS"},
+      KeyHelp{"F5 F6 F7", "A/G, A/A, A/G ranging"},
+  };
+  return kRows;
+}
+
+std::string_view key_of_button(int button) {
+  constexpr std::string_view kKeys = "23456789ABCDEFGHIJK";
+  return button >= 2 && button <= radar::kBezelButtons ? kKeys.substr(static_cast<std::size_t>(button) - 2, 1)
+                                                       : std::string_view();
 }
 
 InputEvent KeyboardState::deflection() const {

@@ -5,14 +5,18 @@
 // Source: docs/spec/pilots_interface.md#buttons, #controls.
 // Keys and their events, in the text form of input_event.hpp:
 //   2..9 a..k: pb 2..20 | arrows: tdc (full deflection while held) | Enter: tdc press, release | Tab: coolie up |
-//   Page Up, Page Down: acq fwd, aft | Space: freeze | [ ]: elevation down, up | F1 F2 F3: mode ag, aa, agr |
-//   F4: nav toggle | n: next | Escape: no event, but input-monitor ends.
-// pb: push button; tdc: throttle designator control, which moves the cursor; coolie: castle switch; acq: acquisition
+//   Page Up, Page Down: acq fwd, aft | Space: freeze | [ ]: elevation down, up | F4: nav toggle |
+//   F5 F6 F7: mode ag, aa, agr | n: next | o: power opr | s: power stby.
+// Keys without an event: ? and F1 (help), F8 (bezel), F11 (full screen), Escape (ends help, full screen,
+// input-monitor). pb: push button; tdc: throttle designator control, which moves the cursor; coolie: castle switch;
+// acq: acquisition
 //   switch, which selects the window; ag, aa, agr: air-to-ground, air-to-air, air-to-ground ranging.
 #pragma once
 
 #include <bitset>
 #include <cstdint>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "databuffer/messages/input_event.hpp"
@@ -37,6 +41,11 @@ enum class Key : std::uint8_t {
   f2,
   f3,
   f4,
+  f5,
+  f6,
+  f7,
+  f8,
+  f11,
 };
 
 // Key of a printable ASCII character. `A` and `a` give the same key. Key::none for any other character.
@@ -44,6 +53,26 @@ Key key_of_character(char character);
 // Key of a key code of GLFW (window library), which stands for a position on a US keyboard. Key::none for a key that is
 // neither printable nor named in Key.
 Key key_of_glfw(int code);
+
+// True for the keys that show the help: `?` and F1.
+inline bool is_help(Key key) {
+  return key == Key{'?'} || key == Key::f1;
+}
+
+// True for a letter or digit without an event. Who types it is told so.
+bool is_dead_letter(Key key);
+inline constexpr const char* kDeadKeyHelp = "this key does nothing; ? shows the keys";
+
+// One row of the help: keys and what they do, in words. A new row here appears in the help over the display, in the
+// terminal and in the window of input-monitor.
+struct KeyHelp {
+  const char* keys;
+  const char* does;
+};
+// Keys other than those of the push buttons.
+std::span<const KeyHelp> key_help();
+// Name of the key of a push button: "2" to "9", "A" to "K"; empty for a button without a key.
+std::string_view key_of_button(int button);
 
 // Converts presses and releases of keys to events. Stores the set of held keys.
 class KeyboardState {

@@ -75,6 +75,10 @@ Refusal validate(const Nav& nav) {
   return validate_fields(nav);
 }
 
+Refusal validate(const PilotAdvice& advice) {
+  return validate_fields(advice);
+}
+
 Refusal validate(const RecorderStatus& status) {
   return validate_fields(status);
 }

@@ -28,6 +28,7 @@ Refusal validate(const GlassFrame& frame);
 Refusal validate(const Outputs& outputs);
 Refusal validate(const RadarState& state);
 Refusal validate(const Caption& caption);
+Refusal validate(const PilotAdvice& advice);
 // Records of radar-model.
 Refusal validate(const ModelStatus& status);
 Refusal validate(const Sweep& sweep);

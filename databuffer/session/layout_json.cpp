@@ -98,6 +98,7 @@ std::string containers() {
   parts.add("outputs", latest_value<shm::LatestValue<Outputs>>("Outputs"));
   parts.add("recorder_status", latest_value<shm::LatestValue<RecorderStatus>>("RecorderStatus"));
   parts.add("caption", latest_value<shm::LatestValue<Caption>>("Caption"));
+  parts.add("advice", latest_value<shm::LatestValue<PilotAdvice>>("PilotAdvice"));
   parts.add("model_ticks", ring<decltype(SessionLayout::model_ticks)>("ModelTick"));
   parts.add("applied_events", ring<decltype(SessionLayout::applied_events)>("AppliedEvent"));
   parts.add("sweeps", ring<decltype(SessionLayout::sweeps)>("Sweep"));
@@ -153,7 +154,8 @@ std::string offsets() {
                     {"traffic_latched", offsetof(SessionLayout, traffic_latched)},
                     {"frames", offsetof(SessionLayout, frames)},
                     {"counters", offsetof(SessionLayout, counters)},
-                    {"caption", offsetof(SessionLayout, caption)}});
+                     {"caption", offsetof(SessionLayout, caption)},
+                     {"advice", offsetof(SessionLayout, advice)}});
 }
 
 std::string lock_bytes() {

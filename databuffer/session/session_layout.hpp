@@ -105,11 +105,10 @@ struct FrameSlot {
   std::array<std::atomic<std::uint64_t>, kMaxFramePixels * kMaxFramePixels * 4 / 8> pixels;  // RGBA
 };
 
-// [bytes] Part of the reserve that containers occupy: Counters, padding to a cache line, the caption.
-inline constexpr std::size_t kUsedSpareBytes = (sizeof(Counters) + alignof(shm::LatestValue<Caption>) - 1) /
-                                                   alignof(shm::LatestValue<Caption>) *
-                                                   alignof(shm::LatestValue<Caption>) +
-                                               sizeof(shm::LatestValue<Caption>);
+// [bytes] Part of the reserve that containers occupy: Counters with padding to a cache line, Caption, PilotAdvice. The
+// assertions below SessionLayout hold the value.
+inline constexpr std::size_t kUsedSpareBytes =
+    680 + sizeof(shm::LatestValue<Caption>) + sizeof(shm::LatestValue<PilotAdvice>);
 
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is the layout, and cache lines need the padding
 struct SessionLayout {
@@ -136,8 +135,13 @@ struct SessionLayout {
   std::array<FrameSlot, kFrameSlots> frames;
   Counters counters;
   shm::LatestValue<Caption> caption;  // written by the holder of the role `tour`
+  shm::LatestValue<PilotAdvice> advice;
   std::array<std::atomic<std::uint64_t>, (kSpareBytes - kUsedSpareBytes) / 8> spare;
 };
+// New containers leave the end of the reserve, and thus the size of the layout, where it was.
+static_assert(offsetof(SessionLayout, spare) == offsetof(SessionLayout, counters) + kUsedSpareBytes);
+static_assert(offsetof(SessionLayout, spare) + sizeof(SessionLayout::spare) ==
+              offsetof(SessionLayout, counters) + kSpareBytes);
 
 // Identity that a segment must have: layout version, size, and a hash over name, version and size of each record.
 // A record that changes its meaning at the same size needs a higher version here.

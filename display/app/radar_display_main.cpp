@@ -13,6 +13,7 @@
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
 #include "display/app/frame_output_shell.hpp"
+#include "display/app/window_display_shell.hpp"
 #include "display/gl/context.hpp"
 #include "display/host/display.hpp"
 #include "display/host/session_link_shell.hpp"
@@ -31,9 +32,13 @@ struct DisplayOptions {
   std::size_t keep = 0;  // frames to keep; 0: all
   double every_s = 1.0;
   int size = 0;  // [pixels] 0: as configured
+  bool bezel = false, no_bezel = false;
+  bool help = false;
+  int tooltip = 0;  // button; 0: none
+
+  bool shows_panel() const { return bezel || tooltip != 0; }
 };
 
-constexpr std::int64_t kRedrawInterval_ns = 1'000'000'000 / 60;  // minimum interval: at most 60 redraws per second
 // Interval of updates without a window. If sim time runs at the rate of real time, a frame follows the begin of its
 // step (FrameSteps) by about 10 ms at most. No sweep is lost, because the session's ring keeps sweeps for 5 s.
 constexpr std::chrono::milliseconds kHeadlessInterval{10};
@@ -48,7 +53,13 @@ class HeadlessDisplay {
         size_(size),
         steps_(options.every_s),
         frames_(std::move(frames)),
-        publisher_(std::move(publisher)) {}
+        publisher_(std::move(publisher)),
+        panel_edge_(options.shows_panel() ? display::panel_edge(size, options.bezel) : 0) {
+    view_.bezel = options.bezel;
+    view_.tooltip = view_.lit = options.tooltip;
+    mpd_.show_hints(true);
+    mpd_.show_help(options.help);
+  }
 
   // One update without lockstep. A failed write loses only that frame.
   void step(std::int64_t sim_time_ns) {
@@ -87,13 +98,15 @@ class HeadlessDisplay {
   bool is_due_in_segment() {
     const std::int64_t now_ns = monotonic_ns();
     if (!publisher_ || now_ns < next_frame_ns_) return false;
-    next_frame_ns_ = now_ns + kRedrawInterval_ns;
+    next_frame_ns_ = now_ns + display::kRedrawInterval_ns;
     return true;
   }
 
   error::Expected<void> write(std::int64_t number) {
     if (frames_) {
-      if (auto written = frames_->write(mpd_.read(), number); !written) return written;
+      if (auto written = frames_->write(panel_edge_ > 0 ? mpd_.read_panel(view_, panel_edge_) : mpd_.read(), number);
+          !written)
+        return written;
     }
     mpd_.note_shown();
     return {};
@@ -116,6 +129,8 @@ class HeadlessDisplay {
   display::FrameSteps steps_;
   std::optional<display::FrameWriter> frames_;
   std::optional<display::FramePublisher> publisher_;
+  display::host::PanelView view_;
+  int panel_edge_;                  // [pixels] edge of the frames with their surround; 0: the picture alone
   std::int64_t next_frame_ns_ = 0;  // CLOCK_MONOTONIC
 };
 
@@ -159,70 +174,25 @@ error::Expected<void> run_headless(databuffer::Session& session, const radar::Ra
   return run_headless_lockstep(*loop, headless);
 }
 
-// Display in a window: redraws on change, at most 60 times per second. Sends keys and clicks when they arrive.
-class WindowDisplay {
- public:
-  WindowDisplay(display::gl::Window& window, Display& mpd, display::PilotInput& pilot,
-                std::optional<display::FramePublisher> publisher)
-      : window_(window), mpd_(mpd), pilot_(pilot), publisher_(std::move(publisher)) {}
-
-  // Waits for input until the next redraw is allowed, at most `max_wait_ns`.
-  void take_input(std::int64_t max_wait_ns) {
-    const std::int64_t wait_ns = std::min(next_redraw_ns_ - monotonic_ns(), max_wait_ns);
-    const display::gl::WindowInput input =
-        window_.take_input(1e-9 * static_cast<double>(std::max<std::int64_t>(wait_ns, 0)));
-    pilot_.send(input);
-    stale_ = stale_ || input.redraw_needed;
-    if (window_.should_close()) databuffer::request_stop();
-  }
-
-  // Updates the display to this time. Redraws the window at most once per kRedrawInterval_ns.
-  void step(std::int64_t sim_time_ns) {
-    mpd_.update(sim_time_ns);
-    const auto pixels = window_.pixels();
-    const int size = std::min(pixels.width, pixels.height);
-    if (redraw(pixels, size)) mpd_.note_shown();
-    if (publisher_) publisher_->work(mpd_, size);
-  }
-
- private:
-  // Returns true if the window shows the result of the last update.
-  bool redraw(const display::gl::Window::Pixels& pixels, int size) {
-    const std::int64_t now_ns = monotonic_ns();
-    if (now_ns < next_redraw_ns_) return false;
-    next_redraw_ns_ = now_ns + kRedrawInterval_ns;
-    if (size <= 0) return false;  // minimized
-    const bool painted = mpd_.paint(size);
-    if (painted && publisher_) publisher_->note_painted();
-    if (!painted && !stale_) return true;
-    window_.clear();
-    mpd_.draw({0, 0, pixels.width, pixels.height});
-    window_.present();
-    stale_ = false;
-    return true;
-  }
-
-  display::gl::Window& window_;
-  Display& mpd_;
-  display::PilotInput& pilot_;
-  std::optional<display::FramePublisher> publisher_;
-  std::int64_t next_redraw_ns_ = 0;  // CLOCK_MONOTONIC
-  bool stale_ = true;                // true: the window does not show the current picture
+struct WindowSize {
+  int picture = 0;  // [pixels] edge
+  bool bezel = true;
 };
 
 error::Expected<void> run_window(databuffer::Session& session, const radar::RadarConfiguration& configuration,
-                                 const databuffer::ProgramOptions& options, int size,
+                                 const databuffer::ProgramOptions& options, const WindowSize& size,
                                  std::optional<display::FramePublisher> publisher) {
-  auto window = display::gl::open_window("YARS " + configuration.name + " - " + options.session, size);
+  auto window = display::gl::open_window("YARS " + configuration.name + " - " + options.session + "  (? for help)",
+                                         display::panel_edge(size.picture, size.bezel));
   if (!window) return tl::unexpected(window.error());
   log::info("renderer " + display::gl::renderer_name());
   auto pilot = display::PilotInput::create(session, "radar-display");
   if (!pilot) return tl::unexpected(pilot.error());
   Display mpd(session, configuration, !options.lockstep.empty());
-  WindowDisplay shown(**window, mpd, *pilot, std::move(publisher));
+  display::WindowDisplay shown(**window, mpd, *pilot, std::move(publisher), size.bezel);
   if (options.lockstep.empty()) {
     while (!databuffer::stop_requested()) {
-      shown.take_input(kRedrawInterval_ns);
+      shown.take_input(display::kRedrawInterval_ns);
       shown.step(session.sim_time_ns());
     }
     pilot->release_all();
@@ -254,7 +224,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Displ
   }
   if (display_options.headless)
     return run_headless(*session, *configuration, options, display_options, size, std::move(publisher));
-  return run_window(*session, *configuration, options, size, std::move(publisher));
+  return run_window(*session, *configuration, options, {size, !display_options.no_bezel}, std::move(publisher));
 }
 
 }  // namespace
@@ -273,9 +243,17 @@ int main(int argc, char** argv) {
   app.option("--every", display_options.every_s, "sim seconds between frames (else 1)")
       .needs(headless)
       .range(0.005, 1e6);
+  app.flag("--bezel", display_options.bezel, "frames with the bezel and its twenty buttons around the picture")
+      .needs(headless);
+  app.flag("--show-help", display_options.help, "frames with the help over the picture").needs(headless);
+  app.option("--tooltip", display_options.tooltip, "frames with the tooltip of this button, 1 to 20 (else none)")
+      .needs(headless)
+      .range(1, 20);
+  app.flag("--no-bezel", display_options.no_bezel, "a window without the bezel; key F8 shows and hides it");
   app.flag("--publish", display_options.publish,
            "also publish pictures in the session for other programs, with edges of at most 1024 pixels");
-  app.option("--size", display_options.size, "edge of the display in pixels (else the configuration's)")
+  app.option("--size", display_options.size,
+             "edge of the picture in pixels, without the bezel (else the configuration's)")
       .range(120, 4096);
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, display_options); });
 }

@@ -122,6 +122,8 @@ error::Expected<std::unique_ptr<Context>> open_headless() {
 #include <cstdlib>
 #include <utility>
 
+#include "display/gl/window_icon.hpp"
+
 namespace yars::display::gl {
 
 namespace {
@@ -133,8 +135,15 @@ class GlfwWindow final : public Window {
     glfwSetKeyCallback(window, [](GLFWwindow* from, int key, int, int action, int) {
       if (action != GLFW_REPEAT) input_of(from).keys.push_back({databuffer::key_of_glfw(key), action == GLFW_PRESS});
     });
+    // GLFW has no key for "?", whose place depends on the keyboard's layout.
+    glfwSetCharCallback(window, [](GLFWwindow* from, unsigned code) {
+      if (code != '?') return;
+      for (const bool pressed : {true, false}) input_of(from).keys.push_back({databuffer::Key{'?'}, pressed});
+    });
     glfwSetMouseButtonCallback(window, [](GLFWwindow* from, int button, int action, int) {
-      if (button == GLFW_MOUSE_BUTTON_LEFT && action == GLFW_PRESS) self_of(from).add_click();
+      if (button == GLFW_MOUSE_BUTTON_LEFT || button == GLFW_MOUSE_BUTTON_RIGHT)
+        self_of(from).input_.mouse.push_back(
+            {button == GLFW_MOUSE_BUTTON_LEFT, action == GLFW_PRESS, self_of(from).mouse_position()});
     });
     glfwSetWindowFocusCallback(window, [](GLFWwindow* from, int focused) {
       if (focused == GLFW_FALSE) input_of(from).focus_lost = true;
@@ -159,6 +168,24 @@ class GlfwWindow final : public Window {
     }
     return std::exchange(input_, {});
   }
+  std::optional<Point> mouse() const override {
+    if (glfwGetWindowAttrib(window_, GLFW_HOVERED) == GLFW_FALSE) return std::nullopt;
+    return mouse_position();
+  }
+  bool is_full_screen() const override { return glfwGetWindowMonitor(window_) != nullptr; }
+  void show_full_screen(bool on) override {
+    if (on == is_full_screen()) return;
+    if (!on) {
+      glfwSetWindowMonitor(window_, nullptr, windowed_.left, windowed_.top, windowed_.width, windowed_.height, 0);
+      return;
+    }
+    GLFWmonitor* monitor = monitor_of_window();
+    const GLFWvidmode* mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
+    if (mode == nullptr) return;
+    glfwGetWindowPos(window_, &windowed_.left, &windowed_.top);
+    glfwGetWindowSize(window_, &windowed_.width, &windowed_.height);
+    glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+  }
   void clear() override {
     constexpr std::array<float, 4> kBlack{0.0F, 0.0F, 0.0F, 1.0F};
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -170,25 +197,55 @@ class GlfwWindow final : public Window {
   static GlfwWindow& self_of(GLFWwindow* window) { return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window)); }
   static WindowInput& input_of(GLFWwindow* window) { return self_of(window).input_; }
 
-  // Adds a click at the mouse position, in display units. The display is the largest square in the window's middle.
-  void add_click() {
+  // Position of the mouse as fractions of the largest square in the middle of the window.
+  Point mouse_position() const {
     double x = 0.0;
     double y = 0.0;
     int width = 0;
     int height = 0;
     glfwGetCursorPos(window_, &x, &y);
     glfwGetWindowSize(window_, &width, &height);
-    const double edge = std::min(width, height);
-    if (edge <= 0.0) return;
-    const auto unit = [&](double coordinate, int length) {
-      return static_cast<float>((coordinate - (length - edge) / 2.0) / edge) * kDisplayUnits;
+    const double edge = std::max(1, std::min(width, height));
+    const auto fraction = [&](double coordinate, int length) {
+      return static_cast<float>((coordinate - (length - edge) / 2.0) / edge);
     };
-    input_.clicks.push_back({unit(x, width), unit(y, height)});
+    return {fraction(x, width), fraction(y, height)};
   }
 
+  // The monitor that shows the middle of the window, else the primary monitor.
+  GLFWmonitor* monitor_of_window() const {
+    Frame frame;
+    glfwGetWindowPos(window_, &frame.left, &frame.top);
+    glfwGetWindowSize(window_, &frame.width, &frame.height);
+    const int x = frame.left + frame.width / 2, y = frame.top + frame.height / 2;
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    for (int i = 0; i < count; ++i) {
+      int left = 0, top = 0;
+      glfwGetMonitorPos(monitors[i], &left, &top);
+      const GLFWvidmode* mode = glfwGetVideoMode(monitors[i]);
+      const bool inside = mode != nullptr && x >= left && x < left + mode->width && y >= top && y < top + mode->height;
+      if (inside) return monitors[i];
+    }
+    return glfwGetPrimaryMonitor();
+  }
+
+  struct Frame {
+    int left = 0, top = 0, width = 0, height = 0;  // [screen coordinates]
+  };
+  Frame windowed_;  // position and size to return to from full screen
   GLFWwindow* window_;
   WindowInput input_;
 };
+
+void set_icon(GLFWwindow* window) {
+  std::array<imageio::Image, 3> icons{window_icon(16), window_icon(32), window_icon(64)};
+  std::array<GLFWimage, icons.size()> images{};
+  std::ranges::transform(icons, images.begin(), [](imageio::Image& icon) {
+    return GLFWimage{icon.width, icon.height, icon.pixels.data()};
+  });
+  glfwSetWindowIcon(window, static_cast<int>(images.size()), images.data());
+}
 
 bool is_set(const char* variable) {
   const char* value = std::getenv(variable);
@@ -213,12 +270,16 @@ error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, i
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "yars-radar-display");
+  glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "yars-radar-display");
   GLFWwindow* window = glfwCreateWindow(size, size, title.c_str(), nullptr, nullptr);
   if (window == nullptr) {
     auto failed = no_window();
     glfwTerminate();
     return failed;
   }
+  set_icon(window);
   glfwMakeContextCurrent(window);
   glfwSwapInterval(0);  // swaps do not wait for vertical sync; the main loop limits the frame rate
   return std::make_unique<GlfwWindow>(window);

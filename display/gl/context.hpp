@@ -43,16 +43,23 @@ struct KeyEdge {
   bool pressed = false;
 };
 
-// Events of the window since the last call of take_input(). Clicks are positions in display units (draw_list.hpp). A
-// click beside the display has a coordinate outside 0..480.
+// Press or release of a mouse button. `at`: position as fractions of the largest square in the middle of the window,
+// from its upper left corner. A position beside the square has a coordinate outside 0..1.
+struct MouseEdge {
+  bool left = true;  // false: the right button
+  bool pressed = false;
+  Point at;
+};
+
+// Events of the window since the last call of take_input().
 struct WindowInput {
   std::vector<KeyEdge> keys;
-  std::vector<Point> clicks;
+  std::vector<MouseEdge> mouse;
   bool focus_lost = false;
   bool redraw_needed = false;  // the window was uncovered or resized
 };
 
-// Window for the radar display. Clicks assume that the display is the largest square in the middle of the window.
+// Window for the radar display. The display is the largest square in the middle of the window.
 class Window : public Context {
  public:
   struct Pixels {
@@ -62,11 +69,16 @@ class Window : public Context {
   virtual bool should_close() const = 0;
   // Waits at most `max_wait_s` for events. Returns immediately if events are pending.
   virtual WindowInput take_input(double max_wait_s) = 0;
+  // Present position of the mouse as in MouseEdge; nullopt while it is outside the window.
+  virtual std::optional<Point> mouse() const = 0;
+  virtual void show_full_screen(bool on) = 0;  // on the monitor that has most of the window
+  virtual bool is_full_screen() const = 0;
   virtual void clear() = 0;    // binds the window's framebuffer and clears it to black
   virtual void present() = 0;  // swaps buffers without waiting for vertical sync
 };
 
-// Opens a window. `size`: width and height of the window [GLFW screen coordinates].
+// Opens a window of the class "yars-radar-display" (WM_CLASS), with an icon. `size`: width and height of the window
+// [pixels at a scale of 1]; the scale of the monitor enlarges it.
 // Errors: the environment has neither DISPLAY nor WAYLAND_DISPLAY, or no window with OpenGL 3.3 can be opened. The
 // error names the options with which radar-display needs no window.
 error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size);

@@ -67,7 +67,7 @@ struct Display::State {
       video_pass.draw(store, wedges, light_texture, colors.video);
     }
     if (wanted.map != 0) map_pass.draw(wanted.map, light_texture, colors.video, wanted.size);
-    overlay_pass.draw(list, colors, light, static_cast<float>(framebuffer.size()) / kDisplayUnits);
+    overlay_pass.draw(list, colors, light, {static_cast<float>(framebuffer.size()) / kDisplayUnits});
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
 

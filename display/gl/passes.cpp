@@ -16,7 +16,7 @@ namespace {
 // right edge (2), range [units], half width [rad], row, samples.
 constexpr int kFloatsPerWedge = 10;
 
-// The number 240 in the shaders is half of kDisplayUnits.
+// The number 240 in the shader of the video is half of kDisplayUnits.
 // kMargin: each wedge is drawn wider by kMargin on either side, so that no gap is visible between adjacent wedges.
 // A gap arises because the apex of a wedge is the aircraft's position, and the aircraft moves between two sweeps.
 // The gap is 0.22 display units in a Doppler beam sharpened scan at 4.7 NM range and 250 m/s ground speed.
@@ -220,6 +220,7 @@ constexpr const char* kOverlayVertex = R"(#version 330 core
 layout(location = 0) in vec4 ends;
 layout(location = 1) in vec4 style;  // half width, color
 uniform float pixels_per_unit;
+uniform float half_units;            // half the edge of the viewport [units]
 out vec2 at;                         // [pixels], like ends and half width below
 flat out vec4 segment;
 flat out vec4 stroke;
@@ -237,7 +238,7 @@ void main() {
     at = mix(segment.xy - along * margin, segment.zw + along * margin, side.x) +
          vec2(-along.y, along.x) * (side.y * 2.0 - 1.0) * margin;
   }
-  vec2 clip = at / (240.0 * pixels_per_unit) - 1.0;
+  vec2 clip = at / (half_units * pixels_per_unit) - 1.0;
   gl_Position = vec4(clip.x, -clip.y, 0.0, 1.0);
 }
 )";
@@ -282,6 +283,7 @@ OverlayPass::OverlayPass() : program_("overlay", kOverlayVertex, kOverlayFragmen
   instance_attribute(0, 0);
   instance_attribute(1, 4);
   scale_location_ = program_.uniform("pixels_per_unit");
+  half_location_ = program_.uniform("half_units");
 }
 
 OverlayPass::~OverlayPass() {
@@ -304,22 +306,24 @@ void OverlayPass::add_strokes(std::span<const Segment> segments, const ColorSche
   }
 }
 
-void OverlayPass::flush(float pixels_per_unit) {
+void OverlayPass::flush(const Scale& scale) {
   glBindVertexArray(vertex_array_);
   glBindBuffer(GL_ARRAY_BUFFER, instances_);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instance_data_.size() * sizeof(float)), instance_data_.data(),
                GL_STREAM_DRAW);
   program_.use();
-  glUniform1f(scale_location_, pixels_per_unit);
+  glUniform1f(scale_location_, scale.pixels_per_unit);
+  glUniform1f(half_location_, scale.units / 2.0F);
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instance_data_.size() / kFloatsPerInstance));
 }
 
 void OverlayPass::draw(const DrawList& list, const ColorScheme& colors, const std::array<float, 256>& light,
-                       float pixels_per_unit) {
-  // Instances are drawn in order: steps of the gray scale, then the layers from bottom to top.
+                       const Scale& scale) {
+  // Instances are drawn in order: panels, steps of the gray scale, then the layers from bottom to top.
   instance_data_.clear();
+  for (const Panel& panel : list.panels()) add_rectangle(panel.rect, panel.color);
   for (const VideoStep& step : list.video_steps()) add_rectangle(step.rect, scaled(colors.video, light[step.video]));
   for (std::size_t layer = 0; layer < kLayers; ++layer) {
     const LayerContent& content = list.content(static_cast<Layer>(layer));
@@ -327,7 +331,7 @@ void OverlayPass::draw(const DrawList& list, const ColorScheme& colors, const st
     add_strokes(content.strokes, colors, true);
     add_strokes(content.strokes, colors, false);
   }
-  if (!instance_data_.empty()) flush(pixels_per_unit);
+  if (!instance_data_.empty()) flush(scale);
 }
 
 }  // namespace yars::display::gl

@@ -73,9 +73,9 @@ class MapPass {
   std::vector<StoredMap> maps_;
 };
 
-// Draws a DrawList over the video: the gray scale, then the layers. A layer has plates (black rectangles), halos (black
-// margins of strokes) and strokes. Strokes have round ends. Edges of strokes and halos are antialiased over one pixel
-// at any display size: the alpha of a pixel depends on its distance from the stroke's centre line.
+// Draws a DrawList over the video: panels, the gray scale, then the layers. A layer has plates (black rectangles),
+// halos (black margins of strokes) and strokes. Strokes have round ends. Edges of strokes and halos are antialiased
+// over one pixel at any display size: the alpha of a pixel depends on its distance from the stroke's centre line.
 class OverlayPass {
  public:
   OverlayPass();
@@ -83,18 +83,21 @@ class OverlayPass {
   OverlayPass(const OverlayPass&) = delete;
   OverlayPass& operator=(const OverlayPass&) = delete;
 
-  // `light`: light table of the video, for the gray scale. `pixels_per_unit`: display size [pixels] / 480.
-  void draw(const DrawList& list, const ColorScheme& colors, const std::array<float, 256>& light,
-            float pixels_per_unit);
+  // `light`: light table of the video, for the gray scale. `scale`: size of the square viewport.
+  struct Scale {
+    float pixels_per_unit = 1.0F;
+    float units = kDisplayUnits;  // edge of the viewport
+  };
+  void draw(const DrawList& list, const ColorScheme& colors, const std::array<float, 256>& light, const Scale& scale);
 
  private:
   void add_rectangle(const Rect& rect, const Color& color);
   void add_strokes(std::span<const Segment> segments, const ColorScheme& colors, bool halo);
-  void flush(float pixels_per_unit);
+  void flush(const Scale& scale);
 
   ShaderProgram program_;
   std::uint32_t vertex_array_ = 0, instances_ = 0;
-  int scale_location_ = 0;
+  int scale_location_ = 0, half_location_ = 0;
   std::vector<float> instance_data_;
 };
 

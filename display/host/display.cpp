@@ -1,6 +1,7 @@
 #include "display/host/display.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <span>
 #include <utility>
@@ -11,7 +12,10 @@
 #include "display/gl/display.hpp"
 #include "display/gl/framebuffer.hpp"
 #include "display/gl/host_state_guard.hpp"
+#include "display/gl/panel.hpp"
 #include "display/host/session_link_shell.hpp"
+#include "display/symbology/bezel.hpp"
+#include "display/symbology/help.hpp"
 #include "lib/log/log.hpp"
 
 namespace yars::display::host {
@@ -29,6 +33,7 @@ struct Display::State {
         const radar::RadarConfiguration& configuration, bool lockstep)
       : own(std::move(own_session)),
         session(own ? &*own : joined),
+        colors(color_scheme(configuration.view.colors)),
         renderer(configuration, kInitialSize),
         feed(
             *session, lockstep, [this](const databuffer::Sweep& sweep) { renderer.add(sweep); },
@@ -49,7 +54,12 @@ struct Display::State {
   std::optional<databuffer::Session> own;  // session opened by attach(); nullopt: the host's session is used
   databuffer::Session* session;
   std::string name = "glass";
+  ColorScheme colors;
   gl::Display renderer;
+  gl::PanelPass panel_pass;
+  DrawList panel, painted_panel;                 // surround to draw, and surround of the last paint_panel()
+  std::optional<gl::Framebuffer> panel_picture;  // made by the first read_panel()
+  bool help = false, hints = false;
   gl::Readback readback;
   SessionFeed feed;
   // Created at the first press or click, because it occupies one of the session's 16 input lanes.
@@ -99,7 +109,10 @@ bool Display::paint(int size) {
   const gl::HostStateGuard guard;
   const int wanted = std::clamp(size, 1, kMaxPixels);
   if (wanted != state.renderer.size()) state.renderer.resize(wanted);
-  if (!state.renderer.draw(state.feed.input())) return false;
+  DisplayInput input = state.feed.input();
+  input.help = state.help;
+  input.hints = state.hints;
+  if (!state.renderer.draw(input)) return false;
   state.painted_tick = state.feed.input().state.tick;
   state.painted_sim_time_ns = state.sim_time_ns;
   return true;
@@ -112,6 +125,71 @@ void Display::draw(const Viewport& viewport) {
   paint(size);
   const gl::HostStateGuard guard;
   state_->renderer.show(viewport.left + (viewport.width - size) / 2, viewport.bottom + (viewport.height - size) / 2);
+}
+
+namespace {
+
+PanelLayout layout_of(const PanelView& view) {
+  return {view.bezel ? kBezelBorder : 0.0F};
+}
+
+// Edge of the picture within a panel [pixels].
+int picture_edge(const PanelView& view, int panel_edge) {
+  return static_cast<int>(std::lround(static_cast<float>(panel_edge) * kDisplayUnits / layout_of(view).edge()));
+}
+
+}  // namespace
+
+bool Display::paint_panel(const PanelView& view, int edge) {
+  State& state = *state_;
+  const bool painted = paint(picture_edge(view, edge));
+  const PanelLayout layout = layout_of(view);
+  state.panel.clear();
+  draw_bezel(layout, view.lit, state.panel);
+  if (view.tooltip >= 1 && view.tooltip <= kButtons) draw_tooltip(layout, input(), view.tooltip, state.panel);
+  if (!view.notice.empty()) draw_notice(layout, view.notice, state.panel);
+  if (state.panel == state.painted_panel) return painted;
+  state.painted_panel = state.panel;
+  return true;
+}
+
+void Display::draw_panel(const PanelView& view, const Viewport& viewport) {
+  const auto max_edge = static_cast<int>(static_cast<float>(kMaxPixels) * layout_of(view).edge() / kDisplayUnits);
+  const int edge = std::min({viewport.width, viewport.height, max_edge});
+  if (edge <= 0) return;
+  const gl::Square square{viewport.left + (viewport.width - edge) / 2, viewport.bottom + (viewport.height - edge) / 2,
+                          edge};
+  paint_panel(view, edge);
+  const int inner = picture_edge(view, edge), border = (edge - inner) / 2;
+  const gl::HostStateGuard guard;
+  state_->renderer.show(square.left + border, square.bottom + border);
+  state_->panel_pass.draw(state_->panel, state_->colors, square, layout_of(view).edge());
+}
+
+imageio::Image Display::read_panel(const PanelView& view, int edge) {
+  const gl::HostStateGuard guard;
+  auto& picture = state_->panel_picture;
+  if (!picture) picture.emplace(edge);
+  if (picture->size() != edge) picture->resize(edge);
+  picture->bind();
+  draw_panel(view, {0, 0, edge, edge});
+  return picture->read();
+}
+
+void Display::show_help(bool on) {
+  state_->help = on;
+}
+
+void Display::show_hints(bool on) {
+  state_->hints = on;
+}
+
+std::string Display::describe(int button) const {
+  return button >= 1 && button <= kButtons ? words_of_button(input(), button) : std::string();
+}
+
+const DisplayInput& Display::input() const {
+  return state_->feed.input();
 }
 
 void Display::note_shown() {

@@ -15,6 +15,7 @@
 #include <string>
 
 #include "display/gl/framebuffer.hpp"
+#include "display/symbology/plan_view.hpp"
 #include "lib/error/error.hpp"
 #include "lib/imageio/png.hpp"
 
@@ -32,6 +33,15 @@ inline constexpr int kMaxPixels = 4096;  // [pixels] maximum edge of the display
 // Rectangle of the current framebuffer [pixels], from its lower left corner, as in glViewport.
 struct Viewport {
   int left = 0, bottom = 0, width = 0, height = 0;
+};
+
+// What surrounds the picture: the MPD's bezel, a tooltip, a line of text.
+struct PanelView {
+  bool bezel = true;
+  int lit = 0;           // button that is drawn brighter, 1..20; 0: none
+  int tooltip = 0;       // button whose tooltip is shown, 1..20; 0: none
+  std::string notice{};  // line of text in the upper part of the picture; empty: none
+  friend bool operator==(const PanelView&, const PanelView&) = default;
 };
 
 struct AttachOptions {
@@ -63,6 +73,22 @@ class Display {
   // Draws the display as the largest square in the middle of the viewport, with an edge of at most kMaxPixels. Pixels
   // outside the square are unchanged.
   void draw(const Viewport& viewport);
+  // The picture with its surround, drawn as the largest square in the middle of the viewport. paint_panel() updates the
+  // picture and the surround for a square with this edge [pixels]; true: something has changed. read_panel() paints and
+  // reads it as RGB.
+  bool paint_panel(const PanelView& view, int edge);
+  void draw_panel(const PanelView& view, const Viewport& viewport);
+  imageio::Image read_panel(const PanelView& view, int edge);
+  // Covers the picture with the help: each button with its key and what it does now, the other keys. Off at first.
+  void show_help(bool on);
+  // Makes states without a picture say how to get back, and OFF how to switch on. Off at first: a cockpit's display is
+  // dark while the radar is OFF.
+  void show_hints(bool on);
+  // What a button 1..20 does now, or why it is dead and the remedy: "longer range: 80 NM".
+  std::string describe(int button) const;
+  // The records that the picture shows.
+  const DisplayInput& input() const;
+
   // Reports to the session that the last update is visible, for measurements of button latency.
   void note_shown();
 

@@ -35,6 +35,7 @@ SessionFeed::SessionFeed(databuffer::Session& session, bool lockstep, SweepSink 
 void SessionFeed::refresh(std::int64_t sim_time_ns) {
   take_health();
   take_state();
+  take_advice();
   take_maps();
   take_model(sim_time_ns);
   take_caption();
@@ -71,6 +72,10 @@ void SessionFeed::take_caption() {
 
 void SessionFeed::take_state() {
   if (state_.refresh(session_->layout().radar_state, *session_, "display: radar state")) input_.state = state_.value();
+}
+
+void SessionFeed::take_advice() {
+  if (advice_.refresh(session_->layout().advice, *session_, "display: advice")) input_.advice = advice_.value();
 }
 
 // Reads, once each, the maps that the radar state names. Drops maps that the state no longer names.
@@ -134,7 +139,7 @@ void PilotInput::press(int button) {
   databuffer::InputEvent event{};
   event.kind = static_cast<std::uint16_t>(databuffer::EventKind::push_button);
   event.argument = static_cast<std::int16_t>(button);
-  push(event);
+  send(event);
 }
 
 bool PilotInput::click(Point at) {
@@ -143,19 +148,15 @@ bool PilotInput::click(Point at) {
   return button.has_value();
 }
 
-void PilotInput::send(const gl::WindowInput& input) {
-  for (const Point at : input.clicks) click(at);
-  for (const gl::KeyEdge& edge : input.keys) {
-    for (const databuffer::InputEvent& event : keyboard_.change(edge.key, edge.pressed)) push(event);
-  }
-  if (input.focus_lost) release_all();
+void PilotInput::send_key(const gl::KeyEdge& edge) {
+  for (const databuffer::InputEvent& event : keyboard_.change(edge.key, edge.pressed)) send(event);
 }
 
 void PilotInput::release_all() {
-  for (const databuffer::InputEvent& event : keyboard_.release_all()) push(event);
+  for (const databuffer::InputEvent& event : keyboard_.release_all()) send(event);
 }
 
-void PilotInput::push(databuffer::InputEvent event) {
+void PilotInput::send(databuffer::InputEvent event) {
   event.session_time_ns = session_->sim_time_ns();
   event.monotonic_ns = databuffer::monotonic_ns();
   event.number = ++number_;

@@ -43,6 +43,7 @@ class SessionFeed {
   void take_maps();
   void take_model(std::int64_t sim_time_ns);
   void take_status();
+  void take_advice();
   void take_health();
   void take_caption();
 
@@ -61,6 +62,7 @@ class SessionFeed {
   databuffer::Validated<databuffer::ModelStatus> status_;
   databuffer::Validated<databuffer::Caption> caption_;
   bool tour_runs_ = false;           // a process holds the role `tour`; always true in lockstep
+  databuffer::Validated<databuffer::PilotAdvice> advice_;
   std::int64_t next_health_ns_ = 0;  // CLOCK_MONOTONIC time of the next reading of the process table
 };
 
@@ -73,12 +75,12 @@ class PilotInput {
   void press(int button);  // 1..20
   // Presses the button whose click zone contains `at`. Returns false if `at` is in no click zone.
   bool click(Point at);
-  void send(const gl::WindowInput& input);
+  void send(databuffer::InputEvent event);  // stamps the event with time and number
+  void send_key(const gl::KeyEdge& edge);
   void release_all();  // releases all held keys; called when the window loses focus or closes
 
  private:
   PilotInput(databuffer::Session& session, databuffer::Claim claim) : session_(&session), claim_(std::move(claim)) {}
-  void push(databuffer::InputEvent event);
 
   databuffer::Session* session_;
   databuffer::Claim claim_;

@@ -140,6 +140,30 @@ void stroke_text(std::string_view text, StrokeSink& sink) {
   }
 }
 
+std::string in_capitals(std::string_view text) {
+  std::string capitals(text);
+  for (char& letter : capitals)
+    if (letter >= 'a' && letter <= 'z') letter = static_cast<char>(letter - 'a' + 'A');
+  return capitals;
+}
+
+std::vector<std::string> wrapped(std::string_view text, float max_width) {
+  std::vector<std::string> lines;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find(' '), text.size());
+    const std::string word(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (word.empty()) continue;
+    const bool fits = !lines.empty() && text_width(lines.back() + ' ' + word) <= max_width;
+    if (fits) {
+      lines.back() += ' ' + word;
+    } else {
+      lines.push_back(word);
+    }
+  }
+  return lines;
+}
+
 float text_width(std::string_view text) {
   int columns = 0;
   while (!text.empty()) columns += glyph_of(take(text)).width + kGap;
@@ -172,9 +196,10 @@ Point on_circle(Point center, float radius, float degrees) {
 // Scales and moves the strokes of the font to display units and adds them to a list.
 class PlacedText final : public StrokeSink {
  public:
-  PlacedText(DrawList& list, Point base_left, float height) : list_(list), base_left_(base_left), height_(height) {}
+  PlacedText(DrawList& list, Point base_left, float height, Ink ink)
+      : list_(list), base_left_(base_left), height_(height), ink_(ink) {}
   void polyline(std::span<const Point> points) override {
-    for (std::size_t i = 1; i < points.size(); ++i) list_.line(placed(points[i - 1]), placed(points[i]));
+    for (std::size_t i = 1; i < points.size(); ++i) list_.line(placed(points[i - 1]), placed(points[i]), ink_);
   }
 
  private:
@@ -182,6 +207,7 @@ class PlacedText final : public StrokeSink {
   DrawList& list_;
   Point base_left_;
   float height_;
+  Ink ink_;
 };
 
 }  // namespace
@@ -193,6 +219,7 @@ void DrawList::clear() {
   }
   layer_ = Layer::symbols;
   video_steps_.clear();
+  panels_.clear();
   occupied_.clear();
 }
 
@@ -265,6 +292,17 @@ void DrawList::plate(const Rect& rect) {
   current().plates.push_back(rect);
 }
 
+void DrawList::panel(const Rect& rect, const Color& color) {
+  panels_.push_back({rect, color});
+}
+
+void DrawList::frame(const Rect& rect, Ink ink) {
+  const std::array<Point, 5> corners{Point{rect.left, rect.top}, Point{rect.right, rect.top},
+                                     Point{rect.right, rect.bottom}, Point{rect.left, rect.bottom},
+                                     Point{rect.left, rect.top}};
+  polyline(corners, ink);
+}
+
 void DrawList::occupy(std::string_view name, const Rect& rect, BoxKind kind) {
   const Point from = rounded(Point{rect.left, rect.top}), to = rounded(Point{rect.right, rect.bottom});
   occupied_.push_back({std::string(name), {from.x, from.y, to.x, to.y}, kind});
@@ -301,7 +339,7 @@ Rect DrawList::text(std::string_view words, Point at, const TextStyle& style, Bo
     polygon(corners, false);
   }
   const float margin = style.boxed ? kBoxMargin : 0.0F;
-  PlacedText placed(*this, {box.left + margin, box.bottom - margin}, style.height);
+  PlacedText placed(*this, {box.left + margin, box.bottom - margin}, style.height, style.ink);
   stroke_text(words, placed);
   occupy(words, box, kind);
   return box;

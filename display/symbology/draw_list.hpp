@@ -63,6 +63,12 @@ inline Rect grown(const Rect& rect, float by) {
   return {rect.left - by, rect.top - by, rect.right + by, rect.bottom + by};
 }
 
+// One color, each channel 0..1.
+struct Color {
+  float red = 0.0F, green = 0.0F, blue = 0.0F;
+  friend bool operator==(const Color&, const Color&) = default;
+};
+
 // Receives the polylines of stroke_text(), one call per polyline. The points are valid during the call only.
 class StrokeSink {
  public:
@@ -79,6 +85,12 @@ class StrokeSink {
 // base line.
 void stroke_text(std::string_view text, StrokeSink& sink);
 
+// The text in capitals, for prose: a lower-case "v" would be drawn as an arrow.
+std::string in_capitals(std::string_view text);
+
+// Divides a text into lines of at most `max_width` [cap heights] at its blanks. A longer word has a line of its own.
+std::vector<std::string> wrapped(std::string_view text, float max_width);
+
 // Width from the left edge of the first glyph to the right edge of the last [cap heights].
 float text_width(std::string_view text);
 
@@ -86,8 +98,9 @@ float text_width(std::string_view text);
 //   grid     range arcs, zero azimuth line        symbols  texts, scales
 //   lines    lines on the ground                  notices  messages
 //   points   points on the ground                 steered  the cursor
-enum class Layer : std::uint8_t { grid, lines, points, symbols, notices, steered };
-inline constexpr std::size_t kLayers = 6;
+//   cover    help and tooltips, over all else
+enum class Layer : std::uint8_t { grid, lines, points, symbols, notices, steered, cover };
+inline constexpr std::size_t kLayers = 7;
 
 enum class Ink : std::uint8_t { bright, dim };  // bright: symbols, texts; dim: thin lines such as arcs
 
@@ -104,6 +117,13 @@ struct VideoStep {
   Rect rect;
   std::uint8_t video = 0;
   friend bool operator==(const VideoStep&, const VideoStep&) = default;
+};
+
+// Filled rectangle of a fixed color, below all layers: a part of the bezel.
+struct Panel {
+  Rect rect;
+  Color color;
+  friend bool operator==(const Panel&, const Panel&) = default;
 };
 
 struct LayerContent {
@@ -131,6 +151,7 @@ struct TextStyle {
   Align align = Align::center;
   bool boxed = false;  // framed
   bool plate = false;  // black plate behind the text, which hides lines
+  Ink ink = Ink::bright;
 };
 
 // Draw list of one picture. clear() keeps the allocated memory for the next picture.
@@ -150,6 +171,8 @@ class DrawList {
   void thin_arc(Point center, float radius, float from_deg, float to_deg);  // [deg] clockwise from up; dim
   void video_step(const Rect& rect, std::uint8_t video);
   void plate(const Rect& rect);
+  void panel(const Rect& rect, const Color& color);
+  void frame(const Rect& rect, Ink ink = Ink::bright);  // outline of a rectangle
 
   // Draws text, vertically centred on `at.y`. `style.align`: left end, middle or right end of the text is at `at.x`.
   // Returns the box of the text, or of its frame if boxed, and records that box as occupied.
@@ -161,6 +184,7 @@ class DrawList {
 
   const LayerContent& content(Layer layer) const { return layers_[static_cast<std::size_t>(layer)]; }
   const std::vector<VideoStep>& video_steps() const { return video_steps_; }
+  const std::vector<Panel>& panels() const { return panels_; }
   const std::vector<OccupiedBox>& occupied() const { return occupied_; }
   friend bool operator==(const DrawList&, const DrawList&) = default;
 
@@ -170,16 +194,12 @@ class DrawList {
   Layer layer_ = Layer::symbols;
   std::array<LayerContent, kLayers> layers_;
   std::vector<VideoStep> video_steps_;
+  std::vector<Panel> panels_;
   std::vector<OccupiedBox> occupied_;
 };
 
 // The box that DrawList::text would occupy.
 Rect text_box(std::string_view words, Point at, const TextStyle& style = {});
-
-// One color, each channel 0..1.
-struct Color {
-  float red = 0.0F, green = 0.0F, blue = 0.0F;
-};
 
 // Colors of the display. The defaults are the green of the built-in configuration.
 struct ColorScheme {

@@ -35,7 +35,10 @@ struct DisplayInput {
   databuffer::Caption caption{};  // of the tour that runs; step 0: none
   bool state_machine_alive = true;
   bool model_alive = true;
-  bool ownship_fresh = true;  // a source still delivers the position and motion of the aircraft
+  bool ownship_fresh = true;         // a source still delivers the position and motion of the aircraft
+  databuffer::PilotAdvice advice{};  // what each button does; remedy of the message
+  bool hints = false;                // a state without a picture says how to get back; OFF says how to switch on
+  bool help = false;                 // the help covers the picture
 };
 
 // Position, orientation and scale of a picture on the ground.

@@ -70,6 +70,7 @@ constexpr float kTextHeight = 10.0F;    // [units] cap height of legends and rea
 constexpr float kArrowHeight = 14.0F;   // [units] cap height of the range buttons' arrows
 constexpr float kAboveLegend = 15.5F;   // [units] distance from a legend of the bottom row to the number above it
 constexpr float kBannerHeight = 18.0F;  // [units] cap height of STBY
+constexpr float kHintHeight = 8.0F;     // [units] cap height of remedies and of how to get back
 constexpr float kNoticeHeight = 13.0F;  // [units] cap height of NO OWNSHIP and similar
 
 using text::text_of;
@@ -199,15 +200,72 @@ void draw_freeze(DrawList& list) {
   list.text("FREEZE", {kDisplayUnits / 2.0F, 32.0F}, {kTextHeight + 1.0F});
 }
 
-void draw_message(const databuffer::RadarState& state, DrawList& list) {
+void draw_message(const DisplayInput& input, DrawList& list) {
+  const std::string_view message = text_of(input.state.message);
+  if (message.empty()) return;
+  constexpr float kLowestRow = 413.0F, kRowPitch = 12.0F;  // [units] above the azimuth scale
+  constexpr float kMaxWidth = 270.0F;                      // [units] between elevation scale and gray scale
+  constexpr std::size_t kMaxLines = 2;
+  auto lines = wrapped(in_capitals(text_of(input.advice.remedy)), kMaxWidth / kHintHeight);
+  if (lines.size() > kMaxLines) lines.resize(kMaxLines);
   list.draw_on(Layer::notices);
-  const std::string_view message = text_of(state.message);
-  if (!message.empty()) list.text(message, {kDisplayUnits / 2.0F, 413.0F}, centered(kTextHeight));
+  float y = kLowestRow - kRowPitch * static_cast<float>(lines.size());
+  list.text(message, {kDisplayUnits / 2.0F, y}, centered(kTextHeight));
+  for (const std::string& line : lines) {
+    y += kRowPitch;
+    list.text(line, {kDisplayUnits / 2.0F, y}, centered(kHintHeight));
+  }
   list.draw_on(Layer::symbols);
 }
 
-void draw_banner(std::string_view words, DrawList& list) {
-  list.text(words, {kDisplayUnits / 2.0F, 240.0F}, centered(kBannerHeight));
+namespace {
+
+// Words of a state without a picture.
+struct StateCard {
+  const char* name;      // large
+  const char* is;        // what the state is
+  const char* back;      // how to get back
+  float y = 240.0F;      // [units] of the name
+  float height = 13.0F;  // [units] cap height of the name
+};
+constexpr StateCard kOffCard{"OFF", "", "SWITCH ON: POWER OPR (O)"};
+constexpr StateCard kStandbyCard{"STBY", "STANDBY: NO TRANSMISSION, NO SCAN", "SWITCH ON: POWER OPR (O)", 240.0F,
+                                 kBannerHeight};
+constexpr StateCard kAirToAirCard{"AIR-TO-AIR", "THE RADAR WORKS WITHOUT A GROUND PICTURE",
+                                  "BACK TO A/G: MODE AG (F5)"};
+constexpr StateCard kRangingCard{"A/G RANGING", "THE RADAR MEASURES A RANGE, WITHOUT A PICTURE",
+                                 "BACK TO A/G: MODE AG (F5)"};
+constexpr StateCard kMenuCard{"MAIN MENU", "THE RADAR KEEPS RUNNING", "BACK TO THE RADAR: PB 6 (6)"};
+constexpr StateCard kPvuCard{"PVU", "PRECISION VELOCITY UPDATE: NO PICTURE", "NEXT MODE: PB 6 (6)", 84.0F};
+
+const StateCard* card_of(const databuffer::RadarState& state) {
+  if (state.power == static_cast<std::uint8_t>(radar::Power::off)) return &kOffCard;
+  const auto mode = static_cast<radar::Mode>(state.mode);
+  if (mode == radar::Mode::menu) return &kMenuCard;
+  if (state.power == static_cast<std::uint8_t>(radar::Power::standby)) return &kStandbyCard;
+  if (mode == radar::Mode::pvu) return &kPvuCard;
+  if (state.map_shown != 0) return nullptr;
+  if (mode == radar::Mode::air_to_air) return &kAirToAirCard;
+  return mode == radar::Mode::ranging ? &kRangingCard : nullptr;
+}
+
+}  // namespace
+
+void draw_state(const DisplayInput& input, DrawList& list) {
+  const StateCard* card = card_of(input.state);
+  if (card == nullptr || (card == &kOffCard && !input.hints)) return;
+  const Ink ink = card == &kOffCard ? Ink::dim : Ink::bright;
+  const auto row = [&](const char* words, float y, float height) {
+    list.text(words, {kDisplayUnits / 2.0F, y}, {height, Align::center, false, true, ink});
+  };
+  row(card->name, card->y, card->height);
+  constexpr float kFirstRow = 20.0F, kRowPitch = 14.0F;  // [units] below the name
+  float y = card->y + kFirstRow;
+  for (const char* words : {card->is, input.hints ? card->back : ""}) {
+    if (*words == '\0') continue;
+    row(words, y, kHintHeight);
+    y += kRowPitch;
+  }
 }
 
 void draw_silent(const DisplayInput& input, DrawList& list) {

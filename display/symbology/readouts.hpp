@@ -45,8 +45,11 @@ void draw_map_timer(double seconds, DrawList& list);  // nothing if not finite
 // Draws "A/A" or "A/G RANGING" in these modes, because no legend names them. Draws nothing in other modes.
 void draw_mode_name(const databuffer::RadarState& state, DrawList& list);
 void draw_freeze(DrawList& list);
-void draw_message(const databuffer::RadarState& state, DrawList& list);
-void draw_banner(std::string_view words, DrawList& list);     // centered, large: STBY
+// Draws the message, and below it the remedy in smaller text, on at most two lines.
+void draw_message(const DisplayInput& input, DrawList& list);
+// Draws what the state is if it shows no picture: STBY, A/A and A/G RANGING without a map, the main menu, PVU. With
+// `input.hints` also how to get back, and for OFF how to switch on; else OFF draws nothing.
+void draw_state(const DisplayInput& input, DrawList& list);
 void draw_silent(const DisplayInput& input, DrawList& list);  // NO OWNSHIP, NO MODEL, NO STATE MACHINE
 
 // Velocity differences: velocity measured by the radar minus velocity of the navigator, in ft/s. Components: along the

@@ -8,6 +8,7 @@
 #include "databuffer/messages/derived_values.hpp"
 #include "display/symbology/caption.hpp"
 #include "display/symbology/ground_symbols.hpp"
+#include "display/symbology/help.hpp"
 #include "display/symbology/plan_view.hpp"
 #include "display/symbology/radar_video.hpp"
 #include "display/symbology/readouts.hpp"
@@ -353,25 +354,32 @@ bool shows_map(const DisplayInput& input) {
          input.map.id == state.map_shown;
 }
 
+bool takes_cursor(const DisplayInput& input) {
+  const databuffer::RadarState& state = input.state;
+  const Format& format = format_of(state);
+  const bool set_or_ground = &format != &kStandingMap || (state.flags & databuffer::kSet) != 0;
+  return has_power(state, radar::Power::operate) && format.ground && set_or_ground && (!format.map || shows_map(input));
+}
+
 namespace {
 
 // Everything that power and mode require.
 void draw_radar(const DisplayInput& input, const SymbologyParameters& parameters, const PlanView& view,
                 const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
   const databuffer::RadarState& state = input.state;
+  draw_state(input, list);
   if (has_power(state, radar::Power::off)) {
-    // With power OFF the display is dark. A session that never had a state machine has power OFF, too. Therefore a
-    // missing state machine is reported even with power OFF.
+    // A session that never had a state machine has power OFF, too. Therefore a missing state machine is reported even
+    // with power OFF.
     if (!input.state_machine_alive) draw_silent({.state_machine_alive = false}, list);
     return;
   }
   draw_legends(state, list);
-  draw_message(state, list);
+  draw_message(input, list);
   draw_silent(input, list);
   draw_mode_name(state, list);
-  if (has_power(state, radar::Power::standby)) {
-    draw_banner("STBY", list);
-  } else if (shows_map(input)) {
+  if (has_power(state, radar::Power::standby)) return;
+  if (shows_map(input)) {
     draw_format(input, format_of(state), parameters, PlanView(input.map), frame_of(input.map), labels, list);
   } else {
     draw_format(input, format_of(state), parameters, view, frame, labels, list);
@@ -385,6 +393,8 @@ void draw_symbology(const DisplayInput& input, const SymbologyParameters& parame
   list.clear();
   draw_radar(input, parameters, view, frame, labels, list);
   draw_caption(input.caption, list);
+  // Last, so that the texts of the help do not move the labels.
+  if (input.help) draw_help(input, list);
 }
 
 }  // namespace yars::display

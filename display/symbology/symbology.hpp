@@ -49,6 +49,9 @@ bool shows_video(const databuffer::RadarState& state);
 // True with power OPR in a mode that shows a patch map, if `input` has that map.
 bool shows_map(const DisplayInput& input);
 
+// True if the display shows a cursor, which the mouse may then move.
+bool takes_cursor(const DisplayInput& input);
+
 // Sections and values of a configuration that the symbology reads. The configuration must outlive this object.
 struct SymbologyParameters {
   // Converts from a configuration with view, blind zone and route, such as radar::RadarConfiguration.
@@ -67,7 +70,8 @@ struct SymbologyParameters {
 
 // Draws all symbols and texts that power and mode require. With power STBY these are the legends, the message, the name
 // of A/A or A/G ranging, and the word STBY. Texts report a state machine or radar model that is not alive, and a
-// missing ownship. With power OFF only a state machine that is not alive is reported, and nothing else is drawn.
+// missing ownship. With power OFF only a state machine that is not alive is reported, and with `input.hints` how to
+// switch on. `input.help` adds the help, which covers the picture.
 // `view` and `frame` apply unless a patch map is shown; its picture has the view and frame of `input.map`. `labels` has
 // the label positions of the last picture, and is updated.
 // Pure: the same input and labels give the same list. Repeating the call with the updated labels gives the same list.

@@ -18,6 +18,7 @@
 #include "inputmonitor/learning.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::inputmonitor {
 
@@ -31,7 +32,10 @@ InputMonitorShell::InputMonitorShell(databuffer::Session& session, std::unique_p
     : session_(&session),
       source_(std::move(source)),
       lane_(static_cast<std::size_t>(lane)),
-      applied_cursor_(session.layout().applied_events.next()) {}
+      applied_cursor_(session.layout().applied_events.next()) {
+  advice_.refresh(session.layout().advice);
+  idle_count_ = advice_.value().idle_count;
+}
 
 void InputMonitorShell::run(databuffer::TickLoop& loop) {
   if (loop.lockstep() || source_->follows_sim_time())
@@ -62,6 +66,7 @@ void InputMonitorShell::run_by_input() {
     const Moment moment = now();
     push(source_->take(moment), moment);
     report_notices();
+    report_idle_event();
   }
 }
 
@@ -89,13 +94,24 @@ void InputMonitorShell::publish_caption() {
   caption_shown_ = *caption;
 }
 
+// Says why the newest event of this source was without effect. Of several at once, only the last is known.
+void InputMonitorShell::report_idle_event() {
+  if (!advice_.refresh(session_->layout().advice)) return;
+  const databuffer::PilotAdvice& advice = advice_.value();
+  if (std::exchange(idle_count_, advice.idle_count) == advice.idle_count || advice.idle_lane != lane_) return;
+  const databuffer::InputEvent& event = recent_[advice.idle_number % recent_.size()];
+  const std::string what = event.number == advice.idle_number ? databuffer::text_of(event) : "an event";
+  log::info(what + ": " + std::string(text::text_of(advice.idle_reason)));
+}
+
 void InputMonitorShell::report_notices() {
   for (const Notice& notice : source_->notices()) {
     if (notice.is_warning)
       log::warning(notice.text);
     else
       log::info(notice.text);
-    session_->note(notice.is_warning ? databuffer::NoteKind::loss : databuffer::NoteKind::restart, notice.text);
+    if (!notice.for_pilot)
+      session_->note(notice.is_warning ? databuffer::NoteKind::loss : databuffer::NoteKind::restart, notice.text);
   }
 }
 
@@ -104,6 +120,7 @@ void InputMonitorShell::push(const std::vector<databuffer::InputEvent>& events, 
     event.session_time_ns = moment.sim_time_ns;
     event.monotonic_ns = moment.monotonic_ns;
     event.number = ++number_;
+    recent_[event.number % recent_.size()] = event;
     log::debug(databuffer::text_of(event));
     if (session_->layout().input.push(lane_, event)) continue;
     session_->note(databuffer::NoteKind::loss, "input lane full, dropped: " + databuffer::text_of(event));

@@ -1,12 +1,14 @@
 // Shells of input-monitor. One feeds events into a session. The other (--learn) makes a device map, which assigns
 // events to the controls of a device.
 // Inputs: an EventSource; for --learn, a device and the commands on standard input.
-// Outputs: events in an input lane; the caption of a tour; for --learn, a device map as GUF text.
+// Outputs: events in an input lane; the caption of a tour; for --learn, a device map as GUF text. A live session's log
+// says why an event of this source was without effect or refused, and what to do.
 // Time stamps: an event in the lane has the sim time [ns] and the CLOCK_MONOTONIC time [ns] at which it was taken from
 // its source, and a sequence number.
 // Errors: an event for a full lane is dropped. The drop is written to the log and to the session's flight recorder.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -15,6 +17,7 @@
 
 #include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/session.hpp"
+#include "databuffer/session/validated.hpp"
 #include "inputmonitor/event_source.hpp"
 #include "lib/error/error.hpp"
 
@@ -38,6 +41,7 @@ class InputMonitorShell {
   // captions.
   void observe();
   void publish_caption();
+  void report_idle_event();
   void push(const std::vector<databuffer::InputEvent>& events, const Moment& moment);
 
   databuffer::Session* session_;
@@ -46,6 +50,9 @@ class InputMonitorShell {
   std::uint32_t number_ = 0;
   std::uint64_t applied_cursor_ = 0;                  // applied event to read next
   std::optional<databuffer::Caption> caption_shown_;  // caption in the segment; nullopt: none
+  std::array<databuffer::InputEvent, 16> recent_{};  // events pushed last; event n has index n mod 16
+  databuffer::Validated<databuffer::PilotAdvice> advice_;
+  std::uint64_t idle_count_ = 0;  // PilotAdvice::idle_count that was reported last
 };
 
 // `input-monitor --learn PATH [--out FILE]`: prompts for each control, reads the device and writes its map as GUF.

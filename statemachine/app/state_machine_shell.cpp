@@ -5,12 +5,14 @@
 #include <cmath>
 #include <cstring>
 #include <string>
+#include <utility>
 
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/mission.hpp"
+#include "statemachine/advice.hpp"
 #include "statemachine/designation.hpp"
 #include "statemachine/machine.hpp"
 
@@ -48,6 +50,7 @@ void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
   take_events(due.tick);
   advance(state_, inputs_, parameters_);
   publish_if_changed(due.tick);
+  publish_advice();
   session_->layout().outputs.publish(outputs_of(state_, inputs_));
   drop_old_events_ = false;
 }
@@ -143,6 +146,10 @@ void StateMachineShell::take(const databuffer::InputEvent& event, std::size_t la
   applied.event = event;
   applied.lane = static_cast<std::uint32_t>(lane);
   session_->layout().applied_events.publish(applied);
+  if (applied.effective != databuffer::kEventDone)
+    note_idle(advice_, {event, applied.lane, applied.effective == databuffer::kEventRefused}, state_, inputs_,
+              parameters_);
+  advice_due_ = true;
   log::debug(databuffer::text_of(event) + (applied.effective != databuffer::kEventDead ? "" : " (without effect)"));
 }
 
@@ -155,6 +162,19 @@ void StateMachineShell::publish_if_changed(std::int64_t tick) {
   session_->layout().radar_state.publish(state_);
   published_ = state_;
   nothing_published_ = false;
+}
+
+// Each advice tries all buttons, so it is made 10 times a second, and in ticks with an event. A change of the tick
+// alone does not count as a change.
+void StateMachineShell::publish_advice() {
+  constexpr std::int64_t kTicksBetween = 20;  // 0.1 s
+  if (!std::exchange(advice_due_, false) && inputs_.tick % kTicksBetween != 0) return;
+  advise(advice_, state_, inputs_, parameters_);
+  advice_.tick = published_advice_.tick;
+  if (std::memcmp(&advice_, &published_advice_, sizeof advice_) == 0) return;
+  advice_.tick = inputs_.tick;
+  session_->layout().advice.publish(advice_);
+  published_advice_ = advice_;
 }
 
 }  // namespace yars::statemachine

@@ -1,6 +1,7 @@
 // Shell of state-machine in a session: latches the inputs once per tick, applies events, publishes the results.
 // Inputs: events of all input lanes, ownship and nav, model status, recorder status, patch map records.
-// Outputs: the radar state when it has changed; every applied event; an Outputs record in every tick.
+// Outputs: the radar state when it has changed; every applied event; an Outputs record in every tick; advice for the
+//   pilot when it has changed.
 // Errors: invalid events and records are dropped and noted in the flight recorder; the last valid record stays in use.
 #pragma once
 
@@ -30,6 +31,7 @@ class StateMachineShell {
   void take_events(std::int64_t tick);
   void take(const databuffer::InputEvent& event, std::size_t lane, std::int64_t tick);
   void publish_if_changed(std::int64_t tick);
+  void publish_advice();
 
   databuffer::Session* session_;
   Parameters parameters_;
@@ -43,6 +45,8 @@ class StateMachineShell {
   databuffer::RadarState state_;
   databuffer::RadarState published_;
   bool nothing_published_ = true;
+  databuffer::PilotAdvice advice_{}, published_advice_{};
+  bool advice_due_ = true;
 };
 
 }  // namespace yars::statemachine

@@ -94,13 +94,18 @@ TEST_F(LiveSet, EventsWithoutEffectAreListedAndARefusedEventIsAnError) {
   EXPECT_EQ(mixed.code, 0) << mixed.errors;
   EXPECT_EQ(mixed.output,
             "3 events: 1 done, 2 without effect\n"
-            "  pb 3: dead in PVU\n"
+            "  pb 3: dead in PVU; live in RBM, HRM PPI, patch map, BCN\n"
             "  nav mn: changed nothing: already at this value or at its limit\n");
   EXPECT_EQ(set_.yars({"inject", "pb 2"}).output, "1 event: 1 done\n");
   const auto unknown = set_.yars({"inject", "sp 99"});
   EXPECT_EQ(unknown.code, 1);
   EXPECT_NE(unknown.errors.find("'sp 99' refused: NO POINT 99"), std::string::npos) << unknown.errors;
-  EXPECT_EQ(set_.watch()["message"], "NO POINT 99");
+  const auto watch = set_.watch();
+  EXPECT_EQ(watch["message"], "NO POINT 99");
+  const auto remedy = watch["remedy"].get<std::string>();
+  EXPECT_FALSE(remedy.empty());
+  EXPECT_NE(unknown.errors.find(remedy), std::string::npos) << unknown.errors;
+  EXPECT_NE(set_.yars({"status"}).output.find("display says: NO POINT 99; " + remedy), std::string::npos);
 }
 
 TEST_F(LiveSet, WatchHasMarksCueTargetAndRanging) {

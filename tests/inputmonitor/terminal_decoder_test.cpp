@@ -16,10 +16,12 @@ using databuffer::Key;
 constexpr std::int64_t kMillisecond = 1'000'000;
 
 std::string name_of(Key key) {
-  static const std::map<Key, std::string> kNames{
-      {Key::up, "up"},   {Key::down, "down"},    {Key::left, "left"},      {Key::right, "right"}, {Key::enter, "enter"},
-      {Key::tab, "tab"}, {Key::page_up, "pgup"}, {Key::page_down, "pgdn"}, {Key::f1, "f1"},       {Key::f2, "f2"},
-      {Key::f3, "f3"},   {Key::f4, "f4"},        {Key::escape, "esc"},     {Key::space, "space"}};
+  static const std::map<Key, std::string> kNames{{Key::up, "up"},        {Key::down, "down"},      {Key::left, "left"},
+                                                 {Key::right, "right"},  {Key::enter, "enter"},    {Key::tab, "tab"},
+                                                 {Key::page_up, "pgup"}, {Key::page_down, "pgdn"}, {Key::f1, "f1"},
+                                                 {Key::f2, "f2"},        {Key::f3, "f3"},          {Key::f4, "f4"},
+                                                 {Key::f5, "f5"},        {Key::f7, "f7"},          {Key::f11, "f11"},
+                                                 {Key::escape, "esc"},   {Key::space, "space"}};
   const auto name = kNames.find(key);
   return name != kNames.end() ? name->second : std::string(1, static_cast<char>(key));
 }
@@ -68,6 +70,7 @@ TEST(TerminalDecoder, FunctionKeysOfXtermVt220AndTheLinuxConsoleAreDecoded) {
   EXPECT_EQ(typed("\x1bOP\x1bOQ\x1bOR\x1bOS"), "+f1 -f1 +f2 -f2 +f3 -f3 +f4 -f4");
   EXPECT_EQ(typed("\x1b[11~\x1b[12~\x1b[13~\x1b[14~"), "+f1 -f1 +f2 -f2 +f3 -f3 +f4 -f4");
   EXPECT_EQ(typed("\x1b[[A\x1b[[B\x1b[[C\x1b[[D"), "+f1 -f1 +f2 -f2 +f3 -f3 +f4 -f4");
+  EXPECT_EQ(typed("\x1b[15~\x1b[18~\x1b[23~\x1b[[E"), "+f5 -f5 +f7 -f7 +f11 -f11 +f5 -f5");
   EXPECT_EQ(typed("\x1b[1;2P"), "+f1 -f1");
   EXPECT_EQ(typed("\x1b[5~\x1b[6;3~"), "+pgup -pgup +pgdn -pgdn");
   EXPECT_EQ(typed("\x1bOM"), "+enter -enter");

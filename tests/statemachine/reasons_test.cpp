@@ -24,9 +24,8 @@ std::string reasons_of(Pilot& pilot, const std::vector<std::string>& texts) {
   std::string lines;
   for (std::size_t i = 0; i < events.size(); ++i) {
     if (effects[i] == databuffer::kEventDone) continue;
-    const auto reason =
-        certain_reason({events, effects, before, pilot.state, pilot.around.recorder_present}, i).value_or("?");
-    lines += (lines.empty() ? "" : "; ") + texts[i] + ": " + reason;
+    const auto reason = certain_reason({events, effects, before, pilot.state, pilot.around.recorder_present}, i);
+    lines += (lines.empty() ? "" : "; ") + texts[i] + ": " + (reason ? reason->words : "?");
   }
   return lines;
 }

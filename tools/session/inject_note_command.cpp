@@ -130,12 +130,12 @@ void report(const statemachine::AppliedSequence& applied) {
     if (applied.effects[i] != databuffer::kEventDead) continue;
     const auto reason = statemachine::certain_reason(applied, i);
     std::printf("  %s: %s\n", databuffer::text_of(applied.events[i]).c_str(),
-                reason ? reason->c_str() : "without effect; send it alone for the reason");
+                reason ? statemachine::text_of(*reason).c_str() : "without effect; send it alone for the reason");
   }
 }
 
 [[noreturn]] void give_up_refused(const statemachine::AppliedSequence& applied) {
-  std::string refused;
+  std::string refused, remedies;
   bool all_certain = true;
   for (std::size_t i = 0; i < applied.events.size(); ++i) {
     if (applied.effects[i] != databuffer::kEventRefused) continue;
@@ -143,12 +143,12 @@ void report(const statemachine::AppliedSequence& applied) {
     all_certain = all_certain && reason;
     refused += refused.empty() ? "'" : ", '";
     refused += databuffer::text_of(applied.events[i]);
-    refused += reason ? "' refused: " + *reason : "' refused";
+    refused += reason ? "' refused: " + reason->words : "' refused";
+    if (reason && !reason->remedy.empty()) remedies += (remedies.empty() ? "" : "; ") + reason->remedy;
   }
-  throw_failure(
-      {"inject", "events that can be carried out", refused,
-       all_certain ? "see points, cursor and limits in `yars watch --json`" : "send an event alone for its reason",
-       false});
+  if (remedies.empty()) remedies = "see points, cursor and limits in `yars watch --json`";
+  throw_failure({"inject", "events that can be carried out", refused,
+                 all_certain ? remedies : "send an event alone for its reason", false});
 }
 
 void inject(const CommonOptions& common, const std::vector<std::string>& arguments) {
@@ -182,8 +182,9 @@ void inject(const CommonOptions& common, const std::vector<std::string>& argumen
                    "check with `yars status` that state-machine and the clock run", false});
   const bool all_done = std::ranges::count(outcome, databuffer::kEventDone) == std::ssize(outcome);
   const databuffer::RadarState after = all_done ? databuffer::RadarState{} : state_after_events(*session);
-  const statemachine::AppliedSequence applied{events, outcome, before, after,
-                                              session->role_is_held(databuffer::Role::recorder)};
+  const auto advice = databuffer::read_valid(session->layout().advice).value_or(databuffer::PilotAdvice{});
+  const statemachine::AppliedSequence applied{
+      events, outcome, before, after, session->role_is_held(databuffer::Role::recorder), advice.remedy};
   report(applied);
   if (std::ranges::find(outcome, databuffer::kEventRefused) != outcome.end()) give_up_refused(applied);
 }

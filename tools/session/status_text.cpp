@@ -90,6 +90,9 @@ void print_radar(const ordered_json& status) {
               fidelity.empty() ? "unknown" : fidelity.c_str(), load_text(model["load"].get<double>()).c_str(),
               static_cast<unsigned long long>(watch["sweeps"].get<std::uint64_t>()),
               static_cast<double>(model["terrain_bytes"].get<std::uint64_t>()) / 1e6);
+  const std::string message = text(watch["message"]), remedy = text(watch["remedy"]);
+  if (!message.empty())
+    std::printf("display says: %s%s%s\n", message.c_str(), remedy.empty() ? "" : "; ", remedy.c_str());
   const auto& recorder = status["recorder"];
   if (recorder.is_null()) return;
   std::printf("recorder: %s, %.1f MB", recorder["writing"].get<bool>() ? "writing" : "stopped",

@@ -149,13 +149,20 @@ void print_designations(const nlohmann::ordered_json& object) {
                 degrees(ranging["bearing_true_deg"]), degrees(ranging["depression_deg"]));
 }
 
+// The message with its remedy: "BLIND ZONE (turn 5 deg or more left)".
+std::string message_text(const nlohmann::ordered_json& object) {
+  const auto message = object["message"].get<std::string>();
+  const auto remedy = object["remedy"].get<std::string>();
+  return message.empty() || remedy.empty() ? message : message + " (" + remedy + ")";
+}
+
 void print_text_line(const nlohmann::ordered_json& object) {
   const auto& own = object["ownship"];
   std::printf("%9.2f s  %-4s %-5s %5.1f NM %-4s GAIN %d %s%s%s", object["sim_time"].get<double>(),
               object["power"].get<std::string>().c_str(), object["mode"].get<std::string>().c_str(),
               object["range_nm"].get<double>(), object["scan"].get<std::string>().c_str(), object["gain"].get<int>(),
               object["freeze"].get<bool>() ? "FREEZE " : "", object["sniff"].get<bool>() ? "SNIFF " : "",
-              object["message"].get<std::string>().c_str());
+              message_text(object).c_str());
   if (!own.is_null())
     std::printf("  %.4f %.4f %.0f ft MSL track %.0f deg %.0f kt", own["lat"].get<double>(), own["lon"].get<double>(),
                 own["alt_ft"].get<double>(), own["track_deg"].get<double>(), own["ground_speed_kt"].get<double>());

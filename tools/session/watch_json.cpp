@@ -257,6 +257,8 @@ nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   ordered_json object;
   add_clock(object, session, model);
   add_radar_state(object, state);
+  const auto advice = databuffer::read_valid(layout.advice).value_or(databuffer::PilotAdvice{});
+  object["remedy"] = text_of(advice.remedy);
   object["events_applied"] = state.events_applied;
   const auto timer_s = databuffer::map_timer_s(state, model);
   object["map_timer_s"] = timer_s ? ordered_json(*timer_s) : ordered_json(nullptr);

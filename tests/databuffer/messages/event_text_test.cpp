@@ -104,6 +104,10 @@ TEST(EventText, TdcDeflectionHasTwoNumbers) {
   EXPECT_EQ(event->x, 0.5);
   EXPECT_EQ(event->y, -1.0);
   EXPECT_EQ(text_of(*event), "tdc 0.5 -1");
+  const auto cursor = event_from_text("cursor 0.25 1");
+  ASSERT_TRUE(cursor);
+  EXPECT_EQ(cursor->kind, static_cast<std::uint16_t>(EventKind::cursor));
+  EXPECT_EQ(text_of(*cursor), "cursor 0.25 1");
 }
 
 TEST(EventText, ElevationIsAbsoluteDegrees) {
@@ -153,6 +157,9 @@ TEST(EventText, MalformedEventsAndValuesOutOfRangeAreRefused) {
                            "tdc",
                            "tdc 1",
                            "tdc 1.01 0",
+                           "cursor 1.01 0",
+                           "cursor 0 -0.1",
+                           "cursor 0.5",
                            "tdc nan 0",
                            "tdc 0 inf",
                            "elevation 60.1",

@@ -42,10 +42,12 @@ TEST(KeyMap, EachNamedKeyGivesItsEvents) {
   EXPECT_EQ(typed(key_of_character('[')), "elevation down");
   EXPECT_EQ(typed(key_of_character(']')), "elevation up");
   EXPECT_EQ(typed(key_of_character('n')), "next");
-  EXPECT_EQ(typed(Key::f1), "mode ag");
-  EXPECT_EQ(typed(Key::f2), "mode aa");
-  EXPECT_EQ(typed(Key::f3), "mode agr");
   EXPECT_EQ(typed(Key::f4), "nav toggle");
+  EXPECT_EQ(typed(Key::f5), "mode ag");
+  EXPECT_EQ(typed(Key::f6), "mode aa");
+  EXPECT_EQ(typed(Key::f7), "mode agr");
+  EXPECT_EQ(typed(key_of_character('O')), "power opr");
+  EXPECT_EQ(typed(key_of_character('s')), "power stby");
   EXPECT_EQ(typed(Key::up), "tdc 0 1 / tdc 0 0");
   EXPECT_EQ(typed(Key::down), "tdc 0 -1 / tdc 0 0");
   EXPECT_EQ(typed(Key::left), "tdc -1 0 / tdc 0 0");
@@ -54,8 +56,27 @@ TEST(KeyMap, EachNamedKeyGivesItsEvents) {
 
 TEST(KeyMap, UnassignedKeysGiveNoEvent) {
   for (const char character : std::string("01lmzx-=")) EXPECT_EQ(typed(key_of_character(character)), "") << character;
-  EXPECT_EQ(typed(Key::escape), "");
+  for (const Key key : {Key::escape, Key::f1, Key{'?'}, Key::f8, Key::f11}) EXPECT_EQ(typed(key), "");
   EXPECT_EQ(typed(Key::none), "");
+}
+
+TEST(KeyMap, QuestionMarkAndF1AskForHelp) {
+  EXPECT_TRUE(is_help(key_of_character('?')));
+  EXPECT_TRUE(is_help(Key::f1));
+  EXPECT_FALSE(is_help(Key::f4));
+}
+
+TEST(KeyMap, LettersAndDigitsWithoutAnEventAreDead) {
+  for (const char character : std::string("01lmz")) EXPECT_TRUE(is_dead_letter(key_of_character(character)));
+  for (const char character : std::string("2kos?[ ")) EXPECT_FALSE(is_dead_letter(key_of_character(character)));
+  EXPECT_FALSE(is_dead_letter(Key::none));
+}
+
+TEST(KeyMap, TheNameOfAButtonsKeyIsTheKeyThatPressesIt) {
+  EXPECT_EQ(key_of_button(1), "");
+  for (int button = 2; button <= 20; ++button)
+    EXPECT_EQ(typed(key_of_character(key_of_button(button).front())), "pb " + std::to_string(button));
+  EXPECT_EQ(key_of_button(21), "");
 }
 
 TEST(KeyMap, CapitalLettersAreTheSameKeys) {

@@ -297,6 +297,18 @@ TEST(Validation, CaptionsAreChecked) {
   EXPECT_TRUE(validate(caption));
 }
 
+TEST(Validation, TextsOfTheAdviceArePrintableAndEnd) {
+  PilotAdvice advice{};
+  EXPECT_EQ(validate(advice), std::nullopt);
+  std::strcpy(advice.buttons[20], "longer range: 80 NM");
+  EXPECT_EQ(validate(advice), std::nullopt);
+  advice.buttons[20][3] = '\x1b';
+  EXPECT_TRUE(validate(advice));
+  advice = {};
+  std::memset(advice.remedy, 'A', sizeof advice.remedy);
+  EXPECT_TRUE(validate(advice));
+}
+
 TEST(Validation, ASequencePointNeedsAName) {
   InputEvent event = event_of(EventKind::sequence_point, 0);
   EXPECT_TRUE(validate(event));

@@ -140,11 +140,59 @@ TEST_F(HostDisplay, DrawsTheSameInAnUnusualStateAndRestoresTheState) {
   expect_unchanged("read");
   radar_display.draw({620, 100, 600, 600});
   expect_unchanged("draw");
+  radar_display.draw_panel({.tooltip = 3}, {0, 0, 592, 592});
+  expect_unchanged("draw_panel");
+  radar_display.read_panel({}, 592);
+  expect_unchanged("read_panel");
+  radar_display.paint(600);
+  radar_display.draw({620, 100, 600, 600});
   { const Display another = this->radar_display(); }
   expect_unchanged("construction and destruction of another display");
   canvas.bind();
   plain_reading();
   EXPECT_TRUE(canvas.square(canvas.read(), 620, 100, 600) == expected);
+}
+
+TEST_F(HostDisplay, APanelHasThePicturePixelByPixelWithTheBezelAroundIt) {
+  Display radar_display = this->radar_display();
+  radar_display.update(0);
+  const imageio::Image panel = radar_display.read_panel({}, 592);
+  ASSERT_EQ(panel.width, 592);
+  const Bytes expected = alone(480);
+  Bytes inner;
+  std::size_t lit_outside = 0;
+  for (int y = 0; y < 592; ++y) {
+    for (int x = 0; x < 592; ++x) {
+      const auto* pixel = panel.pixels.data() + 3 * (static_cast<std::size_t>(y) * 592 + static_cast<std::size_t>(x));
+      const bool inside = x >= 56 && x < 536 && y >= 56 && y < 536;
+      if (inside) inner.insert(inner.end(), pixel, pixel + 3);
+      if (!inside && pixel[0] + pixel[1] + pixel[2] > 0) ++lit_outside;
+    }
+  }
+  EXPECT_TRUE(inner == expected);
+  EXPECT_GT(lit_outside, 100'000U) << "the bezel's face is not black";
+  EXPECT_TRUE(radar_display.paint_panel({.lit = 5}, 592));
+  EXPECT_FALSE(radar_display.paint_panel({.lit = 5}, 592)) << "nothing has changed";
+  EXPECT_TRUE(radar_display.paint_panel({.bezel = false}, 480));
+}
+
+TEST_F(HostDisplay, TheHelpCoversThePictureUntilItIsSwitchedOff) {
+  Display radar_display = this->radar_display();
+  radar_display.update(0);
+  radar_display.paint(480);
+  const Bytes bare = radar_display.read().pixels;
+  radar_display.show_help(true);
+  EXPECT_TRUE(radar_display.paint(480));
+  EXPECT_FALSE(radar_display.read().pixels == bare);
+  radar_display.show_help(false);
+  EXPECT_TRUE(radar_display.paint(480));
+  EXPECT_TRUE(radar_display.read().pixels == bare);
+  databuffer::PilotAdvice advice{};
+  std::string("longer range: 80 NM").copy(advice.buttons[13], sizeof advice.buttons[13] - 1);
+  session_->layout().advice.publish(advice);
+  radar_display.update(0);
+  EXPECT_EQ(radar_display.describe(13), "longer range: 80 NM");
+  EXPECT_EQ(radar_display.describe(21), "");
 }
 
 TEST_F(HostDisplay, PicturesAreReadInOrderWithTheirTime) {

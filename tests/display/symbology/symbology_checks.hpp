@@ -79,6 +79,8 @@ inline DisplayInput crowded(radar::Mode mode, double range_nm) {
   input.state.flags |= databuffer::kFreeze;
   put_cursor(input, 359.7, range_nm);
   set_text(input.state.message, "SIXTEEN LETTERS AND THEN SOME MO");
+  set_text(input.advice.remedy, "move the cursor out to 160.0 NM or more, or take window 0.67: acq aft (PgDn)");
+  input.hints = true;
   input.model.map_timer_s = 120.0;
   if (mode == radar::Mode::patch || mode == radar::Mode::ranging) put_map(input, 60.0, 20.0, 4.7);
   put_forming_map(input, 60.0, 20.0, 4.7);

@@ -26,7 +26,7 @@ class EventGenerator {
   // otherwise be OFF most of the time. TDC releases are frequent, because there would otherwise be few maps.
   databuffer::InputEvent event() {
     databuffer::InputEvent event{};
-    const int greatest_kind = static_cast<int>(databuffer::EventKind::next);
+    const int greatest_kind = static_cast<int>(databuffer::EventKind::cursor);
     event.kind = static_cast<std::uint16_t>(pick(0, 1) == 0 ? 1 : pick(0, greatest_kind + 1));
     if (event.kind == static_cast<std::uint16_t>(databuffer::EventKind::power) && pick(0, 19) != 0) event.kind = 1;
     if (pick(0, 9) == 0) event.kind = static_cast<std::uint16_t>(databuffer::EventKind::tdc_release);

@@ -1,0 +1,42 @@
+// The MPD's bezel with its twenty buttons around the picture, tooltips and notices of the window.
+// Inputs: DisplayInput for the words of a tooltip; a position of the mouse.
+// Outputs: a draw list in panel units; the button or the position on the picture under the mouse.
+// Units: panel units. One panel unit is one display unit; origin upper left of the panel, x right, y down. The
+// picture's
+//   upper left corner lies at (border, border).
+// Source: docs/spec/pilots_interface.md#bezel
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "display/symbology/draw_list.hpp"
+#include "display/symbology/plan_view.hpp"
+
+namespace yars::display {
+
+inline constexpr float kBezelBorder = 56.0F;  // [units] width of the bezel on each side
+
+// Square panel: the picture with its border.
+struct PanelLayout {
+  float border = kBezelBorder;  // [units] 0: no bezel
+
+  float edge() const { return kDisplayUnits + 2.0F * border; }
+  // The position in display units, which lies outside 0..480 beside the picture.
+  Point on_picture(Point on_panel) const { return {on_panel.x - border, on_panel.y - border}; }
+};
+
+// Number of the button at a position: a drawn button or the click zone of its legend (readouts.hpp). Without a bezel
+// the legend alone. nullopt: none.
+std::optional<int> button_at(const PanelLayout& layout, Point on_panel);
+
+// Draws the bezel, if the layout has one. `lit`: button under the mouse, drawn brighter; 0: none.
+void draw_bezel(const PanelLayout& layout, int lit, DrawList& list);
+
+// Draws the tooltip of a button beside it: number, key, legend, what it does now, or why it is dead and the remedy.
+void draw_tooltip(const PanelLayout& layout, const DisplayInput& input, int button, DrawList& list);
+
+// Draws a line of text in the upper part of the picture.
+void draw_notice(const PanelLayout& layout, std::string_view words, DrawList& list);
+
+}  // namespace yars::display

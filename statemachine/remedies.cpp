@@ -1,0 +1,178 @@
+#include "statemachine/remedies.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string_view>
+
+#include "databuffer/messages/derived_values.hpp"
+#include "lib/radar/mapping.hpp"
+#include "lib/radar/mission.hpp"
+#include "lib/radar/sensor.hpp"
+#include "lib/text/plain_text.hpp"
+
+namespace yars::statemachine {
+
+namespace {
+
+using databuffer::RadarState;
+using geo::Length;
+
+// The refused map: as command_map() or the radar model tried it, from the aircraft's present position.
+struct RefusedMap {
+  radar::MapViewpoint from;
+  radar::MapCentre centre;
+  radar::MapWindow window;
+  geo::GeodesicInverse path;  // from the aircraft to the centre
+  bool again = false;         // the radar maps again by itself as soon as it can
+};
+
+RefusedMap refused_map(const RadarState& state, const Inputs& inputs) {
+  const databuffer::Ownship& ownship = inputs.ownship;
+  RefusedMap map{{{ownship.latitude_deg, ownship.longitude_deg},
+                  geo::AltitudeMsl::metres(ownship.altitude_msl_m),
+                  databuffer::platform_of(ownship)},
+                 {cursor_of(state), std::nullopt},
+                 {Length::nautical_miles(state.window_nm)},
+                 {}};
+  map.again = state.message_until_tick == databuffer::kUntilCauseEnds;
+  if (map.again) {
+    map.centre.position = {state.map_latitude_deg, state.map_longitude_deg};
+    map.window = {Length::nautical_miles(state.map_window_nm), has(state, databuffer::kMapWindowBlank)};
+  } else if (std::isfinite(state.cursor_elevation_m)) {
+    map.centre.ground_m = state.cursor_elevation_m;
+  }
+  map.path = geo::geodesic_inverse(map.from.aircraft, map.centre.position);
+  return map;
+}
+
+template <typename... Values>
+std::string formatted(const char* format, Values... values) {
+  std::array<char, 128> buffer;
+  const int length = std::snprintf(buffer.data(), buffer.size(), format, values...);
+  return {buffer.data(), static_cast<std::size_t>(std::clamp(length, 0, static_cast<int>(buffer.size()) - 1))};
+}
+
+// Degrees of a turn, rounded up, at least 1. The allowance keeps 8.0000001 at 8.
+int whole_degrees(double degrees) {
+  constexpr double kAllowance_deg = 1e-6;
+  return std::max(1, static_cast<int>(std::ceil(degrees - kAllowance_deg)));
+}
+
+std::string turn_toward(const RefusedMap& map, double limit_deg) {
+  const double off_deg = (map.path.azimuth_at_start - map.from.platform.heading).degrees();
+  return formatted("turn %d deg or more %s, toward it", whole_degrees(std::abs(off_deg) - limit_deg),
+                   off_deg > 0.0 ? "right" : "left");
+}
+
+// Ahead: a turn away from the cursor. Astern the gimbal forbids the map, too; so the aircraft must turn toward it.
+std::string leave_blind_zone(const RefusedMap& map, const radar::MapLimits& limits) {
+  const double squint_deg = (map.path.azimuth_at_start - map.from.platform.ground_track).degrees();
+  if (std::abs(squint_deg) > 90.0) return turn_toward(map, limits.antenna.azimuth_limit_deg);
+  const int turn_deg = whole_degrees(limits.blind_zone_deg - std::abs(squint_deg));
+  const bool right = squint_deg >= 0.0;
+  const std::string turn = formatted("turn %d deg or more %s", turn_deg, right ? "left" : "right");
+  return map.again ? turn : turn + ", or move the cursor " + (right ? "right" : "left");
+}
+
+std::string return_into_gimbal(const RefusedMap& map, const radar::MapLimits& limits) {
+  const radar::AntennaConfiguration& antenna = limits.antenna;
+  const double off_deg = (map.path.azimuth_at_start - map.from.platform.heading).degrees();
+  if (std::abs(off_deg) > antenna.azimuth_limit_deg) return turn_toward(map, antenna.azimuth_limit_deg);
+  const double ground_m = map.centre.ground_m.value_or(0.0);
+  const double down_deg = -radar::elevation_to_ground(map.from.altitude, map.path.distance, ground_m).degrees();
+  if (down_deg <= antenna.elevation_limit_deg) return "level the wings";
+  const double height_m = map.from.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
+  const auto least = Length::metres(height_m / std::tan(antenna.elevation_limit_deg * geo::kRadiansPerDegree));
+  const double tenths = std::ceil(least.nautical_miles() * 10.0);  // rounded up, so that the map is possible there
+  return formatted("descend, or move the cursor out to %.1f NM or more", tenths / 10.0);
+}
+
+// Text " or window 1.3: acq fwd (PgUp)" if another window can be mapped at this range; empty if none can. Of several
+// windows the nearest in size is named.
+std::string other_window(const RefusedMap& map, const Parameters& parameters, double range_nm) {
+  const double present_nm = map.window.size.nautical_miles();
+  std::optional<double> best_nm;
+  for (const double window_nm : parameters.windows_nm) {
+    const auto limits = radar::cursor_limits(Length::nautical_miles(window_nm), parameters.window_limits);
+    if (!limits || !limits->contains(map.path.distance) || window_nm > range_nm) continue;
+    if (!best_nm || std::abs(window_nm - present_nm) < std::abs(*best_nm - present_nm)) best_nm = window_nm;
+  }
+  if (!best_nm) return {};
+  return formatted(", or take window %g: %s", *best_nm, *best_nm > present_nm ? "acq fwd (PgUp)" : "acq aft (PgDn)");
+}
+
+std::string into_range(const RefusedMap& map, const Parameters& parameters, double range_nm) {
+  const auto limits = radar::cursor_limits(map.window.size, parameters.window_limits);
+  if (!limits) return "select another window: acq fwd (PgUp), acq aft (PgDn)";
+  const bool near = map.path.distance < limits->min;
+  const double limit_nm = (near ? limits->min : limits->max).nautical_miles();
+  if (map.again)
+    return formatted(near ? "%.1f NM or more are needed" : "fly nearer: %.1f NM or less are needed", limit_nm);
+  return formatted(near ? "move the cursor out to %.1f NM or more" : "move the cursor in to %.1f NM or less",
+                   limit_nm) +
+         other_window(map, parameters, range_nm);
+}
+
+std::string into_range_of_blank(const RefusedMap& map, const radar::WindowLimits& table) {
+  const double least_nm = table.blank_min_range_nm;
+  const double greatest_nm = table.blank_max_range_nm.empty() ? least_nm : table.blank_max_range_nm.back();
+  const bool near = map.path.distance.nautical_miles() < least_nm;
+  return formatted(near ? "move the cursor out to %.1f NM or more, or select a window: acq fwd (PgUp)"
+                        : "move the cursor in to %.1f NM or less, or select a window: acq fwd (PgUp)",
+                   near ? least_nm : greatest_nm);
+}
+
+std::string remedy_of_map(const RadarState& state, const Inputs& inputs, const Parameters& parameters) {
+  const RefusedMap map = refused_map(state, inputs);
+  const auto limit = radar::map_rejection(map.from, map.centre, map.window, parameters.map_limits);
+  if (!limit) return map.again ? "it resumes by itself" : "it is possible now: tdc release (Enter)";
+  if (*limit == "BLIND ZONE") return leave_blind_zone(map, parameters.map_limits);
+  if (*limit == "GIMBAL") return return_into_gimbal(map, parameters.map_limits);
+  if (*limit == "NO WINDOW" && map.window.size == Length()) return into_range_of_blank(map, parameters.window_limits);
+  return into_range(map, parameters, state.range_nm);
+}
+
+// The names of the first points of the route, as many as fit a line of the display.
+std::string route_names(const Parameters& parameters) {
+  constexpr std::size_t kMaxLength = 60;
+  if (parameters.route.empty()) return "the configuration has no route";
+  std::string names = "points:";
+  for (const radar::RoutePoint& point : parameters.route) {
+    if (names.size() + point.name.size() > kMaxLength) return names + " ...";
+    names += " " + point.name;
+  }
+  return names;
+}
+
+struct FixedRemedy {
+  std::string_view message;
+  const char* remedy;
+};
+constexpr std::array kFixed{
+    FixedRemedy{"NO CURSOR", "select a point: sp 1, pb 17 (H)"},
+    FixedRemedy{"NO OWNSHIP", "start flight-model; yars status shows what flies"},
+    FixedRemedy{"NO MAP", "command it again: tdc release (Enter)"},
+    FixedRemedy{"NO FREE NUMBER", "select another point, then designate: pb 17 (H)"},
+    FixedRemedy{"NO RECORDER", "start one: yars record FILE"},
+    FixedRemedy{"VTR FULL", "make room on the disk; it tries again every 5 s"},
+};
+
+bool is_limit(std::string_view message) {
+  constexpr std::array<std::string_view, 5> kLimits{"BLIND ZONE", "GIMBAL", "MIN RANGE", "MAX RANGE", "NO WINDOW"};
+  return std::ranges::find(kLimits, message) != kLimits.end();
+}
+
+}  // namespace
+
+std::string remedy_of_message(const RadarState& state, const Inputs& inputs, const Parameters& parameters) {
+  const std::string_view message = text::text_of(state.message);
+  if (is_limit(message)) return inputs.ownship_valid ? remedy_of_map(state, inputs, parameters) : std::string();
+  if (message.starts_with("NO POINT ")) return route_names(parameters);
+  const auto fixed = std::ranges::find(kFixed, message, &FixedRemedy::message);
+  return fixed == kFixed.end() ? std::string() : fixed->remedy;
+}
+
+}  // namespace yars::statemachine

@@ -1,0 +1,146 @@
+// Remedies of messages: what the pilot is told to do makes the map possible.
+// Source: docs/spec/pilots_interface.md#remedies.
+#include "statemachine/remedies.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/statemachine/pilot.hpp"
+
+namespace yars::statemachine::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+// Pilot in RBM at 40 NM and 15,000 ft, flying north, with the cursor at a bearing and distance and a blind zone of 8
+// deg.
+struct AtCursor : Pilot {
+  AtCursor(double bearing_deg, double distance_nm) {
+    configuration.high_resolution.blind_zone_deg = 8.0;
+    configuration.route.push_back(route_point("9", radar::PointKind::steer, position(bearing_deg, distance_nm)));
+    press("power opr");
+    press("pb 13");
+    press("sp 9");
+    wait(3);
+  }
+  std::string refused() {
+    press("tdc release");
+    return std::string(state.message) + ": " + remedy_of_message(state, around, configuration);
+  }
+  void turn(double by_deg) {
+    around.ownship.heading_deg = geo::Bearing::degrees(around.ownship.heading_deg + by_deg).degrees();
+    const double heading_rad = around.ownship.heading_deg * geo::kRadiansPerDegree;
+    around.ownship.velocity_north_mps = 200.0 * std::cos(heading_rad);
+    around.ownship.velocity_east_mps = 200.0 * std::sin(heading_rad);
+  }
+};
+
+TEST(Remedies, TheBlindZoneNamesSideAndAngleAndTheTurnMakesTheMapPossible) {
+  AtCursor pilot(3.0, 20.0);
+  EXPECT_EQ(pilot.refused(), "BLIND ZONE: turn 5 deg or more left, or move the cursor right");
+  pilot.turn(-4.0);
+  EXPECT_EQ(pilot.refused(), "BLIND ZONE: turn 1 deg or more left, or move the cursor right");
+  pilot.turn(-1.001);
+  EXPECT_TRUE(pilot.press("tdc release"));
+  EXPECT_TRUE(pilot.is(databuffer::kMapping));
+  AtCursor other(358.0, 20.0);
+  EXPECT_EQ(other.refused(), "BLIND ZONE: turn 6 deg or more right, or move the cursor left");
+}
+
+TEST(Remedies, AsternTheAircraftMustTurnTowardTheCursor) {
+  EXPECT_EQ(AtCursor(175.0, 20.0).refused(), "BLIND ZONE: turn 115 deg or more right, toward it");
+}
+
+TEST(Remedies, TheGimbalNamesTheTurnTowardTheCursorAndTheTurnMakesTheMapPossible) {
+  AtCursor pilot(280.0, 20.0);
+  EXPECT_EQ(pilot.refused(), "GIMBAL: turn 20 deg or more left, toward it");
+  pilot.turn(-20.5);
+  pilot.press("tdc release");
+  EXPECT_TRUE(pilot.is(databuffer::kMapping)) << pilot.state.message;
+}
+
+TEST(Remedies, ADepressionBeyondTheGimbalNamesTheDistance) {
+  AtCursor pilot(30.0, 5.0);
+  pilot.around.ownship.altitude_msl_m = 20'000.0;
+  EXPECT_EQ(pilot.refused(), "GIMBAL: descend, or move the cursor out to 6.3 NM or more");
+}
+
+TEST(Remedies, ARangeBeyondItsLimitsNamesTheLimitOrAnotherWindow) {
+  EXPECT_EQ(AtCursor(30.0, 4.0).refused(), "MIN RANGE: move the cursor out to 4.7 NM or more");
+  AtCursor near(30.0, 8.0);
+  near.press("acq fwd");
+  EXPECT_EQ(near.state.window_nm, 10.0);
+  EXPECT_EQ(near.refused(), "MIN RANGE: move the cursor out to 10.0 NM or more, or take window 4.7: acq aft (PgDn)");
+  near.press("acq aft");
+  near.press("tdc release");
+  EXPECT_TRUE(near.is(databuffer::kMapping));
+  AtCursor far(30.0, 30.0);
+  for (int step = 0; step < 3; ++step) far.press("acq aft");
+  EXPECT_EQ(far.state.window_nm, 0.67);
+  EXPECT_EQ(far.refused(), "MAX RANGE: move the cursor in to 20.0 NM or less, or take window 1.3: acq fwd (PgUp)");
+}
+
+TEST(Remedies, ABlankWindowNamesItsLimits) {
+  AtCursor pilot(30.0, 2.0);
+  for (int step = 0; step < 4; ++step) pilot.press("acq aft");
+  EXPECT_EQ(pilot.state.window_nm, 0.0);
+  EXPECT_EQ(pilot.refused(), "NO WINDOW: move the cursor out to 2.7 NM or more, or select a window: acq fwd (PgUp)");
+}
+
+TEST(Remedies, AMessageThatNoLongerHoldsSaysThatTheMapIsPossible) {
+  AtCursor pilot(3.0, 20.0);
+  pilot.press("tdc release");
+  pilot.turn(-10.0);
+  EXPECT_EQ(remedy_of_message(pilot.state, pilot.around, pilot.configuration),
+            "it is possible now: tdc release (Enter)");
+}
+
+TEST(Remedies, WhileReMappingStopsTheyCountFromTheMap) {
+  AtCursor pilot(20.0, 20.0);
+  pilot.make_map();
+  pilot.turn(16.0);
+  databuffer::ModelStatus& model = pilot.around.model;
+  std::string("BLIND ZONE").copy(model.map_stopped, sizeof model.map_stopped - 1);
+  pilot.wait();
+  ASSERT_STREQ(pilot.state.message, "BLIND ZONE");
+  EXPECT_EQ(remedy_of_message(pilot.state, pilot.around, pilot.configuration), "turn 4 deg or more left");
+}
+
+TEST(Remedies, AnUnknownPointNamesThePointsOfTheRoute) {
+  Pilot pilot;
+  pilot.press("power opr");
+  pilot.press("sp 99");
+  EXPECT_STREQ(pilot.state.message, "NO POINT 99");
+  EXPECT_EQ(remedy_of_message(pilot.state, pilot.around, pilot.configuration), "points: 1 1.1 2 2.01 3.");
+}
+
+TEST(Remedies, WithoutOwnshipOrCursorEveryCursorFunctionIsRefusedWithAReason) {
+  for (int function = 0; function < 5; ++function) {
+    Pilot pilot;
+    pilot.press("power opr");
+    for (int press = 0; press < function; ++press) pilot.press("pb 7");
+    pilot.around.ownship_valid = false;
+    EXPECT_TRUE(pilot.press("tdc release"));
+    EXPECT_STREQ(pilot.state.message, "NO OWNSHIP") << function;
+    EXPECT_THAT(remedy_of_message(pilot.state, pilot.around, pilot.configuration), HasSubstr("flight-model"));
+    pilot.around.ownship_valid = true;
+    pilot.state.flags &= ~databuffer::kCursorValid;
+    EXPECT_TRUE(pilot.send("tdc release"));
+    EXPECT_STREQ(pilot.state.message, "NO CURSOR") << function;
+  }
+}
+
+TEST(Remedies, NoMessageAndAMarkHaveNone) {
+  Pilot pilot;
+  pilot.press("power opr");
+  EXPECT_EQ(remedy_of_message(pilot.state, pilot.around, pilot.configuration), "");
+  for (int press = 0; press < 4; ++press) pilot.press("pb 7");
+  pilot.press("tdc release");
+  EXPECT_STREQ(pilot.state.message, "MARK 1");
+  EXPECT_EQ(remedy_of_message(pilot.state, pilot.around, pilot.configuration), "");
+}
+
+}  // namespace
+}  // namespace yars::statemachine::testing
