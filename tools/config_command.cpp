@@ -1,15 +1,18 @@
-// `yars config check | print | convert`: validates a configuration; prints it as GUF (the language of the configuration
-// files); converts files of the 1996 simulation to GUF.
+// `yars config check | print | convert | user`: validates a configuration; prints it as GUF (the language of the
+// configuration files); converts files of the 1996 simulation to GUF; prints the user's file of defaults.
 
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
 #include "databuffer/runtime/program.hpp"
+#include "databuffer/runtime/user_defaults.hpp"
 #include "lib/file/output_file.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
 
 namespace yars::tools {
@@ -17,6 +20,7 @@ namespace {
 
 struct ConfigOptions {
   std::string file;
+  bool json = false;
   bool defaults = false;
   std::string markdown;  // group of forms; empty: prints a configuration
   std::string out;
@@ -37,6 +41,7 @@ void check(const ConfigOptions& options, const CommonOptions& common) {
   const std::string& file = chosen_file(options, common);
   if (file.empty()) throw CommandFailed{"yars config check: expected a GUF file, found none; name one", 2};
   const auto configuration = loaded(file);
+  if (options.json) return print_json({{"file", file}, {"valid", true}, {"warnings", configuration.warnings}});
   for (const std::string& warning : configuration.warnings) std::printf("%s\n", warning.c_str());
   std::printf("%s: valid, %zu warnings\n", file.c_str(), configuration.warnings.size());
 }
@@ -70,10 +75,25 @@ void convert(const ConfigOptions& options, const CommonOptions& common) {
   }
 }
 
+// Prints the user's defaults in the form of their file, which scripts/start reads. A fault of the file has ended the
+// program before (CommandLine::parse).
+void print_user_defaults(const ConfigOptions& options) {
+  const auto defaults = databuffer::read_user_defaults();
+  if (!defaults) throw_failure(defaults.error());
+  nlohmann::ordered_json values = nlohmann::ordered_json::object();
+  for (const auto& [name, value] : defaults->values) values[name] = value.value;
+  const std::string path = databuffer::user_defaults_path();
+  if (options.json) return print_json({{"file", path}, {"exists", !defaults->file.empty()}, {"values", values}});
+  std::printf("# %s\n",
+              path.empty() ? "no file" : (path + (defaults->file.empty() ? " (does not exist)" : "")).c_str());
+  for (const auto& [name, value] : defaults->values) std::printf("%s = %s\n", name.c_str(), value.value.c_str());
+}
+
 }  // namespace
 
 void add_config_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command command = app.subcommand("config", "check, print and convert configurations");
+  databuffer::Command command =
+      app.subcommand("config", "check, print and convert configurations; print user defaults");
   command.require_subcommand();
   const auto options = std::make_shared<ConfigOptions>();
   // Resolves names of installed files in the same way as --config does.
@@ -81,26 +101,37 @@ void add_config_command(databuffer::Command app, const CommonOptions& common) {
 
   databuffer::Command check_command =
       command.subcommand("check", "check whether a file is valid, and print its warnings");
-  check_command.option("file", options->file, "GUF file; else the file of --config").transform(installed);
+  check_command.option("FILE", options->file, "GUF file")
+      .value_name("FILE")
+      .otherwise("the file of --config")
+      .transform(installed);
+  add_json_flag(check_command, options->json);
   check_command.callback([options, &common] { check(*options, common); });
 
   databuffer::Command print_command =
       command.subcommand("print", "print the configuration that results from a file, as GUF");
-  databuffer::Option file =
-      print_command.option("file", options->file, "GUF file; else the file of --config, else the defaults");
-  file.transform(installed);
+  databuffer::Option file = print_command.option("FILE", options->file, "GUF file");
+  file.value_name("FILE").otherwise("the file of --config, else the defaults").transform(installed);
   databuffer::Option defaults =
       print_command.flag("--defaults", options->defaults, "explain every slot: position, kind, range, default");
   databuffer::Option markdown =
       print_command.option("--markdown", options->markdown, "group of forms: prints their slots as tables");
-  markdown.one_of(config::form_groups()).excludes(file).excludes(defaults);
+  markdown.one_of(config::form_groups()).excludes(file).excludes(defaults).otherwise("a configuration");
   print_command.callback([options, &common] { print(*options, common); });
 
   databuffer::Command convert_command =
       command.subcommand("convert", "convert a file of 1996 (message syntax, old spellings) to present GUF");
-  convert_command.option("file", options->file, "file of 1996; else the file of --config").transform(installed);
-  convert_command.option("--out", options->out, "GUF file to write; else standard output");
+  convert_command.option("FILE", options->file, "file of 1996")
+      .value_name("FILE")
+      .otherwise("the file of --config")
+      .transform(installed);
+  convert_command.option("--out", options->out, "GUF file to write").value_name("FILE").otherwise("standard output");
   convert_command.callback([options, &common] { convert(*options, common); });
+
+  databuffer::Command user_command =
+      command.subcommand("user", "print the path of the user's file of defaults, and its values");
+  add_json_flag(user_command, options->json);
+  user_command.callback([options] { print_user_defaults(*options); });
 }
 
 }  // namespace yars::tools

@@ -41,6 +41,7 @@ int run(int argc, char** argv) {
     common.config = options.config;
   });
   add_commands(app, common);
+  app.add_help_command();
   try {
     return app.parse(argc, argv).value_or(0);
   } catch (const tools::CommandFailed& failed) {

@@ -111,7 +111,8 @@ std::optional<ConstraintViolation> check_event(std::string_view slot, const std:
   if (text.empty()) return std::nullopt;
   const auto event = databuffer::event_from_text(text);
   if (event) return std::nullopt;
-  return ConstraintViolation{slot, "an event: " + event.error().expected, event.error().found};
+  const std::string& meant = event.error().action;
+  return ConstraintViolation{slot, event.error().expected, event.error().found + (meant.empty() ? "" : "; " + meant)};
 }
 
 // Rule: `count` is below `max`, so that one more can be added.

@@ -85,7 +85,7 @@ int main(int argc, char** argv) {
   databuffer::ProgramOptions options;
   std::string source;
   databuffer::add_common_options(app, options, true);
-  app.option("--source", source, kSources).required();
+  app.option("--source", source, kSources).value_name("SOURCE").required();
   return databuffer::run_program(argc, argv, app, options, [&] {
     return databuffer::bridges::names_bridge(source) ? run_bridge(options, source) : run_flight_model(options, source);
   });

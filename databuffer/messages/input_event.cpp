@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "lib/radar/modes.hpp"
+#include "lib/text/nearest_word.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
@@ -179,18 +180,42 @@ std::string lower_case(std::string_view text) {
   return lower;
 }
 
+bool is_verb(std::string_view word) {
+  return std::ranges::any_of(kForms, [word](const Form& form) { return form.verb == word; });
+}
+
+std::string text_of(const Form& form) {
+  std::string text(form.verb);
+  if (!form.word.empty()) text += ' ' + std::string(form.word);
+  if (form.operand == Operand::steps) text += " [STEPS]";
+  if (form.operand == Operand::error) text += form.kind == EventKind::navigator_error ? " N_FT E_FT" : " N_FPS E_FPS";
+  return text;
+}
+
+// The forms of a verb; of an unknown verb the forms of all.
 std::string expected_forms(std::string_view verb) {
-  const bool known = std::ranges::any_of(kForms, [verb](const Form& form) { return form.verb == verb; });
+  const bool known = is_verb(verb);
   std::string list;
-  for (const Form& form : kForms) {
-    if (known && form.verb != verb) continue;
-    if (!list.empty()) list += " | ";
-    list += form.verb;
-    if (!form.word.empty()) list += ' ' + std::string(form.word);
-    if (form.operand == Operand::steps) list += " [STEPS]";
-    if (form.operand == Operand::error) list += form.kind == EventKind::navigator_error ? " N_FT E_FT" : " N_FPS E_FPS";
-  }
+  for (const Form& form : kForms)
+    if (!known || form.verb == verb) list += (list.empty() ? "" : " | ") + text_of(form);
   return list;
+}
+
+// The text with the verb, and with the word after it, that a misspelled one most likely means. nullopt: none is near.
+std::optional<std::string> corrected(const Words& words) {
+  if (words.empty()) return std::nullopt;
+  std::vector<std::string> verbs, operands;
+  for (const Form& form : kForms)
+    if (verbs.empty() || verbs.back() != form.verb) verbs.emplace_back(form.verb);
+  const auto verb = is_verb(words[0]) ? std::string(words[0]) : text::nearest_word(words[0], verbs);
+  if (!verb) return std::nullopt;
+  for (const Form& form : kForms)
+    if (form.verb == *verb && (form.operand == Operand::word || form.operand == Operand::steps))
+      operands.emplace_back(form.word);
+  std::string event = *verb;
+  for (std::size_t i = 1; i < words.size(); ++i)
+    event += ' ' + (i == 1 ? text::nearest_word(words[i], operands) : std::nullopt).value_or(std::string(words[i]));
+  return event;
 }
 
 // Stores the argument. False if `value` is nullopt: the text was not a 16-bit integer.
@@ -287,18 +312,41 @@ void set_text(InputEvent& event, std::string_view name) {
   std::copy_n(name.data(), std::min(name.size(), sizeof event.text), event.text);
 }
 
-Expected<InputEvent> event_from_text(std::string_view text) {
-  const std::string lower = lower_case(text);
-  const Words words = text::words_of(lower);
+namespace {
+
+std::optional<InputEvent> parsed(const Words& words) {
   for (const Form& form : kForms) {
     InputEvent event{};
     if (words.empty() || form.verb != words[0] || !read_form(event, form, words)) continue;
     // A parsed event is validated here, so that no consumer refuses it later.
-    if (validate(event)) break;
-    return event;
+    return validate(event) ? std::nullopt : std::optional(event);
   }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::string event_forms() {
+  std::string lines;
+  std::string_view verb;
+  for (const Form& form : kForms) {
+    if (!lines.empty()) lines += form.verb == verb ? " | " : "\n";
+    lines += text_of(form);
+    verb = form.verb;
+  }
+  return lines;
+}
+
+Expected<InputEvent> event_from_text(std::string_view text) {
+  const std::string lower = lower_case(text);
+  const Words words = text::words_of(lower);
+  if (const auto event = parsed(words)) return *event;
   const std::string_view verb = words.empty() ? std::string_view() : words[0];
-  return error::fail("event", expected_forms(verb), '"' + std::string(text) + '"');
+  const auto meant = corrected(words);
+  // A correction that is an event, too, needs no list of forms for an unknown verb.
+  const bool is_event = meant && *meant != lower && parsed(text::words_of(*meant));
+  return error::fail("event", is_event && !is_verb(verb) ? "an event" : expected_forms(verb),
+                     '"' + std::string(text) + '"', is_event ? "did you mean '" + *meant + "'?" : "");
 }
 
 std::string text_of(const InputEvent& event) {

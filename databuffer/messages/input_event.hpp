@@ -26,8 +26,12 @@ Refusal validate(const InputEvent& event);
 // Words are separated by blanks; case is ignored.
 
 // Parses an event. The times and the sequence number of the result are zero. A value out of range is an error, too. The
-// error lists the valid forms of the verb, or all forms if the verb is unknown.
+// error names the event that a misspelled one most likely means. Else it lists the valid forms of the verb, or all
+// forms if the verb is unknown.
 error::Expected<InputEvent> event_from_text(std::string_view text);
+
+// All forms, a line for each verb: "acq fwd | acq aft".
+std::string event_forms();
 
 // Shortest text that event_from_text() parses to an event of the same kind and values. An event without a text form
 // (docs/spec/pilots_interface.md#controls) gives a description that event_from_text() refuses.

@@ -1,11 +1,18 @@
 #include "databuffer/runtime/command_line.hpp"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
+#include <algorithm>
+#include <concepts>
 #include <cstdio>
-#include <cstdlib>
+#include <string_view>
+#include <type_traits>
 
+#include "databuffer/runtime/option_text.hpp"
+#include "databuffer/runtime/usage_message.hpp"
+#include "databuffer/runtime/user_defaults.hpp"
+#include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/nearest_word.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
@@ -15,32 +22,62 @@ void print_failure(const std::string& program, const std::string& message) {
   log::to_file(message);
 }
 
+namespace {
+
+// Message of a value that an option does not take.
+std::string refusal(const CLI::Option& option, const std::string& found) {
+  std::string text = "expected " + expected_value(option) + ", found '" + found + "'";
+  if (const std::string meant = text::did_you_mean(found, fixed_values(option)); !meant.empty()) text += "; " + meant;
+  return text;
+}
+
+// Adds a check that a value fulfils `accepts`. `limit` describes the limit for --help and messages; it may be empty.
+void add_check(CLI::Option* option, const std::string& limit, const std::function<bool(const std::string&)>& accepts) {
+  const auto check = [option, accepts](std::string& value) {
+    return accepts(value) ? std::string() : refusal(*option, value);
+  };
+  option->check(CLI::Validator(check, limit));
+}
+
+template <class Number>
+void add_range(CLI::Option* option, Number min, Number max) {
+  add_check(option, limit_text(static_cast<double>(min)) + " to " + limit_text(static_cast<double>(max)),
+            [min, max](const std::string& value) {
+              const auto number = text::finite_number(value);
+              return number && *number >= static_cast<double>(min) && *number <= static_cast<double>(max);
+            });
+}
+
+}  // namespace
+
 Option& Option::required() {
   option_->required();
   return *this;
 }
-Option& Option::show_default() {
-  option_->capture_default_str();
+Option& Option::value_name(const std::string& name) {
+  option_->type_name(name);
+  return *this;
+}
+Option& Option::otherwise(const std::string& text) {
+  option_->option_text(text);
   return *this;
 }
 Option& Option::range(int min, int max) {
-  option_->check(CLI::Range(min, max));
+  add_range(option_, min, max);
   return *this;
 }
 Option& Option::range(double min, double max) {
-  option_->check(CLI::Range(min, max));
+  add_range(option_, min, max);
   return *this;
 }
 Option& Option::range(std::uint64_t min, std::uint64_t max) {
-  option_->check(CLI::Range(min, max));
-  return *this;
-}
-Option& Option::not_negative() {
-  option_->check(CLI::NonNegativeNumber);
+  add_range(option_, min, max);
   return *this;
 }
 Option& Option::one_of(const std::vector<std::string>& values) {
-  option_->check(CLI::IsMember(values));
+  option_->type_name(kind_of_fixed_values(values));
+  add_check(option_, "",
+            [values](const std::string& value) { return std::ranges::find(values, value) != values.end(); });
   return *this;
 }
 Option& Option::values(int count) {
@@ -63,13 +100,90 @@ Option& Option::excludes(const Option& other) {
   option_->excludes(other.option_);
   return *this;
 }
+Option& Option::in_user_file() {
+  option_->configurable(true);
+  return *this;
+}
 bool Option::is_given() const {
   return option_->count() > 0;
 }
 
+namespace {
+
+// Type of one value of an option's target.
+template <class T>
+struct ValueOf {
+  using Type = T;
+};
+template <class T>
+struct ValueOf<std::optional<T>> {
+  using Type = T;
+};
+template <class T>
+struct ValueOf<std::vector<T>> {
+  using Type = T;
+};
+
+// Makes an option take only numbers of its type, in the form that CLI11 converts: a sign '+' and leading zeros, which
+// CLI11 takes for an octal number, are left out.
+template <std::integral Whole>
+void take_numbers(CLI::Option* option) {
+  option->type_name(kInteger);
+  option->transform(CLI::Validator(
+      [option](std::string& value) {
+        const std::string_view digits = value.starts_with('+') ? std::string_view(value).substr(1) : value;
+        const auto number = text::whole_number<Whole>(digits);
+        if (!number || digits.starts_with('+')) return refusal(*option, value);
+        value = std::to_string(*number);
+        return std::string();
+      },
+      std::is_unsigned_v<Whole> ? "0 or more" : ""));
+}
+template <std::floating_point Number>
+void take_numbers(CLI::Option* option) {
+  option->type_name(kNumber);
+  option->transform(CLI::Validator(
+      [option](std::string& value) {
+        const auto number = text::finite_number(value);
+        if (!number) return refusal(*option, value);
+        value = text::text_of_number(*number);
+        return std::string();
+      },
+      ""));
+}
+
+// True if this command or one above it has an option of this name.
+bool has_option(const CLI::App* command, const std::string& name) {
+  for (; command != nullptr; command = command->get_parent())
+    if (command->get_option_no_throw(name) != nullptr) return true;
+  return false;
+}
+
+// Makes an option refuse an empty text, and the name of another option, before which its own value is missing.
+void take_texts(CLI::App* command, CLI::Option* option) {
+  option->type_name(kText);
+  option->transform(CLI::Validator(
+      [command, option](std::string& value) {
+        if (value.empty()) return "expected " + expected_value(*option) + ", found an empty one";
+        if (!option->nonpositional() || !value.starts_with("--") || !has_option(command, value)) return std::string();
+        return "expected " + expected_value(*option) + ", found the option '" + value + "'";
+      },
+      ""));
+}
+
+}  // namespace
+
 template <class T>
 Option Command::option(const std::string& names, T& target, const std::string& help) {
-  return Option(app_->add_option(names, target, help));
+  using Value = typename ValueOf<T>::Type;
+  CLI::Option* option = app_->add_option(names, target, help);
+  option->configurable(false);
+  if constexpr (std::is_same_v<Value, T>) option->capture_default_str();
+  if constexpr (std::is_same_v<Value, std::string>)
+    take_texts(app_, option);
+  else
+    take_numbers<Value>(option);
+  return Option(option);
 }
 template Option Command::option(const std::string&, std::string&, const std::string&);
 template Option Command::option(const std::string&, int&, const std::string&);
@@ -78,11 +192,14 @@ template Option Command::option(const std::string&, std::uint64_t&, const std::s
 template Option Command::option(const std::string&, std::int64_t&, const std::string&);
 template Option Command::option(const std::string&, std::optional<int>&, const std::string&);
 template Option Command::option(const std::string&, std::optional<double>&, const std::string&);
+template Option Command::option(const std::string&, std::optional<std::uint64_t>&, const std::string&);
 template Option Command::option(const std::string&, std::vector<std::string>&, const std::string&);
 template Option Command::option(const std::string&, std::vector<double>&, const std::string&);
 
 Option Command::flag(const std::string& names, bool& target, const std::string& help) {
-  return Option(app_->add_flag(names, target, help));
+  CLI::Option* flag = app_->add_flag(names, target, help);
+  flag->configurable(false)->disable_flag_override();
+  return Option(flag);
 }
 Command Command::subcommand(const std::string& name, const std::string& help) {
   return Command(app_->add_subcommand(name, help));
@@ -103,39 +220,16 @@ Option Command::find(const std::string& name) const {
   return Option(app_->get_option(name));
 }
 
-namespace {
-// Makes all options and arguments, also those of subcommands, refuse values that CLI11 accepts and no command can use:
-// NaN and infinity for a floating-point number, and an empty text.
-void refuse_unusable_values(CLI::App& app) {
-  const CLI::Validator not_empty(
-      [](std::string& text) { return text.empty() ? "expected a text, found an empty one" : std::string(); }, "");
-  const CLI::Validator finite(
-      [](std::string& text) {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        const bool number = end != text.c_str() && *end == '\0';  // CLI11 itself refuses a text that is not a number
-        return !number || std::isfinite(value) ? std::string() : "expected a finite number, found " + text;
-      },
-      "");
-  // transform() runs before the range check.
-  for (CLI::Option* option : app.get_options()) {
-    const std::string type = option->get_type_name();
-    if (type.starts_with("FLOAT")) option->transform(finite);
-    if (type.starts_with("TEXT")) option->transform(not_empty);
-  }
-  for (CLI::App* subcommand : app.get_subcommands([](const CLI::App*) { return true; }))
-    refuse_unusable_values(*subcommand);
-}
-}  // namespace
-
 CommandLine::CommandLine(const std::string& description, const std::string& name)
     : Command(nullptr), name_(name), owned_(std::make_unique<CLI::App>(description, name)) {
   app_ = owned_.get();
+  app_->formatter(help_formatter());
+  app_->set_help_flag("-h,--help", "print this help");
 }
 CommandLine::~CommandLine() = default;
 
 void CommandLine::version(const std::string& text) {
-  app_->set_version_flag("--version", text);
+  app_->set_version_flag("--version", text, "print the version");
 }
 void CommandLine::accept_options_after_subcommands() {
   app_->fallthrough();
@@ -144,14 +238,82 @@ void CommandLine::before_callbacks(const std::function<void()>& call) {
   app_->parse_complete_callback(call);
 }
 
-std::optional<int> CommandLine::parse(int argc, char** argv) {
+void CommandLine::add_help_command() {
+  Command help = subcommand("help", "print the help of a command");
+  help.option("COMMAND", help_words_, "command, as in " + name_ + " help terrain info")
+      .value_name("COMMAND")
+      .otherwise("all commands");
+  help.callback([this] {
+    const CLI::App* command = app_;
+    std::string path;
+    for (const std::string& word : help_words_) {
+      path += (path.empty() ? "" : " ") + command->get_name();
+      command = command_below(*command, word);
+    }
+    std::fputs(
+        command->get_formatter()
+            ->make_help(command, (path.empty() ? "" : path + " ") + command->get_name(), CLI::AppFormatMode::Normal)
+            .c_str(),
+        stdout);
+  });
+}
+
+namespace {
+
+// Gives an option of the user's file the value that the file has for it. Returns the fault of the value as a message.
+std::optional<std::string> use_default(CLI::Option& option, const UserDefaults& defaults) {
+  if (!option.get_configurable() || option.get_lnames().empty()) return std::nullopt;
+  const auto found = defaults.values.find(option.get_lnames().front());
+  if (found == defaults.values.end()) return std::nullopt;
   try {
-    refuse_unusable_values(*app_);
+    option.default_val(found->second.value)->required(false)->option_text("");
+  } catch (const CLI::ValidationError& fault) {
+    return file::line_location(defaults.file, found->second.line) + ": " + fault.what();
+  }
+  return std::nullopt;
+}
+
+// Does so for the options of a command and of all commands below it.
+std::optional<std::string> use_defaults(CLI::App& command, const UserDefaults& defaults) {
+  for (CLI::Option* option : command.get_options())
+    if (auto fault = use_default(*option, defaults)) return fault;
+  for (CLI::App* below : command.get_subcommands([](const CLI::App*) { return true; }))
+    if (auto fault = use_defaults(*below, defaults)) return fault;
+  return std::nullopt;
+}
+
+// Gives options the values of the user's file. Returns the fault of that file as a message.
+std::optional<std::string> use_user_file(CLI::App& app) {
+  const auto defaults = read_user_defaults();
+  return defaults ? use_defaults(app, *defaults) : defaults.error().message();
+}
+
+bool asks_for_help(const std::vector<std::string>& words) {
+  const auto asks = [](const std::string& word) { return word == "--help" || word == "-h" || word == "--version"; };
+  return std::ranges::any_of(words, asks) || (!words.empty() && words.front() == "help");
+}
+
+}  // namespace
+
+std::optional<int> CommandLine::parse(int argc, char** argv) {
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  // The fault waits: help does not depend on the file.
+  if (const auto fault = use_user_file(*app_); fault && !asks_for_help(words)) {
+    print_failure(name_, *fault);
+    return kExitFailure;
+  }
+  try {
     app_->parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::ParseError& outcome) {
-    if (outcome.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app_->exit(outcome);
-    print_failure(name_, std::string(outcome.what()) + "; see " + name_ + " --help");
+    const bool is_success = outcome.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success);
+    const bool is_version = dynamic_cast<const CLI::CallForVersion*>(&outcome) != nullptr;
+    if (is_version || (is_success && !has_unknown_command(*app_))) return app_->exit(outcome);
+    const UsageMessage message = usage_message(*app_, outcome, words);
+    print_failure(message.command, message.text);
+    return kExitUsage;
+  } catch (const UsageMessage& message) {
+    print_failure(message.command, message.text);
     return kExitUsage;
   }
 }

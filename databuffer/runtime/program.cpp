@@ -54,19 +54,32 @@ std::optional<error::Error> arrange_cpus(const ProgramOptions& options) {
 }  // namespace
 
 void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role) {
-  if (const char* session = std::getenv("YARS_SESSION"); session != nullptr && *session != '\0')
-    options.session = session;
+  const char* session = std::getenv("YARS_SESSION");
+  const bool has_session = session != nullptr && *session != '\0';
+  if (has_session) options.session = session;
   app.version(YARS_VERSION);
-  app.option("--session", options.session, "session to join or create (else $YARS_SESSION, else 'default')");
-  app.option("--config", options.config, "GUF configuration file (else the built-in APG-70)")
-      .transform([](const std::string& name) { return installed_file(name); });
-  app.option("--log-level", options.log_level, "trace, debug, info, warning, error or off");
+  Option session_option = app.option("--session", options.session, "session to join or create");
+  session_option.value_name("SESSION").otherwise("$YARS_SESSION");
+  if (!has_session) session_option.in_user_file();
+  app.option("--config", options.config, "GUF configuration file")
+      .value_name("FILE")
+      .otherwise("the built-in APG-70")
+      .transform([](const std::string& name) { return installed_file(name); })
+      .in_user_file();
+  app.option("--log-level", options.log_level, "lines of this level and above are logged")
+      .one_of({"trace", "debug", "info", "warning", "error", "off"})
+      .in_user_file();
   if (!is_role) return;
   app.option("--lockstep", options.lockstep,
-             "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; give all these roles the same value");
-  app.option("--log-dir", options.log_dir, "folder for a rotated log file (else no file)");
+             "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; give all these roles the same value")
+      .value_name("ROLES")
+      .otherwise("live");
+  app.option("--log-dir", options.log_dir, "folder for a rotated log file")
+      .value_name("DIR")
+      .otherwise("no file")
+      .in_user_file();
   app.flag("--realtime", options.realtime, "lock memory, run the tick loop under SCHED_FIFO; a refusal is logged");
-  app.option("--cpus", options.cpus, "CPUs to run on, as in 2,3 or 2-3 (else all)");
+  app.option("--cpus", options.cpus, "CPUs to run on, as in 2,3 or 2-3").value_name("LIST").otherwise("all");
 }
 
 std::optional<error::Error> begin_program(const std::string& name, const ProgramOptions& options) {

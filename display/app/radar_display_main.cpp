@@ -29,14 +29,14 @@ struct DisplayOptions {
   bool headless = false;
   bool publish = false;
   std::string frames;
-  std::size_t keep = 0;  // frames to keep; 0: all
+  std::optional<std::uint64_t> keep;  // frames to keep; nullopt: all
   double every_s = 1.0;
-  int size = 0;  // [pixels] 0: as configured
+  std::optional<int> size;  // [pixels] nullopt: as configured
   bool bezel = false, no_bezel = false;
   bool help = false;
-  int tooltip = 0;  // button; 0: none
+  std::optional<int> tooltip;  // button
 
-  bool shows_panel() const { return bezel || tooltip != 0; }
+  bool shows_panel() const { return bezel || tooltip; }
 };
 
 // Interval of updates without a window. If sim time runs at the rate of real time, a frame follows the begin of its
@@ -158,7 +158,8 @@ error::Expected<void> run_headless(databuffer::Session& session, const radar::Ra
                                    int size, std::optional<display::FramePublisher> publisher) {
   std::optional<display::FrameWriter> frames;
   if (!display_options.frames.empty()) {
-    auto created = display::FrameWriter::create(display_options.frames, display_options.keep);
+    auto created = display::FrameWriter::create(display_options.frames,
+                                                static_cast<std::size_t>(display_options.keep.value_or(0)));
     if (!created) return tl::unexpected(created.error());
     frames = std::move(*created);
   }
@@ -215,7 +216,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Displ
   if (!configuration) return tl::unexpected(configuration.error());
   auto session = databuffer::Session::open(options.session, "radar-display");
   if (!session) return tl::unexpected(session.error());
-  const int size = display_options.size != 0 ? display_options.size : configuration->view.size_pixels;
+  const int size = display_options.size.value_or(configuration->view.size_pixels);
   std::optional<display::FramePublisher> publisher;
   if (display_options.publish) {
     auto created = display::FramePublisher::create(*session, size);
@@ -236,24 +237,28 @@ int main(int argc, char** argv) {
   DisplayOptions display_options;
   const databuffer::Option headless =
       app.flag("--headless", display_options.headless, "no window; pictures go to a folder or the session");
-  app.option("--frames", display_options.frames, "folder for frame_NNNNNN.png").needs(headless);
-  app.option("--keep", display_options.keep, "number of newest frames that stay in the folder (else all)")
+  app.option("--frames", display_options.frames, "folder for frame_NNNNNN.png")
+      .value_name("DIR")
       .needs(headless)
-      .range(1, 100'000'000);
-  app.option("--every", display_options.every_s, "sim seconds between frames (else 1)")
+      .otherwise("no files");
+  app.option("--keep", display_options.keep, "number of newest frames that stay in the folder")
       .needs(headless)
-      .range(0.005, 1e6);
+      .range(1, 100'000'000)
+      .otherwise("all");
+  app.option("--every", display_options.every_s, "[s] sim time between frames").needs(headless).range(0.005, 1e6);
   app.flag("--bezel", display_options.bezel, "frames with the bezel and its twenty buttons around the picture")
       .needs(headless);
   app.flag("--show-help", display_options.help, "frames with the help over the picture").needs(headless);
-  app.option("--tooltip", display_options.tooltip, "frames with the tooltip of this button, 1 to 20 (else none)")
+  app.option("--tooltip", display_options.tooltip, "frames with the tooltip of this button, 1 to 20")
       .needs(headless)
-      .range(1, 20);
+      .range(1, 20)
+      .otherwise("no tooltip");
   app.flag("--no-bezel", display_options.no_bezel, "a window without the bezel; key F8 shows and hides it");
   app.flag("--publish", display_options.publish,
            "also publish pictures in the session for other programs, with edges of at most 1024 pixels");
-  app.option("--size", display_options.size,
-             "edge of the picture in pixels, without the bezel (else the configuration's)")
-      .range(120, 4096);
+  app.option("--size", display_options.size, "[pixels] edge of the picture, without the bezel")
+      .range(120, 4096)
+      .otherwise("the configuration's")
+      .in_user_file();
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, display_options); });
 }

@@ -70,14 +70,18 @@ int main(int argc, char** argv) {
   std::string learn_path;
   std::string map_file;
   databuffer::add_common_options(app, options, true);
-  app.option(
-         "--source", sources,
-         "window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto (default); may be given several "
-         "times")
-      .repeatable();
-  const databuffer::Option learn = app.option(
+  app.option("--source", sources,
+             "window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto; repeatable")
+      .value_name("SOURCE")
+      .repeatable()
+      .otherwise("auto");
+  databuffer::Option learn = app.option(
       "--learn", learn_path, "path of a device: prompts for its controls and makes a device map; needs no session");
-  app.option("--out", map_file, "file for the map of --learn (else standard output)").needs(learn);
+  learn.value_name("FILE").otherwise("events are sent");
+  app.option("--out", map_file, "file for the map of --learn")
+      .value_name("FILE")
+      .needs(learn)
+      .otherwise("standard output");
   return databuffer::run_program(argc, argv, app, options, [&] {
     return learn_path.empty() ? run(options, sources) : inputmonitor::learn_device(learn_path, map_file);
   });

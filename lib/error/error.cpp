@@ -9,7 +9,7 @@
 namespace yars::error {
 
 std::string Error::message() const {
-  std::string text = subject + ": expected " + expected + ", found " + found;
+  std::string text = (subject.empty() ? "" : subject + ": ") + "expected " + expected + ", found " + found;
   if (!action.empty()) text += "; " + action;
   return text::printable(text);
 }

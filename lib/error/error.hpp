@@ -14,13 +14,14 @@ namespace yars::error {
 
 // Fault of input from outside the program: a file, an option, a record.
 struct Error {
-  std::string subject;     // path, option or record that the error is about
+  std::string subject;     // path, option or record that the error is about; may be empty
   std::string expected;    // description of a valid value
   std::string found;       // description of the actual value
   std::string action;      // what the user can do; may be empty
   bool bad_usage = false;  // true: a usage error (wrong command line), with exit code 2 instead of 1
 
-  // "SUBJECT: expected EXPECTED, found FOUND; ACTION" on one line; control characters are escaped.
+  // "SUBJECT: expected EXPECTED, found FOUND; ACTION" on one line; control characters are escaped. Without a subject or
+  // an action its part is left out.
   std::string message() const;
 };
 

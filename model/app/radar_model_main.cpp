@@ -13,7 +13,7 @@ using namespace yars;
 
 struct ModelOptions {
   std::string terrain;
-  int samples = 0;
+  std::optional<int> samples;  // nullopt: as configured
 };
 
 error::Expected<radar::RadarConfiguration> configure(const databuffer::ProgramOptions& options,
@@ -21,7 +21,7 @@ error::Expected<radar::RadarConfiguration> configure(const databuffer::ProgramOp
   auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return configuration;
   if (!model_options.terrain.empty()) configuration->terrain.directory = model_options.terrain;
-  if (model_options.samples != 0) configuration->fidelity.samples = model_options.samples;
+  if (model_options.samples) configuration->fidelity.samples = *model_options.samples;
   return configuration;
 }
 
@@ -74,9 +74,12 @@ int main(int argc, char** argv) {
   databuffer::ProgramOptions options;
   databuffer::add_common_options(app, options, true);
   ModelOptions model_options;
-  app.option("--terrain", model_options.terrain,
-             "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); else the configuration's folder");
-  app.option("--samples", model_options.samples, "number of samples of a sweep (else the configuration's number)")
-      .range(1, radar::kMaxSamples);
+  app.option("--terrain", model_options.terrain, "folder of elevation cells: DTED, HGT, DED, packs, rasters")
+      .value_name("DIR")
+      .otherwise("the configuration's")
+      .in_user_file();
+  app.option("--samples", model_options.samples, "samples of a sweep")
+      .range(1, radar::kMaxSamples)
+      .otherwise("the configuration's");
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, model_options); });
 }

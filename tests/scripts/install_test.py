@@ -54,6 +54,10 @@ def check(prefix, elsewhere):
             continue
         version = run(prefix / "bin" / program, "--version", folder=elsewhere)
         expect(f"{program} --version", re.fullmatch(r"\d+\.\d+\.\d+\n", version.stdout), version)
+    for program in PROGRAMS + ["yars-start"]:
+        expect(f"completion of {program}", (share / f"bash-completion/completions/{program}").is_file()
+               and (share / f"fish/vendor_completions.d/{program}.fish").is_file()
+               and program in (share / "zsh/vendor-completions/_yars").read_text().splitlines()[0].split())
     expect("the licence", (share / "doc/yars/copyright").is_file())
     expect("the configurations' includes", {file.name for file in (share / "yars/config").glob("*.guf")} >= {
         "apg70.guf", "apg70nd.guf", "apg70d.guf", "apg68.guf"})

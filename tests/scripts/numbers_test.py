@@ -14,8 +14,11 @@ import subprocess
 import sys
 import tempfile
 
-BIN = pathlib.Path(sys.argv[1])
-PROGRAMS = ["yars", "radar-model", "state-machine", "radar-display", "input-monitor", "flight-model"]
+sys.dont_write_bytecode = True
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "scripts"))
+import help_text  # noqa: E402
+
+BIN = pathlib.Path(sys.argv[1]).resolve()
 VALUES = ["nan", "inf", "-inf", "1e999", "-nan"]
 # Texts with numbers in them; N is where the value goes.
 TEXTS = [
@@ -52,25 +55,21 @@ def run(arguments):
     return subprocess.run(command, capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)
 
 
-NUMBERS = "FLOAT|INT|UINT"
+def entries_of(command, is_wanted):
+    """(command, option, how many values) for each option of a kind; the arguments of a command are one entry without an
+    option; then those of the commands below."""
+    for entry in command.options:
+        if entry.count and is_wanted(entry):
+            yield command.words, entry.names[-1], entry.count
+    arguments = sum(entry.count for entry in command.arguments if is_wanted(entry))
+    if arguments and command.words[-1] != "help":
+        yield command.words, None, arguments
+    for below in command.below:
+        yield from entries_of(below, is_wanted)
 
 
-def entries_of(command, types):
-    """(command, option, how many values) for each option of these types; the arguments of a command are one entry
-    without an option; then those of the commands below."""
-    text = run(command + ["--help"]).stdout
-    arguments = 0
-    for line in text.splitlines():
-        found = re.match(r"  (?:(-\S+)|(\S+)) (?:%s)\b\S*(?: in \[[^]]*\])?(?: x (\d+))?" % types, line)
-        if found and found[1]:
-            yield command, [name for name in found[1].split(",") if name.startswith("--")][0], int(found[3] or 1)
-        elif found:
-            arguments += 1
-    if arguments:
-        yield command, None, arguments
-    below = re.search(r"^Subcommands:\n((?:  .*\n?)*)", text, re.M)
-    for name in re.findall(r"^  (\S+)", below[1] if below else "", re.M):
-        yield from entries_of(command + [name], types)
+def is_text(entry):
+    return not entry.is_number
 
 
 def problem_of(done, named, value):
@@ -118,8 +117,9 @@ def try_file(case):
 
 
 def main():
-    entries = [entry for program in PROGRAMS for entry in entries_of([program], NUMBERS)]
-    texts = [entry for program in PROGRAMS for entry in entries_of([program], "TEXT")]
+    programs = [help_text.read([str(BIN / name)]) for name in help_text.PROGRAMS]
+    entries = [entry for program in programs for entry in entries_of(program, lambda entry: entry.is_number)]
+    texts = [entry for program in programs for entry in entries_of(program, is_text)]
     print(f"{len(entries)} options and arguments of numbers, {len(texts)} of texts, {len(TEXTS)} texts of numbers, "
           f"{len(FILES)} files")
     if len(entries) < 60 or len(texts) < 60:

@@ -8,17 +8,29 @@
 
 namespace yars::tools {
 
+databuffer::Option add_terrain_option(databuffer::Command command, std::string& directory) {
+  databuffer::Option option =
+      command.option("--terrain", directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters");
+  return option.value_name("DIR").in_user_file();
+}
+
 void add_scene_options(databuffer::Command command, ConfigurationOptions& options) {
-  command.option("--scene", options.scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable");
+  command.option("--scene", options.scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable")
+      .value_name("FILE")
+      .otherwise("the configuration's alone");
   command
       .option("--scene-without", options.without,
               "name of objects or groups to leave out of scenes, with the wildcards * and ?; repeatable")
-      .repeatable();
+      .value_name("NAME")
+      .repeatable()
+      .otherwise("none");
 }
 
 void add_without(databuffer::Command command, std::vector<std::string>& names) {
   command.option("--without", names, "name of objects or groups to leave out, with the wildcards * and ?; repeatable")
-      .repeatable();
+      .value_name("NAME")
+      .repeatable()
+      .otherwise("none");
 }
 
 model::scene::NameFilter name_filter(const std::vector<std::string>& names) {
@@ -40,7 +52,7 @@ radar::RadarConfiguration read_configuration(const std::string& file, const Conf
   radar::RadarConfiguration configuration = std::move(loaded->radar);
   if (!options.fidelity.empty()) configuration.fidelity = *radar::fidelity_preset(options.fidelity);
   if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
-  if (options.seed >= 0) configuration.seed = static_cast<std::uint64_t>(options.seed);
+  if (options.seed) configuration.seed = *options.seed;
   if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
     throw_failure(error::usage_error(added.error()));
   return configuration;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,15 +36,17 @@ struct CommonOptions {
   std::string config;  // GUF file; empty: built-in defaults
 };
 
-// Options that replace parts of the configuration. An empty value, or a negative seed, keeps the configured value.
+// Options that replace parts of the configuration. An empty value keeps the configured value.
 struct ConfigurationOptions {
   std::string terrain;               // directory of terrain cells
   std::string fidelity;              // name of a preset
   std::vector<std::string> scenes;   // FILE or FILE@LAT,LON,HDG; added to the configured scenes
   std::vector<std::string> without;  // names of objects or groups to leave out of scenes
-  std::int64_t seed = -1;
+  std::optional<std::uint64_t> seed;
 };
 
+// Adds --terrain, a folder of elevation cells. The user's file may set its default.
+databuffer::Option add_terrain_option(databuffer::Command command, std::string& directory);
 // Adds --scene and --scene-without.
 void add_scene_options(databuffer::Command command, ConfigurationOptions& options);
 // Adds --without: names of objects or groups to leave out.

@@ -7,8 +7,11 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "lib/error/error.hpp"
@@ -78,11 +81,15 @@ std::string duration_text(double seconds) {
 
 }  // namespace
 
-Progress::Progress(std::size_t total, std::FILE* out)
-    : out_(out), total_(total), start_time_(std::chrono::steady_clock::now()), last_print_time_(start_time_) {}
+Progress::Progress(std::size_t total)
+    : terminal_(isatty(STDERR_FILENO) != 0),
+      total_(total),
+      start_time_(std::chrono::steady_clock::now()),
+      last_print_time_(start_time_) {}
 
 void Progress::done(const std::string& note) {
   ++done_;
+  if (!terminal_) return;
   const auto now = std::chrono::steady_clock::now();
   const bool print_each = total_ <= kMaxItemsWithOwnLine && !note.empty();
   const bool completes_list = done_ == total_ && last_print_time_ != start_time_;
@@ -91,11 +98,14 @@ void Progress::done(const std::string& note) {
   const double elapsed_s = std::chrono::duration<double>(now - start_time_).count();
   const double left_s = elapsed_s / static_cast<double>(done_) * static_cast<double>(total_ - done_);
   const std::string left = done_ == total_ ? "" : "  about " + duration_text(left_s) + " left";
-  std::fprintf(out_, "%zu/%zu  %s%s\n", done_, total_, note.c_str(), left.c_str());
-  std::fflush(out_);
+  std::fprintf(stderr, "%zu/%zu  %s%s\n", done_, total_, note.c_str(), left.c_str());
 }
 
-ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
+ProgressLine::ProgressLine() {
+  const char* terminal = std::getenv("TERM");
+  const bool is_dumb = terminal != nullptr && std::string_view(terminal) == "dumb";
+  terminal_ = !is_dumb && isatty(STDERR_FILENO) != 0;
+}
 
 void ProgressLine::show(const std::string& text) {
   const auto now = std::chrono::steady_clock::now();

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <cstddef>
-#include <cstdio>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -33,16 +32,17 @@ double wall_ms();
 // The median; for an even number of values, the larger of the two middle values. Requires at least one value.
 double median(std::vector<double> values);
 
-// Progress of a long command: items done, total, estimated time left. Prints at most one line per second, and a line
-// for the last item if a line precedes it. With 64 items or fewer it also prints each item that has a note.
+// Progress of a long command on standard error: items done, total, estimated time left. Prints at most one line per
+// second, and a line for the last item if a line precedes it. With 64 items or fewer it also prints each item that has
+// a note. Prints nothing if standard error is not a terminal.
 class Progress {
  public:
-  explicit Progress(std::size_t total, std::FILE* out = stdout);
+  explicit Progress(std::size_t total);
   // Counts one item as done. `note` describes it and may be empty.
   void done(const std::string& note);
 
  private:
-  std::FILE* out_;
+  bool terminal_;
   std::size_t total_;
   std::size_t done_ = 0;
   std::chrono::steady_clock::time_point start_time_;
@@ -50,7 +50,7 @@ class Progress {
 };
 
 // One status line on standard error. New text overwrites it at most ten times a second. Prints nothing if standard
-// error is not a terminal. The destructor erases the line.
+// error is not a terminal, or one that cannot erase a line (TERM=dumb). The destructor erases the line.
 class ProgressLine {
  public:
   ProgressLine();

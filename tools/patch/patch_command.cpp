@@ -10,6 +10,7 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/input_checks.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
 
 namespace yars::tools {
@@ -119,9 +121,12 @@ struct PatchOptions {
   PoseOptions pose;
   PatchOutput output;
   double speed_kt = 480.0;
-  double target_latitude_deg = 37.9, target_longitude_deg = -122.3, window_nm = 0.0, time_s = 0.0;
+  double target_latitude_deg = 37.9, target_longitude_deg = -122.3, time_s = 0.0;
+  std::optional<double> window_nm;  // nullopt: as at power-up
+  std::optional<int> looks, size;   // nullopt: as configured
+  int threads = 1, repeat = 1;
   bool force = false;
-  int looks = 0, size = 0, threads = 1, repeat = 1;
+  bool json = false;  // accepted, because all commands with facts have it; the summary is JSON without it, too
 };
 
 // Wall time of one map [ms]: all stages together, and each stage of PatchFormation.
@@ -132,7 +137,7 @@ struct Timing {
 
 radar::RadarConfiguration configure(const CommonOptions& common, const PatchOptions& options) {
   radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
-  if (options.size > 0) configuration.fidelity.map_size = options.size;
+  if (options.size) configuration.fidelity.map_size = *options.size;
   return configuration;
 }
 
@@ -143,9 +148,8 @@ hrm::PatchOrder order_of(const PatchOptions& options, const radar::RadarConfigur
   order.ground_track = geo::Bearing::degrees(options.pose.heading_deg);
   order.ground_speed = geo::Speed::knots(options.speed_kt);
   order.centre = {options.target_latitude_deg, options.target_longitude_deg};
-  order.window = geo::Length::nautical_miles(options.window_nm > 0.0 ? options.window_nm
-                                                                     : configuration.window_limits.power_up_nm);
-  order.looks = options.looks > 0 ? options.looks : static_cast<int>(configuration.high_resolution.looks.front());
+  order.window = geo::Length::nautical_miles(options.window_nm.value_or(configuration.window_limits.power_up_nm));
+  order.looks = options.looks.value_or(static_cast<int>(configuration.high_resolution.looks.front()));
   order.sim_time = geo::Duration::seconds(options.time_s);
   order.map = 1;
   return order;
@@ -249,7 +253,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   line["fidelity"] = configuration.fidelity.name;
   report_dark_pixels(patch_formation.image());
   if (!options.output.file.empty()) write_patch(options.output, order, patch_formation);
-  std::printf("%s\n", line.dump().c_str());
+  print_json(line);
 }
 
 }  // namespace
@@ -257,27 +261,32 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
 void add_patch_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<PatchOptions>();
   databuffer::Command command = app.subcommand("patch", "compute one patch map, without a session");
-  command.option("--terrain", options->configuration.terrain, "directory of terrain cells (else the configuration's)");
+  add_terrain_option(command, options->configuration.terrain).otherwise("the configuration's");
   add_scene_options(command, options->configuration);
   add_pose_options(command, options->pose);
   command.option("--speed-kt", options->speed_kt, "[kt] speed over ground").range(0.0, 10000.0);
   command.option("--target-lat", options->target_latitude_deg, "[deg] latitude of the map's centre").range(-90.0, 90.0);
   command.option("--target-lon", options->target_longitude_deg, "[deg] longitude of the map's centre")
       .range(-180.0, 180.0);
-  command.option("--window-nm", options->window_nm, "[NM] side of the map (else the configuration's at power-up)")
-      .range(0.01, 200.0);
+  command.option("--window-nm", options->window_nm, "[NM] side of the map")
+      .range(0.01, 200.0)
+      .otherwise("the configuration's at power-up");
   command.flag("--force", options->force, "ignore the radar's limits; the blind zone stays blank");
-  command.option("--looks", options->looks, "number of looks to average (else that of ML1)").range(1, 16);
-  add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset (else the configuration's)");
-  command.option("--size", options->size, "[pixels] per side").range(16, 1024);
+  command.option("--looks", options->looks, "number of looks to average").range(1, 16).otherwise("that of ML1");
+  add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset").otherwise("the configuration's");
+  command.option("--size", options->size, "[pixels] per side").range(16, 1024).otherwise("the configuration's");
   command.option("--time-s", options->time_s, "[s] sim time at the start, for moving targets").range(0.0, 1e8);
-  command.option("--threads", options->threads).range(1, 256);
-  command.option("--seed", options->configuration.seed, "seed of the noise").not_negative();
+  command.option("--threads", options->threads, "number of threads").range(1, 256);
+  command.option("--seed", options->configuration.seed, "seed of the noise").otherwise("the configuration's");
   command.option("--repeat", options->repeat, "number of maps to time, after one untimed map").range(1, 1000000);
-  command.option("--out", options->output.file,
-                 "file: .png, .tif (georeferenced) or .f32 (power: little-endian floats, rows from the far edge)");
+  command
+      .option("--out", options->output.file,
+              "file: .png, .tif (georeferenced) or .f32 (power: little-endian floats, rows from the far edge)")
+      .value_name("FILE")
+      .otherwise("none");
   command.option("--pixels", options->output.pixels, "pixels of a .tif: video (8 bits) or power (32-bit float)")
       .one_of({"video", "power"});
+  add_json_flag(command, options->json, "the summary is always one JSON object");
   command.callback([options, &common] { patch(common, *options); });
 }
 

@@ -29,6 +29,7 @@
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/input_checks.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
 #include "tools/trade/scan_errors.hpp"
 
@@ -131,16 +132,18 @@ struct ScanOptions {
   std::string out, shadow;
   std::string color = "green";
   double range_nm = 40.0, width_deg = 100.0, elevation_deg = 0.0;
-  int samples = 0, threads = 1, gain = 3, size = 0, repeat = 1, channel = 1;
+  std::optional<int> samples, size;  // nullopt: as configured
+  int threads = 1, gain = 3, repeat = 1, channel = 1;
   double time_s = 0.0;
   std::string band = "A";
   bool force = false;
+  bool json = false;  // accepted, because all commands with facts have it; the summary is JSON without it, too
 };
 
 radar::RadarConfiguration configure(const CommonOptions& common, const ScanOptions& options) {
   radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
-  if (options.samples > 0) configuration.fidelity.samples = options.samples;
-  if (options.size > 0) configuration.view.size_pixels = options.size;
+  if (options.samples) configuration.fidelity.samples = *options.samples;
+  if (options.size) configuration.view.size_pixels = *options.size;
   return configuration;
 }
 
@@ -281,7 +284,7 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
     write_shadow(file, work.headers(), trade::ray_samples(configuration, work.headers(), *terrain));
     write_text_file(options.shadow, file);
   }
-  std::printf("%s\n", line.dump().c_str());
+  print_json(line);
 }
 
 }  // namespace
@@ -289,8 +292,7 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
 void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<ScanOptions>();
   databuffer::Command command = app.subcommand("scan", "compute one scan of the real beam map, without a session");
-  command.option("--terrain", options->configuration.terrain,
-                 "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); else the configuration's");
+  add_terrain_option(command, options->configuration.terrain).otherwise("the configuration's");
   add_scene_options(command, options->configuration);
   add_pose_options(command, options->pose);
   command.option("--range-nm", options->range_nm, "[NM] range of the scan").range(0.1, 1000.0);
@@ -298,21 +300,31 @@ void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   command.option("--elevation", options->elevation_deg, "[deg] antenna elevation above the horizontal")
       .range(-90.0, 90.0);
   command.flag("--force", options->force, "allow angles beyond the gimbal limits, and an aircraft below the ground");
-  add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset (else the configuration's)");
-  command.option("--samples", options->samples, "samples of a sweep").range(1, radar::kMaxSamples);
-  command.option("--gain", options->gain, "receiver gain, 0 to 3").range(0, 3);
-  command.option("--band", options->band, "band of the radar, A to E; a jammer acts only in its own bands")
+  add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset").otherwise("the configuration's");
+  command.option("--samples", options->samples, "samples of a sweep")
+      .range(1, radar::kMaxSamples)
+      .otherwise("the configuration's");
+  command.option("--gain", options->gain, "receiver gain").range(0, 3);
+  command.option("--band", options->band, "band of the radar; a jammer acts only in its own bands")
       .one_of({"A", "B", "C", "D", "E"});
-  command.option("--channel", options->channel, "frequency channel, 1 to 8").range(1, 8);
+  command.option("--channel", options->channel, "frequency channel").range(1, 8);
   command.option("--time-s", options->time_s, "[s] sim time of the first sweep, for moving targets").range(0.0, 1e8);
-  command.option("--threads", options->threads).range(1, 256);
-  command.option("--seed", options->configuration.seed, "seed of the noise").not_negative();
+  command.option("--threads", options->threads, "number of threads").range(1, 256);
+  command.option("--seed", options->configuration.seed, "seed of the noise").otherwise("the configuration's");
   command.option("--repeat", options->repeat, "number of warm scans to time, after the first scan").range(1, 1000000);
-  command.option("--size", options->size, "[pixels] per side of the picture").range(16, 8192);
-  command.option("--color", options->color).one_of({"green", "gray"});
-  command.option("--out", options->out,
-                 "file: .png, .csv (video) or .f32 (power: little-endian floats, one row per sweep)");
-  command.option("--shadow", options->shadow, "file: .csv with position, elevation and shadow of each sample");
+  command.option("--size", options->size, "[pixels] per side of the picture")
+      .range(16, 8192)
+      .otherwise("the configuration's");
+  command.option("--color", options->color, "colours of the picture").one_of({"green", "gray"});
+  command
+      .option("--out", options->out,
+              "file: .png, .csv (video) or .f32 (power: little-endian floats, one row per sweep)")
+      .value_name("FILE")
+      .otherwise("none");
+  command.option("--shadow", options->shadow, "file: .csv with position, elevation and shadow of each sample")
+      .value_name("FILE")
+      .otherwise("none");
+  add_json_flag(command, options->json, "the summary is always one JSON object");
   command.callback([options, &common] { scan(common, *options); });
 }
 

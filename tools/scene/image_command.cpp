@@ -230,11 +230,12 @@ void draw(const SceneImageOptions& options) {
 void add_scene_image(databuffer::Command scene) {
   const auto options = std::make_shared<SceneImageOptions>();
   databuffer::Command command = scene.subcommand("image", "draw a plan view as PNG, north up, shaded by normals");
-  command.option("file", options->file, "OpenFlight file").required();
-  command.option("--out", options->out, "PNG file").required();
-  command.option("--width", options->width, "[pixels] of the longer side").range(16, 8192).show_default();
-  command.option("--window", options->window, "[m] WEST, SOUTH edge from the origin, SIDE of square; else whole model")
-      .values(3);
+  command.option("--scene,FILE", options->file, "OpenFlight file").value_name("FILE").required();
+  command.option("--out", options->out, "PNG file").value_name("FILE").required();
+  command.option("--width", options->width, "[pixels] of the longer side").range(16, 8192);
+  command.option("--window", options->window, "[m] WEST, SOUTH edge from the origin, SIDE of square")
+      .values(3)
+      .otherwise("the whole model");
   add_without(command, options->without);
   command.flag("--material", options->material, "colours by surface material code; magenta: code 0, or above 13");
   command.callback([options] { draw(*options); });

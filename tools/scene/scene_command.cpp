@@ -17,6 +17,7 @@
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
@@ -65,13 +66,13 @@ std::map<int, std::uint64_t> triangles_by_material(const Model& model) {
   return counts;
 }
 
-nlohmann::json origin_json(const std::optional<geo::GeoPoint>& origin) {
+nlohmann::ordered_json origin_json(const std::optional<geo::GeoPoint>& origin) {
   if (!origin) return nullptr;
   return {{"latitude_deg", origin->latitude_deg}, {"longitude_deg", origin->longitude_deg}};
 }
 
-nlohmann::json describe(const std::string& file, const Model& model) {
-  nlohmann::json report{{"file", file}, {"revision", model.header.revision}};
+nlohmann::ordered_json describe(const std::string& file, const Model& model) {
+  nlohmann::ordered_json report{{"file", file}, {"revision", model.header.revision}};
   report["metres_per_unit"] = model.header.metres_per_unit;
   report["origin"] = origin_json(model.header.origin);
   report["origin_in_name"] = origin_json(position_in_name(file.substr(file.find_last_of('/') + 1)));
@@ -98,7 +99,7 @@ nlohmann::json describe(const std::string& file, const Model& model) {
   return report;
 }
 
-std::string origin_text(const nlohmann::json& origin) {
+std::string origin_text(const nlohmann::ordered_json& origin) {
   if (origin.is_null()) return "none";
   char text[64];
   std::snprintf(text, sizeof text, "%.6f, %.6f", origin["latitude_deg"].get<double>(),
@@ -106,7 +107,7 @@ std::string origin_text(const nlohmann::json& origin) {
   return text;
 }
 
-void print_counts(const char* title, const nlohmann::json& counts) {
+void print_counts(const char* title, const nlohmann::ordered_json& counts) {
   std::printf("  %s:", title);
   for (const auto& [name, count] : counts.items()) {
     std::string words = name;
@@ -116,7 +117,7 @@ void print_counts(const char* title, const nlohmann::json& counts) {
   std::printf("\n");
 }
 
-void print(const nlohmann::json& report) {
+void print(const nlohmann::ordered_json& report) {
   std::printf("%s\n  revision %.2f, unit %g m, origin %s\n", report["file"].get<std::string>().c_str(),
               report["revision"].get<int>() / 100.0, report["metres_per_unit"].get<double>(),
               origin_text(report["origin"]).c_str());
@@ -136,11 +137,20 @@ void print(const nlohmann::json& report) {
   for (const auto& warning : report["warnings"]) std::printf("  warning: %s\n", warning.get<std::string>().c_str());
 }
 
+// File of a scene argument, which may have a position: FILE@LAT,LON,HDG. An existing file is never split at an '@'.
+std::string file_of(const std::string& text) {
+  std::error_code problem;
+  if (std::filesystem::exists(text, problem)) return text;
+  const auto scene = parse_scene(text);
+  return scene ? scene->file : text;
+}
+
 void report_files(const InfoOptions& options) {
-  nlohmann::json all = nlohmann::json::array();
+  nlohmann::ordered_json all = nlohmann::ordered_json::array();
   NameFilter filter = name_filter(options.without);
   std::size_t unreadable = 0;
-  for (const std::string& file : options.files) {
+  for (const std::string& text : options.files) {
+    const std::string file = file_of(text);
     const auto model = read_openflight(file, &filter);
     if (!model && options.files.size() == 1) throw_failure(model.error());
     if (!model) {
@@ -151,11 +161,12 @@ void report_files(const InfoOptions& options) {
     all.push_back(describe(file, *model));
     if (!options.json) print(all.back());
   }
+  if (options.json) print_json({{"files", all}}, JsonLines::many);
+  std::fflush(stdout);
   if (unreadable > 0)
     throw CommandFailed{"expected OpenFlight files, found " + std::to_string(unreadable) + " of " +
                         std::to_string(options.files.size()) + " that cannot be read"};
   if (const auto problem = filter.unmatched_error("--without")) throw_failure(*problem);
-  if (options.json) std::printf("%s\n", all.dump(2).c_str());
 }
 
 }  // namespace
@@ -164,9 +175,9 @@ void add_scene_info(databuffer::Command scene) {
   const auto options = std::make_shared<InfoOptions>();
   databuffer::Command command =
       scene.subcommand("info", "print contents of OpenFlight files: counts, materials, extent, origin");
-  command.option("files", options->files, "OpenFlight files").required();
+  command.option("--scene,FILE", options->files, "OpenFlight file; several may be given").value_name("FILE").required();
   add_without(command, options->without);
-  command.flag("--json", options->json, "print JSON");
+  add_json_flag(command, options->json);
   command.callback([options] { report_files(*options); });
 }
 
@@ -182,6 +193,7 @@ struct GenerateOptions {
   std::uint64_t seed = 1;
   std::string origin;
   std::string out;
+  bool json = false;
 };
 
 void generate(const GenerateOptions& options) {
@@ -197,11 +209,14 @@ void generate(const GenerateOptions& options) {
   order.origin = parsed->position;
   if (std::ranges::count(options.origin, ',') == 2) order.heading_deg = parsed->heading_deg;
   constexpr std::uint64_t kStep = 10'000;  // triangles per progress report
-  Progress progress(options.triangles / kStep + 1, stderr);
+  Progress progress(options.triangles / kStep + 1);
   const worldgen::GeneratedScene made = worldgen::generate_scene(
       order, [&](std::uint64_t triangles) { progress.done(std::to_string(triangles) + " triangles"); });
   const std::filesystem::path path = std::filesystem::absolute(options.out);
   if (const auto written = file::write_file_and_folders(path, made.file); !written) throw_failure(written.error());
+  if (options.json)
+    return print_json(
+        {{"file", options.out}, {"kind", options.kind}, {"triangles", made.triangles}, {"bytes", made.file.size()}});
   std::printf("%s  %s of %llu triangles, %zu bytes\n", options.out.c_str(), options.kind.c_str(),
               static_cast<unsigned long long>(made.triangles), made.file.size());
 }
@@ -211,18 +226,17 @@ void generate(const GenerateOptions& options) {
 void add_scene_generate(databuffer::Command scene) {
   const auto options = std::make_shared<GenerateOptions>();
   databuffer::Command command = scene.subcommand("generate", "write a made-up scene as an OpenFlight file");
-  command.option("--kind", options->kind, "kind of scene")
-      .one_of({"airfield", "harbour", "bridge", "town"})
-      .show_default();
+  command.option("--kind", options->kind, "kind of scene").one_of({"airfield", "harbour", "bridge", "town"});
   command.option("--triangles", options->triangles, "approximate number; an instance counts at each use")
-      .range(std::uint64_t{1}, worldgen::kMaxGenerated)
-      .show_default();
-  command.option("--seed", options->seed, "seed; each seed gives another scene").show_default();
+      .range(std::uint64_t{1}, worldgen::kMaxGenerated);
+  command.option("--seed", options->seed, "seed; each seed gives another scene");
   command
       .option("--origin", options->origin,
-              "LAT,LON or LAT,LON,HDG [deg]: centre of the scene, true bearing of its north (else by the seed)")
+              "[deg] centre of the scene and the true bearing of its north (without a bearing, by the seed)")
+      .value_name("LAT,LON[,HDG]")
       .required();
-  command.option("--out", options->out, "OpenFlight file").required();
+  command.option("--out", options->out, "OpenFlight file").value_name("FILE").required();
+  add_json_flag(command, options->json);
   command.callback([options] { generate(*options); });
 }
 

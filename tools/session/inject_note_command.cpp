@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -13,8 +15,11 @@
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
+#include "lib/text/nearest_word.hpp"
+#include "lib/text/plain_text.hpp"
 #include "statemachine/reasons.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 
 namespace yars::tools {
 
@@ -48,7 +53,9 @@ void add_note_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command command = app.subcommand("note", "write a note into the session's flight recorder");
   auto options = std::make_shared<NoteOptions>();
   command.option("TEXT", options->text, "what happened; at most 87 bytes are kept, 72 with --restarted").required();
-  command.option("--restarted", options->restarted, "role that was restarted; TEXT is the reason");
+  command.option("--restarted", options->restarted, "role that was restarted; TEXT is the reason")
+      .value_name("ROLE")
+      .otherwise("none");
   command.callback([&common, options] { note(common, *options); });
 }
 
@@ -64,20 +71,23 @@ constexpr std::int64_t kTimeout_ns = 2'000'000'000;  // [ns] 2 s: docs/spec/comm
 
 // Parses the arguments. Either all arguments together are one event (pb 13), or each is one event ('pb 13' 'sp 2').
 std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) {
-  std::vector<InputEvent> events;
+  const auto refuse = [](const error::Error& error) {
+    const std::string& meant = error.action;
+    throw_failure(error::usage_error("inject", error.expected, error.found,
+                                     meant + (meant.empty() ? "see" : " See") + " yars inject --help"));
+  };
   std::string joined;
   for (const auto& argument : arguments) joined += (joined.empty() ? "" : " ") + argument;
-  if (auto single = databuffer::event_from_text(joined)) {
-    events.push_back(*single);
-    return events;
-  }
+  const auto single = databuffer::event_from_text(joined);
+  if (single) return {*single};
+  // Words of one event are single words, of which the first names the event.
+  const auto is_word = [](const std::string& argument) { return argument.find(' ') == std::string::npos; };
+  if (std::ranges::all_of(arguments, is_word) && !databuffer::event_from_text(arguments.front()))
+    refuse(single.error());
+  std::vector<InputEvent> events;
   for (const auto& argument : arguments) {
-    auto event = databuffer::event_from_text(argument);
-    if (!event) {
-      auto error = event.error();
-      error.bad_usage = true;
-      throw_failure(error);
-    }
+    const auto event = databuffer::event_from_text(argument);
+    if (!event) refuse(event.error());
     events.push_back(*event);
   }
   return events;
@@ -117,14 +127,36 @@ databuffer::RadarState state_after_events(Session& session) {
   return published_state(session);
 }
 
+std::size_t count_of(const statemachine::AppliedSequence& applied, std::uint32_t effect) {
+  return static_cast<std::size_t>(std::ranges::count(applied.effects, effect));
+}
+
+const char* effect_name(std::uint32_t effect) {
+  if (effect == databuffer::kEventDone) return "done";
+  return effect == databuffer::kEventRefused ? "refused" : "without effect";
+}
+
+// Prints {"done": 1, "without_effect": 1, "refused": 0, "events": [{"event", "effect", "reason" or null}]}.
+void report_json(const statemachine::AppliedSequence& applied) {
+  nlohmann::ordered_json events = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < applied.events.size(); ++i) {
+    const bool done = applied.effects[i] == databuffer::kEventDone;
+    const auto reason = done ? std::nullopt : statemachine::certain_reason(applied, i);
+    events.push_back({{"event", databuffer::text_of(applied.events[i])},
+                      {"effect", effect_name(applied.effects[i])},
+                      {"reason", reason ? nlohmann::ordered_json(*reason) : nlohmann::ordered_json(nullptr)}});
+  }
+  print_json({{"done", count_of(applied, databuffer::kEventDone)},
+              {"without_effect", count_of(applied, databuffer::kEventDead)},
+              {"refused", count_of(applied, databuffer::kEventRefused)},
+              {"events", events}});
+}
+
 // Prints "3 events: 1 done, 1 without effect, 1 refused", and a line for each event without effect.
 void report(const statemachine::AppliedSequence& applied) {
-  const auto count = [&applied](std::uint32_t of) {
-    return static_cast<std::size_t>(std::ranges::count(applied.effects, of));
-  };
-  std::printf("%s: %zu done", events_text(applied.events.size()).c_str(), count(databuffer::kEventDone));
-  if (const auto dead = count(databuffer::kEventDead)) std::printf(", %zu without effect", dead);
-  if (const auto refused = count(databuffer::kEventRefused)) std::printf(", %zu refused", refused);
+  std::printf("%s: %zu done", events_text(applied.events.size()).c_str(), count_of(applied, databuffer::kEventDone));
+  if (const auto dead = count_of(applied, databuffer::kEventDead)) std::printf(", %zu without effect", dead);
+  if (const auto refused = count_of(applied, databuffer::kEventRefused)) std::printf(", %zu refused", refused);
   std::printf("\n");
   for (std::size_t i = 0; i < applied.events.size(); ++i) {
     if (applied.effects[i] != databuffer::kEventDead) continue;
@@ -134,8 +166,23 @@ void report(const statemachine::AppliedSequence& applied) {
   }
 }
 
+// "did you mean 'sp 2.1'?", or the known points, for an `sp` that names no point. Known are the points that the state
+// has: those on the display. Empty: another event, or no point is known.
+std::string advice_on_point(const statemachine::AppliedSequence& applied, const InputEvent& event) {
+  if (event.kind != static_cast<std::uint16_t>(databuffer::EventKind::sequence_point)) return {};
+  std::vector<std::string> points;
+  std::string names;
+  for (int i = 0; i < applied.after.points_drawn && i < radar::kMaxPointsDrawn; ++i) {
+    const std::string name(text::text_of(applied.after.points[i].name));
+    points.push_back(name);
+    names += (names.empty() ? "" : ", ") + name;
+  }
+  if (const auto meant = text::nearest_word(text::text_of(event.text), points)) return "did you mean 'sp " + *meant + "'?";
+  return names.empty() ? std::string() : "points on the display: " + names;
+}
+
 [[noreturn]] void give_up_refused(const statemachine::AppliedSequence& applied) {
-  std::string refused, remedies;
+  std::string refused, advice;
   bool all_certain = true;
   for (std::size_t i = 0; i < applied.events.size(); ++i) {
     if (applied.effects[i] != databuffer::kEventRefused) continue;
@@ -144,15 +191,24 @@ void report(const statemachine::AppliedSequence& applied) {
     refused += refused.empty() ? "'" : ", '";
     refused += databuffer::text_of(applied.events[i]);
     refused += reason ? "' refused: " + reason->words : "' refused";
-    if (reason && !reason->remedy.empty()) remedies += (remedies.empty() ? "" : "; ") + reason->remedy;
+    std::string remedy = advice_on_point(applied, applied.events[i]);
+    if (remedy.empty() && reason) remedy = reason->remedy;
+    if (!remedy.empty()) advice += (advice.empty() ? "" : "; ") + remedy;
   }
-  if (remedies.empty()) remedies = "see points, cursor and limits in `yars watch --json`";
-  throw_failure({"inject", "events that can be carried out", refused,
-                 all_certain ? remedies : "send an event alone for its reason", false});
+  if (!all_certain)
+    advice = "send an event alone for its reason";
+  else if (advice.empty())
+    advice = "see points, cursor and limits in `yars watch --json`";
+  throw_failure({"inject", "events that can be carried out", refused, advice, false});
 }
 
-void inject(const CommonOptions& common, const std::vector<std::string>& arguments) {
-  auto events = parse_events(arguments);
+struct InjectOptions {
+  std::vector<std::string> events;
+  bool json = false;
+};
+
+void inject(const CommonOptions& common, const InjectOptions& options) {
+  auto events = parse_events(options.events);
   if (auto running = Session::open_read_only(common.session); !running) throw_failure(running.error());
   auto session = Session::open(common.session, "yars inject");
   if (!session) throw_failure(session.error());
@@ -185,7 +241,8 @@ void inject(const CommonOptions& common, const std::vector<std::string>& argumen
   const auto advice = databuffer::read_valid(session->layout().advice).value_or(databuffer::PilotAdvice{});
   const statemachine::AppliedSequence applied{
       events, outcome, before, after, session->role_is_held(databuffer::Role::recorder), advice.remedy};
-  report(applied);
+  options.json ? report_json(applied) : report(applied);
+  std::fflush(stdout);
   if (std::ranges::find(outcome, databuffer::kEventRefused) != outcome.end()) give_up_refused(applied);
 }
 
@@ -194,9 +251,12 @@ void inject(const CommonOptions& common, const std::vector<std::string>& argumen
 void add_inject_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command command =
       app.subcommand("inject", "send events, e.g. yars inject 'power opr' 'pb 13' 'elevation -5'");
-  auto arguments = std::make_shared<std::vector<std::string>>();
-  command.option("EVENT", *arguments, "event, written as in docs/spec/pilots_interface.md#controls").required();
-  command.callback([&common, arguments] { inject(common, *arguments); });
+  auto options = std::make_shared<InjectOptions>();
+  command.option("EVENT", options->events, "event, in upper or lower case:\n" + databuffer::event_forms())
+      .value_name("EVENT")
+      .required();
+  add_json_flag(command, options->json);
+  command.callback([&common, options] { inject(common, *options); });
 }
 
 }  // namespace yars::tools

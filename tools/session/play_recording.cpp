@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <ctime>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
@@ -15,6 +16,7 @@
 #include "databuffer/session/session.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/modes.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/recording/replay.hpp"
 
 namespace yars::tools {
@@ -279,8 +281,15 @@ error::Expected<void> play_recording(recording::RecordingReader& reader, std::op
     const timespec pause{0, kPlayInterval_ns};
     nanosleep(&pause, nullptr);
   }
-  std::printf("%s: played from %s to %s s of sim time\n", options.file.c_str(), text_of_seconds(*begin).c_str(),
-              text_of_seconds(player.tick()).c_str());
+  if (options.json)
+    print_json({{"file", options.file},
+                {"session", options.session},
+                {"from_s", seconds_of(*begin)},
+                {"to_s", seconds_of(player.tick())},
+                {"different_sweeps", player.different()}});
+  else
+    std::printf("%s: played from %s to %s s of sim time\n", options.file.c_str(), text_of_seconds(*begin).c_str(),
+                text_of_seconds(player.tick()).c_str());
   if (player.different() > 0)
     log::warning(std::to_string(player.different()) +
                  " sweeps differ from the recorded sweeps; replay with the same terrain and configuration");

@@ -15,6 +15,7 @@ struct PlayOptions {
   std::string session;
   double rate = 1.0;             // [0, 10] times real time; 0: the clock stands still
   std::optional<double> seek_s;  // [s] sim time at which to begin; nullopt: the start of the recording
+  bool json = false;             // the result is printed as one JSON object
 };
 
 // Returns when the recording has ended or a stop was requested. `world`: see recording::Player. Errors: a rate that is

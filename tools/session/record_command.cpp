@@ -3,6 +3,8 @@
 #include <cstdio>
 #include <ctime>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
@@ -10,6 +12,7 @@
 #include "databuffer/session/session.hpp"
 #include "lib/log/log.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/recording/recording_writer.hpp"
 #include "tools/session/recorder.hpp"
 
@@ -30,7 +33,8 @@ struct RecordOptions {
   std::string lockstep;
   std::string log_dir;
   bool overwrite = false;
-  double keep_mb = 0.0;  // 0: no limit
+  bool json = false;
+  std::optional<double> keep_mb;  // nullopt: no limit
   RecordedExtras extras;
 };
 
@@ -79,6 +83,18 @@ std::string absolute(const std::string& path) {
   return path.empty() ? path : std::filesystem::absolute(path).string();
 }
 
+void print_summary(const Recorder& recorder, std::uint64_t bytes, const RecordOptions& options) {
+  if (options.json)
+    return print_json({{"file", options.file},
+                       {"ticks", recorder.ticks()},
+                       {"sweeps", recorder.sweeps()},
+                       {"bytes", bytes},
+                       {"refused", recorder.refused()}});
+  std::printf("%llu ticks, %llu sweeps, %llu bytes in %s\n", static_cast<unsigned long long>(recorder.ticks()),
+              static_cast<unsigned long long>(recorder.sweeps()), static_cast<unsigned long long>(bytes),
+              options.file.c_str());
+}
+
 void record(const CommonOptions& common, const RecordOptions& options) {
   databuffer::set_private_umask();
   if (!options.log_dir.empty()) log::start_file("recorder", options.log_dir);
@@ -94,7 +110,7 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   // A recorder that joins a lockstep run before its own first tick also records what the rings already contain.
   const bool from_oldest = !options.lockstep.empty() && session->layout().lockstep.done_tick[recorder_index].load() < 0;
   RecordedExtras extras = options.extras;
-  extras.keep_bytes = static_cast<std::uint64_t>(options.keep_mb * 1e6);
+  extras.keep_bytes = static_cast<std::uint64_t>(options.keep_mb.value_or(0.0) * 1e6);
   Recorder recorder(*session, *writer, extras, from_oldest);
   log::info("records session " + common.session + " to " + options.file);
   if (options.lockstep.empty())
@@ -104,10 +120,7 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   error::Expected<void> outcome = recorder.outcome();
   const bool is_there = writer->is_at_path();
   if (outcome) outcome = writer->close();
-  if (is_there)
-    std::printf("%llu ticks, %llu sweeps, %llu bytes in %s\n", static_cast<unsigned long long>(recorder.ticks()),
-                static_cast<unsigned long long>(recorder.sweeps()), static_cast<unsigned long long>(writer->bytes()),
-                options.file.c_str());
+  if (is_there) print_summary(recorder, writer->bytes(), options);
   if (recorder.refused() > 0)
     log::warning(std::to_string(recorder.refused()) + " records failed validation and were not recorded");
   if (!outcome) throw_failure(outcome.error());
@@ -118,18 +131,26 @@ void record(const CommonOptions& common, const RecordOptions& options) {
 void add_record_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command command = app.subcommand("record", "record the session's ticks and events until Ctrl-C");
   auto options = std::make_shared<RecordOptions>();
-  command.option("FILE", options->file, "recording to write").required();
+  command.option("FILE", options->file, "recording to write").value_name("FILE").required();
   command.flag("--overwrite", options->overwrite, "replace an existing FILE (else an existing FILE is refused)");
   command
       .option("--keep", options->keep_mb,
-              "[MB] disk space for the newest records, in FILE and its predecessor FILE.before (else no limit)")
-      .range(20.0, 1e9);
+              "[MB] disk space for the newest records, in FILE and its predecessor FILE.before")
+      .range(20.0, 1e9)
+      .otherwise("no limit");
   command.flag("--sweeps", options->extras.sweeps, "also record the video of the sweeps (up to 0.8 MB per second)");
   command.flag("--patches", options->extras.patches, "also record the patch maps (up to 1 MB each)");
-  command.option("--terrain", options->terrain, "terrain directory of radar-model, which the replay needs");
-  command.option("--lockstep", options->lockstep,
-                 "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them");
-  command.option("--log-dir", options->log_dir, "folder in which the log is kept too, rotated (else no file)");
+  add_terrain_option(command, options->terrain).otherwise("the configuration's; as for radar-model");
+  command
+      .option("--lockstep", options->lockstep,
+              "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them")
+      .value_name("ROLES")
+      .otherwise("live");
+  command.option("--log-dir", options->log_dir, "folder for a rotated log file")
+      .value_name("DIR")
+      .otherwise("no file")
+      .in_user_file();
+  add_json_flag(command, options->json);
   command.callback([&common, options] { record(common, *options); });
 }
 

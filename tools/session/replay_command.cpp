@@ -17,6 +17,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/recording/recording_reader.hpp"
 #include "tools/recording/replay.hpp"
 #include "tools/session/play_recording.hpp"
@@ -33,6 +34,8 @@ struct ReplayOptions {
   std::string terrain;
   bool events = false;
   bool print = false;
+  bool json = false;          // the result of playing; --events and --print always print JSON
+  bool has_own_file = false;  // --config names the configuration, in place of the recording
   double rate = 1.0;
   std::optional<double> seek_s;
 };
@@ -47,7 +50,7 @@ struct World {
 World open_world(const CommonOptions& common, const recording::RecordingHeader& header, const ReplayOptions& options) {
   ConfigurationOptions recorded;
   recorded.terrain = options.terrain.empty() ? header.terrain : options.terrain;
-  World world{read_configuration(common.config.empty() ? header.configuration : common.config, recorded), nullptr,
+  World world{read_configuration(options.has_own_file ? common.config : header.configuration, recorded), nullptr,
               nullptr};
   auto store = model::terrain::open_terrain(world.configuration.terrain);
   if (!store) throw_failure(store.error());
@@ -83,11 +86,6 @@ void report_missing(const recording::RecordingReader& reader, const std::string&
                  "the rest was read", false});
 }
 
-// JSON text on one line. Replaces invalid UTF-8, because texts in a file may be damaged.
-std::string text_of(const nlohmann::ordered_json& object) {
-  return object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-}
-
 void print_entries(recording::RecordingReader& reader) {
   while (const auto entry = reader.next()) {
     if (databuffer::stop_requested()) return;
@@ -105,7 +103,7 @@ void print_entries(recording::RecordingReader& reader) {
     } else {
       continue;
     }
-    std::printf("%s\n", text_of(object).c_str());
+    print_json(object);
   }
 }
 
@@ -123,8 +121,8 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
     player_world = recording::PlayerWorld{std::make_shared<radar::RadarConfiguration>(world->configuration),
                                           world->store.get(), world->scenes.get()};
   }
-  if (auto played =
-          play_recording(reader, std::move(player_world), {options.file, session, options.rate, options.seek_s});
+  if (auto played = play_recording(reader, std::move(player_world),
+                                   {options.file, session, options.rate, options.seek_s, options.json});
       !played)
     throw_failure(played.error());
   report_missing(reader, options.file);
@@ -236,7 +234,7 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
     report_missing(reader, options.file);
     throw_failure(no_ticks(options.file));
   }
-  std::printf("%s\n", text_of(run.result(reader)).c_str());
+  print_json(run.result(reader));
   std::fflush(stdout);
   const auto& comparison = run.replay().comparison();
   if (comparison.different() > 0)
@@ -256,7 +254,7 @@ void add_replay_command(databuffer::Command app, const CommonOptions& common) {
       "replay",
       "play a recording into its own session (--session, else 'replay'), for a radar-display in that session");
   auto options = std::make_shared<ReplayOptions>();
-  command.option("FILE", options->file, "recording made by yars record").required();
+  command.option("FILE", options->file, "recording made by yars record").value_name("FILE").required();
   databuffer::Option events =
       command.flag("--events", options->events,
                    "compute the sweeps from the recorded ticks, offline, and compare them with the recorded sweeps");
@@ -264,14 +262,21 @@ void add_replay_command(databuffer::Command app, const CommonOptions& common) {
       command.flag("--print", options->print, "print events, radar states and patch maps, one JSON object per line");
   events.excludes(print);
   databuffer::Option rate =
-      command.option("--rate", options->rate, "rate relative to real time, 0 to 10 (else 1); 0 freezes the picture");
+      command.option("--rate", options->rate, "rate relative to real time; 0 freezes the picture");
   rate.range(0.0, 10.0).excludes(events).excludes(print);
-  databuffer::Option seek =
-      command.option("--seek", options->seek_s, "sim time in s at which to begin (else the begin of the recording)");
-  seek.range(0.0, databuffer::kLatestSimTime_s).excludes(events).excludes(print);
-  command.option("--terrain", options->terrain, "terrain directory (else the recording's)");
-  const databuffer::Option session = app.find("--session");
-  command.callback([&common, options, session] {
+  databuffer::Option seek = command.option("--seek", options->seek_s, "[s] sim time at which to begin");
+  seek.range(0.0, databuffer::kLatestSimTime_s)
+      .excludes(events)
+      .excludes(print)
+      .otherwise("the begin of the recording");
+  // The user's file does not set this one: a recording is replayed over its own terrain.
+  command.option("--terrain", options->terrain, "folder of elevation cells")
+      .value_name("DIR")
+      .otherwise("the recording's");
+  add_json_flag(command, options->json);
+  const databuffer::Option session = app.find("--session"), config = app.find("--config");
+  command.callback([&common, options, session, config] {
+    options->has_own_file = config.is_given();
     const bool named = session.is_given();
     auto reader = recording::RecordingReader::open(options->file);
     if (!reader) throw_failure(reader.error());

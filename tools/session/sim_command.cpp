@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
 #include <thread>
 #include <utility>
 
@@ -12,8 +14,8 @@
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/session/session.hpp"
 #include "lib/geo/quantity.hpp"
-#include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 
 namespace yars::tools {
 
@@ -22,7 +24,14 @@ namespace {
 using databuffer::ClockState;
 using databuffer::Session;
 
-constexpr double kMaxRate = 10.0;  // sim time / real time; at higher rates programs skip late ticks
+// Options that all subcommands of `yars sim` share.
+struct SimOptions {
+  const CommonOptions& common;
+  bool json = false;
+};
+
+constexpr double kMaxRate = 10.0;         // sim time / real time; at higher rates programs skip late ticks
+constexpr int kMaxSteps = 1'000'000'000;  // of one `step`: 58 days of sim time
 // Ticks by which `step` advances the clock at once. At most kMaxTicksBehind (20): programs skip ticks that are further
 // behind the clock.
 constexpr std::int64_t kStepPortion_ticks = 10;
@@ -55,32 +64,41 @@ void change_clock(Session& session, const Change& change) {
   if (auto outcome = session.change_clock(change); !outcome) throw_failure(outcome.error());
 }
 
-void report(const Session& session) {
+void report(const Session& session, bool json) {
   const ClockState clock = session.clock();
-  std::printf("sim time %.3f s, rate %g, %s, epoch %u\n", static_cast<double>(session.sim_time_ns()) * 1e-9, clock.rate,
+  const double sim_time_s = static_cast<double>(session.sim_time_ns()) * 1e-9;
+  if (json)
+    return print_json(
+        {{"sim_time", sim_time_s}, {"rate", clock.rate}, {"running", clock.running != 0}, {"epoch", clock.epoch}});
+  std::printf("sim time %.3f s, rate %g, %s, epoch %u\n", sim_time_s, clock.rate,
               clock.running != 0 ? "running" : "frozen", clock.epoch);
 }
 
-void set_running(const CommonOptions& common, bool running) {
-  auto session = open_session(common);
+// Reads only, so it works in lockstep, too.
+void print_state(const SimOptions& options) {
+  const auto session = Session::open_read_only(options.common.session);
+  if (!session) throw_failure(session.error());
+  report(*session, options.json);
+}
+
+void set_running(const SimOptions& options, bool running) {
+  auto session = open_session(options.common);
   change_clock(session, [running](const ClockState& clock) {
     ClockState next = rebased(clock);
     next.running = running ? 1 : 0;
     return next;
   });
-  report(session);
+  report(session, options.json);
 }
 
-void set_rate(const CommonOptions& common, double rate) {
-  if (!std::isfinite(rate) || rate < 0.0 || rate > kMaxRate)
-    throw_failure(error::usage_error("rate", "0 to 10", std::to_string(rate)));
-  auto session = open_session(common);
+void set_rate(const SimOptions& options, double rate) {
+  auto session = open_session(options.common);
   change_clock(session, [rate](const ClockState& clock) {
     ClockState next = rebased(clock);
     next.rate = rate;
     return next;
   });
-  report(session);
+  report(session, options.json);
 }
 
 // Gives the programs of the session time to run the ticks that have become due.
@@ -89,10 +107,8 @@ void pause_for_roles() {
 }
 
 // Freezes the clock and advances it by kStepPortion_ticks at a time, so that no program skips a tick.
-void step(const CommonOptions& common, std::int64_t ticks) {
-  if (ticks < 1)
-    throw_failure(error::usage_error("step", "a number of ticks of 5 ms, 1 or more", std::to_string(ticks)));
-  auto session = open_session(common);
+void step(const SimOptions& options, std::int64_t ticks) {
+  auto session = open_session(options.common);
   const std::uint32_t epoch = session.clock().epoch;
   while (ticks > 0 && !databuffer::stop_requested()) {
     const std::int64_t portion = std::min(ticks, kStepPortion_ticks);
@@ -110,7 +126,7 @@ void step(const CommonOptions& common, std::int64_t ticks) {
     ticks -= portion;
     pause_for_roles();
   }
-  report(session);
+  report(session, options.json);
 }
 
 // Advances a frozen clock by one tick after a new epoch has begun. The programs run the first tick of an epoch in
@@ -125,12 +141,8 @@ void advance_if_frozen(Session& session) {
   });
 }
 
-void reset(const CommonOptions& common, double time_s) {
-  if (!(time_s >= 0.0 && time_s <= databuffer::kLatestSimTime_s))
-    throw_failure(error::usage_error("reset",
-                                     "a sim time of 0 to " + text::text_of_number(databuffer::kLatestSimTime_s) + " s",
-                                     text::text_of_number(time_s)));
-  auto session = open_session(common);
+void reset(const SimOptions& options, double time_s) {
+  auto session = open_session(options.common);
   change_clock(session, [time_s](const ClockState& clock) {
     ClockState next = clock;
     next.base_monotonic_ns = databuffer::monotonic_ns();
@@ -142,25 +154,15 @@ void reset(const CommonOptions& common, double time_s) {
     return next;
   });
   advance_if_frozen(session);
-  report(session);
+  report(session, options.json);
 }
 
 struct Position {
   double latitude_deg = 0.0, longitude_deg = 0.0, altitude_ft = 0.0, heading_deg = 0.0;
 };
 
-void reposition(const CommonOptions& common, const Position& position) {
-  const auto check = [](const char* name, double value, double low, double high) {
-    if (!(value >= low && value <= high))
-      throw_failure(error::usage_error(
-          "reposition", std::string(name) + " of " + text::text_of_number(low) + " to " + text::text_of_number(high),
-          text::text_of_number(value)));
-  };
-  check("LAT", position.latitude_deg, -90, 90);
-  check("LON", position.longitude_deg, -180, 180);
-  check("ALT_FT", position.altitude_ft, -3000, 600000);
-  check("HDG", position.heading_deg, 0, 360);
-  auto session = open_session(common);
+void reposition(const SimOptions& options, const Position& position) {
+  auto session = open_session(options.common);
   change_clock(session, [&position](const ClockState& clock) {
     ClockState next = rebased(clock);
     ++next.epoch;
@@ -172,7 +174,7 @@ void reposition(const CommonOptions& common, const Position& position) {
     return next;
   });
   advance_if_frozen(session);
-  report(session);
+  report(session, options.json);
 }
 
 }  // namespace
@@ -180,29 +182,37 @@ void reposition(const CommonOptions& common, const Position& position) {
 void add_sim_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command sim = app.subcommand("sim", "the session's clock and the aircraft's position");
   sim.require_subcommand();
-  sim.subcommand("freeze", "stop sim time").callback([&common] { set_running(common, false); });
-  sim.subcommand("run", "let sim time run").callback([&common] { set_running(common, true); });
-  databuffer::Command rate_command = sim.subcommand("rate", "set the rate of sim time: 0 to 10 times real time");
-  auto rate = std::make_shared<double>(1.0);
-  rate_command.option("X", *rate).required();
-  rate_command.callback([&common, rate] { set_rate(common, *rate); });
-  databuffer::Command step_command = sim.subcommand("step", "freeze, then advance by N ticks of 5 ms");
-  auto ticks = std::make_shared<std::int64_t>(1);
-  step_command.option("N", *ticks);
-  step_command.callback([&common, ticks] { step(common, *ticks); });
-  databuffer::Command reset_command =
-      sim.subcommand("reset", "set sim time to 0 or to S and begin a new epoch; a replay seeks to this time");
-  auto time_s = std::make_shared<double>(0.0);
-  reset_command.option("S", *time_s, "seconds of sim time");
-  reset_command.callback([&common, time_s] { reset(common, *time_s); });
-  databuffer::Command reposition_command =
-      sim.subcommand("reposition", "move the aircraft to a position and begin a new epoch");
-  auto position = std::make_shared<Position>();
-  reposition_command.option("LAT", position->latitude_deg, "degrees, north positive").required();
-  reposition_command.option("LON", position->longitude_deg, "degrees, east positive").required();
-  reposition_command.option("ALT_FT", position->altitude_ft, "feet above mean sea level").required();
-  reposition_command.option("HDG", position->heading_deg, "degrees true").required();
-  reposition_command.callback([&common, position] { reposition(common, *position); });
+  const auto options = std::make_shared<SimOptions>(SimOptions{common});
+  const auto add = [&sim, &options](const char* name, const char* help, const std::function<void()>& call) {
+    databuffer::Command command = sim.subcommand(name, help);
+    add_json_flag(command, options->json);
+    command.callback(call);
+    return command;
+  };
+  add("state", "print sim time, rate and epoch", [options] { print_state(*options); });
+  add("freeze", "stop sim time", [options] { set_running(*options, false); });
+  add("run", "let sim time run", [options] { set_running(*options, true); });
+  const auto rate = std::make_shared<double>(1.0);
+  add("rate", "set the rate of sim time", [options, rate] { set_rate(*options, *rate); })
+      .option("RATE", *rate, "sim time over real time")
+      .range(0.0, kMaxRate)
+      .required();
+  const auto ticks = std::make_shared<std::int64_t>(1);
+  add("step", "freeze, then advance by TICKS of 5 ms", [options, ticks] { step(*options, *ticks); })
+      .option("TICKS", *ticks, "number of ticks")
+      .range(1, kMaxSteps);
+  const auto time_s = std::make_shared<double>(0.0);
+  add("reset", "set sim time and begin a new epoch; a replay seeks to this time",
+      [options, time_s] { reset(*options, *time_s); })
+      .option("TIME_S", *time_s, "[s] sim time")
+      .range(0.0, databuffer::kLatestSimTime_s);
+  const auto position = std::make_shared<Position>();
+  databuffer::Command move = add("reposition", "move the aircraft to a position and begin a new epoch",
+                                 [options, position] { reposition(*options, *position); });
+  move.option("LAT", position->latitude_deg, "[deg] north positive").range(-90.0, 90.0).required();
+  move.option("LON", position->longitude_deg, "[deg] east positive").range(-180.0, 180.0).required();
+  move.option("ALT_FT", position->altitude_ft, "[ft] above mean sea level").range(-3000.0, 600000.0).required();
+  move.option("HDG", position->heading_deg, "[deg] true").range(0.0, 360.0).required();
 }
 
 }  // namespace yars::tools

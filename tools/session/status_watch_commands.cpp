@@ -18,6 +18,7 @@
 #include "databuffer/session/session.hpp"
 #include "lib/log/log.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/session/status_json.hpp"
 #include "tools/session/watch_json.hpp"
 
@@ -100,7 +101,7 @@ void status(const CommonOptions& common, const StatusOptions& options) {
   if (!session) throw_failure(session.error());
   const auto object = status_json(*session, common.session);
   if (options.json) {
-    std::printf("%s\n", object.dump(2, ' ', false, ordered_json::error_handler_t::replace).c_str());
+    print_json(object, JsonLines::many);
     return exit_by_health(object["health"]);
   }
   std::vector<int> pids;
@@ -114,7 +115,7 @@ void status(const CommonOptions& common, const StatusOptions& options) {
 void add_status_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command command = app.subcommand("status", "health of a session");
   auto options = std::make_shared<StatusOptions>();
-  command.flag("--json", options->json, "as JSON");
+  add_json_flag(command, options->json);
   command.flag("--layout", options->layout, "offsets of every record in the segment, as JSON; needs no session");
   command.callback([&common, options] { status(common, *options); });
 }
@@ -173,7 +174,7 @@ void print_text_line(const nlohmann::ordered_json& object) {
 // Returns false when standard output is closed.
 bool print(const nlohmann::ordered_json& object, bool json) {
   if (json)
-    std::printf("%s\n", object.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace).c_str());
+    print_json(object);
   else
     print_text_line(object);
   return std::fflush(stdout) == 0;
@@ -208,7 +209,7 @@ void add_watch_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command command =
       app.subcommand("watch", "print the session's state: one line per change, at least one per second");
   auto options = std::make_shared<WatchOptions>();
-  command.flag("--json", options->json, "one JSON object per line");
+  add_json_flag(command, options->json, "print one JSON object a line in place of text");
   command.flag("--once", options->once, "print one line and end");
   command.callback([&common, options] { watch(common, *options); });
 }

@@ -1,9 +1,11 @@
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -20,6 +22,7 @@
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
 
 namespace yars::tools {
@@ -73,7 +76,7 @@ error::Expected<std::filesystem::path> write_output(const TerrainOutput& output,
 
 // Batch conversion of elevation cells: reads the cells of a folder or file and writes each cell below the folder `out`.
 // Copies the culture file of each cell. If the input has none, an older culture file in the output is removed. Prints
-// one line for each written cell, and at the end the total sizes. The input is never overwritten.
+// the total sizes; on a terminal also a line for each written cell. The input is never overwritten.
 // Errors: a cell that cannot be read or written is reported as a problem. A cell with an unreadable culture is not
 // written. The batch continues; the command fails at the end.
 
@@ -81,6 +84,7 @@ struct TerrainBatch {
   std::string command;  // subcommand, for error messages
   std::string in;
   std::string out;
+  bool json = false;
   int reduction = 0;  // every 2^reduction-th post is written, with the mean height of the posts around it
   // `name` returns the path of a cell's file relative to `out`. `write` writes the cell to this path below `tree`.
   std::function<std::string(model::terrain::CellCorner, const model::terrain::Cell&)> name;
@@ -165,6 +169,40 @@ error::Expected<std::filesystem::path> convert_cell(const TerrainBatch& batch, c
 
 }  // namespace
 
+namespace {
+
+// Result of a batch.
+struct BatchTotals {
+  std::size_t cells = 0;   // of the input
+  std::size_t failed = 0;  // cells that were not written
+  std::uintmax_t bytes_in = 0;
+  std::uintmax_t bytes_out = 0;
+  std::vector<std::string> files;  // written
+
+  double ratio() const { return bytes_out == 0 ? 0.0 : static_cast<double>(bytes_in) / static_cast<double>(bytes_out); }
+};
+
+std::string megabytes(std::uintmax_t bytes) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.3f MB", static_cast<double>(bytes) / kMegabyte);
+  return text.data();
+}
+
+void print_totals(const BatchTotals& totals, const std::vector<std::string>& problems, bool json) {
+  for (const std::string& problem : problems) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+  const std::size_t written = totals.cells - totals.failed;
+  if (json)
+    return print_json({{"cells", written},
+                       {"bytes_in", totals.bytes_in},
+                       {"bytes_out", totals.bytes_out},
+                       {"files", totals.files},
+                       {"problems", problems}});
+  std::printf("%zu cells, %s to %s, ratio %.2f\n", written, megabytes(totals.bytes_in).c_str(),
+              megabytes(totals.bytes_out).c_str(), totals.ratio());
+}
+
+}  // namespace
+
 void run_terrain_batch(const TerrainBatch& batch) {
   check_folder_name("--out", batch.out);
   std::vector<std::string> unusable;
@@ -172,33 +210,29 @@ void run_terrain_batch(const TerrainBatch& batch) {
   if (!index) throw_failure(index.error());
   AllReadingNotes notes;
   for (const std::string& file : unusable) notes.add_problem(file);
-  std::size_t seen = 0;
-  std::size_t failed = 0;
-  std::uintmax_t bytes_in = 0;
-  std::uintmax_t bytes_out = 0;
+  BatchTotals totals;
+  totals.cells = index->size();
+  Progress progress(index->size());
   std::set<std::filesystem::path> files;  // input files already in bytes_in; a file may hold several cells
   for (const auto& [slot, file] : *index) {
-    ++seen;
     const auto written = convert_cell(batch, file, corner_of_slot(slot), notes);
     if (!written) {
       notes.add_problem(written.error().message());
-      ++failed;
+      ++totals.failed;
+      progress.done("");
       continue;
     }
-    if (files.insert(file.path).second) bytes_in += bytes_on_disk(file.path, file.culture);
+    if (files.insert(file.path).second) totals.bytes_in += bytes_on_disk(file.path, file.culture);
     const std::uintmax_t bytes = bytes_on_disk(*written, find_culture(*written));
-    bytes_out += bytes;
-    std::printf("%3zu/%zu  %s  %.3f MB\n", seen, index->size(), written->c_str(),
-                static_cast<double>(bytes) / kMegabyte);
-    std::fflush(stdout);
+    totals.bytes_out += bytes;
+    totals.files.push_back(written->string());
+    progress.done(written->string() + "  " + megabytes(bytes));
   }
-  for (const std::string& problem : notes.sentences()) std::fprintf(stderr, "problem: %s\n", problem.c_str());
-  std::printf("%zu cells, %.3f MB to %.3f MB, ratio %.2f\n", seen - failed, static_cast<double>(bytes_in) / kMegabyte,
-              static_cast<double>(bytes_out) / kMegabyte,
-              bytes_out == 0 ? 0.0 : static_cast<double>(bytes_in) / static_cast<double>(bytes_out));
-  if (failed > 0)
+  print_totals(totals, notes.sentences(), batch.json);
+  if (totals.failed > 0)
     throw CommandFailed{"yars terrain " + batch.command + ": expected all cells to be written, found " +
-                            std::to_string(failed) + " of " + std::to_string(seen) + " that were not; see the problems",
+                            std::to_string(totals.failed) + " of " + std::to_string(totals.cells) +
+                            " that were not; see the problems",
                         1};
   if (!unusable.empty())
     throw CommandFailed{"yars terrain " + batch.command + ": expected all files to be used, found " +
@@ -210,13 +244,25 @@ void run_terrain_batch(const TerrainBatch& batch) {
 
 namespace {
 
-struct ConvertOptions {
+// Adds --in, --out and --json, which all conversions have.
+struct BatchOptions {
   std::string in, out;
+  bool json = false;
+};
+void add_batch_options(databuffer::Command command, BatchOptions& options) {
+  command.option("--in", options.in, "folder of cells, or one file of any name (also a raster)")
+      .value_name("FILE")
+      .required();
+  command.option("--out", options.out, "folder for the cells").value_name("DIR").required();
+  add_json_flag(command, options.json);
+}
+
+struct ConvertOptions : BatchOptions {
   TerrainOutput output;
 };
 
 void convert(const ConvertOptions& options) {
-  run_terrain_batch({"convert", options.in, options.out, 0,
+  run_terrain_batch({"convert", options.in, options.out, options.json, 0,
                      [&](model::terrain::CellCorner corner, const model::terrain::Cell& cell) {
                        return output_name(options.output, corner, cell);
                      },
@@ -231,13 +277,11 @@ void add_terrain_convert(databuffer::Command terrain) {
   const auto options = std::make_shared<ConvertOptions>();
   databuffer::Command command =
       terrain.subcommand("convert", "convert elevation files of any readable format to DTED, HGT or packed cells");
-  command.option("--in", options->in, "folder of cells, or one file of any name (also a raster)").required();
-  command.option("--out", options->out, "folder for the cells").required();
-  command.option("--to", options->output.format, "format").one_of({"dted", "hgt", "jp2"}).show_default();
-  command
-      .option("--level", options->output.level,
-              "DTED level of the grid; else the finest with no more rows than the cell, for jp2 the cell's own grid")
-      .range(0, 2);
+  add_batch_options(command, *options);
+  command.option("--to", options->output.format, "format").one_of({"dted", "hgt", "jp2"});
+  command.option("--level", options->output.level, "DTED level of the grid")
+      .range(0, 2)
+      .otherwise("the finest with no more rows than the cell, for jp2 the cell's own grid");
   command.callback([options] { convert(*options); });
 }
 
@@ -246,8 +290,7 @@ void add_terrain_convert(databuffer::Command terrain) {
 
 namespace {
 
-struct ReduceOptions {
-  std::string in, out;
+struct ReduceOptions : BatchOptions {
   std::optional<int> reduction;
   std::optional<int> level;
 };
@@ -258,7 +301,7 @@ void reduce_all(const ReduceOptions& options) {
                             std::string(options.level ? "both" : "none"),
                         2};
   const TerrainOutput output{options.level ? "dted" : "jp2", options.level};
-  run_terrain_batch({"reduce", options.in, options.out, options.reduction.value_or(0),
+  run_terrain_batch({"reduce", options.in, options.out, options.json, options.reduction.value_or(0),
                      [&](model::terrain::CellCorner corner, const model::terrain::Cell& cell) {
                        return output_name(output, corner, cell);
                      },
@@ -276,10 +319,11 @@ void add_terrain_reduce(databuffer::Command terrain) {
   const auto options = std::make_shared<ReduceOptions>();
   databuffer::Command command =
       terrain.subcommand("reduce", "write a coarser database; each post is averaged over the posts around it");
-  command.option("--in", options->in, "folder of cells, or one file").required();
-  command.option("--out", options->out, "folder for the coarser cells").required();
-  command.option("--reduction", options->reduction, "keep every 2^N-th post; written as packed cells").range(1, 12);
-  command.option("--level", options->level, "write DTED of this level").range(0, 2);
+  add_batch_options(command, *options);
+  command.option("--reduction", options->reduction, "keep every 2^N-th post; written as packed cells")
+      .range(1, 12)
+      .otherwise("--level");
+  command.option("--level", options->level, "write DTED of this level").range(0, 2).otherwise("--reduction");
   command.callback([options] { reduce_all(*options); });
 }
 
@@ -287,15 +331,11 @@ void add_terrain_reduce(databuffer::Command terrain) {
 // requested grid needs.
 
 void add_terrain_pack(databuffer::Command terrain) {
-  struct Folders {
-    std::string in, out;
-  };
-  const auto folders = std::make_shared<Folders>();
+  const auto options = std::make_shared<BatchOptions>();
   databuffer::Command command = terrain.subcommand("pack", "cells as lossless JPEG 2000 with coarser grids inside");
-  command.option("--in", folders->in, "folder of cells, or one file").required();
-  command.option("--out", folders->out, "folder for the packed cells").required();
-  command.callback([folders] {
-    run_terrain_batch({"pack", folders->in, folders->out, 0,
+  add_batch_options(command, *options);
+  command.callback([options] {
+    run_terrain_batch({"pack", options->in, options->out, options->json, 0,
                        [](model::terrain::CellCorner corner, const model::terrain::Cell&) {
                          return model::terrain::pack_name(corner);
                        },

@@ -99,11 +99,10 @@ void add_terrain_profile(databuffer::Command terrain) {
   const auto options = std::make_shared<ProfileOptions>();
   databuffer::Command command =
       terrain.subcommand("profile", "elevation along the geodesic between two points, as CSV");
-  command.option("--terrain", options->terrain.directory,
-                 "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL); else the built-in hills");
+  add_terrain_option(command, options->terrain.directory).otherwise("the built-in hills");
   command.option("--from", options->from_deg, "[deg] latitude and longitude").values(2).required();
   command.option("--to", options->to_deg, "[deg] latitude and longitude").values(2).required();
-  command.option("--step", options->step_m, "[m] between samples").range(0.1, 1e6).show_default();
+  command.option("--step", options->step_m, "[m] between samples").range(0.1, 1e6);
   command.callback([options] { profile(*options); });
 }
 
@@ -153,8 +152,7 @@ void add_terrain_dump(databuffer::Command terrain) {
   const auto options = std::make_shared<DumpOptions>();
   databuffer::Command command =
       terrain.subcommand("dump", "posts of one cell as CSV, row by row from the south-west corner");
-  command.option("--terrain", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
-      .required();
+  add_terrain_option(command, options->directory).required();
   command.option("--south", options->south_deg, "[deg] the cell's south edge").range(-90, 89).required();
   command.option("--west", options->west_deg, "[deg] the cell's west edge").range(-180, 179).required();
   command.callback([options] { dump(*options); });

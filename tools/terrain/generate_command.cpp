@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <thread>
@@ -17,6 +18,7 @@
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
 #include "worldgen/terrain/landscape.hpp"
 
@@ -39,6 +41,7 @@ struct GenerateOptions {
   bool culture = true;
   bool sea = false;
   int threads = 0;  // 0: one per core of the machine
+  bool json = false;
 };
 
 // Cells of the area in blocks of 8 x 8: consecutive cells are neighbours and share cached features and relief.
@@ -75,9 +78,14 @@ class Generation {
     work();
     for (std::thread& other : helpers) other.join();
     if (failed_) throw_failure(*failed_);
-    const std::size_t land = written_;
-    std::printf("%zu cells with land in %s; %zu cells with only sea %s\n", land, options_.out.c_str(),
-                corners_.size() - land, options_.sea ? "also have files" : "have no file");
+    const std::size_t land = written_, sea = corners_.size() - land;
+    if (options_.json)
+      return print_json({{"folder", options_.out},
+                         {"land_cells", land},
+                         {"sea_cells", sea},
+                         {"files", options_.sea ? land + sea : land}});
+    std::printf("%zu cells with land in %s; %zu cells with only sea %s\n", land, options_.out.c_str(), sea,
+                options_.sea ? "also have files" : "have no file");
   }
 
  private:
@@ -138,10 +146,10 @@ class Generation {
 };
 
 void add_area(databuffer::Command command, GenerateOptions& options) {
-  command.option("--south", options.south_deg, "[deg] south edge").range(-90, 89).show_default();
-  command.option("--west", options.west_deg, "[deg] west edge").range(-180, 179).show_default();
-  command.option("--cells-lat", options.cells_latitude, "cells northward").range(1, 180).show_default();
-  command.option("--cells-lon", options.cells_longitude, "cells eastward").range(1, 360).show_default();
+  command.option("--south", options.south_deg, "[deg] south edge").range(-90, 89);
+  command.option("--west", options.west_deg, "[deg] west edge").range(-180, 179);
+  command.option("--cells-lat", options.cells_latitude, "cells northward").range(1, 180);
+  command.option("--cells-lon", options.cells_longitude, "cells eastward").range(1, 360);
 }
 
 }  // namespace
@@ -150,22 +158,20 @@ void add_terrain_generate(databuffer::Command terrain) {
   const auto options = std::make_shared<GenerateOptions>();
   databuffer::Command command =
       terrain.subcommand("generate", "a made-up landscape with rivers and towns, as DTED cells");
-  command.option("--out", options->out, "folder for the cells").required();
+  command.option("--out", options->out, "folder for the cells").value_name("DIR").required();
   add_area(command, *options);
-  command.option("--level", options->level, "DTED level").range(0, 2).show_default();
-  command.option("--seed", options->seed, "seed of the landscape; each seed gives another earth").show_default();
+  command.option("--level", options->level, "DTED level").range(0, 2);
+  command.option("--seed", options->seed, "seed of the landscape; each seed gives another earth");
   command
       .option(
           "--edge", options->edge,
           "coast: land ends at the sea inside the area's edge; cut: land continues to the edge, for areas that join")
-      .one_of({"coast", "cut"})
-      .show_default();
-  command.flag("--culture,!--no-culture", options->culture, "surface materials beside each cell (wLLL/nBB.smc.png)")
-      .show_default();
+      .one_of({"coast", "cut"});
+  command.flag("--culture,!--no-culture", options->culture,
+               "surface materials beside each cell, wLLL/nBB.smc.png; on by default");
   command.flag("--sea", options->sea, "also write cells with only sea (a cell without a file is sea)");
-  command.option("--threads", options->threads, "number; 0: one per core. The files do not depend on it")
-      .range(0, 256)
-      .show_default();
+  command.option("--threads", options->threads, "number of threads, 0 for one per core; the files do not depend on it").range(0, 256);
+  add_json_flag(command, options->json);
   command.callback([options] {
     check_folder_name("--out", options->out);
     if (options->south_deg + options->cells_latitude > 90)

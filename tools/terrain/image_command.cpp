@@ -259,17 +259,16 @@ void draw(const TerrainImageOptions& options) {
 }  // namespace
 
 void add_terrain_image(databuffer::Command terrain) {
+  constexpr const char* kEdge = "the edge of the cells";
   const auto options = std::make_shared<TerrainImageOptions>();
   databuffer::Command command = terrain.subcommand("image", "hill-shaded map as PNG; sea blue, voids magenta");
-  command.option("--terrain", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
-      .required();
-  command.option("--out", options->out, "PNG file").required();
-  command.option("--south", options->south_deg, "[deg] south edge of the map; else the south edge of the cells")
-      .range(-90.0, 90.0);
-  command.option("--north", options->north_deg, "[deg] north edge").range(-90.0, 90.0);
-  command.option("--west", options->west_deg, "[deg] west edge").range(-180.0, 180.0);
-  command.option("--east", options->east_deg, "[deg] east edge").range(-180.0, 180.0);
-  command.option("--width", options->width, "[pixels]").range(16, 16384).show_default();
+  add_terrain_option(command, options->directory).required();
+  command.option("--out", options->out, "PNG file").value_name("FILE").required();
+  command.option("--south", options->south_deg, "[deg] south edge of the map").range(-90.0, 90.0).otherwise(kEdge);
+  command.option("--north", options->north_deg, "[deg] north edge").range(-90.0, 90.0).otherwise(kEdge);
+  command.option("--west", options->west_deg, "[deg] west edge").range(-180.0, 180.0).otherwise(kEdge);
+  command.option("--east", options->east_deg, "[deg] east edge").range(-180.0, 180.0).otherwise(kEdge);
+  command.option("--width", options->width, "[pixels] width of the picture").range(16, 16384);
   command.flag("--culture", options->culture, "colour by surface material where a cell has a culture file");
   command.callback([options] { draw(*options); });
 }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -17,6 +18,7 @@
 #include "model/terrain/gdal/raster_survey.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
 
 namespace yars::tools {
@@ -40,6 +42,7 @@ void add_terrain_command(databuffer::Command app, const CommonOptions& /*common*
 namespace {
 
 using namespace model::terrain;
+using nlohmann::ordered_json;
 
 // Statistics of the posts of one cell. `sea`: number of posts at exactly 0 m. The heights [m MSL] are meaningless if
 // all posts are void.
@@ -94,6 +97,18 @@ struct Totals {
     highest_m = std::max(highest_m, cell.highest_m);
   }
 
+  // Null for what no post gives.
+  nlohmann::ordered_json json() const {
+    const bool has_heights = voids < posts;
+    return {{"cells", cells},
+            {"latitude_deg", cells > 0 ? ordered_json{south_deg, north_deg} : ordered_json(nullptr)},
+            {"longitude_deg", cells > 0 ? ordered_json{west_deg, east_deg} : ordered_json(nullptr)},
+            {"lowest_m", has_heights ? ordered_json(lowest_m) : ordered_json(nullptr)},
+            {"highest_m", has_heights ? ordered_json(highest_m) : ordered_json(nullptr)},
+            {"posts", posts},
+            {"voids", voids}};
+  }
+
   void print() const {
     const std::string heights =
         voids == posts ? "no heights" : height_text(lowest_m) + " to " + height_text(highest_m) + " m";
@@ -111,11 +126,24 @@ void print_cell(CellCorner corner, const CellStatistics& cell, const CellFile& f
               file.path.c_str());
 }
 
-// Reads all cells of a directory and prints one line for each, then totals and problems.
+nlohmann::ordered_json cell_json(CellCorner corner, const CellStatistics& cell, const CellFile& file) {
+  const bool empty = cell.voids == cell.posts;
+  return {{"south_deg", corner.south_deg},
+          {"west_deg", corner.west_deg},
+          {"columns", cell.columns},
+          {"rows", cell.rows},
+          {"lowest_m", empty ? ordered_json(nullptr) : ordered_json(cell.lowest_m)},
+          {"highest_m", empty ? ordered_json(nullptr) : ordered_json(cell.highest_m)},
+          {"voids", cell.voids},
+          {"sea_posts", cell.sea},
+          {"file", file.path.string()}};
+}
+
+// Reads all cells of a directory and prints one line for each, then totals and problems; or all as one JSON object.
 // Errors: throws CommandFailed if a file is damaged or cannot be used.
 class Inspection {
  public:
-  explicit Inspection(const std::string& directory) {
+  Inspection(const std::string& directory, bool json) : json_(json) {
     std::vector<std::string> unusable;
     auto index = index_directory(directory, &unusable);
     if (!index) throw_failure(index.error());
@@ -126,11 +154,15 @@ class Inspection {
 
   void run() {
     survey_rasters();
-    std::printf("south   west  columns x rows   min_m   max_m    voids   sea_%%  file\n");
+    if (!json_) std::printf("south   west  columns x rows   min_m   max_m    voids   sea_%%  file\n");
     for (const auto& [slot, file] : index_) inspect_cell(slot, file);
     publish_progress("");
-    if (totals_.cells > 0) totals_.print();
-    for (const std::string& problem : notes_.sentences()) std::printf("problem: %s\n", problem.c_str());
+    if (json_) {
+      print_json({{"cells", cells_}, {"total", totals_.json()}, {"problems", notes_.sentences()}}, JsonLines::many);
+    } else {
+      if (totals_.cells > 0) totals_.print();
+      for (const std::string& problem : notes_.sentences()) std::printf("problem: %s\n", problem.c_str());
+    }
     std::fflush(stdout);
     if (failed_ > 0)
       throw CommandFailed{"yars terrain info: expected files without damage, found " + std::to_string(failed_) +
@@ -179,14 +211,17 @@ class Inspection {
     notes_.add(file.path, *reading);
     add_cell(corner, statistics_of(reading->cell), file);
     // On a terminal, the printed lines already show the progress.
-    if (isatty(STDOUT_FILENO) == 0)
+    if (json_ || isatty(STDOUT_FILENO) == 0)
       publish_progress(std::to_string(totals_.cells) + " of " + std::to_string(index_.size()) + " cells");
   }
 
   void add_cell(CellCorner corner, const CellStatistics& statistics, const CellFile& file) {
     publish_progress("");
     totals_.add(corner, statistics);
-    print_cell(corner, statistics, file);
+    if (json_)
+      cells_.push_back(cell_json(corner, statistics, file));
+    else
+      print_cell(corner, statistics, file);
     check_culture(corner, file);
   }
 
@@ -200,6 +235,8 @@ class Inspection {
 
   void publish_progress(const std::string& text) { progress_.show(text); }
 
+  bool json_;
+  nlohmann::ordered_json cells_ = nlohmann::ordered_json::array();  // for --json
   DirectoryIndex index_;
   AllReadingNotes notes_;
   Totals totals_;
@@ -214,11 +251,18 @@ class Inspection {
 }  // namespace
 
 void add_terrain_info(databuffer::Command terrain) {
-  const auto directory = std::make_shared<std::string>();
+  struct InfoOptions {
+    std::string directory;
+    bool json = false;
+  };
+  const auto options = std::make_shared<InfoOptions>();
   databuffer::Command command = terrain.subcommand("info", "cells of a directory: posts, heights, voids, problems");
-  command.option("--terrain,directory", *directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)")
-      .required();
-  command.callback([directory] { Inspection(*directory).run(); });
+  command.option("--terrain,DIR", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters")
+      .value_name("DIR")
+      .required()
+      .in_user_file();
+  add_json_flag(command, options->json);
+  command.callback([options] { Inspection(options->directory, options->json).run(); });
 }
 
 }  // namespace yars::tools

@@ -20,6 +20,7 @@
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/input_checks.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
 #include "tools/trade/scenes.hpp"
 
@@ -54,21 +55,26 @@ nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::Plot
 }  // namespace
 
 void add_trade_options(databuffer::Command command, TradeOptions& options) {
-  command.option("--presets", options.presets, "preset names separated by commas, or all, or none");
+  command.option("--presets", options.presets, "preset names separated by commas, or all, or none").value_name("NAMES");
   command.option("--knob", options.knobs, "KNOB=VALUE,VALUE,...: values of one setting of --base; repeatable")
-      .repeatable();
+      .value_name("VALUES")
+      .repeatable()
+      .otherwise("none");
   add_preset_option(command, "--base", options.base, "preset in which --knob changes one setting");
-  command.option("--terrain", options.configuration.terrain,
-                 "directory of cells (else the configuration's, else built-in hills)");
+  add_terrain_option(command, options.configuration.terrain).otherwise("the configuration's, else built-in hills");
   command
       .option("--ruler", options.ruler,
               "reference: this preset; same: the reference algorithm with the other settings of each candidate")
       .one_of({"reference", "same"});
   command.option("--repeat", options.repeat, "number of timed runs with warm caches; the result is their median")
       .range(1, 1000);
-  command.option("--csv", options.csv, "CSV file with one row per candidate and scene");
-  command.option("--out", options.out, "JSON file (.json), which scripts/plot_trade draws");
-  command.flag("--json", options.json, "print JSON instead of the table");
+  command.option("--csv", options.csv, "CSV file with one row per candidate and scene")
+      .value_name("FILE")
+      .otherwise("none");
+  command.option("--out", options.out, "JSON file (.json), which scripts/plot_trade draws")
+      .value_name("FILE")
+      .otherwise("none");
+  add_json_flag(command, options.json, "print one JSON object in place of the table");
 }
 
 void check_trade_output(const TradeOptions& options) {
@@ -116,7 +122,7 @@ double thread_ms() {
 
 // `yars trade`: speed against accuracy of the real beam map. Compares presets, and series of values of one setting
 // (knob), with the reference. A scene is the geometry of one scan: position, altitude, heading and range (scenes.hpp).
-// Prints the result on standard output, progress on standard error.
+// Prints the result on standard output, progress on a terminal.
 
 namespace {
 
@@ -244,7 +250,7 @@ trade::TradeTable run_trade(const ScanTradeOptions& options, const radar::RadarC
   table.candidates = candidates_of(options, trade::Subject::scan);
   table.values.resize(table.candidates.size());
   const std::vector<trade::Scene> scenes = scenes_of(options, configuration.terrain.directory);
-  Progress progress(table.candidates.size() * scenes.size(), stderr);
+  Progress progress(table.candidates.size() * scenes.size());
   for (const trade::Scene& scene : scenes) {
     table.scenes.push_back(trade::row_of(scene));
     SceneTrade scene_trade(options, configuration, scene);
@@ -272,8 +278,11 @@ void add_trade_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Command command =
       app.subcommand("trade", "speed against accuracy of the real beam map; `trade maps`: of patch maps");
   add_trade_options(command, *options);
-  command.option("--scene", options->scenes, "LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable").repeatable();
-  command.option("--scan-width", options->width_deg, "[deg]").range(1.0, 120.0);
+  command.option("--scene", options->scenes, "place and range of a scan: LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable")
+      .value_name("SCENE")
+      .repeatable()
+      .otherwise("three ranges in the middle of the terrain");
+  command.option("--scan-width", options->width_deg, "[deg] width of the scans in azimuth").range(1.0, 120.0);
   command.option("--ruler-samples", options->ruler_samples, "samples per sweep of --ruler reference")
       .range(1, radar::kMaxSamples);
   add_trade_maps(command, common);

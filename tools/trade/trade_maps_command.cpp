@@ -1,5 +1,5 @@
 // `yars trade maps`: speed against accuracy of patch maps. Compares presets, and series of values of one setting
-// (knob), with the reference over several views. Prints the result on standard output, progress on standard error.
+// (knob), with the reference over several views. Prints the result on standard output, progress on a terminal.
 
 #include <cstdio>
 #include <map>
@@ -154,7 +154,7 @@ trade::TradeTable run_trade(const MapTradeOptions& options, const radar::RadarCo
   table.candidates = candidates_of(options, trade::Subject::map);
   table.values.resize(table.candidates.size());
   const std::vector<trade::MapView> views = views_of(options, configuration.terrain.directory);
-  Progress progress(table.candidates.size() * views.size(), stderr);
+  Progress progress(table.candidates.size() * views.size());
   for (const trade::MapView& view : views) {
     table.scenes.push_back(trade::row_of(view));
     ViewTrade view_trade(options, configuration, view);
@@ -181,7 +181,12 @@ void add_trade_maps(databuffer::Command trade, const CommonOptions& common) {
   databuffer::Command command = trade.subcommand("maps", "speed against accuracy of patch maps");
   add_trade_options(command, *options);
   add_scene_options(command, options->configuration);
-  command.option("--view", options->views, "LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM; repeatable").repeatable();
+  command
+      .option("--view", options->views,
+              "place and window of a map: LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM; repeatable")
+      .value_name("VIEW")
+      .repeatable()
+      .otherwise("three windows in the middle of the terrain");
   command.option("--ruler-size", options->ruler_size, "[pixels] edge of the map of --ruler reference").range(16, 1024);
   command.callback([options, &common] { trade_off(common, *options); });
 }

@@ -53,7 +53,8 @@ TEST_F(TerrainCommands, InfoOfWholeCellsEndsWith0) {
 // Output to a terminal replaces control characters by visible text. The control characters of the progress line are
 // excepted.
 TEST_F(TerrainCommands, ProgressIsOneLineOfTheTerminalThatIsRedrawn) {
-  const std::string command = YARS_BIN_DIR "/yars terrain info --terrain " + tree().string() + " >/dev/null";
+  const std::string command =
+      "TERM=xterm " YARS_BIN_DIR "/yars terrain info --terrain " + tree().string() + " >/dev/null";
   const Finished shown = endtoend::run_tool({"script", "-qec", command, "/dev/null"});
   EXPECT_EQ(shown.code, 0) << shown.errors;
   EXPECT_THAT(shown.output, HasSubstr("\r\033[K1 of 1 cells"));

@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+"""The word of a list that a misspelled word most likely means, for the scripts: as lib/text/nearest_word.hpp for the programs.
+
+usage: nearest_word.py WORD VALID...      prints "did you mean 'VALID'? ", or nothing when none is near
+Near is at most a third of the word's length, in Damerau-Levenshtein distance; upper and lower case are equal.
+"""
+import sys
+
+MAX_LENGTH = 64  # longer words are not compared
+
+
+def edit_distance(one, other):
+    """Inserted, missing, wrong and transposed characters. Source: Lowrance, Wagner, J. ACM 22 (1975)."""
+    far = len(one) + len(other)
+    table = {(-1, -1): far}
+    for i in range(len(one) + 1):
+        table[i, -1], table[i, 0] = far, i
+    for j in range(len(other) + 1):
+        table[-1, j], table[0, j] = far, j
+    last_row = {}
+    for i in range(1, len(one) + 1):
+        last_match = 0
+        for j in range(1, len(other) + 1):
+            row, column = last_row.get(other[j - 1], 0), last_match
+            equal = one[i - 1] == other[j - 1]
+            if equal:
+                last_match = j
+            table[i, j] = min(table[i - 1, j - 1] + (not equal), table[i, j - 1] + 1, table[i - 1, j] + 1,
+                              table[row - 1, column - 1] + (i - row - 1) + 1 + (j - column - 1))
+        last_row[one[i - 1]] = i
+    return table[len(one), len(other)]
+
+
+def did_you_mean(word, valid):
+    """"did you mean 'VALID'? " with the nearest; empty when none is near enough."""
+    if len(word) > MAX_LENGTH:
+        return ""
+    distances = [edit_distance(word.lower(), each.lower()) for each in valid]
+    best = min(distances, default=MAX_LENGTH)
+    return f"did you mean '{valid[distances.index(best)]}'? " if best <= len(word) // 3 else ""
+
+
+if __name__ == "__main__":
+    print(did_you_mean(sys.argv[1], sys.argv[2:]), end="")
