@@ -1,9 +1,9 @@
-# What `cmake --install` lays out below its prefix beside the programs (yars_program): header, examples, configurations,
-# documents, man pages. Everything is found from where a program lies, so the prefix may be moved.
+# What `cmake --install` lays out below its prefix beside the programs (yars_program): examples, configurations, documents,
+# man pages; cmake/libraries.cmake adds what programs of others build with. Everything is found from where a program lies,
+# so the prefix may be moved.
 set(share ${CMAKE_INSTALL_DATADIR}/yars)
 set(documents ${CMAKE_INSTALL_DATADIR}/doc/yars)
 
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/databuffer/client/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/yars FILES_MATCHING PATTERN "*.h")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${share}/config
   FILES_MATCHING PATTERN "*.guf" PATTERN "*.route" PATTERN "*.script" PATTERN "*.scenes" PATTERN "*.tour")
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.dot")
@@ -32,8 +32,9 @@ foreach(unit yars.service yars@.service)
 endforeach()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/install/systemd/ DESTINATION lib/systemd/user)
 
-# Examples in C name the header as it is installed.
-file(GLOB examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*.c ${PROJECT_SOURCE_DIR}/examples/*.py)
+# Examples name the header as it is installed. yars.py goes where Python looks.
+file(GLOB examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*)
+list(FILTER examples EXCLUDE REGEX "/yars\\.py$")
 foreach(example IN LISTS examples)
   get_filename_component(name ${example} NAME)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${example})

@@ -1,27 +1,25 @@
 // Example of a host program that draws the radar display into a viewport of its own OpenGL scene.
 // Scene: 1280 x 800 pixels; viewport: 600 x 600 pixels. EGL, which connects OpenGL to a window system, gives a context
 // without a surface, so the example needs no window. It draws 30 x SECONDS pictures (SECONDS is 5 by default), at most
-// 30 per second, and writes the last scene as PNG.
-//   host_display [SESSION [FILE.png [SECONDS]]]
+// 30 per second, and writes the last scene as a portable pixmap (PPM).
+//   host_display [SESSION [FILE.ppm [SECONDS]]]
+// Build: c++ host_display.cpp $(pkg-config --cflags --libs yars-display epoxy) -o host_display, or with the
+// CMakeLists.txt beside this file. libepoxy gives OpenGL and EGL to this example; the display does not need it.
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
 #include <time.h>
+#include <yars/yars_display.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
-#include <string>
-
-#include "display/host/display.hpp"
-#include "lib/imageio/png.hpp"
+#include <vector>
 
 namespace {
 
-using namespace yars;
-
 constexpr int kWidth = 1280, kHeight = 800;
-constexpr display::host::Viewport kRadarViewport{620, 100, 600, 600};
+constexpr yars_viewport kRadarViewport{620, 100, 600, 600};
 
 // Current OpenGL 3.3 core context of Mesa's surfaceless EGL platform.
 class Context {
@@ -88,24 +86,28 @@ void draw_cockpit() {
   }
 }
 
-bool write_canvas(const std::string& path) {
-  imageio::Image image{kWidth, kHeight, 3, std::vector<std::uint8_t>(std::size_t{3} * kWidth * kHeight)};
+bool write_canvas(const char* path) {
+  constexpr std::size_t kRow = std::size_t{3} * kWidth;
+  std::vector<unsigned char> pixels(kRow * kHeight);
   glPixelStorei(GL_PACK_ALIGNMENT, 1);
-  glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE, image.pixels.data());
-  // The first row that OpenGL gives is the bottom row; the first row of a PNG is the top row.
-  const std::ptrdiff_t row = std::ptrdiff_t{3} * kWidth;
-  for (std::ptrdiff_t y = 0; y < kHeight / 2; ++y)
-    std::swap_ranges(image.pixels.begin() + y * row, image.pixels.begin() + (y + 1) * row,
-                     image.pixels.end() - (y + 1) * row);
-  const auto written = imageio::write_png(path, image);
-  if (!written) std::fprintf(stderr, "%s\n", written.error().message().c_str());
-  return written.has_value();
+  glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE, pixels.data());
+  std::FILE* const file = std::fopen(path, "wb");
+  if (file == nullptr) {
+    std::perror(path);
+    return false;
+  }
+  std::fprintf(file, "P6\n%d %d\n255\n", kWidth, kHeight);
+  // The first row that OpenGL gives is the bottom row; the first row of the file is the top row.
+  for (std::size_t row = kHeight; row-- > 0;) std::fwrite(&pixels[row * kRow], 1, kRow, file);
+  const bool failed = std::ferror(file) != 0;
+  if (std::fclose(file) == 0 && !failed) return true;
+  std::perror(path);
+  return false;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::string path = argc > 2 ? argv[2] : "host_display.png";
   const int frames = std::clamp(static_cast<int>(30.0 * (argc > 3 ? std::atof(argv[3]) : 5.0)), 1, 1'000'000);
   const Context context;  // declared first, because the context must outlive the display
   if (!context.is_current()) {
@@ -113,18 +115,20 @@ int main(int argc, char** argv) {
     return 1;
   }
   make_canvas();
-  auto radar_display = display::host::Display::attach({argc > 1 ? argv[1] : "default", "", "host_display"});
-  if (!radar_display) {
-    std::fprintf(stderr, "%s\n", radar_display.error().message().c_str());
+  yars_display* const radar_display = yars_display_attach(argc > 1 ? argv[1] : "default", nullptr, "host_display");
+  if (radar_display == nullptr) {
+    std::fprintf(stderr, "%s\n", yars_display_error());
     return 1;
   }
   for (int frame = 0; frame < frames; ++frame) {
-    radar_display->update();
+    yars_display_update(radar_display);
     draw_cockpit();
-    radar_display->draw(kRadarViewport);
-    radar_display->note_shown();
+    yars_display_draw(radar_display, kRadarViewport);
+    yars_display_note_shown(radar_display);
     const timespec thirtieth{0, 33'000'000};
     nanosleep(&thirtieth, nullptr);
   }
-  return write_canvas(path) ? 0 : 1;
+  const bool written = write_canvas(argc > 2 ? argv[2] : "host_display.ppm");
+  yars_display_detach(radar_display);
+  return written ? 0 : 1;
 }

@@ -73,6 +73,7 @@ LAYERS = {
     "display/symbology": RECORDS + ["lib/imageio"],
     "display/gl": RECORDS + ["lib/imageio", "display/symbology"],
     "display/host": SHELL + ["display/symbology", "display/gl"],
+    "display/library": BASE + ["display/symbology", "display/host"],
     "display/app": SHELL + ["display/symbology", "display/gl", "display/host"],
     "tools/command": SHELL + KERNEL + WORLD,
     "tools/recording": KERNEL + WORLD,
@@ -83,13 +84,13 @@ LAYERS = {
     "tools/scene": SHELL + SCENE + WORLD + ["worldgen/scene", "tools/command"],
     "tools/session": SHELL + WORLD + ["statemachine", "tools/command", "tools/recording"],
     "tools": SHELL + ["tools/command"],
-    "examples": ["databuffer/client", "display/host", "lib/error", "lib/file", "lib/imageio"],
+    "examples": ["databuffer/client"],
     "tests": None,  # None: everything
 }
 
 # Shells: folders that may use the segment, the log and clocks. They have the programs, and code that programs share.
 SHELLS = ["lib/log", "databuffer/session", "databuffer/runtime", "databuffer/app", "databuffer/client", "model/app", "statemachine/app",
-          "inputmonitor/app", "display/host", "display/app", "tools", "tests", "examples"]
+          "inputmonitor/app", "display/host", "display/library", "display/app", "tools", "tests", "examples"]
 
 # Third-party and system headers: a header, or a folder of headers with "/" at the end -> who may include it: folders,
 # single files, or "shells" for SHELLS.
@@ -118,6 +119,7 @@ SYSTEM_HEADERS = {
     "EGL/": ["display/gl"],
     "glm/": ["lib/geo", "lib/radar", "model/scene/openflight"],
     "xxhash.h": ["model/kernel"],
+    "yars/": ["examples", "tests"],  # headers for programs of others, as they are installed
     "hwy/": ["lib/simd", "lib/random", "model/terrain/sampling", "model/physics", "model/rbm", "model/hrm", "tests"],
     "embree3/": ["tests"],
     "GLFW/": ["display/gl", "inputmonitor/keyboard_source.cpp", "databuffer/messages/key_map.cpp"],

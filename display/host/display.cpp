@@ -118,13 +118,14 @@ bool Display::paint(int size) {
   return true;
 }
 
-void Display::draw(const Viewport& viewport) {
+bool Display::draw(const Viewport& viewport) {
   const int size = std::min({viewport.width, viewport.height, kMaxPixels});
-  if (size <= 0) return;
+  if (size <= 0) return false;
   // paint() has its own HostStateGuard, which binds the host's framebuffer again. show() draws into that framebuffer.
-  paint(size);
+  const bool changed = paint(size);
   const gl::HostStateGuard guard;
   state_->renderer.show(viewport.left + (viewport.width - size) / 2, viewport.bottom + (viewport.height - size) / 2);
+  return changed;
 }
 
 namespace {
@@ -153,17 +154,18 @@ bool Display::paint_panel(const PanelView& view, int edge) {
   return true;
 }
 
-void Display::draw_panel(const PanelView& view, const Viewport& viewport) {
+bool Display::draw_panel(const PanelView& view, const Viewport& viewport) {
   const auto max_edge = static_cast<int>(static_cast<float>(kMaxPixels) * layout_of(view).edge() / kDisplayUnits);
   const int edge = std::min({viewport.width, viewport.height, max_edge});
-  if (edge <= 0) return;
+  if (edge <= 0) return false;
   const gl::Square square{viewport.left + (viewport.width - edge) / 2, viewport.bottom + (viewport.height - edge) / 2,
                           edge};
-  paint_panel(view, edge);
+  const bool changed = paint_panel(view, edge);
   const int inner = picture_edge(view, edge), border = (edge - inner) / 2;
   const gl::HostStateGuard guard;
   state_->renderer.show(square.left + border, square.bottom + border);
   state_->panel_pass.draw(state_->panel, state_->colors, square, layout_of(view).edge());
+  return changed;
 }
 
 imageio::Image Display::read_panel(const PanelView& view, int edge) {

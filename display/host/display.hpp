@@ -1,10 +1,10 @@
-// Radar display for another program's window: joins a session and draws into the current OpenGL context.
+// Radar display in an OpenGL context: joins a session and draws. Programs of others use display/library.
 // Inputs: a session, a current context of OpenGL 3.3 core or later, a viewport [pixels].
 // Outputs: the picture in the viewport, or read back; button presses as input events of the session.
 // Context: the OpenGL context must be current in all functions except press and click, also in constructor and
 //   destructor. The functions restore the OpenGL state listed in display/gl/host_state_guard.hpp.
 // Waits: only attach, read and wait_for_read may wait.
-// Threads: one thread at a time for each Display. A program may have several Displays. Link the target yars_display.
+// Threads: one thread at a time for each Display. A program may have several Displays.
 //
 //   auto mpd = yars::display::host::Display::attach({.session = "default"});
 //   each frame of the host:   mpd->update();   ...   mpd->draw({left, bottom, 600, 600});
@@ -71,13 +71,13 @@ class Display {
   // Updates the picture. `size`: edge [pixels]. Returns true if the picture has changed. draw() also calls paint().
   bool paint(int size);
   // Draws the display as the largest square in the middle of the viewport, with an edge of at most kMaxPixels. Pixels
-  // outside the square are unchanged.
-  void draw(const Viewport& viewport);
+  // outside the square are unchanged. True: the picture has changed.
+  bool draw(const Viewport& viewport);
   // The picture with its surround, drawn as the largest square in the middle of the viewport. paint_panel() updates the
   // picture and the surround for a square with this edge [pixels]; true: something has changed. read_panel() paints and
   // reads it as RGB.
   bool paint_panel(const PanelView& view, int edge);
-  void draw_panel(const PanelView& view, const Viewport& viewport);
+  bool draw_panel(const PanelView& view, const Viewport& viewport);  // true: something has changed
   imageio::Image read_panel(const PanelView& view, int edge);
   // Covers the picture with the help: each button with its key and what it does now, the other keys. Off at first.
   void show_help(bool on);

@@ -44,6 +44,17 @@ Bytes png_pixels(const std::filesystem::path& path) {
   return image ? image->pixels : Bytes{};
 }
 
+// RGB of the host's scene, 1280 x 800 pixels; empty if the file is no such portable pixmap.
+Bytes scene_pixels(const std::filesystem::path& path) {
+  constexpr std::string_view kHead = "P6\n1280 800\n255\n";
+  Bytes bytes = file_bytes(path);
+  if (bytes.size() != kHead.size() + std::size_t{3} * 1280 * 800 ||
+      !std::equal(kHead.begin(), kHead.end(), bytes.begin()))
+    return {};
+  bytes.erase(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(kHead.size()));
+  return bytes;
+}
+
 // Number of pixels with a green channel above 60 of 255.
 std::size_t lit(const Bytes& rgb) {
   std::size_t count = 0;
@@ -236,14 +247,14 @@ TEST(DisplayFrames, TheDisplayInAHostsViewportIsThePublishedPicture) {
   // Without this, the displayed range of the cursor would keep changing.
   ASSERT_EQ(set.yars({"sim", "freeze"}).code, 0);
   set.start("display", {"radar-display", "--headless", "--publish", "--size", "600"});
-  const auto path = set.folder() / "host.png";
-  Bytes inside, outside;
+  const auto path = set.folder() / "host.ppm";
+  Bytes scene, inside, outside;
   const bool same = eventually(
       [&] {
         const auto host = run_tool({YARS_BIN_DIR "/example_host_display", set.session(), path.string(), "0.5"});
         EXPECT_EQ(host.code, 0) << host.errors;
-        const Bytes scene = png_pixels(path);
-        if (scene.size() != std::size_t{3} * 1280 * 800) return true;
+        scene = scene_pixels(path);
+        if (scene.empty()) return false;
         inside.clear();
         for (std::size_t y = 100; y < 700; ++y) {
           const auto row = scene.begin() + static_cast<std::ptrdiff_t>(3 * (1280 * y + 620));
@@ -256,8 +267,7 @@ TEST(DisplayFrames, TheDisplayInAHostsViewportIsThePublishedPicture) {
       },
       30.0);
   if (const char* keep = std::getenv("YARS_PICTURES"))
-    std::filesystem::copy(path, std::filesystem::path(keep) / "host_display.png",
-                          std::filesystem::copy_options::overwrite_existing);
+    EXPECT_TRUE(imageio::write_png(std::filesystem::path(keep) / "host_display.png", {1280, 800, 3, scene}));
   EXPECT_TRUE(same) << "the viewport equals the newest published frame";
   EXPECT_GT(lit(inside), 5000U);
   EXPECT_EQ(outside, (Bytes{18, 18, 20})) << "the host's panel beside the viewport";

@@ -1,0 +1,33 @@
+# What programs of others build with, below the prefix: headers, libyars-display, find_package(yars), pkg-config, import yars.
+# All of it may be moved with the prefix. docs/attach.md shows the use.
+include(CMakePackageConfigHelpers)
+set(packages ${CMAKE_INSTALL_LIBDIR}/cmake/yars)
+set(made ${PROJECT_BINARY_DIR}/install)
+set(headers ${CMAKE_INSTALL_INCLUDEDIR}/yars)
+set(YARS_PYTHON_DIR lib/python3/dist-packages CACHE STRING "folder below the prefix that yars.py is installed in")
+
+# The client is headers alone, and is there without a build. The display is a component of its own: it must be built.
+install(TARGETS yars_client EXPORT yars-client)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/databuffer/client/ DESTINATION ${headers} FILES_MATCHING PATTERN "*.h")
+install(EXPORT yars-client NAMESPACE yars:: DESTINATION ${packages})
+install(TARGETS yars_display_library EXPORT yars-display COMPONENT display LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/display/library/yars_display.h DESTINATION ${headers} COMPONENT display)
+install(EXPORT yars-display NAMESPACE yars:: DESTINATION ${packages} COMPONENT display)
+target_include_directories(yars_client INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_include_directories(yars_display_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+
+configure_package_config_file(${PROJECT_SOURCE_DIR}/packaging/cmake/yars-config.cmake.in ${made}/yars-config.cmake
+  INSTALL_DESTINATION ${packages})
+write_basic_package_version_file(${made}/yars-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(FILES ${made}/yars-config.cmake ${made}/yars-config-version.cmake DESTINATION ${packages})
+
+# Paths in a .pc file begin at its own folder.
+file(RELATIVE_PATH to_prefix /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
+string(REGEX REPLACE "/$" "" to_prefix ${to_prefix})
+foreach(part client display)
+  configure_file(${PROJECT_SOURCE_DIR}/packaging/pkgconfig/yars-${part}.pc.in ${made}/yars-${part}.pc @ONLY)
+endforeach()
+install(FILES ${made}/yars-client.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+install(FILES ${made}/yars-display.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT display)
+
+install(FILES ${PROJECT_SOURCE_DIR}/examples/yars.py DESTINATION ${YARS_PYTHON_DIR})
