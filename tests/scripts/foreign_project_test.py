@@ -1,0 +1,188 @@
+#!/usr/bin/env python3
+"""A project of somebody else builds against an installed YARS and against the Debian package, and its programs run: by
+find_package(yars), by pkg-config, and by `import yars`. Both are unpacked where no compiler looks.
+
+usage: foreign_project_test.py CMAKE BUILD CC CXX FLAGS     FLAGS: of the compilers, such as those of the sanitizers
+"""
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+
+CMAKE, BUILD, CC, CXX = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3], sys.argv[4]
+FLAGS = shlex.split(sys.argv[5])
+SESSION = f"foreign-{os.getpid()}"
+PARTS = ("Unspecified", "display")  # components: all but the programs, which are large with the sanitizers
+ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")  # a search crashes beside Mesa's threads
+# The strictest reader of the headers. The client's comes first, as it says.
+STRICT = """#include <yars/yars.h>
+#include <yars/yars_display.h>
+int main(void) {
+  yars_session s;
+  const yars_viewport viewport = {0, 0, 480, 480};
+  return yars_attach(&s, "no-such-session", "strict") == 0 || yars_display_draw(NULL, viewport) != -1;
+}
+"""
+WANTS = """cmake_minimum_required(VERSION 3.16)
+project(cockpit LANGUAGES C CXX)
+find_package(yars %s)
+"""
+faults = []
+
+
+def run(*command, folder=None, **environment):
+    return subprocess.run([str(word) for word in command], cwd=folder, env={**ENVIRONMENT, **environment},
+                          capture_output=True, text=True, timeout=240, check=False)
+
+
+def must(*command, folder=None, **environment):
+    done = run(*command, folder=folder, **environment)
+    if done.returncode != 0:
+        sys.exit(f"{' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
+    return done.stdout
+
+
+def expect(what, good, found=""):
+    if not good:
+        faults.append(f"{what}: {found}")
+
+
+def installed(folder, parts):
+    """The prefix of an installation that was moved afterwards."""
+    for part in parts:
+        must(CMAKE, "--install", BUILD, "--component", part, "--prefix", folder / "first")
+    return shutil.move(folder / "first", folder / "moved")
+
+
+def unpacked(folder):
+    """The prefix within the Debian package, without its programs."""
+    cpack = pathlib.Path(CMAKE).parent / "cpack"
+    projects = ";".join(f"{BUILD};yars;{part};/" for part in PARTS)
+    must(cpack, "-G", "DEB", "-B", folder, "-D", f"CPACK_INSTALL_CMAKE_PROJECTS={projects}", folder=BUILD)
+    package = next(folder.glob("*.deb"))
+    must("dpkg-deb", "-x", package, folder / "root")
+    fields = must("dpkg-deb", "-f", package)
+    expect("the package depends on what the library is linked with", "libepoxy0" in fields and "libspdlog" in fields, fields)
+    control = must("dpkg-deb", "-I", package)
+    expect("the package has ldconfig run", "triggers" in control and "shlibs" in control, control)
+    return folder / "root/usr"
+
+
+def library_of(prefix):
+    return next(prefix.glob("lib/**/libyars-display.so"))
+
+
+def check_picture(how, path):
+    """The host's scene, 1280 x 800 pixels: something bright is in the viewport of the display."""
+    head = b"P6\n1280 800\n255\n"
+    scene = path.read_bytes() if path.is_file() else b""
+    if len(scene) != len(head) + 3 * 1280 * 800 or not scene.startswith(head):
+        faults.append(f"{how}: expected a scene in {path.name}, found {len(scene)} bytes")
+        return
+    rows = [scene[len(head) + 3 * (1280 * y + 620):][:1800] for y in range(100, 700)]
+    bright = sum(value > 60 for row in rows for value in row[1::3])
+    expect(f"{how}: a picture of the display", bright > 1000, f"{bright} bright pixels")
+
+
+def check_programs(how, folder, prefix, **environment):
+    """The embedding program makes the session; meanwhile the client in C and the one in Python take part in it."""
+    alone = run(folder / "fly", SESSION, folder=folder)
+    expect(f"{how}: the client in C without a session", alone.returncode == 1 and "no such session" in alone.stderr, alone)
+    host = subprocess.Popen([folder / "host_display", SESSION, folder / "scene.ppm", "3"], text=True,
+                            stderr=subprocess.PIPE, env={**ENVIRONMENT, **environment})
+    client = alone
+    while client.returncode != 0 and host.poll() is None:
+        time.sleep(0.05)
+        client = run(folder / "fly", SESSION, folder=folder)  # ends at once: no set runs
+    expect(f"{how}: the client in C takes part", client.returncode == 0, client)
+    python = run(sys.executable, "-B", "-c", f"import yars; print(yars.Session('{SESSION}', 'foreign').set_runs())",
+                 folder=folder, PYTHONPATH=prefix / "lib/python3/dist-packages")
+    expect(f"{how}: the client in Python takes part", python.stdout == "False\n", python)
+    errors = host.communicate(timeout=240)[1]
+    expect(f"{how}: the embedding program", host.returncode == 0, errors)
+    check_picture(how, folder / "scene.ppm")
+
+
+def by_cmake(folder, prefix, kind):
+    """The examples with the CMakeLists.txt beside them, as they are installed."""
+    built = folder / "by_cmake"
+    flags = " ".join(FLAGS)
+    must(CMAKE, "-S", prefix / "share/doc/yars/examples", "-B", built, f"-DCMAKE_PREFIX_PATH={prefix}",
+         f"-DCMAKE_C_COMPILER={CC}", f"-DCMAKE_CXX_COMPILER={CXX}", f"-DCMAKE_C_FLAGS={flags}", f"-DCMAKE_CXX_FLAGS={flags}")
+    must(CMAKE, "--build", built)
+    check_programs(f"{kind}, find_package", built, prefix)
+
+
+def by_pkg_config(folder, prefix, kind):
+    built = folder / "by_pkg_config"
+    built.mkdir()
+    library = library_of(prefix).parent
+
+    def of(*words):
+        return shlex.split(must("pkg-config", *words, PKG_CONFIG_PATH=library / "pkgconfig"))
+
+    expect(f"{kind}: version by pkg-config", of("--modversion", "yars-client") == of("--modversion", "yars-display"))
+    examples, client, display = prefix / "share/doc/yars/examples", of("--cflags", "yars-client"), of(
+        "--cflags", "--libs", "yars-display", "epoxy")
+    must(CC, *FLAGS, examples / "fly.c", *client, "-lm", "-o", built / "fly")
+    must(CXX, *FLAGS, "-std=c++17", examples / "host_display.cpp", *display, "-o", built / "host_display")
+    check_programs(f"{kind}, pkg-config", built, prefix, LD_LIBRARY_PATH=library)
+    for compiler, name, more in ((CC, "strict.c", ["-std=c99", "-pedantic"]),
+                                 (CXX, "strict.cpp", ["-std=c++11", "-Wno-missing-field-initializers"])):
+        (built / name).write_text(STRICT)
+        must(compiler, *FLAGS, *more, "-Wall", "-Wextra", "-Werror", built / name, *display, "-o", built / "strict")
+        strict = run(built / "strict", LD_LIBRARY_PATH=library)
+        expect(f"{kind}: {name}", strict.returncode == 0, strict)
+
+
+def check_symbols(prefix):
+    """The library shows the functions of its header and nothing else, which could clash with the host's."""
+    shown = {line.split()[-1] for line in must("nm", "-D", "--defined-only", library_of(prefix)).splitlines()}
+    header = (prefix / "include/yars/yars_display.h").read_text()
+    declared = set(re.findall(r"^YARS_DISPLAY_API.*?(yars_display_\w+)\(", header, re.M))
+    expect("functions of libyars-display", len(declared) > 10 and shown == declared, sorted(shown ^ declared)[:20])
+
+
+def check_refusals(folder):
+    """Where only the headers are installed, and another version."""
+    prefix = installed(folder, PARTS[:1])
+    for number, (wanted, good) in enumerate((("0.2 REQUIRED COMPONENTS client", True), ("REQUIRED", True),
+                                             ("0.2 REQUIRED COMPONENTS display", False), ("0.1 REQUIRED", False),
+                                             ("1.0 REQUIRED", False))):
+        project = folder / f"wants_{number}"
+        project.mkdir()
+        (project / "CMakeLists.txt").write_text(WANTS % wanted)
+        done = run(CMAKE, "-S", project, "-B", project / "build", f"-DCMAKE_PREFIX_PATH={prefix}")
+        expect(f"find_package(yars {wanted})", (done.returncode == 0) == good, done.stderr)
+
+
+def check_python(prefix):
+    """`import yars` after `apt install`: Debian's Python looks where the package puts it."""
+    looks = run("/usr/bin/python3", "-c", "import sys; print(*sys.path, sep='\\n')").stdout.splitlines()
+    at = [path for path in looks if (prefix.parent / path.lstrip("/") / "yars.py").is_file()]
+    expect("yars.py where Debian's python3 looks", at == ["/usr/lib/python3/dist-packages"], looks)
+
+
+with tempfile.TemporaryDirectory(dir=BUILD) as top:
+    top = pathlib.Path(top)
+    for kind in ("tree", "deb", "headers"):
+        (top / kind).mkdir()
+    check_refusals(top / "headers")
+    tree = installed(top / "tree", PARTS)
+    check_symbols(tree)
+    by_cmake(top / "tree", tree, "tree")
+    by_pkg_config(top / "tree", tree, "tree")
+    if shutil.which("dpkg-shlibdeps"):
+        deb = unpacked(top / "deb")
+        by_cmake(top / "deb", deb, "deb")
+        by_pkg_config(top / "deb", deb, "deb")
+        check_python(deb)
+    else:
+        print("left out: the Debian package, which needs dpkg-dev")
+print("\n".join(faults) or "a foreign project builds and runs")
+sys.exit(1 if faults else 0)
