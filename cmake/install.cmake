@@ -6,7 +6,7 @@ set(documents ${CMAKE_INSTALL_DATADIR}/doc/yars)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${share}/config
   FILES_MATCHING PATTERN "*.guf" PATTERN "*.route" PATTERN "*.script" PATTERN "*.scenes" PATTERN "*.tour")
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.dot")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${documents})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copyright)
 
@@ -32,18 +32,8 @@ foreach(unit yars.service yars@.service)
 endforeach()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/install/systemd/ DESTINATION lib/systemd/user)
 
-# Examples name the header as it is installed. yars.py goes where Python looks.
-file(GLOB examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/examples/*)
-list(FILTER examples EXCLUDE REGEX "/yars\\.py$")
-foreach(example IN LISTS examples)
-  get_filename_component(name ${example} NAME)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${example})
-  file(READ ${example} text)
-  string(REPLACE "\"databuffer/client/yars.h\"" "<yars/yars.h>" text "${text}")
-  string(REPLACE "-I. examples/" "" text "${text}")
-  file(WRITE ${PROJECT_BINARY_DIR}/install/examples/${name} "${text}")
-endforeach()
-install(DIRECTORY ${PROJECT_BINARY_DIR}/install/examples DESTINATION ${documents})
+# Examples; yars.py goes where Python looks (cmake/libraries.cmake).
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${documents} PATTERN "yars.py" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 
 # compressed(SOURCE NAME DESTINATION): a file as man and Debian want it. Made while configuring: who builds the programs
 # alone, as scripts/start does, can install them.
@@ -60,3 +50,8 @@ foreach(page IN LISTS pages)
   compressed(${page} ${name} ${CMAKE_INSTALL_MANDIR}/man${section})
 endforeach()
 compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog ${documents})
+
+# What is installed names what is installed.
+find_package(Python3 COMPONENTS Interpreter REQUIRED)
+install(CODE "execute_process(COMMAND \"${Python3_EXECUTABLE}\" \"${PROJECT_SOURCE_DIR}/packaging/installed_paths.py\"
+  \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\" ${documents} ${share} ${PROJECT_VERSION} COMMAND_ERROR_IS_FATAL ANY)")

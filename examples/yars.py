@@ -1,4 +1,4 @@
-"""Python client of a running YARS session, the counterpart of databuffer/client/yars.h. Needs Python 3.9+, no compiler.
+"""Python client of a running YARS session, the counterpart of yars.h. Needs Python 3.9+, no compiler.
 Inputs to the session: ownship, navigators, events. Outputs: radar state, outputs, sweeps, frames of the display.
 Errors: YarsError. No error means only that a record was sent; `yars status` shows the refused ones.
 Platform: Linux on x86-64, where a store of an aligned 64-bit word is atomic and stores stay in order.
@@ -265,7 +265,7 @@ def pack(what, fields, values):
     names = [name for name, _ in fields if not name.startswith("_")]
     for name in values:
         if name not in names:
-            raise YarsError(f"{what}: expected fields of {', '.join(names)}, found {name!r}; see databuffer/messages/")
+            raise YarsError(f"{what}: expected fields of {', '.join(names)}, found {name!r}; see yars_records.h")
     parts = []
     for name, code in fields:
         value = values.get(name, b"" if code.endswith("s") else 0)
@@ -275,7 +275,7 @@ def pack(what, fields, values):
             parts.append(struct.pack("<" + code, value))
         except (struct.error, OverflowError):
             raise YarsError(f"{what}: {name}: expected {EXPECTED[code]}, found {value!r}; "
-                            "see databuffer/messages/") from None
+                            "see yars_records.h") from None
     return b"".join(parts)
 
 
@@ -354,7 +354,7 @@ class Session:
 
     def set_runs(self):
         """True while radar-model or state-machine is attached, even if stopped or hanging. False for a short time if
-        both were killed, until scripts/start restarts them. When it is False, close this Session and make a new one:
+        both were killed, until the set restarts them. When it is False, close this Session and make a new one:
         a set that starts later may have another segment."""
         return self._is_held(RADAR_MODEL_BYTE) or self._is_held(STATE_MACHINE_BYTE)
 
@@ -392,7 +392,7 @@ class Session:
         self.memory[at:at + 4] = struct.pack("<I", priority)
 
     def publish_ownship(self, **values):
-        """Publishes the record Ownship (databuffer/messages/world_state.idl). Call it 20 to 100 times a second.
+        """Publishes the record Ownship (fields: yars_records.h). Call it 20 to 100 times a second.
         Defaults: radar_altitude_m NaN (no radar altimeter), epoch of the session, other fields 0."""
         self._needs(self.lane, "publish_ownship", "an ownship lane", "claim_ownship_lane(priority)")
         self._publish("publish_ownship", self._ownship_at(), OWNSHIP,
@@ -436,7 +436,7 @@ class Session:
 
     # ---- reading
     def radar_state(self):
-        """Dict of the numbers and texts of the record RadarState (databuffer/messages/radar_state.idl), such as mode
+        """Dict of the numbers and texts of the record RadarState (yars_records.h), such as mode
         and range. `legends`: list of the legends, with that of button n at index n. None before the first record."""
         record = self._read_bytes(AT_RADAR_STATE, RADAR_STATE_SIZE)
         if record is None:
@@ -447,7 +447,7 @@ class Session:
         return state
 
     def outputs(self):
-        """Dict of the record Outputs (databuffer/messages/radar_state.idl): what the radar reports to the rest of the
+        """Dict of the record Outputs (yars_records.h): what the radar reports to the rest of the
         aircraft. Cue; designated target with ranging and steering (NaN: no target); `marks`, a list of dicts, oldest
         first. The elevation of a point is NaN while it is unknown. None before the first record."""
         outputs = self._read(AT_OUTPUTS, OUTPUTS)
@@ -460,7 +460,7 @@ class Session:
         return outputs
 
     def caption(self):
-        """Dict of the record Caption (databuffer/messages/caption.idl) of the tour that runs; `lines` is a list of
+        """Dict of the record Caption (yars_records.h) of the tour that runs; `lines` is a list of
         texts. None while no tour runs, or while it shows no caption."""
         caption = self._read(AT_CAPTION, CAPTION) if self._is_held(TOUR_BYTE) else None
         if caption is None:

@@ -150,7 +150,7 @@ static inline void yars_detach(yars_session* s) {
 }
 
 /* 1 while radar-model or state-machine takes part, even if stopped or not responding; else 0. A program that was killed
- * takes part again when scripts/start has restarted it. At 0, detach and attach again: this attachment keeps
+ * takes part again when the set has restarted it. At 0, detach and attach again: this attachment keeps
  * the old segment in existence, and a new set may create another segment. Cost: two system calls. */
 static inline int yars_set_runs(const yars_session* s) {
   return s->memory != NULL && (yars_is_held(s, YARS_RADAR_MODEL_BYTE) || yars_is_held(s, YARS_STATE_MACHINE_BYTE));

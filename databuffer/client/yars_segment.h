@@ -19,7 +19,7 @@
 #include <unistd.h>
 
 #ifndef CLOCK_MONOTONIC
-#error "include databuffer/client/yars.h before any system header, or compile with -D_GNU_SOURCE"
+#error "include yars.h before any system header, or compile with -D_GNU_SOURCE"
 #endif
 
 #ifndef F_OFD_SETLK

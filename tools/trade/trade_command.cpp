@@ -71,7 +71,7 @@ void add_trade_options(databuffer::Command command, TradeOptions& options) {
   command.option("--csv", options.csv, "CSV file with one row per candidate and scene")
       .value_name("FILE")
       .otherwise("none");
-  command.option("--out", options.out, "JSON file (.json), which scripts/plot_trade draws")
+  command.option("--out", options.out, "JSON file (.json), which plot_trade draws")
       .value_name("FILE")
       .otherwise("none");
   add_json_flag(command, options.json, "print one JSON object in place of the table");

@@ -1,0 +1,97 @@
+#!/usr/bin/env python3
+"""Rewrites installed documents, examples and configurations in place, so that they name what is installed.
+
+usage: installed_paths.py PREFIX_WITH_DESTDIR DOCUMENTS SHARE [VERSION]      folders below the prefix: share/doc/yars, share/yars
+`cmake --install` runs it. scripts/start becomes yars-start, build/release/bin/yars becomes yars, config/apg68.guf becomes
+apg68.guf, which the programs find. A path of the sources that is not installed gets SOURCES/ before it, and a link to it
+becomes such a path; the README says what SOURCES is. To do it twice changes nothing.
+"""
+import os
+import pathlib
+import re
+import sys
+
+FOLDERS = "build|config|databuffer|display|docs|examples|inputmonitor|lib|model|packaging|scripts|shm|statemachine|tests|tools|worldgen"
+PATH = re.compile(rf"(?<![\w./<~$-])(?:\./)?((?:{FOLDERS})/(?:[\w*@-]|[./](?=[\w*@-]))*/?)")
+LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")
+# Before the paths: parts of commands.
+WORDS = [('"databuffer/client/yars.h"', "<yars/yars.h>"), ("PYTHONPATH=examples ", ""), ("cc -I. ", "cc "),
+         ("-I. examples/", ""), ("From the root of this tree (elsewhere `-I/path/to/yars`)", "Elsewhere than below `/usr` with `-I`")]
+PLACES = {
+    "scripts/start": "yars-start", "scripts/plot_trade": "yars-plot-trade", "build/release/bin": "bin",
+    "scripts/supervise": "libexec/yars/supervise", "scripts/nearest_word.py": "libexec/yars/nearest_word.py",
+    "build/terrain/default": "~/.cache/yars/terrain", "build/start.log": "yars-start's log",
+    "packaging/systemd": "lib/systemd/user", "examples/yars.py": "yars.py", "databuffer/client/yars.h": "yars/yars.h",
+    "databuffer/client/yars_records.h": "yars/yars_records.h", "databuffer/client/yars_segment.h": "yars/yars_segment.h",
+    "display/library/yars_display.h": "yars/yars_display.h",
+}
+SAYS = ("This is the installed copy: the programs are on your path, `examples/` lies beside this README. `SOURCES/` "
+        "stands for the sources of YARS{}, which hold the rest.")
+
+
+def installed_place(path, prefix, documents, share):
+    """What stands for a path of the sources."""
+    if path in PLACES:
+        return PLACES[path]
+    program = re.fullmatch(r"build/(?:release|dev)/bin/([\w-]+)", path)
+    if program and not program[1].startswith("test_"):
+        return program[1]
+    if path.startswith("packaging/systemd/"):
+        return "lib/systemd/user/" + path.removeprefix("packaging/systemd/")
+    if path.startswith("config/") and (prefix / share / path).is_file():
+        return pathlib.PurePath(path).name
+    if any((prefix / root / path).exists() for root in (".", documents)) and path != "lib/":
+        return path
+    return "SOURCES/" + path
+
+
+def rewritten(text, file, prefix, documents, share):
+    """The text of the installed `file`, a path below the prefix."""
+    for word, other in WORDS:
+        text = text.replace(word, other)
+    kept = []  # links, which are no paths from the top of the sources
+
+    def place(match):
+        return installed_place(match[1], prefix, documents, share)
+
+    def link(match):
+        picture, words, target, anchor = match[1], match[2], match[3], match[4] or ""
+        path = pathlib.Path(os.path.normpath(file.parent / target))
+        changelog = path.with_name("changelog.gz")
+        words = PATH.sub(place, words)
+        if picture or "://" in target or target.startswith("mailto:") or (prefix / path).exists():
+            kept.append(f"{picture}[{words}]({target}{anchor})")
+        elif path.name == "CHANGELOG.md" and (prefix / changelog).exists():
+            kept.append(f"[{words}]({os.path.relpath(changelog, file.parent)}{anchor})")
+        else:
+            source = os.path.relpath(path, documents)
+            kept.append(f"{words} (`SOURCES/{source}`)" if source not in words else f"`SOURCES/{source}`")
+        return f"\0{len(kept) - 1}\0"
+
+    if file.suffix == ".md":
+        text = LINK.sub(link, text)
+    text = PATH.sub(place, text)
+    return re.sub(r"\0(\d+)\0", lambda match: kept[int(match[1])], text)
+
+
+def with_preface(text, version):
+    says = SAYS.format(f" {version}" if version else "")
+    title, _, rest = text.partition("\n\n")
+    return text if says in text else f"{title}\n\n{says}\n\n{rest}"
+
+
+def main(prefix, documents, share, version=""):
+    prefix, documents, share = pathlib.Path(prefix), pathlib.Path(documents), pathlib.Path(share)
+    for path in sorted(path for root in (documents, share) for path in (prefix / root).rglob("*") if path.is_file()):
+        if path.suffix not in (".md", ".c", ".cpp", ".py", ".txt", ".guf", ".route", ".script", ".scenes", ".tour"):
+            continue
+        before = path.read_text(encoding="utf-8")
+        after = rewritten(before, path.relative_to(prefix), prefix, documents, share)
+        if path in (prefix / documents / "README.md", prefix / documents / "docs/README.md"):
+            after = with_preface(after, version)
+        if after != before:
+            path.write_text(after, encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
