@@ -16,7 +16,7 @@ PATH = re.compile(rf"(?<![\w./<~$-])(?:\./)?((?:{FOLDERS})/(?:[\w*@-]|[./](?=[\w
 LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")
 # Before the paths: parts of commands.
 WORDS = [('"databuffer/client/yars.h"', "<yars/yars.h>"), ("PYTHONPATH=examples ", ""), ("cc -I. ", "cc "),
-         ("-I. examples/", ""), ("From the root of this tree (elsewhere `-I/path/to/yars`)", "Elsewhere than below `/usr` with `-I`")]
+         ("-I. examples/", "")]
 PLACES = {
     "scripts/start": "yars-start", "scripts/plot_trade": "yars-plot-trade", "build/release/bin": "bin",
     "scripts/supervise": "libexec/yars/supervise", "scripts/nearest_word.py": "libexec/yars/nearest_word.py",

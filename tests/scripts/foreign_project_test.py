@@ -16,6 +16,7 @@ import time
 
 CMAKE, BUILD, CC, CXX = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3], sys.argv[4]
 FLAGS = shlex.split(sys.argv[5])
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
 SESSION = f"foreign-{os.getpid()}"
 PARTS = ("Unspecified", "display")  # components: all but the programs, which are large with the sanitizers
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")  # a search crashes beside Mesa's threads
@@ -32,6 +33,7 @@ WANTS = """cmake_minimum_required(VERSION 3.16)
 project(cockpit LANGUAGES C CXX)
 find_package(yars %s)
 """
+ATTACH = (SOURCE / "docs/attach.md").read_text()
 faults = []
 
 
@@ -108,13 +110,26 @@ def check_programs(how, folder, prefix, **environment):
     check_picture(how, folder / "scene.ppm")
 
 
+def shown(words):
+    """The first block of docs/attach.md that has these words."""
+    blocks = re.findall(r"(?:^(?:    .*|)\n)+", ATTACH, re.M)
+    return "\n".join(line[4:] for line in next(block for block in blocks if words in block).splitlines()) + "\n"
+
+
 def by_cmake(folder, prefix, kind):
-    """The examples with the CMakeLists.txt beside them, as they are installed."""
+    """The examples with the CMakeLists.txt beside them, as they are installed; what docs/attach.md shows."""
     built = folder / "by_cmake"
     flags = " ".join(FLAGS)
-    must(CMAKE, "-S", prefix / "share/doc/yars/examples", "-B", built, f"-DCMAKE_PREFIX_PATH={prefix}",
-         f"-DCMAKE_C_COMPILER={CC}", f"-DCMAKE_CXX_COMPILER={CXX}", f"-DCMAKE_C_FLAGS={flags}", f"-DCMAKE_CXX_FLAGS={flags}")
+    options = [f"-DCMAKE_PREFIX_PATH={prefix}", f"-DCMAKE_C_COMPILER={CC}", f"-DCMAKE_CXX_COMPILER={CXX}",
+               f"-DCMAKE_C_FLAGS={flags}", f"-DCMAKE_CXX_FLAGS={flags}"]
+    must(CMAKE, "-S", prefix / "share/doc/yars/examples", "-B", built, *options)
     must(CMAKE, "--build", built)
+    documented = folder / "documented"
+    documented.mkdir()
+    (documented / "CMakeLists.txt").write_text(shown("cmake_minimum_required("))
+    (documented / "mine.c").write_text(shown("int main(void)").replace('"databuffer/client/yars.h"', "<yars/yars.h>"))
+    must(CMAKE, "-S", documented, "-B", documented / "build", *options)
+    must(CMAKE, "--build", documented / "build")
     check_programs(f"{kind}, find_package", built, prefix)
 
 
