@@ -11,8 +11,9 @@ import pathlib
 import re
 import sys
 
+SOURCE = pathlib.Path(__file__).resolve().parents[1]
 FOLDERS = "build|config|databuffer|display|docs|examples|inputmonitor|lib|model|packaging|scripts|shm|statemachine|tests|tools|worldgen"
-PATH = re.compile(rf"(?<![\w./<~$-])(?:\./)?((?:{FOLDERS})/(?:[\w*@-]|[./](?=[\w*@-]))*/?)")
+PATH = re.compile(rf"(?<![\w./<~$=-])(?:\./)?((?:{FOLDERS})/(?:[\w*@-]|[./](?=[\w*@-]))*/?)")
 LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")
 # Before the paths: parts of commands.
 WORDS = [('"databuffer/client/yars.h"', "<yars/yars.h>"), ("PYTHONPATH=examples ", ""), ("cc -I. ", "cc "),
@@ -40,9 +41,9 @@ def installed_place(path, prefix, documents, share):
         return "lib/systemd/user/" + path.removeprefix("packaging/systemd/")
     if path.startswith("config/") and (prefix / share / path).is_file():
         return pathlib.PurePath(path).name
-    if any((prefix / root / path).exists() for root in (".", documents)) and path != "lib/":
-        return path
-    return "SOURCES/" + path
+    is_installed = path != "lib/" and any((prefix / root / path).exists() for root in (".", documents))
+    is_source = path.startswith("build/") or any(SOURCE.glob(path))
+    return "SOURCES/" + path if is_source and not is_installed else path
 
 
 def rewritten(text, file, prefix, documents, share):

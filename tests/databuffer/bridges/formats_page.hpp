@@ -1,4 +1,4 @@
-// Tables of docs/spec/formats.md as data: who builds a packet by the page alone finds offsets, types and units here.
+// Tables of docs/spec/formats.md#flight-models as data, and packets built by offsets, types and units of these tables.
 #pragma once
 
 #include <algorithm>
@@ -56,7 +56,7 @@ class PacketByPage {
     const auto found = std::find_if(rows_.begin(), rows_.end(), [&](const auto& entry) {
       return !set_.contains(entry.first) && (entry.first == name || entry.first.starts_with(name + " "));
     });
-    if (found == rows_.end()) throw std::runtime_error("formats.md has no row for " + name);
+    if (found == rows_.end()) throw std::runtime_error("the page has no row for " + name);
     set_[found->first] = true;
     const TableRow& row = found->second;
     write(static_cast<std::size_t>(std::stoul(row[0])), row[1], value / unit_of(row[2]));
@@ -85,7 +85,7 @@ class PacketByPage {
     if (type == "u32") return put(bytes_, offset, static_cast<std::uint32_t>(value), order_);
     if (type == "u16") return put(bytes_, offset, static_cast<std::uint16_t>(value), order_);
     if (type == "u8") return put(bytes_, offset, static_cast<std::uint8_t>(value), order_);
-    throw std::runtime_error("formats.md has a type " + type);
+    throw std::runtime_error("the page has a type " + type);
   }
 
   PacketBytes bytes_;

@@ -1,4 +1,5 @@
-// Tests of docs/spec/formats.md: packets built by its tables alone decode to the flight that was put into them.
+// Tests of the tables of docs/spec/formats.md#flight-models: packets built by them alone decode to the flight that was
+// put into them.
 #include "tests/databuffer/bridges/formats_page.hpp"
 
 #include <gmock/gmock.h>
