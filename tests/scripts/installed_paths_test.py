@@ -88,8 +88,8 @@ def main(cmake, build):
                            stdout=subprocess.DEVNULL, timeout=120)
         faults = list(missing(prefix))
         # The check itself: what it finds in a document that points to nothing.
-        (prefix / DOCUMENTS / "wrong.md").write_text("[a](HACKING.md) `scripts/start` `share/yars/absent` <yars/yars_no.h> "
-                                                     "`SOURCES/model/absent` `docs/absent`\n")
+        (prefix / DOCUMENTS / "wrong.md").write_text("[a](HACKING.md) `scripts/start` `share/yars/absent` "
+                                                     "<yars/yars_no.h> `SOURCES/model/absent` `docs/absent`\n")
         found = len(list(missing(prefix))) - len(faults)
         if found != 6:
             faults.append(f"expected 6 faults in wrong.md, found {found}")
