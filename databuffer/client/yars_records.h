@@ -10,7 +10,7 @@
 /* What this header was made for. */
 #define YARS_LAYOUT_VERSION UINT32_C(3)
 #define YARS_LAYOUT_SIZE UINT64_C(27471808)
-#define YARS_LAYOUT_HASH UINT64_C(0x6eeb89b3de94b834)
+#define YARS_LAYOUT_HASH UINT64_C(0xeb33f49407411935)
 
 /* Offsets [bytes] from the segment's begin. */
 #define YARS_AT_CLOCK 448

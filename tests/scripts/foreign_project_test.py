@@ -71,7 +71,7 @@ def unpacked(folder):
     fields = must("dpkg-deb", "-f", package)
     expect("the package depends on what the library is linked with", "libepoxy0" in fields and "libspdlog" in fields, fields)
     control = must("dpkg-deb", "-I", package)
-    expect("the package has ldconfig run", "postinst" in control and "shlibs" in control, control)
+    expect("the package has ldconfig run", "triggers" in control and "shlibs" in control, control)
     return folder / "root/usr"
 
 
