@@ -15,7 +15,7 @@ import time
 
 MAGIC, LINE, SLOTS = 0x314D485353524159, 64, 4
 # begin: databuffer/messages/generate.py
-VERSION, SIZE, HASH = 3, 27471808, 0xEB33F49407411935
+VERSION, SIZE, HASH = 3, 27471872, 0xEB33F49407411935
 AT_CLOCK, AT_OWNSHIP_PRIORITY, AT_OWNSHIP, AT_NAV = 448, 1024, 1088, 4416
 AT_RADAR_STATE, AT_MODEL_STATUS, AT_OUTPUTS, AT_SWEEPS = 7744, 13440, 16320, 543680
 AT_INPUT, AT_PROCESSES, AT_TRAFFIC, AT_FRAMES, AT_CAPTION = 4934656, 5051392, 13587584, 13840128, 26423936
@@ -109,6 +109,7 @@ class Event(enum.IntEnum):
     NAVIGATOR_ERROR = 17  # by the instructor; argument: Navigator; x, y: [ft] position error north, east
     NAVIGATOR_DRIFT = 18  # by the instructor; argument: Navigator; x, y: [ft/s] velocity error north, east
     NEXT = 19             # asks a tour that waits for the pilot to go on
+    CURSOR = 20           # x right, y down: [0, 1] position on the display, from its upper left corner
 
 
 class Power(enum.IntEnum):

@@ -9,7 +9,7 @@
 
 /* What this header was made for. */
 #define YARS_LAYOUT_VERSION UINT32_C(3)
-#define YARS_LAYOUT_SIZE UINT64_C(27471808)
+#define YARS_LAYOUT_SIZE UINT64_C(27471872)
 #define YARS_LAYOUT_HASH UINT64_C(0xeb33f49407411935)
 
 /* Offsets [bytes] from the segment's begin. */
@@ -82,7 +82,8 @@ enum {
   YARS_EVENT_NAVIGATOR_ERROR = 17,
   /* by the instructor; argument: YARS_NAVIGATOR_...; x, y: [ft/s] velocity error north, east */
   YARS_EVENT_NAVIGATOR_DRIFT = 18,
-  YARS_EVENT_NEXT = 19 /* asks a tour that waits for the pilot to go on */
+  YARS_EVENT_NEXT = 19,  /* asks a tour that waits for the pilot to go on */
+  YARS_EVENT_CURSOR = 20 /* x right, y down: [0, 1] position on the display, from its upper left corner */
 };
 
 /* Values of Power. */
@@ -308,12 +309,12 @@ typedef struct {
 typedef struct {
   int64_t session_time_ns; /* [ns] sim time when the source made the event */
   int64_t monotonic_ns;    /* [ns] CLOCK_MONOTONIC when the source made the event; latency counts from here */
-  double x;                /* TDC deflection right [-1, 1]; elevation [deg]; error north [ft] or [ft/s] */
-  double y;                /* TDC deflection up [-1, 1]; error east [ft] or [ft/s] */
-  uint16_t kind;           /* EventKind */
+  double x;        /* TDC deflection right [-1, 1]; elevation [deg]; error north [ft] or [ft/s]; cursor right [0, 1] */
+  double y;        /* TDC deflection up [-1, 1]; error east [ft] or [ft/s]; cursor down [0, 1] */
+  uint16_t kind;   /* EventKind */
   int16_t argument;
-  uint32_t number;         /* counts up per source */
-  char text[16];           /* zero terminated */
+  uint32_t number; /* counts up per source */
+  char text[16];   /* zero terminated */
 } yars_input_event;
 
 /* A sequence point on the display. Its position is in the navigator's coordinates, not as the video shows it. */
