@@ -104,7 +104,8 @@ TEST(FormatsPage, XPlanesDatarefsAreThoseThatAreRequested) {
   EXPECT_NEAR((*sample)->rates->heading_dps, 1.0, 1e-6);
 }
 
-// At 0 N 0 E the Earth's axes x, y, z point up, east and north. Psi 90 deg turns the nose east, phi -90 deg the keel down.
+// At 0 N 0 E the Earth's axes x, y, z point up, east and north. Psi 90 deg turns the nose east, phi -90 deg the keel
+// down.
 TEST(FormatsPage, APduByTheTableOfDisDecodes) {
   constexpr double kEquator_m = 6'378'137.0;
   PacketByPage packet("dis", 144, std::endian::big);
