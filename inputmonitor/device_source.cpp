@@ -22,7 +22,7 @@ namespace {
 
 using error::fail;
 
-constexpr const char* kFindDevice = "find the device in /dev/input/by-id; the names end with -event-joystick, -event-kbd ...";
+constexpr const char* kFindDevice = "find the device in /dev/input/by-id; sticks end with -event-joystick";
 constexpr std::string_view kDeviceName = "event";  // device nodes are named /dev/input/eventN
 
 // Reads a bit set of the kernel by ioctl. On an error no bit is set. Assumes a little-endian machine.

@@ -26,7 +26,7 @@ total=$(cat "$HOME/total")
 for ((step = 1; step <= $(cat "$HOME/steps"); step++)); do
   status "$step" "$total"; echo "Building CXX object $step.o"
 done
-[ ! -e "$HOME/hang" ] || { echo $$ >"$HOME/builder"; trap 'echo "ninja: build stopped: interrupted by user."; exit 130' INT; sleep 600 & wait; }
+[ ! -e "$HOME/hang" ] || { echo $$ >"$HOME/builder"; trap 'kill $!; echo "ninja: build stopped: interrupted by user."; exit 130' INT; sleep 600 & wait; }
 [ "$step" -gt "$total" ] || { echo "error: no such thing"; exit 1; }
 '''
 
