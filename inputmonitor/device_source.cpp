@@ -61,7 +61,9 @@ error::Expected<std::unique_ptr<DeviceReader>> DeviceReader::open(const std::fil
   if (descriptor < 0) {
     const int code = errno;
     return fail(path.string(), "an input device that can be read", std::generic_category().message(code),
-                code == EACCES ? kDevicePermission : code == ENOENT ? kFindDevice : "");
+                code == EACCES   ? kDevicePermission
+                : code == ENOENT ? kFindDevice
+                                 : "");
   }
   std::unique_ptr<DeviceReader> reader(new DeviceReader(descriptor));
   struct stat status {};

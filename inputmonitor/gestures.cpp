@@ -9,7 +9,7 @@ namespace yars::inputmonitor {
 
 namespace {
 
-constexpr double kJitter = 0.1;                   // a move below this fraction of the minimum push is no move
+constexpr double kJitter = 0.1;                  // a move below this fraction of the minimum push is no move
 constexpr std::int64_t kReport_ns = 10'000'000;  // events of one report are read together
 
 bool is_button(std::uint16_t code) {
@@ -136,7 +136,8 @@ Gesture GestureDetector::find_push(std::uint16_t code, Axis& axis) {
   return {kind, code, extreme > axis.rest ? 1 : -1, extreme, axis.rest};
 }
 
-// True while another axis is farther away from rest: a stick that is pushed to the right also moves a little up or down.
+// True while another axis is farther away from rest: a stick that is pushed to the right also moves a little up or
+// down.
 bool GestureDetector::another_moved_more(std::uint16_t code, const Axis& axis) const {
   const double share = axis.travel() / min_travel(code);
   return std::ranges::any_of(axes_, [&](const auto& entry) {

@@ -67,8 +67,8 @@ class GestureDetector {
   bool is_held() const;
   // Time of the last press, or of the last move away from rest; nullopt: nothing has moved.
   std::optional<std::int64_t> last_motion_ns() const { return last_motion_ns_; }
-  // [raw units] Distance between the rest value and the value at which the axis stayed longest after a push; the largest
-  // of all pushes. 0 without a push.
+  // [raw units] Distance between the rest value and the value at which the axis stayed longest after a push; the
+  // largest of all pushes. 0 without a push.
   double rest_error(std::uint16_t code) const;
 
  private:
@@ -80,11 +80,11 @@ class GestureDetector {
     double high = 0.0;          // extremes since begin()
     double standing = 0.0;      // value since moved_ns, apart from jitter
     std::int64_t moved_ns = 0;
-    bool ignored = false;            // until it has come back to rest
-    bool was_pushed = false;         // a push was found; the two values below belong to the time after the last one
-    std::int64_t longest_ns = -1;    // longest stay at one value near rest
-    double error_of_longest = 0.0;   // [raw units] that value's distance from rest
-    double largest_error = 0.0;      // [raw units] the same after earlier pushes
+    bool ignored = false;           // until it has come back to rest
+    bool was_pushed = false;        // a push was found; the two values below belong to the time after the last one
+    std::int64_t longest_ns = -1;   // longest stay at one value near rest
+    double error_of_longest = 0.0;  // [raw units] that value's distance from rest
+    double largest_error = 0.0;     // [raw units] the same after earlier pushes
     double travel() const;
     double extreme() const { return high - rest >= rest - low ? high : low; }
   };

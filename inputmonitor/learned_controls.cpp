@@ -71,8 +71,8 @@ std::vector<RequestedControl> all_controls() {
   add_tdc("TDC down", "tdc 0 -1", ControlKind::opposite, radar::AxisUse::tdc_y);
   const auto add = [&](const char* name, const char* where, std::string_view request, const char* event,
                        std::string_view part, double repeat_s) {
-    all.push_back({name, where, std::string(request), event, ControlKind::button, repeat_s,
-                   radar::AxisUse::directions, part});
+    all.push_back(
+        {name, where, std::string(request), event, ControlKind::button, repeat_s, radar::AxisUse::directions, part});
   };
   add("TDC switch", "maps or designates", kPress, "tdc press", kTdc, 0.0);
   constexpr std::string_view kSwitches = "Switches of stick and throttle";
@@ -83,8 +83,14 @@ std::vector<RequestedControl> all_controls() {
   constexpr std::string_view kAntenna = "The antenna's elevation";
   add("antenna up", "a button or a switch", kPress, "elevation up", kAntenna, 0.1);
   add("antenna down", "a button or a switch", kPress, "elevation down", kAntenna, 0.1);
-  all.push_back({"antenna wheel", "a wheel or slider that stays where you leave it", std::string(kSweep), {},
-                 ControlKind::slider, 0.0, radar::AxisUse::elevation, kAntenna});
+  all.push_back({"antenna wheel",
+                 "a wheel or slider that stays where you leave it",
+                 std::string(kSweep),
+                 {},
+                 ControlKind::slider,
+                 0.0,
+                 radar::AxisUse::elevation,
+                 kAntenna});
   constexpr std::string_view kContrast = "Contrast of the picture";
   add("contrast up", "", kPress, "contrast up", kContrast, 0.2);
   add("contrast down", "", kPress, "contrast down", kContrast, 0.2);
@@ -143,8 +149,9 @@ std::optional<std::string> LearnedControls::objection_to_opposite(std::size_t in
   const Gesture& first = found_[index - 1];
   const std::string& name = requested_controls()[index - 1].name;
   if (first.kind != gesture.kind)
-    return name + (first.kind == Kind::press ? " is a button; use a button here, too, or go back with b"
-                                             : " is a stick or hat; push the same one the other way, or go back with b");
+    return name + (first.kind == Kind::press
+                       ? " is a button; use a button here, too, or go back with b"
+                       : " is a stick or hat; push the same one the other way, or go back with b");
   if (first.kind == Kind::press) return std::nullopt;
   if (first.code != gesture.code)
     return "that is not the stick or hat of " + name + "; push the same one the other way, or go back with b";

@@ -10,7 +10,7 @@ namespace {
 
 using Kind = Gesture::Kind;
 
-constexpr char kEscape = '\x1b';
+constexpr char kEscapeByte = '\x1b';
 constexpr std::string_view kIndent = "      ";
 
 // The typed keys, in lower case; of a line, the first letter of each word. Sequences of arrow and function keys
@@ -20,7 +20,7 @@ std::string keys_of(std::string_view bytes, Typing typing) {
   bool in_word = false;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const char byte = bytes[i];
-    if (byte == kEscape && i + 1 < bytes.size() && (bytes[i + 1] == '[' || bytes[i + 1] == 'O')) {
+    if (byte == kEscapeByte && i + 1 < bytes.size() && (bytes[i + 1] == '[' || bytes[i + 1] == 'O')) {
       i += 2;
       while (i < bytes.size() && (bytes[i] < '@' || bytes[i] > '~')) ++i;
       continue;

@@ -62,12 +62,12 @@ class Learning {
   Typing typing_;
   GestureDetector detector_;
   LearnedControls controls_;
-  std::size_t next_ = 0;          // index of the control that is asked for
-  std::string_view shown_part_;   // title of the part that was shown last
-  std::int64_t asked_ns_ = 0;     // time of the request, or of the last key
-  bool hinted_ = false;           // a hint about a stick was given for this request
-  bool idle_reported_ = false;    // for this request
-  bool ended_ = false;            // by the user
+  std::size_t next_ = 0;         // index of the control that is asked for
+  std::string_view shown_part_;  // title of the part that was shown last
+  std::int64_t asked_ns_ = 0;    // time of the request, or of the last key
+  bool hinted_ = false;          // a hint about a stick was given for this request
+  bool idle_reported_ = false;   // for this request
+  bool ended_ = false;           // by the user
 };
 
 }  // namespace yars::inputmonitor

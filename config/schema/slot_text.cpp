@@ -199,7 +199,7 @@ std::string print_configuration(const radar::RadarConfiguration& configuration) 
 }
 
 std::string print_explained(const radar::RadarConfiguration& configuration) {
-  Printer printer(builder_of(configuration), true);
+  Printer printer(builder_of(configuration), PrintStyle::explained);
   std::string text = "; A slot is given by name, or by the position in parentheses.\n\n" + printer.print();
   text += "\n; Further forms.\n";
   for (const FormSchema& form : schema()) {

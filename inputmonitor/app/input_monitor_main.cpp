@@ -76,8 +76,9 @@ int main(int argc, char** argv) {
       .value_name("SOURCE")
       .repeatable()
       .otherwise("auto");
-  databuffer::Option learn = app.option(
-      "--learn", learn_path, "path of a device: asks for one control after the other and makes a device map; needs no session");
+  databuffer::Option learn =
+      app.option("--learn", learn_path,
+                 "path of a device: asks for one control after the other and makes a device map; needs no session");
   learn.value_name("FILE").otherwise("events are sent");
   app.option("--out", map_file, "file for the map of --learn")
       .value_name("FILE")

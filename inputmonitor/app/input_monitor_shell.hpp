@@ -47,7 +47,7 @@ class InputMonitorShell {
   std::uint32_t number_ = 0;
   std::uint64_t applied_cursor_ = 0;                  // applied event to read next
   std::optional<databuffer::Caption> caption_shown_;  // caption in the segment; nullopt: none
-  std::array<databuffer::InputEvent, 16> recent_{};  // events pushed last; event n has index n mod 16
+  std::array<databuffer::InputEvent, 16> recent_{};   // events pushed last; event n has index n mod 16
   databuffer::Validated<databuffer::PilotAdvice> advice_;
   std::uint64_t idle_count_ = 0;  // PilotAdvice::idle_count that was reported last
 };

@@ -28,7 +28,7 @@ using databuffer::monotonic_ns;
 using error::Expected;
 using error::fail;
 
-constexpr int kMaxWait_ms = 200;  // maximum delay of a stop request and of a hint
+constexpr int kPoll_ms = 200;  // maximum delay of a stop request and of a hint
 
 // What the user types on standard input. On a terminal keys arrive one at a time and are not echoed.
 class Typist {
@@ -77,7 +77,7 @@ class LearningDialogue {
     while (!learning_.finished() && !is_gone_ && !databuffer::stop_requested()) {
       std::array<pollfd, 2> wanted{
           {{reader_ ? reader_->descriptor() : -1, POLLIN, 0}, {typist_.descriptor(), POLLIN, 0}}};
-      poll(wanted.data(), wanted.size(), kMaxWait_ms);
+      poll(wanted.data(), wanted.size(), kPoll_ms);
       if (wanted[1].revents != 0) say(learning_.type(typist_.read(), monotonic_ns()));
       if (reader_)
         read_device();

@@ -143,7 +143,8 @@ TEST(Gestures, ASweepIsFoundWhereItIsLeft) {
   slider.detector.begin(Wanted::sweep);
   EXPECT_THAT(slider.move(ABS_THROTTLE, {200, 10, 500, 990}), IsEmpty());
   const Gesture found = slider.wait(kStill_ns);
-  EXPECT_EQ(std::tuple(found.kind, found.direction, found.extreme, found.rest), std::tuple(Kind::sweep, 1, 990.0, 10.0));
+  EXPECT_EQ(std::tuple(found.kind, found.direction, found.extreme, found.rest),
+            std::tuple(Kind::sweep, 1, 990.0, 10.0));
   slider.detector.begin(Wanted::sweep);
   slider.move(ABS_THROTTLE, {600, 990, 500});
   EXPECT_EQ(slider.wait(kStill_ns).kind, Kind::nothing) << "half of the travel, and left in the middle";
