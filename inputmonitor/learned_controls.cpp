@@ -76,7 +76,7 @@ std::vector<RequestedControl> all_controls() {
   };
   add("TDC switch", "maps or designates", kPress, "tdc press", kTdc, 0.0);
   constexpr std::string_view kSwitches = "Switches of stick and throttle";
-  add("castle switch", "next point of the route", kPush, "coolie up", kSwitches, 0.0);
+  add("castle switch up", "next point of the route", kPush, "coolie up", kSwitches, 0.0);
   add("acquisition switch forward", "larger window", kPush, "acq fwd", kSwitches, 0.0);
   add("acquisition switch aft", "smaller window", kPush, "acq aft", kSwitches, 0.0);
   add("freeze", "the picture stands still", kPress, "freeze", kSwitches, 0.0);

@@ -146,7 +146,8 @@ Expected<void> write_map(const LearningDialogue& dialogue, const std::string& pa
   const std::string name = map_name(file);
   const std::string text =
       "; Made by input-monitor --learn.\n" + config::print_devices({dialogue.learning().device(name)});
-  const std::string count = std::to_string(dialogue.learning().learned()) + " controls";
+  const std::size_t learned = dialogue.learning().learned();
+  const std::string count = std::to_string(learned) + (learned == 1 ? " control" : " controls");
   if (file.empty()) {
     std::cerr << "\nThe map, with " << count << ":\n";
     std::cout << text;

@@ -118,7 +118,7 @@ TEST(Learning, SkipNextPartBackAndEnd) {
   dialogue.press(0x132);
   EXPECT_EQ(dialogue.learning.learned(), 1U);
   EXPECT_THAT(dialogue.type("n"), HasSubstr("TDC right"));
-  EXPECT_THAT(dialogue.type("n"), HasSubstr("castle switch"));
+  EXPECT_THAT(dialogue.type("n"), HasSubstr("castle switch up"));
   EXPECT_THAT(dialogue.type("\x1b[B\r "), IsEmpty()) << "an arrow key, Enter and a blank";
   EXPECT_THAT(dialogue.type("x"), HasSubstr("? shows"));
   EXPECT_FALSE(dialogue.learning.finished());
@@ -225,7 +225,7 @@ TEST(Learning, AHatIsCastleSwitchAndAcquisitionSwitch) {
   Dialogue dialogue;
   dialogue.skip_to("castle switch");
   dialogue.move(ABS_HAT0X, {1, 0});
-  EXPECT_THAT(dialogue.move(ABS_HAT0X, {1, 0}), HasSubstr("that is castle switch already"));
+  EXPECT_THAT(dialogue.move(ABS_HAT0X, {1, 0}), HasSubstr("that is castle switch up already"));
   dialogue.move(ABS_HAT0Y, {-1, 0, 1, 0});
   EXPECT_THAT(dialogue.request(), HasSubstr("freeze"));
   EXPECT_THAT(dialogue.events({axis(ABS_HAT0Y, -1), axis(ABS_HAT0Y, 0), axis(ABS_HAT0Y, 1), axis(ABS_HAT0Y, 0),
