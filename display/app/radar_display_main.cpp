@@ -56,7 +56,7 @@ class HeadlessDisplay {
         publisher_(std::move(publisher)),
         panel_edge_(options.shows_panel() ? display::panel_edge(size, options.bezel) : 0) {
     view_.bezel = options.bezel;
-    view_.tooltip = view_.lit = options.tooltip;
+    view_.tooltip = view_.lit = options.tooltip.value_or(0);
     mpd_.show_hints(true);
     mpd_.show_help(options.help);
   }
