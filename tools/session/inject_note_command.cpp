@@ -144,7 +144,7 @@ void report_json(const statemachine::AppliedSequence& applied) {
     const auto reason = done ? std::nullopt : statemachine::certain_reason(applied, i);
     events.push_back({{"event", databuffer::text_of(applied.events[i])},
                       {"effect", effect_name(applied.effects[i])},
-                      {"reason", reason ? nlohmann::ordered_json(*reason) : nlohmann::ordered_json(nullptr)}});
+                      {"reason", reason ? nlohmann::ordered_json(reason->words) : nlohmann::ordered_json(nullptr)}});
   }
   print_json({{"done", count_of(applied, databuffer::kEventDone)},
               {"without_effect", count_of(applied, databuffer::kEventDead)},
