@@ -22,6 +22,7 @@ namespace {
 
 using error::fail;
 
+constexpr const char* kFindDevice = "find the device in /dev/input/by-id; sticks end with -event-joystick";
 constexpr std::string_view kDeviceName = "event";  // device nodes are named /dev/input/eventN
 
 // Reads a bit set of the kernel by ioctl. On an error no bit is set. Assumes a little-endian machine.
@@ -58,8 +59,11 @@ DeviceInfo info_of(int descriptor) {
 error::Expected<std::unique_ptr<DeviceReader>> DeviceReader::open(const std::filesystem::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) {
-    const std::string why = std::generic_category().message(errno);
-    return fail(path.string(), "an input device that can be read", why, errno == EACCES ? kDevicePermission : "");
+    const int code = errno;
+    return fail(path.string(), "an input device that can be read", std::generic_category().message(code),
+                code == EACCES   ? kDevicePermission
+                : code == ENOENT ? kFindDevice
+                                 : "");
   }
   std::unique_ptr<DeviceReader> reader(new DeviceReader(descriptor));
   struct stat status {};
@@ -68,7 +72,7 @@ error::Expected<std::unique_ptr<DeviceReader>> DeviceReader::open(const std::fil
   if (S_ISCHR(status.st_mode)) reader->info_ = info_of(descriptor);
   if (reader->is_file_ || S_ISFIFO(status.st_mode) || reader->info_.known) return reader;
   return fail(path.string(), "an input device, a FIFO or a file of struct input_event", "another kind of file",
-              "find the device in /dev/input/by-id");
+              kFindDevice);
 }
 
 DeviceReader::~DeviceReader() {

@@ -1,79 +1,73 @@
-// Interactive learning of a device map. The program prompts for one control after the other; the user moves each.
-// Inputs: raw events; name, ids and axis ranges of the device; rest values of its axes.
-// Outputs: prompts and answers as text; the map as a radar::Device.
-// A button is identified when it is pressed. A hat or axis is identified when it has moved from rest and has returned.
-// The minimum move is kMinTravel of the range, or kMinTravelUnknown; 1 for a hat. The direction of the move gives the
-// sign of the axis. The value farthest from rest gives one end of the axis, and the rest value its centre.
+// The dialogue of `input-monitor --learn` as a state machine. It asks for one control after the other; the user moves
+// each, or types a key: skip, next part, back, again, end.
+// Inputs: raw events of the device, typed bytes, time.
+// Outputs: text for the user, whole lines; the map as a radar::Device.
+// Units: times in nanoseconds of one clock (CLOCK_MONOTONIC).
 // Threads: one thread per object. No system calls.
-// Source: docs/hardware.md, "Learning a map"
+// Source: docs/spec/commands.md#learn
 #pragma once
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "inputmonitor/device_decoder.hpp"
 #include "inputmonitor/device_map.hpp"
+#include "inputmonitor/gestures.hpp"
+#include "inputmonitor/learned_controls.hpp"
 #include "lib/radar/devices.hpp"
 
 namespace yars::inputmonitor {
 
-inline constexpr double kMinTravel = 0.3;        // minimum move, as a fraction of the full range; less is jitter
-inline constexpr double kMinTravelUnknown = 64;  // [raw units] minimum move of an axis with an unknown range
-inline constexpr double kReturned = 0.25;  // maximum distance from rest after the return, in fractions of the move
+inline constexpr std::int64_t kIdle_ns = 20'000'000'000;  // then the dialogue says that nothing has moved
+inline constexpr std::int64_t kHeld_ns = 3'000'000'000;   // then it says that a stick has not come back
+
+// How the user types: not at all, one key at a time, or lines that end with Enter.
+enum class Typing { none, keys, lines };
 
 class Learning {
  public:
-  // `rest`: code and rest value of the axes with a known state.
-  Learning(const DeviceInfo& info, const std::vector<std::pair<std::uint16_t, std::int32_t>>& rest);
+  using RestValues = std::vector<std::pair<std::uint16_t, std::int32_t>>;  // code, value
 
-  bool finished() const { return next_ == results_.size(); }
-  // Text of the current prompt: "PB 13 (13 of 33)".
-  std::string prompt() const;
-  // Takes a raw event and returns an answer for the user: the control found, or why this control is refused. Empty if
-  // the event neither presses a button nor ends the move of a hat or axis.
-  std::string feed(const RawEvent& raw);
-  void skip();                  // goes to the next prompt; the control remains unknown
-  void back();                  // goes to the previous prompt and discards its result
-  std::size_t learned() const;  // number of controls found; each direction of an axis counts as one
+  // `rest`: values of the axes with a known state.
+  Learning(DeviceInfo info, const RestValues& rest, Typing typing);
 
+  // Each of these returns what to tell the user: whole lines, or nothing.
+  std::string begin(std::int64_t now_ns);  // the keys, and the first request
+  std::string feed(const RawEvent& raw, std::int64_t now_ns);
+  std::string type(std::string_view bytes, std::int64_t now_ns);
+  std::string wait(std::int64_t now_ns);  // call it every few tenths of a second
+  std::string reconnect(const RestValues& rest, std::int64_t now_ns);
+
+  bool finished() const { return ended_ || next_ == requested_controls().size(); }
+  std::size_t learned() const { return controls_.count(); }
   // Device map of the controls found so far.
   radar::Device device(const std::string& name) const;
 
  private:
-  // hat: one direction of a hat or axis, in answer to a prompt for a switch. axis: the same for a prompt for an axis.
-  enum class Found { nothing, button, hat, axis };
-  struct Result {
-    Found found = Found::nothing;
-    std::uint16_t code = 0;
-    int direction = 1;          // hat or axis: +1 moved to the high end, -1 to the low end
-    double extreme = 0.0;       // [raw units] hat or axis: value farthest from rest
-    double rest = 0.0;          // [raw units]
-    double return_error = 0.0;  // [raw units] hat or axis: distance from rest after the return
-  };
-  // Rest value, minimum and maximum of an axis [raw units]. begin_prompt() sets minimum and maximum to the rest value.
-  struct Watched {
-    double rest = 0.0;
-    double min = 0.0;
-    double max = 0.0;
-  };
-
-  std::string take_button(std::uint16_t code);
-  std::string take_axis(std::uint16_t code, std::int32_t value);
-  std::string take_result(const Result& result, const std::string& name);
-  const Result* opposite() const;
-  void add_axis(radar::Device& device, std::size_t first) const;
-  void add_switch(radar::Device& device, std::size_t index) const;
-  void begin_prompt();
+  std::string request(std::int64_t now_ns);
+  void begin_request(bool after_press);
+  std::string take(const Gesture& gesture, std::int64_t now_ns);
+  std::string take_key(char key, std::int64_t now_ns);
+  std::string skip(std::size_t to, std::int64_t now_ns);
+  std::string back(std::int64_t now_ns);
+  std::size_t next_part() const;
+  std::string keys_text() const;
+  std::string hint(std::string_view text);
 
   DeviceInfo info_;
-  std::map<std::uint16_t, Watched> watched_;  // by code of the axis
-  std::vector<Result> results_;               // one per prompt
-  std::size_t next_ = 0;                      // index of the current prompt
+  Typing typing_;
+  GestureDetector detector_;
+  LearnedControls controls_;
+  std::size_t next_ = 0;         // index of the control that is asked for
+  std::string_view shown_part_;  // title of the part that was shown last
+  std::int64_t asked_ns_ = 0;    // time of the request, or of the last key
+  bool hinted_ = false;          // a hint about a stick was given for this request
+  bool idle_reported_ = false;   // for this request
+  bool ended_ = false;           // by the user
 };
 
 }  // namespace yars::inputmonitor

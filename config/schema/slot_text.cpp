@@ -100,10 +100,14 @@ std::string heading(const FormSchema& form) {
   return std::string(form.name) + base + ": " + std::string(form.purpose);
 }
 
+// full: every slot. explained: with a comment before each. brief: without slots that have their default, one line for a
+// form without forms in it.
+enum class PrintStyle { full, explained, brief };
+
 // Prints the forms of a configuration as GUF text.
 class Printer {
  public:
-  Printer(BuilderPointer builder, bool explained) : builder_(std::move(builder)), explained_(explained) {}
+  Printer(BuilderPointer builder, PrintStyle style) : builder_(std::move(builder)), style_(style) {}
 
   std::string print(std::string_view outermost = "Apg70") {
     write_form(*find_form(outermost).schema, 0);
@@ -116,26 +120,49 @@ class Printer {
 
   void write_form(const FormSchema& form, int depth) {
     written_.insert(form.name);
-    if (explained_) line(depth, "; " + heading(form));
+    if (explained()) line(depth, "; " + heading(form));
+    const auto has_forms = [](const SlotSchema& slot) { return std::holds_alternative<FormSlot>(slot.binding); };
+    if (style_ == PrintStyle::brief && std::ranges::none_of(form.slots, has_forms)) {
+      line(depth, brief_form(form));
+      return;
+    }
     line(depth, std::string("( ").append(form.name));
     for (std::size_t i = 0; i < form.slots.size(); ++i) write_slot(form, i, depth + 1);
     line(depth, ")");
   }
 
+  std::string brief_form(const FormSchema& form) {
+    std::string text = std::string("( ").append(form.name);
+    for (const SlotSchema& slot : form.slots) {
+      const std::string value = value_text(form, slot);
+      if (!value.empty()) text.append(" :").append(slot.name).append(" ").append(value);
+    }
+    return text + " )";
+  }
+
+  // The value of a slot as GUF text; in brief style empty where it is the default of its form.
+  std::string value_text(const FormSchema& form, const SlotSchema& slot) {
+    const std::string value = slot_text(*builder_, slot);
+    // A word says what an axis is for, also where it is the default.
+    if (style_ != PrintStyle::brief || !form.begin || std::holds_alternative<ChoiceSlot>(slot.binding)) return value;
+    form.begin(*defaults_);
+    return value == slot_text(*defaults_, slot) ? std::string() : value;
+  }
+
   void write_slot(const FormSchema& form, std::size_t index, int depth) {
     const SlotSchema& slot = form.slots[index];
-    if (explained_) line(depth, "; " + explanation(form, index));
+    if (explained()) line(depth, "; " + explanation(form, index));
     if (!slot.same_as.empty()) return;
     if (const auto* forms = std::get_if<FormSlot>(&slot.binding)) {
       write_forms(slot, *forms, depth);
       return;
     }
-    const std::string value = slot_text(*builder_, slot);
+    const std::string value = value_text(form, slot);
     if (!value.empty()) line(depth, std::string(":").append(slot.name) + " " + value);
   }
 
   void write_forms(const SlotSchema& slot, const FormSlot& forms, int depth) {
-    if (forms.printed.empty()) return;
+    if (forms.printed.empty() || (style_ == PrintStyle::brief && is_empty(forms))) return;
     line(depth, std::string(":").append(slot.name) + (forms.many ? " `(" : ""));
     if (forms.load) forms.load(*builder_);
     for (const std::string_view name : forms.printed) {
@@ -149,8 +176,18 @@ class Printer {
     if (forms.many) line(depth, ")");
   }
 
+  bool is_empty(const FormSlot& forms) {
+    return std::ranges::all_of(forms.printed, [this](std::string_view name) {
+      const FormSchema& form = *find_form(name).schema;
+      return form.count && form.count(*builder_) == 0;
+    });
+  }
+
+  bool explained() const { return style_ == PrintStyle::explained; }
+
   BuilderPointer builder_;
-  bool explained_;
+  BuilderPointer defaults_ = new_builder();
+  PrintStyle style_;
   std::string text_;
   std::set<std::string_view> written_;
 };
@@ -158,11 +195,11 @@ class Printer {
 }  // namespace
 
 std::string print_configuration(const radar::RadarConfiguration& configuration) {
-  return Printer(builder_of(configuration), false).print();
+  return Printer(builder_of(configuration), PrintStyle::full).print();
 }
 
 std::string print_explained(const radar::RadarConfiguration& configuration) {
-  Printer printer(builder_of(configuration), true);
+  Printer printer(builder_of(configuration), PrintStyle::explained);
   std::string text = "; A slot is given by name, or by the position in parentheses.\n\n" + printer.print();
   text += "\n; Further forms.\n";
   for (const FormSchema& form : schema()) {
@@ -176,7 +213,7 @@ std::string print_explained(const radar::RadarConfiguration& configuration) {
 std::string print_devices(const std::vector<radar::Device>& devices) {
   const BuilderPointer builder = new_builder();
   builder->radar.devices = devices;
-  return Printer(builder, false).print("Devices");
+  return Printer(builder, PrintStyle::brief).print("Devices");
 }
 
 namespace {

@@ -24,7 +24,8 @@ std::string print_configuration(const radar::RadarConfiguration& configuration);
 // not printed follow as comments.
 std::string print_explained(const radar::RadarConfiguration& configuration);
 
-// The form Devices as GUF text. Each radar::Device states what the buttons and axes of one input device do.
+// The form Devices as GUF text. Each radar::Device states what the buttons and axes of one input device do. A slot that
+// has its default is left out.
 std::string print_devices(const std::vector<radar::Device>& devices);
 
 // Names of the groups of forms. Every form is in one group. The manual has a page for each group:

@@ -4,6 +4,7 @@
 #include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "inputmonitor/app/input_monitor_shell.hpp"
+#include "inputmonitor/app/learning_shell.hpp"
 #include "inputmonitor/source_choice.hpp"
 #include "lib/log/log.hpp"
 
@@ -75,8 +76,9 @@ int main(int argc, char** argv) {
       .value_name("SOURCE")
       .repeatable()
       .otherwise("auto");
-  databuffer::Option learn = app.option(
-      "--learn", learn_path, "path of a device: prompts for its controls and makes a device map; needs no session");
+  databuffer::Option learn =
+      app.option("--learn", learn_path,
+                 "path of a device: asks for one control after the other and makes a device map; needs no session");
   learn.value_name("FILE").otherwise("events are sent");
   app.option("--out", map_file, "file for the map of --learn")
       .value_name("FILE")

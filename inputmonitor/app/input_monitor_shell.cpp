@@ -1,22 +1,12 @@
 #include "inputmonitor/app/input_monitor_shell.hpp"
 
-#include <poll.h>
-#include <unistd.h>
-
 #include <array>
 #include <cstring>
-#include <filesystem>
-#include <iostream>
 #include <utility>
 
-#include "config/schema/slot_text.hpp"
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/process.hpp"
-#include "inputmonitor/device_decoder.hpp"
-#include "inputmonitor/device_source.hpp"
-#include "inputmonitor/learning.hpp"
-#include "lib/file/output_file.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -126,101 +116,6 @@ void InputMonitorShell::push(const std::vector<databuffer::InputEvent>& events, 
     session_->note(databuffer::NoteKind::loss, "input lane full, dropped: " + databuffer::text_of(event));
     log::warning("the input lane is full, is state-machine running? dropped: " + databuffer::text_of(event));
   }
-}
-
-namespace {
-
-using error::Expected;
-using error::fail;
-
-// Learning dialogue: prompts the user at the terminal and reads the device.
-class LearningDialogue {
- public:
-  LearningDialogue(DeviceReader& reader, Learning& learning) : reader_(&reader), learning_(&learning) {}
-
-  // Runs until no prompt is left, the device disconnects, the user quits, or a signal stops the program. Returns true
-  // if the device has disconnected.
-  bool run() {
-    show_prompt();
-    while (!learning_->finished() && !ended_ && !databuffer::stop_requested()) {
-      std::array<pollfd, 2> wanted{{{reader_->descriptor(), POLLIN, 0}, {stdin_open_ ? STDIN_FILENO : -1, POLLIN, 0}}};
-      poll(wanted.data(), wanted.size(), kMaxWait_ms);
-      if (wanted[1].revents != 0) read_commands();
-      if (!read_device()) return true;
-    }
-    return false;
-  }
-
- private:
-  void show_prompt() const {
-    if (!learning_->finished()) std::cerr << "? " << learning_->prompt() << std::endl;
-  }
-
-  bool read_device() {
-    std::array<std::byte, 64 * kRecordBytes> bytes;
-    std::size_t count = 0;
-    const auto outcome = reader_->read(bytes, count);
-    for (const RawEvent& raw : stream_.feed({bytes.data(), count})) {
-      const std::string answer = learning_->feed(raw);
-      if (answer.empty()) continue;
-      std::cerr << "  " << answer << '\n';
-      show_prompt();
-    }
-    return outcome != DeviceReader::Outcome::gone;
-  }
-
-  void read_commands() {
-    std::array<char, 256> bytes;
-    const ssize_t count = ::read(STDIN_FILENO, bytes.data(), bytes.size());
-    stdin_open_ = count > 0;
-    for (ssize_t i = 0; i < count; ++i) {
-      const char command = bytes[static_cast<std::size_t>(i)];
-      if (command == 's') learning_->skip();
-      if (command == 'b') learning_->back();
-      if (command == 'q') ended_ = true;
-      if (command == 's' || command == 'b') show_prompt();
-    }
-  }
-
-  DeviceReader* reader_;
-  Learning* learning_;
-  RecordStream stream_;
-  bool stdin_open_ = true;  // standard input is not at its end
-  bool ended_ = false;
-};
-
-Expected<void> write_map(const Learning& learning, const std::string& file) {
-  const std::string name = file.empty() ? "learned" : std::filesystem::path(file).stem().string();
-  const std::string text = "; Made by input-monitor --learn.\n" + config::print_devices({learning.device(name)});
-  if (file.empty()) {
-    std::cout << text;
-    return {};
-  }
-  if (auto written = file::write_file(file, text); !written) return written;
-  std::cerr << "wrote " << file << ": " << learning.learned() << " controls, map " << name
-            << "; input-monitor --config " << file << " uses it\n";
-  return {};
-}
-
-}  // namespace
-
-Expected<void> learn_device(const std::string& path, const std::string& file) {
-  const auto reader = DeviceReader::open(path);
-  if (!reader) return tl::unexpected(reader.error());
-  const auto state = (*reader)->state();
-  Learning learning((*reader)->info(), state ? state->axes : decltype(DeviceState::axes){});
-  std::cerr
-      << "Move the control that each prompt names. Commands, each with Enter: s skips the control, b goes back to the\n"
-         "previous one, q ends and writes the map.\n";
-  const bool disconnected = LearningDialogue(**reader, learning).run();
-  if (learning.learned() == 0)
-    return fail(path, "at least one learned control", disconnected ? "a disconnected device" : "none",
-                "nothing was written");
-  if (auto written = write_map(learning, file); !written) return written;
-  if (disconnected && !learning.finished())
-    return fail(path, "a device connected until the last prompt", "a disconnection at " + learning.prompt(),
-                "the map has the controls learned so far");
-  return {};
 }
 
 }  // namespace yars::inputmonitor

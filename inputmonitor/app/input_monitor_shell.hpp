@@ -1,8 +1,7 @@
-// Shells of input-monitor. One feeds events into a session. The other (--learn) makes a device map, which assigns
-// events to the controls of a device.
-// Inputs: an EventSource; for --learn, a device and the commands on standard input.
-// Outputs: events in an input lane; the caption of a tour; for --learn, a device map as GUF text. A live session's log
-// says why an event of this source was without effect or refused, and what to do.
+// Shell of input-monitor in a session: feeds the events of a source into an input lane.
+// Inputs: an EventSource.
+// Outputs: events in an input lane; the caption of a tour. A live session's log says why an event of this source was
+// without effect or refused, and what to do.
 // Time stamps: an event in the lane has the sim time [ns] and the CLOCK_MONOTONIC time [ns] at which it was taken from
 // its source, and a sequence number.
 // Errors: an event for a full lane is dropped. The drop is written to the log and to the session's flight recorder.
@@ -12,14 +11,12 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "inputmonitor/event_source.hpp"
-#include "lib/error/error.hpp"
 
 namespace yars::inputmonitor {
 
@@ -50,15 +47,9 @@ class InputMonitorShell {
   std::uint32_t number_ = 0;
   std::uint64_t applied_cursor_ = 0;                  // applied event to read next
   std::optional<databuffer::Caption> caption_shown_;  // caption in the segment; nullopt: none
-  std::array<databuffer::InputEvent, 16> recent_{};  // events pushed last; event n has index n mod 16
+  std::array<databuffer::InputEvent, 16> recent_{};   // events pushed last; event n has index n mod 16
   databuffer::Validated<databuffer::PilotAdvice> advice_;
   std::uint64_t idle_count_ = 0;  // PilotAdvice::idle_count that was reported last
 };
-
-// `input-monitor --learn PATH [--out FILE]`: prompts for each control, reads the device and writes its map as GUF.
-// Needs no session. Prompts go to standard error. An empty `file` selects standard output for the map.
-// Errors: the device cannot be read; no control was learned; the file cannot be written; the device disconnected before
-// the last prompt (the controls learned until then are written).
-error::Expected<void> learn_device(const std::string& path, const std::string& file);
 
 }  // namespace yars::inputmonitor

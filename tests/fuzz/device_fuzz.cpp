@@ -39,15 +39,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::span<const std::byte> bytes = std::as_bytes(std::span(data + 1, size - 1));
   RecordStream stream;
   DeviceDecoder decoder(kReady);
-  Learning learning({}, {});
+  Learning learning({}, {}, Typing::none);
+  learning.begin(0);
   std::int64_t now_ns = 0;
   for (std::size_t at = 0; at < bytes.size(); at += fragment) {
     for (const RawEvent& raw : stream.feed(bytes.subspan(at, std::min(fragment, bytes.size() - at)))) {
       decoder.feed(raw, now_ns);
       if (decoder.needs_resync()) decoder.resync(std::nullopt, now_ns);
-      learning.feed(raw);
+      learning.feed(raw, now_ns);
     }
     now_ns += 3'000'000;
+    learning.wait(now_ns);
     check(decoder.take(now_ns));
   }
   decoder.release_all();
