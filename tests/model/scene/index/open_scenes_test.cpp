@@ -12,11 +12,11 @@
 namespace yars::model::scene {
 namespace {
 
-constexpr geo::GeoPoint kOrigin{37.5, -122.3};
+constexpr geo::GeoPoint kScenesOrigin{37.5, -122.3};
 
-// A scene of one object of this name at kOrigin.
+// A scene of one object of this name at kScenesOrigin.
 std::vector<std::byte> box(const std::string& name) {
-  worldgen::OpenFlightWriter writer(kOrigin);
+  worldgen::OpenFlightWriter writer(kScenesOrigin);
   worldgen::MeshBuilder mesh_builder(writer);
   writer.begin_object(name);
   mesh_builder.box({0, 0, 0}, 20, 10, 8);
@@ -25,7 +25,7 @@ std::vector<std::byte> box(const std::string& name) {
 }
 
 bool has_object(SceneStore& store, const std::string& name) {
-  const SceneViewPointer view = store.prepare({kOrigin, 1000, 0});
+  const SceneViewPointer view = store.prepare({kScenesOrigin, 1000, 0});
   return std::ranges::any_of(view->objects(), [&](const SceneObject& object) { return object.name == name; });
 }
 
