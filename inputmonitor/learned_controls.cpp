@@ -16,13 +16,13 @@ constexpr int kPushButtons = 20;
 constexpr int kButtonsPerSide = 5;
 
 // What each push button of the display does (docs/spec/pilots_interface.md#buttons).
-constexpr std::array<std::string_view, kPushButtons> kUses{"no use",
+constexpr std::array<std::string_view, kPushButtons> kUses{"not used",
                                                            "declutter",
                                                            "gain",
                                                            "brightness up",
                                                            "brightness down",
                                                            "mode",
-                                                           "use of the cursor",
+                                                           "cursor function",
                                                            "stabilized or progressive maps",
                                                            "width of the scan",
                                                            "new, old and stored map",
