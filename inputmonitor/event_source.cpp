@@ -110,7 +110,8 @@ error::Expected<Script> parse_script(std::string_view text, std::string_view nam
   const auto times = read_script_lines(
       text, name, "TIME_S EVENT, +DT_S EVENT or end", {}, [&](const ScriptLine& line) -> error::Expected<void> {
         const auto event = databuffer::event_from_text(line.what);
-        if (!event) return error::fail(line.location, event.error().expected, event.error().found, event.error().action);
+        if (!event)
+          return error::fail(line.location, event.error().expected, event.error().found, event.error().action);
         script.events.push_back({line.time_ns, *event});
         return {};
       });

@@ -154,8 +154,8 @@ std::string offsets() {
                     {"traffic_latched", offsetof(SessionLayout, traffic_latched)},
                     {"frames", offsetof(SessionLayout, frames)},
                     {"counters", offsetof(SessionLayout, counters)},
-                     {"caption", offsetof(SessionLayout, caption)},
-                     {"advice", offsetof(SessionLayout, advice)}});
+                    {"caption", offsetof(SessionLayout, caption)},
+                    {"advice", offsetof(SessionLayout, advice)}});
 }
 
 std::string lock_bytes() {

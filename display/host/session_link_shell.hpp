@@ -61,7 +61,7 @@ class SessionFeed {
   databuffer::Validated<databuffer::RadarState> state_;
   databuffer::Validated<databuffer::ModelStatus> status_;
   databuffer::Validated<databuffer::Caption> caption_;
-  bool tour_runs_ = false;           // a process holds the role `tour`; always true in lockstep
+  bool tour_runs_ = false;  // a process holds the role `tour`; always true in lockstep
   databuffer::Validated<databuffer::PilotAdvice> advice_;
   std::int64_t next_health_ns_ = 0;  // CLOCK_MONOTONIC time of the next reading of the process table
 };

@@ -177,7 +177,8 @@ std::string advice_on_point(const statemachine::AppliedSequence& applied, const 
     points.push_back(name);
     names += (names.empty() ? "" : ", ") + name;
   }
-  if (const auto meant = text::nearest_word(text::text_of(event.text), points)) return "did you mean 'sp " + *meant + "'?";
+  if (const auto meant = text::nearest_word(text::text_of(event.text), points))
+    return "did you mean 'sp " + *meant + "'?";
   return names.empty() ? std::string() : "points on the display: " + names;
 }
 

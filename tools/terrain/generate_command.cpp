@@ -170,7 +170,8 @@ void add_terrain_generate(databuffer::Command terrain) {
   command.flag("--culture,!--no-culture", options->culture,
                "surface materials beside each cell, wLLL/nBB.smc.png; on by default");
   command.flag("--sea", options->sea, "also write cells with only sea (a cell without a file is sea)");
-  command.option("--threads", options->threads, "number of threads, 0 for one per core; the files do not depend on it").range(0, 256);
+  command.option("--threads", options->threads, "number of threads, 0 for one per core; the files do not depend on it")
+      .range(0, 256);
   add_json_flag(command, options->json);
   command.callback([options] {
     check_folder_name("--out", options->out);

@@ -25,6 +25,6 @@ complete -c input-monitor -l lockstep -x -d 'roles that step together on sim tim
 complete -c input-monitor -l log-dir -x -a '(__fish_complete_directories)' -d 'folder for a rotated log file'
 complete -c input-monitor -l realtime -d 'lock memory, run the tick loop under SCHED_FIFO; a refusal is logged'
 complete -c input-monitor -l cpus -x -d 'CPUs to run on, as in 2,3 or 2-3'
-complete -c input-monitor -l source -x -a '(__yars_source auto evdev: script: terminal window)' -d 'window, terminal, script:FILE, evdev:PATH[,MAP] or auto; repeatable'
+complete -c input-monitor -l source -x -a '(__yars_source auto evdev: script: terminal tour: window)' -d 'window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto; repeatable'
 complete -c input-monitor -l learn -r -F -d 'path of a device: asks for one control after the other and makes a device map; needs no session'
 complete -c input-monitor -l out -r -F -d 'file for the map of --learn'

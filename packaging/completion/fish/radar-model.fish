@@ -25,5 +25,5 @@ complete -c radar-model -l lockstep -x -d 'roles that step together on sim time,
 complete -c radar-model -l log-dir -x -a '(__fish_complete_directories)' -d 'folder for a rotated log file'
 complete -c radar-model -l realtime -d 'lock memory, run the tick loop under SCHED_FIFO; a refusal is logged'
 complete -c radar-model -l cpus -x -d 'CPUs to run on, as in 2,3 or 2-3'
-complete -c radar-model -l terrain -x -a '(__fish_complete_directories)' -d 'folder of elevation cells: DTED, HGT, DED, packs, rasters (GDAL)'
+complete -c radar-model -l terrain -x -a '(__fish_complete_directories)' -d 'folder of elevation cells: DTED, HGT, DED, packs, rasters'
 complete -c radar-model -l samples -x -d 'samples of a sweep'
