@@ -55,6 +55,11 @@ class PlotTrade(unittest.TestCase):
             self.assertEqual(run(str(source), str(picture)), (0, ""))
             self.assertEqual(picture.read_bytes()[:4], b"\x89PNG")
 
+    def test_help_is_no_error(self):
+        done = subprocess.run([sys.executable, str(PLOT), "--help"], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertIn("FILE.json FILE.png", done.stdout)
+
     def test_bad_input_is_one_line(self):
         with tempfile.TemporaryDirectory() as folder:
             broken = pathlib.Path(folder, "broken.json")
