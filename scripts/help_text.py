@@ -95,6 +95,8 @@ def entry_of(head, lines):
         words = words[:-2]
     kind = words[1] if len(words) > 1 else words[0] if is_argument else ""
     names = [words[0]] if is_argument else words[0].split(",")
+    if kind.startswith("["):  # a word that may be missing
+        count = 0
     return Entry(names, kind, count if kind else 0, repeats, lines)
 
 

@@ -31,7 +31,7 @@ faults = []
 
 def run(words):
     start = [str(BIN / words[0])] if words[0] != "yars-start" else [str(TOP / "scripts/start")]
-    environment = {**help_text.environment(), "YARS_SESSION": SESSION}
+    environment = {**help_text.environment(), "YARS_SESSION": SESSION, "YARS_BIN_DIR": str(BIN)}
     return subprocess.run(start + words[1:], capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL,
                           env=environment)
 

@@ -17,7 +17,7 @@ end
 
 complete -c yars-start -f
 complete -c yars-start -s h -l help -d 'print this help'
-complete -c yars-start -l tour -x -d 'a guided tour over the generated coast, with captions; ends by itself. With pilot it waits'
+complete -c yars-start -l tour -d 'a guided tour over the generated coast, with captions; ends by itself. With pilot it waits'
 complete -c yars-start -l terrain -x -a '(__fish_complete_directories)' -d 'DTED, HGT, DED, packs, rasters'
 complete -c yars-start -l config -r -F -d 'GUF configuration'
 complete -c yars-start -l session -x -a '(__yars_sessions)' -d 'session to make'
