@@ -280,21 +280,18 @@ TEST(Validation, RecorderStatusIsChecked) {
 }
 
 TEST(Validation, CaptionsAreChecked) {
-  Caption caption{};
-  EXPECT_EQ(validate(caption), std::nullopt);
-  caption.step = kMaxCaptions + 1;
-  EXPECT_TRUE(validate(caption));
-  caption = {};
-  caption.waiting = 2;
-  EXPECT_TRUE(validate(caption));
-  caption = {};
-  std::memset(caption.lines[2].text, 'A', sizeof caption.lines[2].text);
-  EXPECT_TRUE(validate(caption)) << "without a zero at its end";
-  std::strcpy(caption.lines[2].text, "\x1b[2J");
-  EXPECT_TRUE(validate(caption));
-  caption = {};
-  caption.sim_time_ns = -1;
-  EXPECT_TRUE(validate(caption));
+  const auto is_refused = [](auto change) {
+    Caption caption{};
+    EXPECT_EQ(validate(caption), std::nullopt);
+    change(caption);
+    return validate(caption).has_value();
+  };
+  EXPECT_TRUE(is_refused([](Caption& caption) { caption.step = kMaxCaptions + 1; }));
+  EXPECT_TRUE(is_refused([](Caption& caption) { caption.waiting = 2; }));
+  EXPECT_TRUE(is_refused([](Caption& caption) { caption.sim_time_ns = -1; }));
+  EXPECT_TRUE(is_refused([](Caption& caption) { std::strcpy(caption.lines[2].text, "\x1b[2J"); }));
+  EXPECT_TRUE(is_refused([](Caption& caption) { std::memset(caption.lines[2].text, 'A', sizeof caption.lines[2].text); }))
+      << "without a zero at its end";
 }
 
 TEST(Validation, TextsOfTheAdviceArePrintableAndEnd) {
