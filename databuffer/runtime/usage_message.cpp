@@ -149,6 +149,16 @@ std::optional<Error> flag_with_value(const std::vector<const CLI::App*>& chain, 
   return std::nullopt;
 }
 
+// An option of text that took the name of another option as its value.
+std::optional<Error> option_as_value(const std::vector<const CLI::App*>& chain) {
+  for (const CLI::App* command : chain)
+    for (const CLI::Option* option : command->get_options())
+      for (const std::string& value : option->results())
+        if (option->nonpositional() && is_option_like(value) && option_named(chain, value) != nullptr)
+          return Error{option->get_name(), expected_value(*option), "the option '" + value + "'", "", true};
+  return std::nullopt;
+}
+
 // The last option of the command line, after which there are too few words.
 std::optional<Error> missing_value(const std::vector<const CLI::App*>& chain, const std::vector<std::string>& words) {
   for (std::size_t after = 0; after < words.size(); ++after) {
@@ -192,6 +202,7 @@ UsageMessage usage_message(const CLI::App& app, const CLI::ParseError& outcome, 
   // Only command_line.cpp makes errors of this type: their text is "OPTION: expected ..., found ...".
   if (dynamic_cast<const CLI::ValidationError*>(&outcome) != nullptr) return message_of(chain.back(), outcome.what());
   std::optional<UsageMessage> message;
+  if (const auto error = option_as_value(chain)) return message_of(chain.back(), *error);
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&outcome) != nullptr) message = about_count(chain, words);
   // A misspelled word is also the reason why another is missing.
   if (!message && !words_left(app).empty()) message = about_word_left(chain, words_left(app).front());

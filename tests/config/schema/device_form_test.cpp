@@ -74,7 +74,8 @@ TEST(DeviceForm, ErrorsNameTheSlotOrItsValue) {
   EXPECT_THAT(refusal(device(R"(:products "b351 b35")")), HasSubstr("four hexadecimal digits"));
   EXPECT_THAT(refusal(device(R"(:has "BTN_NO")")), HasSubstr(":has"));
   EXPECT_THAT(refusal(device(R"(:buttons `( ( Button "BTN_NO" "pb 1" ) ))")), HasSubstr("BTN_NO"));
-  EXPECT_THAT(refusal(device(R"(:buttons `( ( Button "BTN_TOP" "pb 21" ) ))")), HasSubstr("an event"));
+  EXPECT_THAT(refusal(device(R"(:buttons `( ( Button "BTN_TOP" "pb 21" ) ))")),
+              HasSubstr("expected pb 1..20 for :press"));
   EXPECT_THAT(refusal(device(R"(:buttons `( ( Button "BTN_TOP" "pb 1" "nothing" ) ))")), HasSubstr(":release"));
   EXPECT_THAT(refusal(device(R"(:axes `( ( Axis "ABS_X" :low 0 ) ))")), HasSubstr("low and high"));
   EXPECT_THAT(refusal(device(R"(:axes `( ( Axis "ABS_X" :low 5 :high 5 ) ))")), HasSubstr("more than low"));

@@ -188,7 +188,7 @@ def layout_of(chapters):
     names = clients.OFFSETS
     return {"version": 3, "size": 4096, "hash": "0123456789abcdef", "offsets": {name: 64 for name in names},
             "containers": {name: {"kind": "LatestValue", "record": "X", **numbers} for name in names},
-            "lock_bytes": dict.fromkeys(("radar-model", "state-machine", "traffic", "first_ownship_lane", "first_input_lane",
+            "lock_bytes": dict.fromkeys(("radar-model", "state-machine", "traffic", "tour", "first_ownship_lane", "first_input_lane",
                                          "first_process"), 1),
             "records": {one.name: {"size": one.size, "fields": {field.name: [field.offset, field.size] for field in one.fields
                                                                 if not field.reserved}}

@@ -217,7 +217,7 @@ TEST(Validation, LegendsAndMessageEndWithZero) {
 
 TEST(Validation, EventArgumentsAreChecked) {
   EXPECT_TRUE(validate(event_of(EventKind::none, 0)));
-  EXPECT_TRUE(validate(event_of(static_cast<EventKind>(19), 0)));
+  EXPECT_TRUE(validate(event_of(static_cast<EventKind>(static_cast<int>(EventKind::cursor) + 1), 0)));
   for (int argument = -300; argument <= 300; ++argument) {
     const auto valid = [argument](EventKind kind) { return !validate(event_of(kind, argument)); };
     EXPECT_EQ(valid(EventKind::push_button), argument >= 1 && argument <= 20);
@@ -290,8 +290,9 @@ TEST(Validation, CaptionsAreChecked) {
   EXPECT_TRUE(is_refused([](Caption& caption) { caption.waiting = 2; }));
   EXPECT_TRUE(is_refused([](Caption& caption) { caption.sim_time_ns = -1; }));
   EXPECT_TRUE(is_refused([](Caption& caption) { std::strcpy(caption.lines[2].text, "\x1b[2J"); }));
-  EXPECT_TRUE(is_refused([](Caption& caption) { std::memset(caption.lines[2].text, 'A', sizeof caption.lines[2].text); }))
-      << "without a zero at its end";
+  EXPECT_TRUE(is_refused([](Caption& caption) {
+    std::memset(caption.lines[2].text, 'A', sizeof caption.lines[2].text);
+  })) << "without a zero at its end";
 }
 
 TEST(Validation, TextsOfTheAdviceArePrintableAndEnd) {
