@@ -111,10 +111,10 @@ error::Expected<std::size_t> read_local_pool(const Record& record, double metres
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = kPoolHead + i * layout.stride;
     TreeVertex vertex;
-    vertex.position = metres_per_unit *
-                      Vector3{record.number_or(at, 0.0), record.number_or(at + 8, 0.0), record.number_or(at + 16, 0.0)};
+    vertex.position = metres_per_unit * Vector3{*record.number<double>(at), *record.number<double>(at + 8),
+                                                *record.number<double>(at + 16)};
     for (std::size_t axis = 0; layout.has_normal && axis < 3; ++axis)
-      vertex.normal[axis] = record.number_or(at + layout.normal + 4 * axis, 0.0F);
+      vertex.normal[axis] = *record.number<float>(at + layout.normal + 4 * axis);
     vertices.push_back(vertex);
   }
   return count;
