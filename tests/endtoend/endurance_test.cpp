@@ -1,6 +1,7 @@
 // Long run of a set at ten times real time. Checks the rate of sim time, the flown position, the age of records,
-// losses, and the growth of memory, open files and threads. 20 s by default; YARS_ENDURANCE_SECONDS=3600 with
-// YARS_ENDURANCE_TERRAIN=DIR runs for an hour. With an X display, radar-display opens a window. Prints measurements.
+// losses unless a program was kept from running, and the growth of memory, open files and threads. 20 s by default;
+// YARS_ENDURANCE_SECONDS=3600 with YARS_ENDURANCE_TERRAIN=DIR runs for an hour. With an X display, radar-display opens
+// a window. Prints measurements.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -28,6 +29,9 @@ constexpr double kRate = 10.0;            // times real time
 constexpr double kPollInterval_s = 0.25;  // [s] wall time between measurements
 constexpr double kWarmUp = 0.25;          // fraction of the run before resources must stay constant
 constexpr double kMaxAge_s = 0.5;         // [s] sim time by which the last record may be behind the clock
+// [s] wall time: half of the time for which the ring of sweeps holds what a program has not read yet. A program that
+// does not run for longer, because the machine is overloaded, may lose sweeps, and reports it.
+constexpr double kMaxStall_s = 0.5 * 5.0 / kRate;
 constexpr double kMaxOffset_m =
     50;  // [m] from the expected position; flight-model may replace skipped ticks by one longer step
 #ifdef __SANITIZE_ADDRESS__
@@ -167,6 +171,8 @@ class Endurance : public ::testing::Test {
     most_off_m_ = std::max(most_off_m_, off_m);
     late_ticks_ = model.late_ticks;
     sweeps_ = model.sweeps;
+    for (const auto& process : session_->processes())
+      stall_s_ = std::max(stall_s_, 1e-9 * static_cast<double>(now_ns - process.heartbeat_ns));
   }
 
   std::uint64_t losses() const {
@@ -177,8 +183,8 @@ class Endurance : public ::testing::Test {
     std::cout << std::fixed << "after " << wall_s << " s at " << kRate << " times real time: " << sweeps_
               << " sweeps, losses " << losses() << ", late ticks " << late_ticks_
               << "; sim time off its rate by at most " << clock_drift_s_ << " s; records behind by at most "
-              << most_age_s_ << " s; position off by " << first_off_m_.value_or(0.0) << " m at first, at most "
-              << most_off_m_ << " m\n";
+              << most_age_s_ << " s; longest stall " << stall_s_ << " s; position off by " << first_off_m_.value_or(0.0)
+              << " m at first, at most " << most_off_m_ << " m\n";
     for (const Role& role : roles_)
       std::cout << "  " << role.name << ": " << role.warm.resident_kB << " kB warm, " << role.last.resident_kB
                 << " kB now, most " << role.most_kB << " kB; files " << role.warm.files << " -> " << role.last.files
@@ -202,6 +208,7 @@ class Endurance : public ::testing::Test {
   double most_age_s_ = 0.0;  // [s] sim time by which ownship records were behind the clock
   double last_age_s_ = 0.0;
   double most_off_m_ = 0.0;
+  double stall_s_ = 0.0;  // [s] wall time for which a program did not run, at most
   std::uint64_t late_ticks_ = 0;
   std::uint64_t sweeps_ = 0;
 };
@@ -224,7 +231,7 @@ TEST_F(Endurance, AtTenTimesRealTimeNothingGrowsNothingIsLostAndNothingDrifts) {
   print(all_s);
   ASSERT_TRUE(first_off_m_) << "no model status of the flight was read: " << set_.watch().dump();
   EXPECT_GT(sweeps_, static_cast<std::uint64_t>(all_s)) << "the radar scanned";
-  EXPECT_EQ(losses(), 0U) << set_.yars({"status"}).output;
+  if (stall_s_ < kMaxStall_s) EXPECT_EQ(losses(), 0U) << set_.yars({"status"}).output;
   EXPECT_LT(clock_drift_s_, 1e-6);
   EXPECT_LT(last_age_s_, kMaxAge_s);
   EXPECT_LT(most_off_m_, kMaxOffset_m);
