@@ -15,6 +15,8 @@ SOURCE = pathlib.Path(__file__).resolve().parents[1]
 FOLDERS = "build|config|databuffer|display|docs|examples|inputmonitor|lib|model|packaging|scripts|shm|statemachine|tests|tools|worldgen"
 PATH = re.compile(rf"(?<![\w./<~$=-])(?:\./)?((?:{FOLDERS})/(?:[\w*@-]|[./](?=[\w*@-]))*/?)")
 LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")
+# What only a checkout needs, and the text that takes its place. The comment marks show the first in the sources.
+SOURCES_ONLY = re.compile(r"<!-- sources -->\n.*?<!-- installed\n(.*?)-->\n", re.S)
 # Before the paths: parts of commands.
 WORDS = [('"databuffer/client/yars.h"', "<yars/yars.h>"), ("PYTHONPATH=examples ", ""), ("cc -I. ", "cc "),
          ("-I. examples/", "")]
@@ -48,6 +50,7 @@ def installed_place(path, prefix, documents, share):
 
 def rewritten(text, file, prefix, documents, share):
     """The text of the installed `file`, a path below the prefix."""
+    text = SOURCES_ONLY.sub(r"\1", text)
     for word, other in WORDS:
         text = text.replace(word, other)
     kept = []  # links, which are no paths from the top of the sources

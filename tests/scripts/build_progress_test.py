@@ -99,7 +99,7 @@ class BuildProgress(unittest.TestCase):
         text = ended.stdout.decode()
         self.assertIn(b"built", ended.stderr)
         self.assertRegex(text, r"Building 200 steps: (about \d+ min|under a minute) on \d+ cores?, \d+ MB of disk; the log")
-        self.assertEqual(len(re.findall(r"^\d+ %, step \d+ of 200$", text, re.MULTILINE)), 10, text)
+        self.assertEqual(len(re.findall(r"^\d+ %, step \d+ of 200(, \d+ min left)?$", text, re.MULTILINE)), 10, text)
         self.assertTrue(all(character == "\n" or character.isprintable() for character in text), repr(text))
 
     def test_on_a_terminal_one_line_is_redrawn(self):
