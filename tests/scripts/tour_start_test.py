@@ -28,6 +28,7 @@ wait $waiting
 """
 YARS = """#!/bin/bash
 case "$1 $2" in
+  "config user") ;;
   "terrain generate") mkdir -p "$4/w122" && echo cell >"$4/w122/n37.dt1" ;;
   "scene generate") echo scene >"${@: -1}" ;;
   *) exit 1 ;;
@@ -45,7 +46,8 @@ class Place:
         self.write("bin/yars", YARS)
         shutil.copy(HOME / "scripts/start", self.folder / "bin/yars-start")
         (self.folder / "libexec/yars").mkdir(parents=True)
-        shutil.copy(HOME / "scripts/supervise", self.folder / "libexec/yars/supervise")
+        for helper in ("supervise", "nearest_word.py"):
+            shutil.copy(HOME / "scripts" / helper, self.folder / "libexec/yars" / helper)
         shutil.copytree(HOME / "config", self.folder / "share/yars/config")
 
     def write(self, name, text):
