@@ -211,7 +211,10 @@ TEST_F(Maps, NoMapIsCommandedWithoutTransmissionOrWhereModeOrFunctionExcludesIt)
     EXPECT_FALSE(elsewhere.press("tdc release")) << event;
   }
   pilot.around.ownship_valid = false;
-  EXPECT_FALSE(pilot.press("tdc release"));
+  const auto request = pilot.state.map_request;
+  pilot.press("tdc release");
+  EXPECT_STREQ(pilot.state.message, "NO OWNSHIP");
+  EXPECT_EQ(pilot.state.map_request, request);
 }
 
 TEST_F(Maps, TheCommandedMapSwitchesTheDisplayToPatchWhenItIsComplete) {

@@ -98,15 +98,32 @@ double bearing_of_farthest(const Model& model, const std::string& name) {
   return std::atan2(farthest.x, farthest.y) * 180.0 / M_PI;
 }
 
+std::vector<Vector3> corners_of(const Model& model, const std::string& name) {
+  std::vector<Vector3> corners;
+  for (const ModelTriangle& triangle : model.triangles)
+    if (model.objects[triangle.object] == name)
+      for (const std::uint32_t corner : triangle.corners) corners.push_back(position_of(model, corner));
+  return corners;
+}
+
+Vector3 turned_clockwise(Vector3 position, double angle_deg) {
+  const double sine = std::sin(angle_deg * M_PI / 180.0), cosine = std::cos(angle_deg * M_PI / 180.0);
+  return {cosine * position.x + sine * position.y, cosine * position.y - sine * position.x, position.z};
+}
+
 TEST(Generator, TurnsEachKindToTheRequestedHeading) {
   // Half the runway's width of 45 m at its end, 1250 m away, is 1 degree.
   const Model airfield = model_of({.origin = kOrigin, .heading_deg = 20.0});
   EXPECT_NEAR(std::fmod(bearing_of_farthest(airfield, "runway") + 360.0, 180.0), 110.0, 1.1);
+  constexpr double kTurn_deg = 30.0;
   for (const auto& [kind, name] :
        {std::pair{worldgen::GeneratedKind::harbour, "quay"}, std::pair{worldgen::GeneratedKind::bridge, "bridge"}}) {
-    const double straight = bearing_of_farthest(model_of({.kind = kind, .origin = kOrigin}), name);
-    const double turned = bearing_of_farthest(model_of({.kind = kind, .origin = kOrigin, .heading_deg = 30.0}), name);
-    EXPECT_NEAR(std::remainder(turned - straight - 30.0, 360.0), 0.0, 0.01) << name;
+    const auto straight = corners_of(model_of({.kind = kind, .origin = kOrigin}), name);
+    const auto turned = corners_of(model_of({.kind = kind, .origin = kOrigin, .heading_deg = kTurn_deg}), name);
+    ASSERT_EQ(turned.size(), straight.size()) << name;
+    ASSERT_FALSE(straight.empty()) << name;
+    for (std::size_t i = 0; i < straight.size(); ++i)
+      EXPECT_LT(length(turned[i] - turned_clockwise(straight[i], kTurn_deg)), 0.1) << name << " corner " << i;
   }
   const worldgen::SceneRequest town{.kind = worldgen::GeneratedKind::town, .origin = kOrigin, .heading_deg = 0.0};
   worldgen::SceneRequest east = town;

@@ -89,7 +89,8 @@ TEST(Caption, TheWidestLineStaysOnThePlate) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   const Rect plate = plate_over(input);
   input.caption = widest();
-  for (const OccupiedBox& box : testing::drawn(input).occupied())
+  const DrawList list = testing::drawn(input);
+  for (const OccupiedBox& box : list.occupied())
     if (box.name.starts_with("WWWW")) {
       EXPECT_GE(box.rect.left, plate.left);
       EXPECT_LE(box.rect.right, plate.right);

@@ -26,13 +26,16 @@ using testing::words;
 constexpr std::array kModes{Mode::rbm, Mode::hrm,        Mode::patch,   Mode::beacon,
                             Mode::pvu, Mode::air_to_air, Mode::ranging, Mode::menu};
 
-TEST(Symbology, OffShowsNothing) {
+TEST(Symbology, OffShowsNothingButHowToSwitchOn) {
   DisplayInput input = crowded(Mode::rbm, 40.0);
   input.state_machine_alive = true;
   input.state.power = static_cast<std::uint8_t>(radar::Power::off);
+  input.hints = false;
   const DrawList list = drawn(input);
   EXPECT_EQ(strokes(list), 0U);
   EXPECT_THAT(list.video_steps(), IsEmpty());
+  input.hints = true;
+  EXPECT_GT(strokes(drawn(input)), 0U);
 }
 
 TEST(Symbology, AMissingStateMachineIsShownEvenWhenTheRadarIsOff) {
