@@ -62,7 +62,8 @@ Expected<TourItem> item_of(const ScriptLine& line) {
   item.automatic = automatic.has_value();
   const auto event = databuffer::event_from_text(automatic.value_or(line.what));
   if (!event)
-    return fail(line.location, event.error().expected + ", or caption TEXT, or auto EVENT", event.error().found);
+    return fail(line.location, event.error().expected + ", or caption TEXT, or auto EVENT", event.error().found,
+                event.error().action);
   item.event = *event;
   return item;
 }

@@ -99,6 +99,7 @@ TEST(Tour, ErrorsCarryTheLineAndWhatWasExpected) {
   EXPECT_THAT(refusal_of("title\n2 end\n"), HasSubstr("a title of 1 to 47"));
   EXPECT_THAT(refusal_of("1 pb 33\n2 end\n"), HasSubstr("x.tour:1: expected pb 1..20"));
   EXPECT_THAT(refusal_of("1 auto pb 33\n2 end\n"), HasSubstr("x.tour:1: expected pb 1..20"));
+  EXPECT_THAT(refusal_of("1 auto freze\n2 end\n"), HasSubstr("did you mean 'freeze'?"));
   EXPECT_THAT(refusal_of("captions\n2 end\n"), HasSubstr("caption TEXT"));
   EXPECT_THAT(refusal_of("1 freeze\n"), HasSubstr("expected a last line `end`, found none"));
 }
