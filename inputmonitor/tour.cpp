@@ -87,12 +87,6 @@ std::uint32_t captions_in(const Tour& tour) {
       std::ranges::count_if(tour.items, [](const TourItem& item) { return item.is_caption && !item.lines.empty(); }));
 }
 
-template <std::size_t size>
-void put_text(char (&field)[size], std::string_view text) {
-  std::memset(field, 0, size);
-  text.copy(field, size - 1);
-}
-
 bool is_kind(const InputEvent& event, EventKind kind) {
   return event.kind == static_cast<std::uint16_t>(kind);
 }
@@ -159,8 +153,8 @@ void TourSource::begin_step(const TourItem& item, std::int64_t sim_time_ns) {
   caption.sim_time_ns = sim_time_ns;
   caption.step = ++step_;
   caption.steps = steps_;
-  put_text(caption.title, tour_.title);
-  for (std::size_t i = 0; i < item.lines.size(); ++i) put_text(caption.lines[i].text, item.lines[i]);
+  text::put_text(caption.title, tour_.title);
+  for (std::size_t i = 0; i < item.lines.size(); ++i) text::put_text(caption.lines[i].text, item.lines[i]);
   caption_ = caption;
 }
 

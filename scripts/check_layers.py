@@ -115,7 +115,7 @@ SYSTEM_HEADERS = {
     "ogr_srs_api.h": ["model/terrain/gdal", "tests"],
     "boost/": ["shm", "tests"],
     "epoxy/": ["display/gl", "examples", "tests"],
-    "dlfcn.h": ["display/gl/context.cpp"],
+    "dlfcn.h": ["display/gl/context.cpp", "lib/file/file_search.cpp"],
     "EGL/": ["display/gl"],
     "glm/": ["lib/geo", "lib/radar", "model/scene/openflight"],
     "xxhash.h": ["model/kernel"],

@@ -89,7 +89,7 @@ class Advisor {
   bool put(char (&field)[N], const InputEvent& event, const Row* row) {
     refused_ = false;
     const std::string words = row == nullptr ? std::string() : words_of(event, *row);
-    put_text(field, words.empty() ? idle_words(state_, event) : words);
+    text::put_text(field, words.empty() ? idle_words(state_, event) : words);
     return !words.empty() && !refused_;
   }
 
@@ -112,7 +112,7 @@ class Advisor {
 }  // namespace
 
 void advise(PilotAdvice& advice, const RadarState& state, const Inputs& inputs, const Parameters& parameters) {
-  put_text(advice.remedy, remedy_of_message(state, inputs, parameters));
+  text::put_text(advice.remedy, remedy_of_message(state, inputs, parameters));
   Advisor advisor(state, inputs, parameters);
   const InputEvent release = event_of(EventKind::tdc_release);
   advice.live = advisor.put(advice.buttons[0], release, live_control(state, release)) ? 1 : 0;
@@ -128,8 +128,8 @@ void note_idle(PilotAdvice& advice, const IdleEvent& idle, const RadarState& sta
   ++advice.idle_count;
   advice.idle_lane = idle.lane;
   advice.idle_number = idle.event.number;
-  put_text(advice.idle_reason,
-           idle.refused ? refusal(state, inputs, parameters) : text_of(reason_without_effect(state, idle.event)));
+  text::put_text(advice.idle_reason,
+                 idle.refused ? refusal(state, inputs, parameters) : text_of(reason_without_effect(state, idle.event)));
 }
 
 }  // namespace yars::statemachine

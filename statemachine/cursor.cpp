@@ -166,7 +166,7 @@ bool survives_declutter(const RoutePoint& point) {
 
 void select(Step& step, const std::optional<RoutePoint>& point) {
   if (!point) return;
-  put_text(step.state.sequence_point, point->name);
+  text::put_text(step.state.sequence_point, point->name);
   jump_cursor(step.state, point->position, step.inputs);
 }
 
@@ -200,7 +200,7 @@ DrawnPoint drawn(const RoutePoint& point, bool selected) {
   entry.latitude_deg = point.position.latitude_deg;
   entry.longitude_deg = point.position.longitude_deg;
   entry.elevation_m = point.elevation_m;
-  put_text(entry.name, point.name);
+  text::put_text(entry.name, point.name);
   entry.kind = static_cast<std::uint8_t>(point.kind);
   entry.selected = selected ? 1 : 0;
   return entry;
@@ -234,7 +234,7 @@ void select_first_sequence_point(RadarState& state, const Parameters& parameters
   const auto first =
       std::min_element(parameters.route.begin(), parameters.route.end(),
                        [](const RoutePoint& a, const RoutePoint& b) { return radar::precedes(a.name, b.name); });
-  put_text(state.sequence_point, first == parameters.route.end() ? std::string_view() : first->name);
+  text::put_text(state.sequence_point, first == parameters.route.end() ? std::string_view() : first->name);
 }
 
 std::optional<RoutePoint> selected_point(const RadarState& state, const Parameters& parameters) {

@@ -310,7 +310,7 @@ void designate_target(Step& step) {
   const std::string_view old_name = text_of(state.target_name);
   const bool moves_selection = has(state, databuffer::kTargetDesignated) && text_of(state.sequence_point) == old_name &&
                                !is_of_route(old_name, step.parameters);
-  put_text(state.target_name, adopted ? adopted->name : text_of(*free));
+  text::put_text(state.target_name, adopted ? adopted->name : text_of(*free));
   if (moves_selection) std::ranges::copy(state.target_name, state.sequence_point);
   put_target(step, adopted);
   ++state.target_count;

@@ -246,7 +246,7 @@ void show_remap_stop(RadarState& state, const Inputs& inputs) {
   // A message with an end time, caused by an event, has priority.
   if (state.message[0] != '\0' && !is_own_message) return;
   if (!is_own_message && reason.empty()) return;
-  put_text(state.message, reason);
+  text::put_text(state.message, reason);
   state.message_until_tick = reason.empty() ? 0 : databuffer::kUntilCauseEnds;
 }
 

@@ -19,6 +19,7 @@
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/mapping.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::radar {
 struct HeightRanges;
@@ -128,13 +129,6 @@ inline geo::GeoPoint cursor_of(const databuffer::RadarState& state) {
   return {state.cursor_latitude_deg, state.cursor_longitude_deg};
 }
 
-// Copies text into a field of a record. The text is truncated to N - 1 bytes and padded with zeros.
-template <std::size_t N>
-void put_text(char (&field)[N], std::string_view text) {
-  std::memset(field, 0, N);
-  text.copy(field, N - 1);
-}
-
 // Duration of a message: 600 ticks of 5 ms, 3 s. A shorter message is easily missed. A longer message delays the reason
 // why re-mapping stopped, because that reason is shown only after the message.
 // Source: docs/spec/pilots_interface.md#messages
@@ -142,7 +136,7 @@ inline constexpr std::int64_t kMessageTicks = 600;
 
 // Shows a message for kMessageTicks.
 inline void show_message(databuffer::RadarState& state, const Inputs& inputs, std::string_view text) {
-  put_text(state.message, text);
+  text::put_text(state.message, text);
   state.message_until_tick = inputs.tick + kMessageTicks;
 }
 

@@ -10,6 +10,7 @@
 #include "config/schema/slot_text.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/runtime/user_defaults.hpp"
+#include "lib/file/file_search.hpp"
 #include "lib/file/output_file.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
@@ -97,7 +98,7 @@ void add_config_command(databuffer::Command app, const CommonOptions& common) {
   command.require_subcommand();
   const auto options = std::make_shared<ConfigOptions>();
   // Resolves names of installed files in the same way as --config does.
-  const auto installed = [](const std::string& name) { return databuffer::installed_file(name); };
+  const auto installed = [](const std::string& name) { return file::installed_file(name); };
 
   databuffer::Command check_command =
       command.subcommand("check", "check whether a file is valid, and print its warnings");

@@ -13,6 +13,7 @@
 #include "config/schema/form_reader.hpp"
 #include "config/schema/message_translation.hpp"
 #include "config/schema/schema.hpp"
+#include "lib/file/file_search.hpp"
 #include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
 
@@ -57,8 +58,8 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 // `( include "part.guf" )` is replaced by all arguments of that file. An include that is the value of `:name`
 // or of `:2` needs a file with exactly one argument, without name or position.
 // The path in an include is relative to the including file. The included file must be in the folder of the first file
-// or below. If the first file is in the message syntax (config/guf/messages.hpp), all included files are read in that
-// syntax, and the whole tree is then translated to GUF.
+// or below; a name alone may also mean a file that came with YARS. If the first file is in the message syntax
+// (config/guf/messages.hpp), all included files are read in that syntax, and the whole tree is then translated to GUF.
 // Throws ParseError if a file cannot be read, has an invalid syntax, includes itself or is outside the folder, or if a
 // limit is exceeded.
 class TreeReader {
@@ -93,10 +94,11 @@ class TreeReader {
     const Form& form = std::get<Form>(value.data);
     const auto* name = form.slots.size() == 1 ? std::get_if<std::string>(&form.slots[0].value.data) : nullptr;
     if (name == nullptr) reject(value.where, R"(( include "file" ))", std::to_string(form.slots.size()) + " arguments");
-    const fs::path path = fs::path(*value.where.file).parent_path() / *name;
+    const fs::path path = path_of_include(fs::path(*value.where.file).parent_path(), *name);
     const fs::path canonical = fs::weakly_canonical(path);
-    if (!is_inside(canonical, root_)) {
-      reject(value.where, "an include inside " + root_.string(), path.string(), "copy the file there");
+    if (!is_inside(canonical, root_) && (installed_.empty() || !is_inside(canonical, installed_))) {
+      reject(value.where, "an include inside " + root_.string(), path.string(),
+             "copy the file there; a file that came with YARS is included by its name alone");
     }
     if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end()) {
       reject(value.where, "an include that does not lead back to its own file", path.string());
@@ -108,6 +110,15 @@ class TreeReader {
       reject(value.where, "at most " + std::to_string(kMaxIncludes) + " includes", "one more");
     }
     return arguments_of(path, text_of(value.where));
+  }
+
+  // A name without a folder that is not beside the including file means the file that came with YARS.
+  fs::path path_of_include(const fs::path& folder, const std::string& name) const {
+    const fs::path beside = folder / name;
+    const fs::path came_with_yars = installed_ / name;
+    std::error_code problem;
+    const bool elsewhere = name.find('/') == std::string::npos && !fs::exists(beside, problem) && !installed_.empty();
+    return elsewhere && fs::is_regular_file(came_with_yars, problem) ? came_with_yars : beside;
   }
 
   std::vector<Slot> expanded(std::vector<Slot> arguments) {
@@ -161,8 +172,9 @@ class TreeReader {
   }
 
   fs::path root_;
-  std::vector<fs::path> open_files_;  // canonical paths of the open files, the first file first
-  bool in_messages_ = false;          // true: the first file and its includes are read in the message syntax
+  const fs::path installed_ = file::installed_folder();  // canonical; empty: none
+  std::vector<fs::path> open_files_;                     // canonical paths of the open files, the first file first
+  bool in_messages_ = false;  // true: the first file and its includes are read in the message syntax
   int includes_ = 0;
   ParsedText result_;
 };

@@ -4,7 +4,7 @@
 // Outputs: a RadarConfiguration, or the text of one equivalent GUF file; warnings.
 // Errors: the file, the line and column of a wrong value, what was expected and what was found.
 // Limits: includes nested 8 files deep, the first file counted; 64 includes; 1 MiB per file. Included files must lie in
-// the folder of the first file or below it.
+// the folder of the first file or below it, or be files that came with YARS, included by their name alone.
 #pragma once
 
 #include <filesystem>

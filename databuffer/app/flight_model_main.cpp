@@ -3,6 +3,7 @@
 
 #include "databuffer/app/flight_shell.hpp"
 #include "databuffer/runtime/program.hpp"
+#include "lib/file/file_search.hpp"
 #include "lib/log/log.hpp"
 
 namespace {
@@ -30,7 +31,7 @@ error::Expected<void> fly(databuffer::Session& session, databuffer::TickLoop& lo
 // Replaces the name of an installed route by its path, unless the current folder has a file of that name.
 std::string with_installed_route(const std::string& source_text) {
   const std::string prefix = "route:";
-  return source_text.starts_with(prefix) ? prefix + databuffer::installed_file(source_text.substr(prefix.size()))
+  return source_text.starts_with(prefix) ? prefix + file::installed_file(source_text.substr(prefix.size()))
                                          : source_text;
 }
 

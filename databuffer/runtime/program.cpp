@@ -8,27 +8,11 @@
 
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/session/session.hpp"
+#include "lib/file/file_search.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
-
-namespace fs = std::filesystem;
-
-std::string installed_file(const std::string& name, const fs::path& programs) {
-  std::error_code problem;
-  if (name.empty() || name.find('/') != std::string::npos || fs::exists(name, problem)) return name;
-  const fs::path installed = programs.parent_path() / "share/yars/config";
-  for (const char* folder : {"", "routes", "scripts"})
-    if (const fs::path file = installed / folder / name; fs::is_regular_file(file, problem)) return file.string();
-  return name;
-}
-
-std::string installed_file(const std::string& name) {
-  std::error_code problem;
-  const fs::path program = fs::read_symlink("/proc/self/exe", problem);
-  return problem ? name : installed_file(name, program.parent_path());
-}
 
 namespace {
 
@@ -64,7 +48,7 @@ void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role)
   app.option("--config", options.config, "GUF configuration file")
       .value_name("FILE")
       .otherwise("the built-in APG-70")
-      .transform([](const std::string& name) { return installed_file(name); })
+      .transform([](const std::string& name) { return file::installed_file(name); })
       .in_user_file();
   app.option("--log-level", options.log_level, "lines of this level and above are logged")
       .one_of({"trace", "debug", "info", "warning", "error", "off"})

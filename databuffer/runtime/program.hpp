@@ -1,10 +1,9 @@
-// Startup and exit of every program: installed files, common options, log, exit codes.
+// Startup and exit of every program: common options, log, exit codes.
 // Inputs: command line; YARS_SESSION.
 // Outputs: exit code 0, kExitFailure or kExitUsage; errors as one line on standard error.
 // Threads: main thread only.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -13,15 +12,6 @@
 #include "lib/error/error.hpp"
 
 namespace yars::databuffer {
-
-// Path of an installed file (configuration, route, script). A file in the current folder takes precedence. Else a name
-// without a slash is searched in PREFIX/share/yars/config and its subfolders routes and scripts. PREFIX is the parent
-// of the folder `programs`, so that an installation can be moved. A name with a slash, or one found nowhere, is
-// returned unchanged.
-std::string installed_file(const std::string& name, const std::filesystem::path& programs);
-
-// installed_file() with the folder of the running program as `programs`.
-std::string installed_file(const std::string& name);
 
 // Values of the options that all programs share; from `lockstep` on, of those that only roles have.
 struct ProgramOptions {

@@ -16,6 +16,7 @@
 #include "display/host/session_link_shell.hpp"
 #include "display/symbology/bezel.hpp"
 #include "display/symbology/help.hpp"
+#include "lib/file/file_search.hpp"
 #include "lib/log/log.hpp"
 
 namespace yars::display::host {
@@ -83,7 +84,7 @@ error::Expected<Display> Display::attach(const AttachOptions& options) {
     return error::fail("display", "a current context of OpenGL 3.3 or later",
                        version == 0 ? "none" : std::to_string(version / 10) + "." + std::to_string(version % 10),
                        "make one current on this thread first");
-  auto configuration = config::load_configuration(options.configuration);
+  auto configuration = config::load_configuration(file::installed_file(options.configuration));
   if (!configuration) return tl::unexpected(configuration.error());
   for (const std::string& warning : configuration->warnings) log::warning(warning);
   auto session = databuffer::Session::open(options.session, options.name);

@@ -30,6 +30,13 @@ std::string_view text_of(const char (&field)[N]) {
   return {field, strnlen(field, N)};
 }
 
+// Copies text into a character array of a record: at most N - 1 bytes, then zeros.
+template <std::size_t N>
+void put_text(char (&field)[N], std::string_view text) {
+  std::memset(field, 0, N);
+  text.copy(field, N - 1);
+}
+
 struct NumberedLine {
   int number = 0;         // counts from 1
   std::string_view text;  // without comment and without blanks (ASCII white space) at both ends; never empty

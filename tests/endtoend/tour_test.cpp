@@ -28,7 +28,7 @@ class Coast : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::filesystem::temp_directory_path() / ("yars_tour_" + std::to_string(getpid()));
-    make({"yars", "terrain", "generate", "--out", terrain()});
+    make({"yars", "terrain", "generate", "--out", terrain(), "--airfields", "soil"});
     std::filesystem::create_directories(terrain() + "/scenes");
     std::ifstream list(YARS_SOURCE_DIR "/config/coast.scenes");
     for (std::string line; std::getline(list, line);) {

@@ -69,8 +69,9 @@ class Place:
         cells = sorted(self.terrain.glob("w122/*.dt1"))
         assert len(cells) == 14, cells
         scenes = sorted(self.terrain.glob("scenes/*.flt"))
-        assert len(scenes) >= 3, scenes
-        assert "--kind airfield --triangles 60000 --origin 38.108333,-121.316667,20 --out" in scenes[1].read_text(), scenes
+        assert len(scenes) == 6, scenes
+        west = (self.terrain / "scenes/airfield_west.flt").read_text()
+        assert "--kind airfield --triangles 60000 --origin 38.108333,-121.316667,20 --out" in west, west
         left = sorted(path.name for path in self.terrain.parent.iterdir())
         assert left == ["terrain", "terrain.lock"], left
 

@@ -2,6 +2,9 @@
 // Source: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 #include <gtest/gtest.h>
 
+#include <string_view>
+
+#include "lib/text/plain_text.hpp"
 #include "tests/statemachine/pilot.hpp"
 
 namespace yars::statemachine::testing {
@@ -9,12 +12,7 @@ namespace {
 
 using databuffer::kFreeze;
 using databuffer::kMapping;
-
-template <std::size_t N>
-void put_text(char (&field)[N], std::string_view text) {
-  std::memset(field, 0, N);
-  text.copy(field, N);
-}
+using text::put_text;
 
 class Maps : public ::testing::Test {
  protected:
@@ -151,7 +149,8 @@ TEST_F(Maps, AReasonWithControlCharactersIsNotShownAndALongOneIsCut) {
   put_text(pilot.around.model.map_stopped, "\x1b[2J");
   pilot.wait();
   EXPECT_STREQ(pilot.state.message, "");
-  put_text(pilot.around.model.map_stopped, "WITHOUT A ZERO AT ITS END");
+  auto& field = pilot.around.model.map_stopped;
+  std::string_view("WITHOUT A ZERO AT ITS END").copy(field, sizeof field);
   pilot.wait();
   EXPECT_STREQ(pilot.state.message, "WITHOUT A ZERO A");
 }

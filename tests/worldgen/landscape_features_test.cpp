@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <vector>
 
 #include "model/terrain/formats/dted.hpp"
@@ -123,6 +124,23 @@ TEST(LandscapeSites, TownsStandOnGentleLand) {
     }
   }
   EXPECT_GT(towns, 30U);
+}
+
+// For `--airfields soil`: a scene has the pavement, and no squares of the culture show beside it.
+TEST(LandscapeSites, UnpavedAirfieldsAreSoilWhereOthersHavePavementAndHangars) {
+  const Airfield airfield{{38.0, -121.0}, 20.0, 2500.0, 30.0};
+  std::map<Material, int> paved;
+  for (double north_deg = -0.02; north_deg <= 0.02; north_deg += 1.0 / 3600.0)
+    for (double east_deg = -0.02; east_deg <= 0.02; east_deg += 1.0 / 3600.0) {
+      const geo::GeoPoint at{38.0 + north_deg, -121.0 + east_deg};
+      const Material cover = airfield_cover(airfield, at, Material::trees, true);
+      ++paved[cover];
+      EXPECT_EQ(airfield_cover(airfield, at, Material::trees, false),
+                cover == Material::trees ? Material::trees : Material::soil);
+    }
+  EXPECT_GT(paved[Material::asphalt], 100);
+  EXPECT_GT(paved[Material::metal], 20);
+  EXPECT_GT(paved[Material::trees], 1000);
 }
 
 // Makes only the rows of level 1 posts near each airfield.

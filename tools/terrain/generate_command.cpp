@@ -39,6 +39,7 @@ struct GenerateOptions {
   std::uint64_t seed = Default::kSeed;
   std::string edge = "coast";
   bool culture = true;
+  std::string airfields = "paved";
   bool sea = false;
   int threads = 0;  // 0: one per core of the machine
   bool json = false;
@@ -62,7 +63,7 @@ class Generation {
  public:
   explicit Generation(const GenerateOptions& options)
       : options_(options),
-        landscape_(options.seed, island_of(options)),
+        landscape_(options.seed, island_of(options), options.airfields == "paved"),
         corners_(corners_of(options)),
         progress_(corners_.size()) {
     const int threads =
@@ -169,6 +170,10 @@ void add_terrain_generate(databuffer::Command terrain) {
       .one_of({"coast", "cut"});
   command.flag("--culture,!--no-culture", options->culture,
                "surface materials beside each cell, wLLL/nBB.smc.png; on by default");
+  command
+      .option("--airfields", options->airfields,
+              "culture of airfields: paved, with runway, apron and hangars; soil, for scenes that have these")
+      .one_of({"paved", "soil"});
   command.flag("--sea", options->sea, "also write cells with only sea (a cell without a file is sea)");
   command.option("--threads", options->threads, "number of threads, 0 for one per core; the files do not depend on it")
       .range(0, 256);

@@ -90,11 +90,12 @@ Material town_cover(const CoverSite& site, double radii, Material natural, std::
   return Material::composition;
 }
 
-Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Material natural) {
+Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Material natural, bool paved) {
   const RunwayPosition at = runway_position(airfield, position);
   const double along_m = std::abs(at.along_m);
   const double half_m = 0.5 * airfield.length_m;
   if (along_m > half_m + kPadBeyond_m || std::abs(at.across_m) > kPadHalfWidth_m) return natural;
+  if (!paved) return Material::soil;
   if (along_m <= half_m && std::abs(at.across_m) <= kRunwayHalfWidth_m) return Material::asphalt;
   // Taxiway beside the runway, links at its ends, then the apron, then hangars.
   const bool taxiway = along_m <= half_m && std::abs(at.across_m - 250.0) <= 45.0;
@@ -229,7 +230,7 @@ Material LandscapeRows::cover(const Row& row, std::size_t column) const {
   if (material == Material::water) return material;
   for (const Airfield* airfield : airfields_)
     if (std::abs(row.latitude_deg - airfield->centre.latitude_deg) * kTileMetres < kMaxAirfieldExtent_m)
-      material = airfield_cover(*airfield, site.position, material);
+      material = airfield_cover(*airfield, site.position, material, airfields_are_paved_);
   return material;
 }
 
@@ -256,13 +257,15 @@ void LandscapeRows::make(int number, std::span<std::int16_t> posts_m, std::span<
   }
 }
 
-Landscape::Landscape(std::uint64_t seed, std::optional<LandscapeBox> island)
+Landscape::Landscape(std::uint64_t seed, std::optional<LandscapeBox> island, bool paved_airfields)
     : seed_(static_cast<std::uint32_t>(seed ^ (seed >> 32U)) * 4096U),
+      paved_airfields_(paved_airfields),
       tiles_(std::make_unique<LandscapeTiles>(seed_, island)) {}
 
 MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads) const {
   YARS_REQUIRE(threads, >=, 1);
-  const LandscapeRows maker(*tiles_, seed_, corner, rows, columns);
+  LandscapeRows maker(*tiles_, seed_, corner, rows, columns);
+  if (!paved_airfields_) maker.leave_airfields_unpaved();
   const auto width = static_cast<std::size_t>(columns);
   std::vector<std::int16_t> posts(static_cast<std::size_t>(rows) * width);
   std::vector<std::uint8_t> codes(posts.size());

@@ -41,14 +41,18 @@ Material natural_cover(const CoverSite& site, std::uint32_t seed);
 // town's irregular edge, in some blocks just inside it, on water, and on ground too steep for buildings.
 Material town_cover(const CoverSite& site, double radii, Material natural, std::uint32_t seed);
 
-// Material of runway, taxiways, apron, hangars and the ground around them; `natural` outside the airfield.
-Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Material natural);
+// Material of runway, taxiways, apron, hangars and the ground around them; `natural` outside the airfield. Not `paved`:
+// soil in place of them all.
+Material airfield_cover(const Airfield& airfield, geo::GeoPoint position, Material natural, bool paved = true);
 
 // Rows of posts of one cell, computed in steps: spline over the relief, gullies, rivers, level ground of airfields,
 // land cover. Immutable after construction. Any thread may make any row.
 class LandscapeRows {
  public:
   LandscapeRows(LandscapeTiles& tiles, std::uint32_t seed, CellCorner corner, int rows, int columns);
+
+  // Airfields become soil without pavement and hangars, for scenes that have these.
+  void leave_airfields_unpaved() { airfields_are_paved_ = false; }
 
   // Heights [m MSL] and material codes of a row of posts, from west to east. Row 0 is the cell's south edge. Each span
   // must have as many elements as the row has posts.
@@ -72,6 +76,7 @@ class LandscapeRows {
   std::vector<std::vector<const RiverPiece*>> bands_;  // by lattice row: pieces that may change posts just north of it
   std::vector<const Town*> towns_;                     // towns of the cell and its neighbours
   std::vector<const Airfield*> airfields_;
+  bool airfields_are_paved_ = true;
 };
 
 // Region that scripts/start generates. config/coast.guf, config/coast.scenes and config/routes/default.route name
@@ -92,8 +97,10 @@ struct MadeCell {
 // by a cubic spline. Gullies with wavelengths down to 115 m are added at each post.
 class Landscape {
  public:
-  // With an island's box, land ends at a coast at least 11 km inside the box's edge.
-  explicit Landscape(std::uint64_t seed, std::optional<LandscapeBox> island = std::nullopt);
+  // With an island's box, land ends at a coast at least 11 km inside the box's edge. Without `paved_airfields` the
+  // culture of airfields is soil, for scenes that have the pavement and hangars.
+  explicit Landscape(std::uint64_t seed, std::optional<LandscapeBox> island = std::nullopt,
+                     bool paved_airfields = true);
 
   // The cell with `rows` x `columns` posts. Requires that `rows - 1` and `columns - 1` are divisors of 3600. Land is at
   // least 1 m high; sea is 0 m. River water near a mouth may be 0 m too. Requires threads >= 1; the number does not
@@ -110,6 +117,7 @@ class Landscape {
 
  private:
   std::uint32_t seed_;
+  bool paved_airfields_;
   std::unique_ptr<LandscapeTiles> tiles_;
 };
 

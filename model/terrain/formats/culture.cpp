@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "lib/file/file_search.hpp"
 #include "lib/file/folder.hpp"
-#include "lib/file/folder_names.hpp"
 #include "lib/imageio/png.hpp"
 
 namespace yars::model::terrain {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
-#include "lib/file/folder_names.hpp"
+#include "lib/file/file_search.hpp"
 #include "model/terrain/formats/cell.hpp"
 
 namespace yars::model::terrain {

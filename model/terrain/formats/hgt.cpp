@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "lib/error/error.hpp"
-#include "lib/file/folder_names.hpp"
+#include "lib/file/file_search.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/memory/byte_order.hpp"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "lib/file/folder_names.hpp"
+#include "lib/file/file_search.hpp"
 #include "lib/file/output_file.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/dted.hpp"

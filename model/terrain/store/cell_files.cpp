@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "lib/error/error.hpp"
-#include "lib/file/folder_names.hpp"
+#include "lib/file/file_search.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/formats/ded.hpp"

@@ -10,7 +10,7 @@ function __yars_path
             continue
         end
         switch $word
-            case --alt-ft --band --base --cells-lat --cells-lon --channel --color --config --csv --east --edge --elevation --fidelity --gain --heading --in --keep --kind --knob --lat --level --lockstep --log-dir --log-level --lon --looks --markdown --north --origin --out --pixels --presets --range-nm --rate --reduction --repeat --restarted --ruler --ruler-samples --ruler-size --samples --scan-width --scene --scene-without --seed --seek --session --shadow --size --south --speed-kt --step --target-lat --target-lon --terrain --threads --time-s --to --triangles --view --west --width --window-nm --without
+            case --airfields --alt-ft --band --base --cells-lat --cells-lon --channel --color --config --csv --east --edge --elevation --fidelity --gain --heading --in --keep --kind --knob --lat --level --lockstep --log-dir --log-level --lon --looks --markdown --north --origin --out --pixels --presets --range-nm --rate --reduction --repeat --restarted --ruler --ruler-samples --ruler-size --samples --scan-width --scene --scene-without --seed --seek --session --shadow --size --south --speed-kt --step --target-lat --target-lon --terrain --threads --time-s --to --triangles --view --west --width --window-nm --without
                 set left 1
             case --from --to
                 set left 2
@@ -175,6 +175,7 @@ complete -c yars -n "__yars_at 'terrain generate'" -l level -x -d 'DTED level'
 complete -c yars -n "__yars_at 'terrain generate'" -l seed -x -d 'seed of the landscape; each seed gives another earth'
 complete -c yars -n "__yars_at 'terrain generate'" -l edge -x -a 'coast cut' -d 'coast: land ends at the sea inside the area\'s edge; cut: land continues to the edge, for areas that join'
 complete -c yars -n "__yars_at 'terrain generate'" -l culture -l no-culture -d 'surface materials beside each cell, wLLL/nBB.smc.png; on by default'
+complete -c yars -n "__yars_at 'terrain generate'" -l airfields -x -a 'paved soil' -d 'culture of airfields: paved, with runway, apron and hangars; soil, for scenes that have these'
 complete -c yars -n "__yars_at 'terrain generate'" -l sea -d 'also write cells with only sea'
 complete -c yars -n "__yars_at 'terrain generate'" -l threads -x -d 'number of threads, 0 for one per core; the files do not depend on it'
 complete -c yars -n "__yars_at 'terrain generate'" -l json -d 'print one JSON object in place of text'

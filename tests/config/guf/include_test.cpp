@@ -1,6 +1,7 @@
 // Tests of ( include "file" ) in GUF: where it may stand, which files it may name, its limits and its errors.
 #include <gmock/gmock.h>
 
+#include "lib/file/file_search.hpp"
 #include "tests/config/support.hpp"
 
 namespace yars::config {
@@ -84,6 +85,24 @@ TEST(Include, FollowsNoSymbolicLinkOutOfTheFolder) {
   const auto path = folder.write("inside/a.guf", "( include \"link.guf\" )");
   std::filesystem::create_symlink(target, folder.path() / "inside/link.guf");
   EXPECT_THAT(refusal_of(path), HasSubstr("expected an include inside "));
+}
+
+TEST(Include, ByANameAloneMeansTheFileThatCameWithYarsWhereNoneIsBeside) {
+  const auto shipped = load_configuration(file::installed_folder() / "apg68.guf");
+  ASSERT_TRUE(shipped) << shipped.error().message();
+  const Folder folder;
+  const auto path = folder.write("deep/a.guf", "( include \"apg68.guf\" )\n( Apg70 :name \"my own\" )");
+  const auto own = load_configuration(path);
+  ASSERT_TRUE(own) << own.error().message();
+  EXPECT_EQ(own->radar.name, "my own");
+  EXPECT_EQ(own->radar.ranges_nm, shipped->radar.ranges_nm);
+  folder.write("deep/apg68.guf", "( Apg70 :ranges `( 1 2 ) )");
+  EXPECT_THAT(ranges_of(path), ElementsAre(1, 2));
+}
+
+TEST(Include, WithAFolderNeverMeansAFileThatCameWithYars) {
+  const Folder folder;
+  EXPECT_THAT(refusal_of(folder.write("a.guf", "( include \"./apg68.guf\" )")), HasSubstr("does not exist"));
 }
 
 TEST(Include, RefusesACycleOfFiles) {

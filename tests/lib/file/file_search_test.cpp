@@ -1,13 +1,13 @@
-// Tests of installed_file(), which finds a configuration or route by its name alone.
+// Tests of installed_file() and installed_folder(), which find a configuration or route by its name alone.
+#include "lib/file/file_search.hpp"
+
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "databuffer/runtime/program.hpp"
-
-namespace yars::databuffer {
+namespace yars::file {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,7 +23,7 @@ class InstalledFile : public ::testing::Test {
   }
   void TearDown() override { fs::remove_all(prefix_); }
 
-  std::string found(const std::string& name) const { return installed_file(name, prefix_ / "bin"); }
+  std::string found(const std::string& name) const { return installed_file(name, prefix_ / "share/yars/config"); }
 
   fs::path prefix_ = fs::temp_directory_path() / ("yars_installed_file_" + std::to_string(getpid()));
 };
@@ -54,5 +54,9 @@ TEST_F(InstalledFile, AMissingFileKeepsItsNameForTheErrorMessage) {
   EXPECT_EQ(found("routes"), "routes");
 }
 
+TEST(InstalledFolder, OfABuildIsTheFolderOfItsSources) {
+  EXPECT_TRUE(fs::is_regular_file(installed_folder() / "apg70.guf"));
+}
+
 }  // namespace
-}  // namespace yars::databuffer
+}  // namespace yars::file
