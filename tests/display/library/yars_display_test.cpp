@@ -123,6 +123,11 @@ TEST_F(LibraryDisplay, ButtonsArePressedFoundAndDescribed) {
   EXPECT_THAT(yars_display_error(), HasSubstr("room for a text"));
 }
 
+TEST_F(LibraryDisplay, AConfigurationThatCameWithYarsIsFoundByItsName) {
+  const Attached d{yars_display_attach(name_.c_str(), "apg68.guf", nullptr), yars_display_detach};
+  EXPECT_TRUE(d) << yars_display_error();
+}
+
 TEST_F(LibraryDisplay, ErrorsAreTextAndNeverEndTheHost) {
   EXPECT_EQ(yars_display_attach("../x", nullptr, nullptr), nullptr);
   EXPECT_THAT(yars_display_error(), HasSubstr("../x"));
