@@ -7,9 +7,14 @@
 #include <string>
 #include <string_view>
 
+#include "lib/radar/mapping.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/view.hpp"
 #include "lib/text/plain_text.hpp"
+#include "statemachine/cursor.hpp"
+#include "statemachine/designation.hpp"
 #include "statemachine/maps.hpp"
+#include "statemachine/picture_plane.hpp"
 #include "statemachine/reasons.hpp"
 #include "statemachine/remedies.hpp"
 #include "statemachine/transition_table.hpp"
@@ -78,6 +83,16 @@ std::string new_setting(const ButtonRow& row, const RadarState& before, const Ra
   return legend.empty() || legend == row.legend.of(before) ? std::string() : ": " + legend;
 }
 
+// The words without the last alternatives of a remedy that a field of `size` characters cannot hold.
+std::string shortened(std::string words, std::size_t size) {
+  while (words.size() > size) {
+    const std::size_t alternative = words.rfind(", "), remedy = words.rfind("; ");
+    const std::size_t end = alternative != std::string::npos ? alternative : remedy;
+    words.resize(end != std::string::npos ? end : size);
+  }
+  return words;
+}
+
 // Tries events on copies of one state, and puts what they do into words.
 class Advisor {
  public:
@@ -89,7 +104,7 @@ class Advisor {
   bool put(char (&field)[N], const InputEvent& event, const Row* row) {
     refused_ = false;
     const std::string words = row == nullptr ? std::string() : words_of(event, *row);
-    text::put_text(field, words.empty() ? idle_words(state_, event) : words);
+    text::put_text(field, shortened(words.empty() ? idle_words(state_, event) : words, N - 1));
     return !words.empty() && !refused_;
   }
 
@@ -109,6 +124,39 @@ class Advisor {
   bool refused_ = false;  // the last event tried was refused
 };
 
+// Appends words to a field of the advice if they fit it whole.
+template <std::size_t N>
+void append(char (&field)[N], const std::string& words) {
+  const std::string all = std::string(text::text_of(field)) + words;
+  if (all.size() < N) text::put_text(field, all);
+}
+
+bool acts_at_cursor(const RadarState& state) {
+  return has(state, databuffer::kCursorValid) && shows_cursor(state) && !slews_steering_line(state);
+}
+
+// True if the display does not show the position. The TDC stops the cursor at the edge, up to rounding.
+bool is_off(const PicturePlane& plane, geo::GeoPoint position) {
+  constexpr double kAllowance_units = 0.5;
+  const DisplayPoint at = plane.display_from_ground(position);
+  const DisplayPoint inside{std::clamp(at.x, plane.view.width_min, plane.view.width_max),
+                            std::clamp(at.y, plane.view.height_min, plane.view.height_max)};
+  return plane.units_between(at, inside) > kAllowance_units;
+}
+
+// Adds to the words of the TDC's live switch which window a blank one stands for, and that the cursor cannot be seen.
+void add_cursor_words(PilotAdvice& advice, const RadarState& state, const Inputs& inputs,
+                      const Parameters& parameters) {
+  const bool maps = state.cursor_function == static_cast<std::uint8_t>(radar::CursorFunction::map);
+  const auto range = geo::Length::nautical_miles(state.cursor_range_nm);
+  const auto window = radar::window_of_blank_selection(range, parameters.window_limits);
+  if (maps && !(state.window_nm > 0.0) && window)
+    append(advice.buttons[0], "; blank window" + miles(window->nautical_miles()) + "; acq fwd (PgUp)");
+  const auto plane = plane_of(state, inputs, parameters.view);
+  if (acts_at_cursor(state) && plane && is_off(*plane, cursor_of(state)))
+    append(advice.buttons[0], "; off the display: tdc (arrows)");
+}
+
 }  // namespace
 
 void advise(PilotAdvice& advice, const RadarState& state, const Inputs& inputs, const Parameters& parameters) {
@@ -116,6 +164,7 @@ void advise(PilotAdvice& advice, const RadarState& state, const Inputs& inputs, 
   Advisor advisor(state, inputs, parameters);
   const InputEvent release = event_of(EventKind::tdc_release);
   advice.live = advisor.put(advice.buttons[0], release, live_control(state, release)) ? 1 : 0;
+  if (advice.live != 0) add_cursor_words(advice, state, inputs, parameters);
   for (int button = 1; button <= radar::kBezelButtons; ++button) {
     const InputEvent press = event_of(EventKind::push_button, button);
     const bool live = advisor.put(advice.buttons[button], press, live_button(state, button));

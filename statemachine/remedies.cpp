@@ -63,8 +63,21 @@ int whole_degrees(double degrees) {
 
 std::string turn_toward(const RefusedMap& map, double limit_deg) {
   const double off_deg = (map.path.azimuth_at_start - map.from.platform.heading).degrees();
-  return formatted("turn %d deg or more %s, toward it", whole_degrees(std::abs(off_deg) - limit_deg),
-                   off_deg > 0.0 ? "right" : "left");
+  return formatted("turn %d deg or more %s, toward the %s", whole_degrees(std::abs(off_deg) - limit_deg),
+                   off_deg > 0.0 ? "right" : "left", map.again ? "map" : "cursor");
+}
+
+// Tenths of a value, rounded up, so that the limit is kept. The allowance keeps 4.7000001 at 4.7.
+double tenths_up(double value) {
+  constexpr double kAllowance = 1e-6;
+  return std::ceil(value * 10.0 - kAllowance) / 10.0;
+}
+
+// Distance [NM] across the ground track from the cursor to the edge of the blind zone.
+double across_blind_zone_nm(const RefusedMap& map, double squint_deg, double blind_zone_deg) {
+  const double squint_rad = std::abs(squint_deg) * geo::kRadiansPerDegree;
+  const double along_nm = map.path.distance.nautical_miles() * std::cos(squint_rad);
+  return along_nm * (std::tan(blind_zone_deg * geo::kRadiansPerDegree) - std::tan(squint_rad));
 }
 
 // Ahead: a turn away from the cursor. Astern the gimbal forbids the map, too; so the aircraft must turn toward it.
@@ -74,7 +87,35 @@ std::string leave_blind_zone(const RefusedMap& map, const radar::MapLimits& limi
   const int turn_deg = whole_degrees(limits.blind_zone_deg - std::abs(squint_deg));
   const bool right = squint_deg >= 0.0;
   const std::string turn = formatted("turn %d deg or more %s", turn_deg, right ? "left" : "right");
-  return map.again ? turn : turn + ", or move the cursor " + (right ? "right" : "left");
+  if (map.again) return turn;
+  const double across_nm = across_blind_zone_nm(map, squint_deg, limits.blind_zone_deg);
+  return turn + formatted(", or move the cursor %.1f NM %s", tenths_up(across_nm), right ? "right" : "left");
+}
+
+// True if the gimbal alone forbids the map in this attitude.
+bool gimbal_forbids(RefusedMap map, const radar::MapLimits& limits, geo::Angle pitch, geo::Angle roll) {
+  map.from.platform.pitch = pitch;
+  map.from.platform.roll = roll;
+  return radar::map_rejection(map.from, map.centre, map.window, limits) == "GIMBAL";
+}
+
+// The largest whole angle nearer to level than `angle_deg`, on the same side, that `forbids` does not forbid.
+template <class Forbids>
+std::optional<int> largest_allowed(double angle_deg, const Forbids& forbids) {
+  for (int degrees = static_cast<int>(std::abs(angle_deg)); degrees >= 0; --degrees)
+    if (!forbids(geo::Angle::degrees(std::copysign(degrees, angle_deg)))) return degrees;
+  return std::nullopt;
+}
+
+std::string level_out(const RefusedMap& map, const radar::MapLimits& limits) {
+  const radar::Platform& platform = map.from.platform;
+  const auto roll_forbids = [&](geo::Angle roll) { return gimbal_forbids(map, limits, platform.pitch, roll); };
+  if (const auto bank_deg = largest_allowed(platform.roll.degrees(), roll_forbids))
+    return formatted("level the wings: bank %d deg or less", *bank_deg);
+  const auto pitch_forbids = [&](geo::Angle pitch) { return gimbal_forbids(map, limits, pitch, platform.roll); };
+  if (const auto pitch_deg = largest_allowed(platform.pitch.degrees(), pitch_forbids))
+    return formatted("level the nose: pitch %d deg or less", *pitch_deg);
+  return "level wings and nose: bank 0 deg, pitch 0 deg";
 }
 
 std::string return_into_gimbal(const RefusedMap& map, const radar::MapLimits& limits) {
@@ -83,16 +124,19 @@ std::string return_into_gimbal(const RefusedMap& map, const radar::MapLimits& li
   if (std::abs(off_deg) > antenna.azimuth_limit_deg) return turn_toward(map, antenna.azimuth_limit_deg);
   const double ground_m = map.centre.ground_m.value_or(0.0);
   const double down_deg = -radar::elevation_to_ground(map.from.altitude, map.path.distance, ground_m).degrees();
-  if (down_deg <= antenna.elevation_limit_deg) return "level the wings";
+  if (down_deg <= antenna.elevation_limit_deg) return level_out(map, limits);
+  constexpr double kStep_ft = 100.0;  // of altitudes
+  const double slope = std::tan(antenna.elevation_limit_deg * geo::kRadiansPerDegree);
   const double height_m = map.from.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
-  const auto least = Length::metres(height_m / std::tan(antenna.elevation_limit_deg * geo::kRadiansPerDegree));
-  const double tenths = std::ceil(least.nautical_miles() * 10.0);  // rounded up, so that the map is possible there
-  return formatted("descend, or move the cursor out to %.1f NM or more", tenths / 10.0);
+  const auto surplus = Length::metres(height_m - map.path.distance.metres() * slope);
+  const std::string descend = formatted("descend %.0f ft or more", std::ceil(surplus.feet() / kStep_ft) * kStep_ft);
+  if (map.again) return descend;
+  const auto least = Length::metres(height_m / slope);
+  return descend + formatted(", or move the cursor out to %.1f NM or more", tenths_up(least.nautical_miles()));
 }
 
-// Text " or window 1.3: acq fwd (PgUp)" if another window can be mapped at this range; empty if none can. Of several
-// windows the nearest in size is named.
-std::string other_window(const RefusedMap& map, const Parameters& parameters, double range_nm) {
+// The window nearest in size that can be mapped at this range; nullopt if none can.
+std::optional<double> other_window_nm(const RefusedMap& map, const Parameters& parameters, double range_nm) {
   const double present_nm = map.window.size.nautical_miles();
   std::optional<double> best_nm;
   for (const double window_nm : parameters.windows_nm) {
@@ -100,8 +144,33 @@ std::string other_window(const RefusedMap& map, const Parameters& parameters, do
     if (!limits || !limits->contains(map.path.distance) || window_nm > range_nm) continue;
     if (!best_nm || std::abs(window_nm - present_nm) < std::abs(*best_nm - present_nm)) best_nm = window_nm;
   }
-  if (!best_nm) return {};
-  return formatted(", or take window %g: %s", *best_nm, *best_nm > present_nm ? "acq fwd (PgUp)" : "acq aft (PgDn)");
+  return best_nm;
+}
+
+// Presses of the acquisition switch from one window to another. 0 is the blank window, below all others.
+long presses_between(double from_nm, double to_nm, const std::vector<double>& windows_nm) {
+  const auto up_to = [&](double size_nm) {
+    return std::ranges::count_if(windows_nm, [size_nm](double window_nm) { return window_nm <= size_nm; });
+  };
+  return std::abs(up_to(to_nm) - up_to(from_nm));
+}
+
+// Text ", or take window 1.3: acq fwd (PgUp)" if another window can be mapped at this range; empty if none can.
+std::string other_window(const RefusedMap& map, const Parameters& parameters, double range_nm) {
+  const auto window_nm = other_window_nm(map, parameters, range_nm);
+  if (!window_nm) return {};
+  const double present_nm = map.window.size.nautical_miles();
+  const long presses = presses_between(present_nm, *window_nm, parameters.windows_nm);
+  return formatted(", or take window %g: %s", *window_nm,
+                   *window_nm > present_nm ? "acq fwd (PgUp)" : "acq aft (PgDn)") +
+         (presses > 1 ? formatted(" %ld times", presses) : std::string());
+}
+
+// While re-mapping stops: how far the map is beyond the limit of its window.
+std::string fly_into_range(const RefusedMap& map, double limit_nm) {
+  const double off_nm = map.path.distance.nautical_miles() - limit_nm;
+  return off_nm > 0.0 ? formatted("fly %.1f NM nearer, to %.1f NM or less", tenths_up(off_nm), limit_nm)
+                      : formatted("fly %.1f NM away, to %.1f NM or more", tenths_up(-off_nm), limit_nm);
 }
 
 std::string into_range(const RefusedMap& map, const Parameters& parameters, double range_nm) {
@@ -109,20 +178,31 @@ std::string into_range(const RefusedMap& map, const Parameters& parameters, doub
   if (!limits) return "select another window: acq fwd (PgUp), acq aft (PgDn)";
   const bool near = map.path.distance < limits->min;
   const double limit_nm = (near ? limits->min : limits->max).nautical_miles();
-  if (map.again)
-    return formatted(near ? "%.1f NM or more are needed" : "fly nearer: %.1f NM or less are needed", limit_nm);
+  if (map.again) return fly_into_range(map, limit_nm);
   return formatted(near ? "move the cursor out to %.1f NM or more" : "move the cursor in to %.1f NM or less",
                    limit_nm) +
          other_window(map, parameters, range_nm);
 }
 
-std::string into_range_of_blank(const RefusedMap& map, const radar::WindowLimits& table) {
+std::string into_range_of_blank(const RefusedMap& map, const Parameters& parameters, double range_nm) {
+  const radar::WindowLimits& table = parameters.window_limits;
   const double least_nm = table.blank_min_range_nm;
   const double greatest_nm = table.blank_max_range_nm.empty() ? least_nm : table.blank_max_range_nm.back();
   const bool near = map.path.distance.nautical_miles() < least_nm;
-  return formatted(near ? "move the cursor out to %.1f NM or more, or select a window: acq fwd (PgUp)"
-                        : "move the cursor in to %.1f NM or less, or select a window: acq fwd (PgUp)",
-                   near ? least_nm : greatest_nm);
+  return formatted(near ? "move the cursor out to %.1f NM or more" : "move the cursor in to %.1f NM or less",
+                   near ? least_nm : greatest_nm) +
+         other_window(map, parameters, range_nm);
+}
+
+// What a blank window is: the window that a map at the cursor would have now, and how to select one.
+std::string remedy_of_blank_window(const RadarState& state, const Inputs& inputs, const Parameters& parameters) {
+  if (parameters.windows_nm.empty()) return {};
+  const std::string back = formatted("back to %g NM: acq fwd (PgUp)", parameters.windows_nm.front());
+  if (!inputs.ownship_valid || !has(state, databuffer::kCursorValid)) return "by the cursor's range; " + back;
+  const RefusedMap map = refused_map(state, inputs);
+  const auto window = radar::window_of_blank_selection(map.path.distance, parameters.window_limits);
+  if (!window) return "no map at this range; " + back;
+  return formatted("by the cursor's range, here %g NM; ", window->nautical_miles()) + back;
 }
 
 std::string remedy_of_map(const RadarState& state, const Inputs& inputs, const Parameters& parameters) {
@@ -131,7 +211,7 @@ std::string remedy_of_map(const RadarState& state, const Inputs& inputs, const P
   if (!limit) return map.again ? "it resumes by itself" : "it is possible now: tdc release (Enter)";
   if (*limit == "BLIND ZONE") return leave_blind_zone(map, parameters.map_limits);
   if (*limit == "GIMBAL") return return_into_gimbal(map, parameters.map_limits);
-  if (*limit == "NO WINDOW" && map.window.size == Length()) return into_range_of_blank(map, parameters.window_limits);
+  if (*limit == "NO WINDOW" && map.window.size == Length()) return into_range_of_blank(map, parameters, state.range_nm);
   return into_range(map, parameters, state.range_nm);
 }
 
@@ -153,7 +233,7 @@ struct FixedRemedy {
 };
 constexpr std::array kFixed{
     FixedRemedy{"NO CURSOR", "select a point: sp 1, pb 17 (H)"},
-    FixedRemedy{"NO OWNSHIP", "start flight-model; yars status shows what flies"},
+    FixedRemedy{"NO OWNSHIP", databuffer::kRemedyNoOwnship},
     FixedRemedy{"NO MAP", "command it again: tdc release (Enter)"},
     FixedRemedy{"NO FREE NUMBER", "select another point, then designate: pb 17 (H)"},
     FixedRemedy{"NO RECORDER", "start one: yars record FILE"},
@@ -171,6 +251,7 @@ std::string remedy_of_message(const RadarState& state, const Inputs& inputs, con
   const std::string_view message = text::text_of(state.message);
   if (is_limit(message)) return inputs.ownship_valid ? remedy_of_map(state, inputs, parameters) : std::string();
   if (message.starts_with("NO POINT ")) return route_names(parameters);
+  if (message == kBlankWindow) return remedy_of_blank_window(state, inputs, parameters);
   const auto fixed = std::ranges::find(kFixed, message, &FixedRemedy::message);
   return fixed == kFixed.end() ? std::string() : fixed->remedy;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "statemachine/step.hpp"
 
@@ -13,6 +14,9 @@ namespace yars::statemachine {
 
 // Remedy for INV, which the display shows in place of the errors of UPDT.
 inline constexpr const char* kRemedyForInv = "move the cursor, then release within its seconds";
+
+// Message of the step from the smallest window to the blank one.
+inline constexpr std::string_view kBlankWindow = "BLANK WINDOW";
 
 // Remedy for RadarState::message. Empty: no message, or nothing is to be done (MARK 3).
 // For a refused map the angles and distances are those from the aircraft now to the cursor; while re-mapping stops,

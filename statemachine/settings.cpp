@@ -9,6 +9,7 @@
 #include "lib/radar/mapping.hpp"
 #include "lib/radar/mission.hpp"
 #include "statemachine/maps.hpp"
+#include "statemachine/remedies.hpp"
 
 namespace yars::statemachine {
 
@@ -17,7 +18,7 @@ namespace {
 using databuffer::RadarState;
 using geo::Length;
 
-constexpr std::uint8_t kBlankWindow = 255;  // value of window_index while no window is selected
+constexpr std::uint8_t kBlankIndex = 255;   // value of window_index while no window is selected
 constexpr double kElevationStep_deg = 0.5;  // docs/spec/pilots_interface.md#elevation: the keys [ and ]
 
 void choose_range(Step& step, std::size_t index) {
@@ -26,7 +27,7 @@ void choose_range(Step& step, std::size_t index) {
 }
 
 void put_window(RadarState& state, std::optional<std::size_t> index, const Parameters& parameters) {
-  state.window_index = index ? static_cast<std::uint8_t>(*index) : kBlankWindow;
+  state.window_index = index ? static_cast<std::uint8_t>(*index) : kBlankIndex;
   state.window_nm = index ? parameters.windows_nm[*index] : 0.0;
 }
 
@@ -89,10 +90,13 @@ void next_scan_width(Step& step) {
 }
 
 void step_window(Step& step) {
-  const bool blank = step.state.window_index == kBlankWindow;
+  const bool blank = step.state.window_index == kBlankIndex;
   const int present = blank ? -1 : step.state.window_index;
   const int wanted = std::max(-1, present + std::clamp<int>(step.event.argument, -1, 1));
-  if (wanted < 0) return put_window(step.state, std::nullopt, step.parameters);
+  if (wanted < 0) {
+    if (!blank) show_message(step.state, step.inputs, kBlankWindow);
+    return put_window(step.state, std::nullopt, step.parameters);
+  }
   const auto largest =
       radar::largest_window_that_fits(Length::nautical_miles(step.state.range_nm), step.parameters.windows_nm);
   if (largest) put_window(step.state, std::min(static_cast<std::size_t>(wanted), *largest), step.parameters);

@@ -1,4 +1,4 @@
-// Values derived from records: ground track, navigator's position, radar command, map timer.
+// Values derived from records: ground track, navigator's position, radar command, map timer. Remedies of silent parts.
 // Inputs: Ownship, Nav, RadarState and ModelStatus, all validated.
 // Frame: WGS84 positions, true bearings.
 // Threads: pure functions.
@@ -23,6 +23,12 @@ geo::Bearing ground_track(geo::Speed north, geo::Speed east, geo::Bearing headin
 }  // namespace yars::radar
 
 namespace yars::databuffer {
+
+// What to do about a silent part of the set: remedies of NO OWNSHIP, NO MODEL and NO STATE MACHINE. A line of the
+// display has space for 43 characters. Source: docs/spec/pilots_interface.md#remedies.
+inline constexpr const char* kRemedyNoOwnship = "start one: flight-model --source route:FILE";
+inline constexpr const char* kRemedyNoModel = "start radar-model; yars status says more";
+inline constexpr const char* kRemedyNoStateMachine = "start state-machine; yars status says more";
 
 // ground_track() of an ownship record.
 geo::Bearing ground_track_of(const Ownship& ownship);

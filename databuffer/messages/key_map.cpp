@@ -108,7 +108,7 @@ std::span<const KeyHelp> key_help() {
       KeyHelp{"arrows", "cursor (TDC)"},
       KeyHelp{"Enter", "TDC switch, acts on release"},
       KeyHelp{"Tab", "castle switch up: next point"},
-      KeyHelp{"PgUp PgDn", "window up, down; steering line with TGT"},
+      KeyHelp{"PgUp PgDn", "window up, down to blank; TGT: steering line"},
       KeyHelp{"Space", "freeze"},
       KeyHelp{"[ ]", "antenna down, up"},
       KeyHelp{"O S", "power OPR, STBY"},

@@ -7,6 +7,7 @@
 
 #include "display/symbology/help.hpp"
 #include "display/symbology/readouts.hpp"
+#include "display/symbology/text_lines.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -81,13 +82,28 @@ void draw_bezel(const PanelLayout& layout, int lit, DrawList& list) {
   }
 }
 
+namespace {
+
+// Lines of the tooltip: number, key and legend; what the button does; above the legend of PB 8 stands the window.
+std::vector<std::string> tooltip_lines(const DisplayInput& input, int button, float max_width) {
+  constexpr int kBelowWindow = 8;
+  const std::string legend(text::text_of(input.state.legends[button]));
+  std::vector<std::string> lines{name_of_button(button) + (legend.empty() ? "" : ": " + legend)};
+  const auto add = [&](const std::string& words) {
+    for (std::string& line : wrapped(in_capitals(words), max_width)) lines.push_back(std::move(line));
+  };
+  add(words_of_button(input, button));
+  const bool off = input.state.power == static_cast<std::uint8_t>(radar::Power::off);
+  if (button == kBelowWindow && input.state_machine_alive && !off) add(words_of_window(input));
+  return lines;
+}
+
+}  // namespace
+
 void draw_tooltip(const PanelLayout& layout, const DisplayInput& input, int button, DrawList& list) {
   constexpr float kHeight = 9.0F, kPitch = 14.0F, kMargin = 7.0F, kMaxWidth = 260.0F;  // [units]
   constexpr float kGap = 66.0F;  // [units] from the picture's edge, so that the legend stays visible
-  const std::string legend(text::text_of(input.state.legends[button]));
-  std::vector<std::string> lines{name_of_button(button) + (legend.empty() ? "" : ": " + legend)};
-  for (std::string& line : wrapped(in_capitals(words_of_button(input, button)), kMaxWidth / kHeight))
-    lines.push_back(std::move(line));
+  const std::vector<std::string> lines = tooltip_lines(input, button, kMaxWidth / kHeight);
   float width = 0.0F;
   for (const std::string& line : lines) width = std::max(width, text_width(line) * kHeight);
   width += 2.0F * kMargin;

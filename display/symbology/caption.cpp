@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "lib/text/plain_text.hpp"
 
@@ -14,11 +15,14 @@ namespace {
 
 // All in display units. The widest line, kCaptionLength characters, fits between the legends of both sides.
 constexpr float kPlateLeft = 66.0F, kPlateRight = 414.0F;
-constexpr float kLowerEnd = 404.0F;   // the message's line is below
-constexpr float kUpperBegin = 66.0F;  // FREEZE and the name of A/A are above
+constexpr float kPictureLeft = 106.0F;  // right of the elevation scale; a plate begins there if it is narrow enough
+constexpr float kLowerEnd = 404.0F;     // the message's line is below
+constexpr float kUpperBegin = 66.0F;    // FREEZE and the name of A/A are above
+constexpr float kPlateStep = 8.0F;      // between two positions that are tried
 constexpr float kPadding = 6.0F;
 constexpr float kLineHeight = 8.5F, kLinePitch = 14.0F;
 constexpr float kHeadHeight = 6.0F, kHeadPitch = 11.0F;  // row with the title and the number of the step
+constexpr float kAroundPlate = 4.0F;                     // around the plate
 
 constexpr const char* kYourTurn = "YOUR TURN.  N: DO IT FOR ME";  // in place of the title while the tour waits
 
@@ -36,33 +40,77 @@ std::size_t lines_of(const databuffer::Caption& caption) {
   return count;
 }
 
-// True if the plate is below the middle of the cursor. The arms of the cursor may reach over the plate's edge, because
-// the cursor is drawn above it.
-bool is_below_cursor(const Rect& plate, const DrawList& list) {
-  return std::ranges::any_of(list.occupied(), [&](const OccupiedBox& box) {
-    const float x = (box.rect.left + box.rect.right) / 2.0F, y = (box.rect.top + box.rect.bottom) / 2.0F;
-    return box.kind == BoxKind::cursor && intersect(plate, {x, y, x, y});
-  });
+// The texts of a caption as they are drawn.
+struct CaptionText {
+  std::string title, number;
+  std::vector<std::string> lines;
+};
+
+CaptionText text_of_caption(const databuffer::Caption& caption) {
+  CaptionText text{caption.waiting != 0 ? kYourTurn : upper_case(text::text_of(caption.title)),
+                   std::to_string(caption.step) + "/" + std::to_string(caption.steps),
+                   {}};
+  for (std::size_t i = 0; i < lines_of(caption); ++i)
+    text.lines.push_back(upper_case(text::text_of(caption.lines[i].text)));
+  return text;
+}
+
+// A plate as wide as its texts, at the height of the lowest position. It keeps clear of the elevation scale if it can.
+Rect lowest_plate(const CaptionText& text) {
+  constexpr float kGap = 20.0F;  // between title and number
+  float width = (text_width(text.title) + text_width(text.number)) * kHeadHeight + kGap;
+  for (const std::string& line : text.lines) width = std::max(width, text_width(line) * kLineHeight);
+  width += 2.0F * kPadding;
+  const float left = std::max(kPlateLeft, std::min(kPictureLeft, kPlateRight - width));
+  const float height = 2.0F * kPadding + kHeadPitch + kLinePitch * static_cast<float>(text.lines.size());
+  return {left, kLowerEnd - height, std::min(left + width, kPlateRight), kLowerEnd};
+}
+
+// Number of texts, labels, symbols and lines on the ground that a plate would cover.
+std::size_t covered(const Rect& plate, const DrawList& list) {
+  const Rect area = grown(plate, kAroundPlate);
+  const auto& boxes = list.occupied();
+  const auto& lines = list.content(Layer::lines).strokes;
+  const auto hidden = [&](const OccupiedBox& box) { return box.kind != BoxKind::scale && intersect(area, box.rect); };
+  const auto crossed = [&](const Segment& line) { return crosses(area, line.from, line.to); };
+  return static_cast<std::size_t>(std::ranges::count_if(boxes, hidden) + std::ranges::count_if(lines, crossed));
+}
+
+// The lowest position if the plate covers nothing there, else the highest, else the lowest of all others at which it
+// covers least.
+Rect place_plate(const CaptionText& text, const DrawList& list) {
+  const Rect lowest = lowest_plate(text);
+  const float height = lowest.bottom - lowest.top;
+  const auto at = [&](float top) { return Rect{lowest.left, top, lowest.right, top + height}; };
+  Rect best = lowest;
+  std::size_t least = covered(best, list);
+  const auto consider = [&](const Rect& plate) {
+    const std::size_t count = covered(plate, list);
+    if (count >= least) return;
+    least = count;
+    best = plate;
+  };
+  consider(at(kUpperBegin));
+  for (float top = lowest.top - kPlateStep; least > 0 && top > kUpperBegin; top -= kPlateStep) consider(at(top));
+  return best;
 }
 
 }  // namespace
 
 void draw_caption(const databuffer::Caption& caption, DrawList& list) {
   if (caption.step == 0) return;
-  const std::size_t lines = lines_of(caption);
-  const float height = 2.0F * kPadding + kHeadPitch + kLinePitch * static_cast<float>(lines);
-  Rect plate{kPlateLeft, kLowerEnd - height, kPlateRight, kLowerEnd};
-  if (is_below_cursor(plate, list)) plate = {kPlateLeft, kUpperBegin, kPlateRight, kUpperBegin + height};
+  const CaptionText text = text_of_caption(caption);
+  const Rect plate = place_plate(text, list);
   list.draw_on(Layer::notices);
   list.plate(plate);
   float y = plate.top + kPadding + kHeadHeight / 2.0F;
-  const std::string number = std::to_string(caption.step) + "/" + std::to_string(caption.steps);
-  const std::string title = caption.waiting != 0 ? kYourTurn : upper_case(text::text_of(caption.title));
-  list.text(title, {plate.left + kPadding, y}, {kHeadHeight, Align::left});
-  list.text(number, {plate.right - kPadding, y}, {kHeadHeight, Align::right});
+  list.text(text.title, {plate.left + kPadding, y}, {kHeadHeight, Align::left});
+  list.text(text.number, {plate.right - kPadding, y}, {kHeadHeight, Align::right});
   y += kHeadPitch + (kLineHeight - kHeadHeight) / 2.0F;
-  for (std::size_t i = 0; i < lines; ++i, y += kLinePitch)
-    list.text(upper_case(text::text_of(caption.lines[i].text)), {plate.left + kPadding, y}, {kLineHeight, Align::left});
+  for (const std::string& line : text.lines) {
+    list.text(line, {plate.left + kPadding, y}, {kLineHeight, Align::left});
+    y += kLinePitch;
+  }
   list.draw_on(Layer::symbols);
 }
 

@@ -8,8 +8,9 @@
 
 namespace yars::display {
 
-// Draws the caption in the lower part of the picture, above the messages; in the upper part while the middle of
-// the cursor is where the plate would be. A caption with step 0 draws nothing. Call it last.
+// Draws the caption on a plate as wide as its longest line. The plate stands low in the picture, above the messages. If
+// it covered a text, a symbol or a line on the ground there, it stands at the top, or where it covers least. A caption
+// with step 0 draws nothing. Call it last.
 void draw_caption(const databuffer::Caption& caption, DrawList& list);
 
 }  // namespace yars::display

@@ -147,23 +147,6 @@ std::string in_capitals(std::string_view text) {
   return capitals;
 }
 
-std::vector<std::string> wrapped(std::string_view text, float max_width) {
-  std::vector<std::string> lines;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find(' '), text.size());
-    const std::string word(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (word.empty()) continue;
-    const bool fits = !lines.empty() && text_width(lines.back() + ' ' + word) <= max_width;
-    if (fits) {
-      lines.back() += ' ' + word;
-    } else {
-      lines.push_back(word);
-    }
-  }
-  return lines;
-}
-
 float text_width(std::string_view text) {
   int columns = 0;
   while (!text.empty()) columns += glyph_of(take(text)).width + kGap;

@@ -88,9 +88,6 @@ void stroke_text(std::string_view text, StrokeSink& sink);
 // The text in capitals, for prose: a lower-case "v" would be drawn as an arrow.
 std::string in_capitals(std::string_view text);
 
-// Divides a text into lines of at most `max_width` [cap heights] at its blanks. A longer word has a line of its own.
-std::vector<std::string> wrapped(std::string_view text, float max_width);
-
 // Width from the left edge of the first glyph to the right edge of the last [cap heights].
 float text_width(std::string_view text);
 

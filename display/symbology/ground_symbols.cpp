@@ -84,7 +84,11 @@ std::optional<Point> cursor_at(const DisplayInput& input, const PlanView& view, 
   if ((input.state.flags & databuffer::kCursorValid) == 0) return std::nullopt;
   const geo::GeoPoint position{input.state.cursor_latitude_deg, input.state.cursor_longitude_deg};
   const Point at = view.at_ground(frame, position);
-  return on_display(at) ? std::optional(at) : std::nullopt;
+  // The TDC stops the cursor at the edge. Rounding must not take it off the display there.
+  constexpr float kAllowance = 0.5F;
+  const Point inside{std::clamp(at.x, 0.0F, kDisplayUnits), std::clamp(at.y, 0.0F, kDisplayUnits)};
+  const bool shown = std::abs(at.x - inside.x) <= kAllowance && std::abs(at.y - inside.y) <= kAllowance;
+  return shown ? std::optional(inside) : std::nullopt;
 }
 
 std::span<const databuffer::DrawnPoint> points_of(const databuffer::RadarState& state) {
@@ -127,6 +131,10 @@ void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFram
   list.occupy("cursor",
               {at.x - kArmHalfWidth, at.y - kArm - kArmHalfWidth, at.x + kArmHalfWidth, at.y + kArm + kArmHalfWidth},
               BoxKind::cursor);
+}
+
+bool cursor_is_off(const DisplayInput& input, const PlanView& view, const ViewFrame& frame) {
+  return (input.state.flags & databuffer::kCursorValid) != 0 && !cursor_at(input, view, frame);
 }
 
 void draw_window_outline(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list) {
@@ -208,6 +216,22 @@ void draw_arrowhead(Point end, double approach_deg, DrawList& list) {
   list.polyline(head);
 }
 
+// Distance from the target at which the line ends: before the first fixed text on its way, at most kEnd. A target near
+// the edge, as one astern, has texts there.
+float end_of_line(Point target, double back_deg, const DrawList& list) {
+  constexpr float kLineStep = 2.0F, kFreeOfText = kArrow + 1.0F;  // [display units] arrowhead and circle are free, too
+  const Point begin = offset_point(target, back_deg, kBegin);
+  const auto is_free = [&](float distance) {
+    return std::ranges::none_of(list.occupied(), [&](const OccupiedBox& box) {
+      return box.kind == BoxKind::text &&
+             crosses(grown(box.rect, kFreeOfText), begin, offset_point(target, back_deg, distance));
+    });
+  };
+  float end = kBegin;
+  while (end < kEnd && is_free(end + kLineStep)) end += kLineStep;
+  return end;
+}
+
 Label heading_label(double magnetic_deg, Point target) {
   std::array<char, 16> text{};
   // 359.6 deg rounds to 360, which is shown as 000.
@@ -230,14 +254,17 @@ std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanVie
   if (!on_display(target)) return std::nullopt;
   const double approach_deg = (geo::Bearing::degrees(state.steering_line_deg) - frame.up).degrees();
   const double back_deg = approach_deg + 180.0;
-  const Point end = offset_point(target, back_deg, kEnd);
+  const float length = end_of_line(target, back_deg, list);
+  const auto heading = heading_label(state.steering_line_deg - state.magnetic_variation_deg, target);
+  if (length < kBegin + kArrow) return heading;
+  const Point end = offset_point(target, back_deg, length);
   list.draw_on(Layer::lines);
   const bool ring = line == SteeringLine::fixed;
-  list.line(offset_point(target, back_deg, kBegin), ring ? offset_point(target, back_deg, kEnd - kRing) : end);
+  list.line(offset_point(target, back_deg, kBegin), ring ? offset_point(target, back_deg, length - kRing) : end);
   if (ring) list.circle(end, kRing);
   if (line == SteeringLine::slewing) draw_arrowhead(end, approach_deg, list);
   list.draw_on(Layer::symbols);
-  return heading_label(state.steering_line_deg - state.magnetic_variation_deg, target);
+  return heading;
 }
 
 }  // namespace yars::display

@@ -26,6 +26,9 @@ namespace yars::display {
 // Draws the cursor, a cross with an open centre, at its ground position on the top layer.
 void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list);
 
+// True if the cursor's position is known and lies off the display, so that draw_cursor() draws nothing.
+bool cursor_is_off(const DisplayInput& input, const PlanView& view, const ViewFrame& frame);
+
 // Draws the window of the commanded patch map while the map forms: a square with two sides along the line of sight.
 void draw_window_outline(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list);
 
@@ -47,8 +50,9 @@ enum class NameRank : std::uint8_t { selected, target, other };
 void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, NameRank rank, LabelQueue& queue);
 
 // Draws the PSL from the designated target back along the approach heading. Its far end has an arrowhead while the TDC
-// turns the line, and a circle if the line is fixed. Returns the label with the magnetic heading; nullopt if there is
-// no line, or the target is not on the display. Source: docs/spec/pilots_interface.md#rule-15
+// turns the line, and a circle if the line is fixed. It ends before a fixed text, and is left out where too little of
+// it would remain. Draw it after the fixed texts. Returns the label with the magnetic heading; nullopt if there is no
+// line, or the target is not on the display. Source: docs/spec/pilots_interface.md#rule-15
 std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                                         DrawList& list);
 

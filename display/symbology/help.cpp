@@ -1,9 +1,11 @@
 #include "display/symbology/help.hpp"
 
 #include <array>
+#include <cstdio>
 #include <string_view>
 
 #include "databuffer/messages/key_map.hpp"
+#include "display/symbology/text_lines.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -54,8 +56,7 @@ void put_button(const DisplayInput& input, int button, Rows& rows) {
   rows.put(std::to_string(button), kNumber, ink, Align::right);
   rows.put(databuffer::key_of_button(button), kKey, ink);
   rows.put(text_of(input.state.legends[button]), kLegend, ink);
-  const auto lines = wrapped(in_capitals(without_remedy(words_of_button(input, button))), kWordsWidth);
-  if (!lines.empty()) rows.put(lines.front(), kWords, ink);
+  rows.put(first_words(in_capitals(without_remedy(words_of_button(input, button))), kWordsWidth), kWords, ink);
   rows.next();
 }
 
@@ -75,7 +76,17 @@ void put_switch(const DisplayInput& input, Rows& rows) {
 
 std::string words_of_button(const DisplayInput& input, int button) {
   const std::string_view words = text_of(input.advice.buttons[button]);
-  return words.empty() || !input.state_machine_alive ? "not known: state-machine is silent" : std::string(words);
+  return words.empty() || !input.state_machine_alive ? "not known: state-machine is silent; start state-machine"
+                                                     : std::string(words);
+}
+
+std::string words_of_window(const DisplayInput& input) {
+  if (!(input.state.window_nm > 0.0))
+    return "window blank: the cursor's range selects it; back to the smallest: acq fwd (PgUp)";
+  std::array<char, 80> buffer;
+  std::snprintf(buffer.data(), buffer.size(), "window %.4g NM: larger acq fwd (PgUp), smaller acq aft (PgDn)",
+                input.state.window_nm);
+  return buffer.data();
 }
 
 std::string name_of_button(int button) {

@@ -18,6 +18,9 @@ void draw_help(const DisplayInput& input, DrawList& list);
 // of the state machine the text says so.
 std::string words_of_button(const DisplayInput& input, int button);
 
+// The selected window, which stands above the legend of PB 8, and the events that change it; what a blank window is.
+std::string words_of_window(const DisplayInput& input);
+
 // Number and key of a button: "PB 13, KEY D"; "PB 1" for a button without a key.
 std::string name_of_button(int button);
 

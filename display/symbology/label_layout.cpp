@@ -15,19 +15,26 @@ constexpr float kLineGap = 2.5F;      // [units] distance from the end of the le
 
 // Clearance that a position must have [units]. The ink of a text reaches 0.7 units and half a pixel beyond its box.
 struct Clearance {
-  float around;          // free space on all sides of the text
-  float beside_line;     // free space on either side of the leader line
-  float beyond_line;     // length added to the ends of all lines in the test for crossing lines
-  bool crosses_symbols;  // the leader line may cross points, solid scales, window outline and steering line
+  float around;                // free space on all sides of the text
+  float beside_line;           // free space on either side of the leader line
+  float beyond_line;           // length added to the ends of all lines in the test for crossing lines
+  bool crosses_symbols;        // the leader line may cross points, solid scales, window outline and steering line
+  bool among_legends = false;  // the text may stand in the rows of the legends, and nearer beside a legend
 };
 constexpr Clearance kKeepPosition{2.5F, 1.0F, 0.0F, true};
 // A new position needs more clearance than a kept position. Otherwise the label would move again in the next picture.
 // kLastResort applies if no position satisfies kNewPosition. kMoveNearer applies to a move nearer the symbol.
 constexpr Clearance kNewPosition{3.5F, 2.0F, 2.0F, false}, kLastResort{3.5F, 2.0F, 2.0F, true};
+// For a name that has no other position.
+constexpr Clearance kAmongLegends{3.5F, 2.0F, 2.0F, true, true};
 constexpr Clearance kMoveNearer{7.0F, 3.0F, 3.0F, false};
 constexpr float kEdgeAllowance = 1.5F;  // [units] reduces the clearance from the edge of the display
-constexpr float kBesideText = 3.0F;     // [units] extra clearance beside another text; closer texts read as one word
-constexpr float kAroundSymbol = 2.0F;   // [units] extra clearance from another point; a closer label seems its name
+constexpr float kBesideText = 3.0F;     // [units] extra clearance beside another label; closer texts read as one word
+constexpr float kBesideLegend = 6.0F;   // [units] the same beside a legend or readout
+// [units] Rows of the legends and of the window size, at the upper and lower edge. A label there would be read as a
+// legend.
+constexpr Rect kUpperRow{0.0F, 0.0F, kDisplayUnits, 20.0F}, kLowerRow{0.0F, 446.0F, kDisplayUnits, kDisplayUnits};
+constexpr float kAroundSymbol = 2.0F;  // [units] extra clearance from another point; a closer label seems its name
 
 struct Position {
   Point offset;  // [units] vector from the anchor to the reference point of the text
@@ -106,7 +113,8 @@ class Search {
         text_box(words_of(label_.words), moved(label_.anchor, position.offset), {kLabelHeight, position.align});
     // The clearance from the display's edge, too, is smaller for a kept position. Otherwise a label at the edge could
     // blink.
-    return on_display(grown(box, clearance.around - kEdgeAllowance)) && is_clear(grown(box, clearance.around)) &&
+    return on_display(grown(box, clearance.around - kEdgeAllowance)) &&
+           is_clear(grown(box, clearance.around), clearance.among_legends) &&
            (position.ring == 0 || line_is_clear(position, clearance));
   }
 
@@ -119,8 +127,9 @@ class Search {
 
   std::optional<std::size_t> choose(std::optional<std::size_t> before) const {
     if (!before || !is_free(*before, kKeepPosition)) {
-      const auto clear = first_free(kNewPosition, kPositions);
-      return clear ? clear : first_free(kLastResort, kPositions);
+      auto clear = first_free(kNewPosition, kPositions);
+      if (!clear) clear = first_free(kLastResort, kPositions);
+      return clear || label_.role == LabelRole::heading ? clear : first_free(kAmongLegends, kPositions);
     }
     const std::size_t ring = position_of(label_.role, *before).ring;
     const std::size_t nearer = ring == 0 ? 0 : kAroundName.size() + (ring - 1) * kDirections.size();
@@ -146,16 +155,18 @@ class Search {
            std::abs((box.rect.top + box.rect.bottom) / 2.0F - label_.anchor.y) < rounding;
   }
 
-  Rect required_clear(const Rect& area, const OccupiedBox& box) const {
+  Rect required_clear(const Rect& area, const OccupiedBox& box, bool among_legends) const {
     if (box.kind == BoxKind::point) return grown(area, kAroundSymbol);
-    const bool words = box.kind == BoxKind::text || box.kind == BoxKind::label;
-    return words ? Rect{area.left - kBesideText, area.top, area.right + kBesideText, area.bottom} : area;
+    if (box.kind != BoxKind::text && box.kind != BoxKind::label) return area;
+    const float beside = box.kind == BoxKind::text && !among_legends ? kBesideLegend : kBesideText;
+    return {area.left - beside, area.top, area.right + beside, area.bottom};
   }
 
-  bool is_clear(const Rect& area) const {
+  bool is_clear(const Rect& area, bool among_legends) const {
+    if (!among_legends && (intersect(area, kUpperRow) || intersect(area, kLowerRow))) return false;
     for (const OccupiedBox& box : list_.occupied()) {
       // All positions are clear of the label's own symbol.
-      if (!is_own_symbol(box) && intersect(required_clear(area, box), box.rect)) return false;
+      if (!is_own_symbol(box) && intersect(required_clear(area, box, among_legends), box.rect)) return false;
     }
     return std::ranges::none_of(lines_, [&](const Segment& line) { return crosses(area, line.from, line.to); });
   }

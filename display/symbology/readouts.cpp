@@ -5,8 +5,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <string>
 #include <string_view>
 
+#include "databuffer/messages/derived_values.hpp"
+#include "display/symbology/text_lines.hpp"
 #include "lib/error/error.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"
@@ -72,6 +75,8 @@ constexpr float kAboveLegend = 15.5F;   // [units] distance from a legend of the
 constexpr float kBannerHeight = 18.0F;  // [units] cap height of STBY
 constexpr float kHintHeight = 8.0F;     // [units] cap height of remedies and of how to get back
 constexpr float kNoticeHeight = 13.0F;  // [units] cap height of NO OWNSHIP and similar
+
+constexpr std::string_view kNoOwnship = "NO OWNSHIP";  // a notice, and the message that refuses a cursor function
 
 using text::text_of;
 using Buffer = std::array<char, 40>;
@@ -155,6 +160,20 @@ void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list) {
   draw_number(formatted(buffer, "%.1fNM", state.cursor_range_nm), {6.0F, 27.0F}, {kTextHeight, Align::left}, list);
 }
 
+void draw_cursor_off(DrawList& list) {
+  // Two rows below the cursor's readout, left of the elevation scale.
+  list.text("OFF THE", {kMargin, 41.0F}, {kHintHeight, Align::left});
+  list.text("DISPLAY", {kMargin, 53.0F}, {kHintHeight, Align::left});
+}
+
+void draw_map_width(const databuffer::PatchMap& map, DrawList& list) {
+  // In the lower left corner, between the legends of PB 5 and 6, below the limit balls.
+  Buffer buffer;
+  const float row = kDisplayUnits - kTopRow;
+  draw_number("WIDTH", {kMargin, row - 13.0F}, {kHintHeight, Align::left}, list);
+  draw_number(std::string(miles(buffer, map.window_nm)) + "NM", {kMargin, row}, {kTextHeight, Align::left}, list);
+}
+
 void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
   if ((state.flags & databuffer::kUpdateShown) == 0) return;
   Buffer buffer;
@@ -202,12 +221,12 @@ void draw_freeze(DrawList& list) {
 
 void draw_message(const DisplayInput& input, DrawList& list) {
   const std::string_view message = text_of(input.state.message);
-  if (message.empty()) return;
+  const bool shown_as_notice = message == kNoOwnship && !input.ownship_fresh;
+  if (message.empty() || shown_as_notice || !input.state_machine_alive) return;
   constexpr float kLowestRow = 413.0F, kRowPitch = 12.0F;  // [units] above the azimuth scale
   constexpr float kMaxWidth = 270.0F;                      // [units] between elevation scale and gray scale
-  constexpr std::size_t kMaxLines = 2;
-  auto lines = wrapped(in_capitals(text_of(input.advice.remedy)), kMaxWidth / kHintHeight);
-  if (lines.size() > kMaxLines) lines.resize(kMaxLines);
+  // The longest remedy, PilotAdvice::remedy with 127 characters, takes three lines.
+  const auto lines = wrapped(in_capitals(text_of(input.advice.remedy)), kMaxWidth / kHintHeight);
   list.draw_on(Layer::notices);
   float y = kLowestRow - kRowPitch * static_cast<float>(lines.size());
   list.text(message, {kDisplayUnits / 2.0F, y}, centered(kTextHeight));
@@ -270,15 +289,17 @@ void draw_state(const DisplayInput& input, DrawList& list) {
 
 void draw_silent(const DisplayInput& input, DrawList& list) {
   list.draw_on(Layer::notices);
-  float y = 290.0F;
-  const auto notice = [&](bool healthy, std::string_view words) {
+  constexpr float kFirstRow = 290.0F, kBelowNotice = 19.0F, kNoticePitch = 39.0F;  // [units]
+  float y = kFirstRow;
+  const auto notice = [&](bool healthy, std::string_view words, std::string_view remedy) {
     if (healthy) return;
     list.text(words, {kDisplayUnits / 2.0F, y}, {kNoticeHeight, Align::center, true, true});
-    y += 26.0F;
+    list.text(in_capitals(remedy), {kDisplayUnits / 2.0F, y + kBelowNotice}, centered(kHintHeight));
+    y += kNoticePitch;
   };
-  notice(input.ownship_fresh, "NO OWNSHIP");
-  notice(input.model_alive, "NO MODEL");
-  notice(input.state_machine_alive, "NO STATE MACHINE");
+  notice(input.ownship_fresh, kNoOwnship, databuffer::kRemedyNoOwnship);
+  notice(input.model_alive, "NO MODEL", databuffer::kRemedyNoModel);
+  notice(input.state_machine_alive, "NO STATE MACHINE", databuffer::kRemedyNoStateMachine);
   list.draw_on(Layer::symbols);
 }
 

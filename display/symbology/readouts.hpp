@@ -37,6 +37,9 @@ void draw_brightness(const databuffer::RadarState& state, DrawList& list);      
 void draw_range(const databuffer::RadarState& state, DrawList& list);           // between PB 13 and 14
 void draw_window_size(const databuffer::RadarState& state, DrawList& list);     // above PB 8; blank: no text
 void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // magnetic bearing, ground range
+// Says below the cursor's readout that the cursor lies off the display.
+void draw_cursor_off(DrawList& list);
+void draw_map_width(const databuffer::PatchMap& map, DrawList& list);  // lower left: side of the map that is shown
 // Position error of UPDT, from the selected sequence point to the cursor: north and east components in feet, or in NM
 // if the total error exceeds kUpdateErrorInFeet. The seconds left for an INS update are above PB 7. When they have
 // passed, INV replaces the error.
@@ -45,12 +48,14 @@ void draw_map_timer(double seconds, DrawList& list);  // nothing if not finite
 // Draws "A/A" or "A/G RANGING" in these modes, because no legend names them. Draws nothing in other modes.
 void draw_mode_name(const databuffer::RadarState& state, DrawList& list);
 void draw_freeze(DrawList& list);
-// Draws the message, and below it the remedy in smaller text, on at most two lines.
+// Draws the message, and below it the remedy in smaller text, on at most three lines. Without a state machine the
+// message is out of date; nothing is drawn. Nor is NO OWNSHIP while draw_silent() draws it.
 void draw_message(const DisplayInput& input, DrawList& list);
 // Draws what the state is if it shows no picture: STBY, A/A and A/G RANGING without a map, the main menu, PVU. With
 // `input.hints` also how to get back, and for OFF how to switch on; else OFF draws nothing.
 void draw_state(const DisplayInput& input, DrawList& list);
-void draw_silent(const DisplayInput& input, DrawList& list);  // NO OWNSHIP, NO MODEL, NO STATE MACHINE
+// NO OWNSHIP, NO MODEL, NO STATE MACHINE, each with its remedy in smaller text.
+void draw_silent(const DisplayInput& input, DrawList& list);
 
 // Velocity differences: velocity measured by the radar minus velocity of the navigator, in ft/s. Components: along the
 // ground track, to the right, up. Source: docs/spec/pilots_interface.md#rule-16.

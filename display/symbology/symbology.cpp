@@ -323,19 +323,20 @@ void draw_ground(const DisplayInput& input, std::span<const radar::RoutePoint> r
 
 void draw_format(const DisplayInput& input, const Format& format, const SymbologyParameters& parameters,
                  const PlanView& view, const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
-  // The position of a map that could not be read is unknown. Without it no ground symbols are drawn.
+  // The position of a map that could not be read is unknown; then no ground symbols are drawn.
   const bool placed = format.ground && (!format.map || shows_map(input));
   // The cursor is drawn before the readouts, because draw_number omits numbers beneath the cursor.
   if (placed) draw_cursor(input, view, frame, list);
-  if (format.arcs) {
-    const databuffer::RadarState& state = input.state;
+  const databuffer::RadarState& state = input.state;
+  if (format.arcs)
     draw_range_arcs(view, arc_spacing(state.range_nm, state.range_index, parameters.view.arc_spacing_nm), list);
-  }
   if (format.zero_line) draw_zero_azimuth_line(view, list);
   if (format.scales) draw_scales(input, list);
   if (format.limit_balls) draw_limits(input, parameters.blind_zone_deg, list);
   if (format.gray_scale) draw_gray_scale(list);
   if (format.readouts) draw_readouts(input, format, list);
+  if (placed && cursor_is_off(input, view, frame)) draw_cursor_off(list);
+  if (placed && format.map) draw_map_width(input.map, list);
   if (format.velocity) draw_velocity_format(input, list);
   if (placed && format.mapping) draw_window_outline(input, view, frame, list);
   if (placed) draw_ground(input, parameters.route, view, frame, labels, list);
@@ -379,11 +380,9 @@ void draw_radar(const DisplayInput& input, const SymbologyParameters& parameters
   draw_silent(input, list);
   draw_mode_name(state, list);
   if (has_power(state, radar::Power::standby)) return;
-  if (shows_map(input)) {
-    draw_format(input, format_of(state), parameters, PlanView(input.map), frame_of(input.map), labels, list);
-  } else {
-    draw_format(input, format_of(state), parameters, view, frame, labels, list);
-  }
+  const bool map = shows_map(input);
+  draw_format(input, format_of(state), parameters, map ? PlanView(input.map) : view, map ? frame_of(input.map) : frame,
+              labels, list);
 }
 
 }  // namespace

@@ -161,14 +161,17 @@ TEST_F(Supervision, StatusNamesHangingAndMissingRoles) {
   EXPECT_THAT(reasons(), HasSubstr("the radar is off"));
   ASSERT_EQ(set_.yars({"inject", "power opr"}).code, 0);
   EXPECT_TRUE(eventually([&] { return reasons() == R"(["no ownship: no source runs"])"; }, kTimeout_s)) << reasons();
+  const auto says = [&] { return set_.yars({"status"}).output; };
+  EXPECT_THAT(says(), HasSubstr("display says: NO OWNSHIP; start one: flight-model --source route:FILE\n"));
   set_.kill("radar-display", SIGSTOP);
   EXPECT_TRUE(eventually([&] { return reasons().find("the display hangs") != std::string::npos; }, kTimeout_s));
   set_.kill("radar-display", SIGCONT);
   set_.kill("radar-model", SIGKILL);
   set_.wait("radar-model");
   EXPECT_TRUE(eventually([&] { return reasons() == R"(["radar-model is not running"])"; }, kTimeout_s)) << reasons();
-  EXPECT_EQ(set_.yars({"status"}).output.rfind("DEGRADED: radar-model is not running\n", 0), 0u)
-      << set_.yars({"status"}).output;
+  EXPECT_EQ(says().rfind("DEGRADED: radar-model is not running\n", 0), 0u) << says();
+  EXPECT_THAT(says(), HasSubstr("display says: NO MODEL; start radar-model"));
+  EXPECT_THAT(says(), ::testing::Not(HasSubstr("NO OWNSHIP"))) << "without a model nobody knows";
 }
 
 TEST_F(Supervision, ADeadSourceIsReportedAsNoOwnship) {

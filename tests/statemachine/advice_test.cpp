@@ -71,6 +71,30 @@ TEST(Advice, TheTdcsSwitchSaysWhatItDoesByTheCursorFunctionOrWhyNot) {
   EXPECT_EQ(words(pilot, 0), "designates a target at the cursor");
 }
 
+TEST(Advice, TheTdcsSwitchNamesABlankWindowAndACursorOffTheDisplay) {
+  Pilot pilot;
+  pilot.press("power opr");
+  for (int step = 0; step < 4; ++step) pilot.press("acq aft");
+  EXPECT_EQ(words(pilot, 0), "commands a map at the cursor; blank window: 3.3 NM; acq fwd (PgUp)");
+  pilot.press("acq fwd");
+  EXPECT_EQ(words(pilot, 0), "commands a map at the cursor");
+  for (int press = 0; press < 2; ++press) pilot.press("pb 14");
+  EXPECT_EQ(words(pilot, 0), "commands a map at the cursor; off the display: tdc (arrows)");
+  pilot.press("tdc 0 1");
+  pilot.press("tdc 0 0");
+  EXPECT_EQ(words(pilot, 0), "commands a map at the cursor") << "at the edge";
+}
+
+TEST(Advice, ALongRemedyIsCutAtAnAlternative) {
+  Pilot pilot;
+  pilot.configuration.route.push_back(route_point("9", radar::PointKind::steer, position(30.0, 30.0)));
+  pilot.press("power opr");
+  pilot.press("pb 13");
+  pilot.press("sp 9");
+  for (int step = 0; step < 3; ++step) pilot.press("acq aft");
+  EXPECT_EQ(words(pilot, 0), "MAX RANGE; move the cursor in to 20.0 NM or less");
+}
+
 TEST(Advice, LiveBitsAgreeWithThePressInEveryMode) {
   for (const char* mode :
        {"OFF", "STBY", "RBM", "HRM", "MAPS", "PATCH", "BCN", "PVU", "AA", "AGR", "MENU", "AAMAP", "AASET", "AGSET"}) {

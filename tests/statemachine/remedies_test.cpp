@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "tests/statemachine/pilot.hpp"
@@ -39,23 +40,23 @@ struct AtCursor : Pilot {
 
 TEST(Remedies, TheBlindZoneNamesSideAndAngleAndTheTurnMakesTheMapPossible) {
   AtCursor pilot(3.0, 20.0);
-  EXPECT_EQ(pilot.refused(), "BLIND ZONE: turn 5 deg or more left, or move the cursor right");
+  EXPECT_EQ(pilot.refused(), "BLIND ZONE: turn 5 deg or more left, or move the cursor 1.8 NM right");
   pilot.turn(-4.0);
-  EXPECT_EQ(pilot.refused(), "BLIND ZONE: turn 1 deg or more left, or move the cursor right");
+  EXPECT_EQ(pilot.refused(), "BLIND ZONE: turn 1 deg or more left, or move the cursor 0.4 NM right");
   pilot.turn(-1.001);
   EXPECT_TRUE(pilot.press("tdc release"));
   EXPECT_TRUE(pilot.is(databuffer::kMapping));
   AtCursor other(358.0, 20.0);
-  EXPECT_EQ(other.refused(), "BLIND ZONE: turn 6 deg or more right, or move the cursor left");
+  EXPECT_EQ(other.refused(), "BLIND ZONE: turn 6 deg or more right, or move the cursor 2.2 NM left");
 }
 
 TEST(Remedies, AsternTheAircraftMustTurnTowardTheCursor) {
-  EXPECT_EQ(AtCursor(175.0, 20.0).refused(), "BLIND ZONE: turn 115 deg or more right, toward it");
+  EXPECT_EQ(AtCursor(175.0, 20.0).refused(), "BLIND ZONE: turn 115 deg or more right, toward the cursor");
 }
 
 TEST(Remedies, TheGimbalNamesTheTurnTowardTheCursorAndTheTurnMakesTheMapPossible) {
   AtCursor pilot(280.0, 20.0);
-  EXPECT_EQ(pilot.refused(), "GIMBAL: turn 20 deg or more left, toward it");
+  EXPECT_EQ(pilot.refused(), "GIMBAL: turn 20 deg or more left, toward the cursor");
   pilot.turn(-20.5);
   pilot.press("tdc release");
   EXPECT_TRUE(pilot.is(databuffer::kMapping)) << pilot.state.message;
@@ -64,7 +65,23 @@ TEST(Remedies, TheGimbalNamesTheTurnTowardTheCursorAndTheTurnMakesTheMapPossible
 TEST(Remedies, ADepressionBeyondTheGimbalNamesTheDistance) {
   AtCursor pilot(30.0, 5.0);
   pilot.around.ownship.altitude_msl_m = 20'000.0;
-  EXPECT_EQ(pilot.refused(), "GIMBAL: descend, or move the cursor out to 6.3 NM or more");
+  EXPECT_EQ(pilot.refused(), "GIMBAL: descend 13000 ft or more, or move the cursor out to 6.3 NM or more");
+  pilot.around.ownship.altitude_msl_m -= 13'000.0 * geo::kMetresPerFoot;
+  pilot.press("tdc release");
+  EXPECT_TRUE(pilot.is(databuffer::kMapping)) << pilot.state.message;
+}
+
+TEST(Remedies, ABankBeyondTheGimbalNamesTheBankAtWhichTheMapIsPossible) {
+  AtCursor pilot(59.0, 4.8);
+  pilot.around.ownship.roll_deg = -60.0;
+  const std::string refused = pilot.refused();
+  ASSERT_THAT(refused, ::testing::StartsWith("GIMBAL: level the wings: bank "));
+  const double bank_deg = std::stod(refused.substr(std::string("GIMBAL: level the wings: bank ").size()));
+  pilot.around.ownship.roll_deg = -bank_deg - 1.0;
+  EXPECT_THAT(pilot.refused(), HasSubstr("GIMBAL"));
+  pilot.around.ownship.roll_deg = -bank_deg;
+  pilot.press("tdc release");
+  EXPECT_TRUE(pilot.is(databuffer::kMapping)) << pilot.state.message;
 }
 
 TEST(Remedies, ARangeBeyondItsLimitsNamesTheLimitOrAnotherWindow) {
@@ -86,7 +103,34 @@ TEST(Remedies, ABlankWindowNamesItsLimits) {
   AtCursor pilot(30.0, 2.0);
   for (int step = 0; step < 4; ++step) pilot.press("acq aft");
   EXPECT_EQ(pilot.state.window_nm, 0.0);
-  EXPECT_EQ(pilot.refused(), "NO WINDOW: move the cursor out to 2.7 NM or more, or select a window: acq fwd (PgUp)");
+  EXPECT_EQ(pilot.refused(), "NO WINDOW: move the cursor out to 2.7 NM or more");
+  AtCursor far(30.0, 155.0);
+  for (int step = 0; step < 2; ++step) far.press("pb 13");
+  for (int step = 0; step < 4; ++step) far.press("acq aft");
+  EXPECT_EQ(far.refused(),
+            "NO WINDOW: move the cursor in to 150.0 NM or less, or take window 10: acq fwd (PgUp) 5 times");
+  for (int step = 0; step < 5; ++step) far.press("acq fwd");
+  EXPECT_EQ(far.state.window_nm, 10.0);
+  far.press("tdc release");
+  EXPECT_TRUE(far.is(databuffer::kMapping)) << far.state.message;
+}
+
+TEST(Remedies, TheStepToTheBlankWindowSaysWhatItIsAndHowToGetBack) {
+  AtCursor pilot(30.0, 20.0);
+  for (int step = 0; step < 3; ++step) pilot.press("acq aft");
+  EXPECT_STREQ(pilot.state.message, "");
+  pilot.press("acq aft");
+  EXPECT_STREQ(pilot.state.message, "BLANK WINDOW");
+  EXPECT_EQ(remedy_of_message(pilot.state, pilot.around, pilot.configuration),
+            "by the cursor's range, here 3.3 NM; back to 0.67 NM: acq fwd (PgUp)");
+  pilot.wait(kMessageTicks);
+  EXPECT_STREQ(pilot.state.message, "");
+  EXPECT_FALSE(pilot.press("acq aft")) << "blank is the last";
+  EXPECT_STREQ(pilot.state.message, "");
+  pilot.state.flags &= ~databuffer::kCursorValid;
+  std::string("BLANK WINDOW").copy(pilot.state.message, sizeof pilot.state.message - 1);
+  EXPECT_EQ(remedy_of_message(pilot.state, pilot.around, pilot.configuration),
+            "by the cursor's range; back to 0.67 NM: acq fwd (PgUp)");
 }
 
 TEST(Remedies, AMessageThatNoLongerHoldsSaysThatTheMapIsPossible) {
@@ -106,6 +150,19 @@ TEST(Remedies, WhileReMappingStopsTheyCountFromTheMap) {
   pilot.wait();
   ASSERT_STREQ(pilot.state.message, "BLIND ZONE");
   EXPECT_EQ(remedy_of_message(pilot.state, pilot.around, pilot.configuration), "turn 4 deg or more left");
+}
+
+TEST(Remedies, WhileReMappingStopsForTheRangeTheyNameTheDistanceToFly) {
+  AtCursor pilot(30.0, 5.0);
+  pilot.make_map();
+  const auto nearer =
+      geo::geodesic_direct(kAircraftPosition, geo::Bearing::degrees(30.0), geo::Length::nautical_miles(1.0));
+  pilot.around.ownship.latitude_deg = nearer.latitude_deg;
+  pilot.around.ownship.longitude_deg = nearer.longitude_deg;
+  std::string("MIN RANGE").copy(pilot.around.model.map_stopped, sizeof pilot.around.model.map_stopped - 1);
+  pilot.wait();
+  ASSERT_STREQ(pilot.state.message, "MIN RANGE");
+  EXPECT_EQ(remedy_of_message(pilot.state, pilot.around, pilot.configuration), "fly 0.7 NM away, to 4.7 NM or more");
 }
 
 TEST(Remedies, AnUnknownPointNamesThePointsOfTheRoute) {

@@ -3,7 +3,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 
+#include "databuffer/messages/derived_values.hpp"
 #include "tools/session/status_json.hpp"
 
 namespace yars::tools {
@@ -81,6 +83,26 @@ void print_ownship(const ordered_json& status) {
                 static_cast<unsigned long long>(lane["records"].get<std::uint64_t>()));
 }
 
+bool takes_part(const ordered_json& roles, std::string_view name) {
+  return std::ranges::any_of(roles, [name](const auto& role) { return role["name"] == name && role["pid"] != 0; });
+}
+
+// What the display says, each with its remedy. Power OFF shows NO STATE MACHINE alone.
+void print_display_words(const ordered_json& status) {
+  const auto& watch = status["watch"];
+  const auto say = [](const std::string& words, const std::string& remedy) {
+    std::printf("display says: %s%s%s\n", words.c_str(), remedy.empty() ? "" : "; ", remedy.c_str());
+  };
+  const bool state_machine = takes_part(status["roles"], "state-machine"),
+             model = takes_part(status["roles"], "radar-model");
+  if (!state_machine) say("NO STATE MACHINE", databuffer::kRemedyNoStateMachine);
+  if (watch["power"] == "OFF") return;
+  if (!model) say("NO MODEL", databuffer::kRemedyNoModel);
+  if (model && watch["ownship"].is_null()) say("NO OWNSHIP", databuffer::kRemedyNoOwnship);
+  const std::string message = text(watch["message"]);
+  if (state_machine && !message.empty() && message != "NO OWNSHIP") say(message, text(watch["remedy"]));
+}
+
 void print_radar(const ordered_json& status) {
   const auto& watch = status["watch"];
   const auto& model = status["model"];
@@ -90,9 +112,7 @@ void print_radar(const ordered_json& status) {
               fidelity.empty() ? "unknown" : fidelity.c_str(), load_text(model["load"].get<double>()).c_str(),
               static_cast<unsigned long long>(watch["sweeps"].get<std::uint64_t>()),
               static_cast<double>(model["terrain_bytes"].get<std::uint64_t>()) / 1e6);
-  const std::string message = text(watch["message"]), remedy = text(watch["remedy"]);
-  if (!message.empty())
-    std::printf("display says: %s%s%s\n", message.c_str(), remedy.empty() ? "" : "; ", remedy.c_str());
+  print_display_words(status);
   const auto& recorder = status["recorder"];
   if (recorder.is_null()) return;
   std::printf("recorder: %s, %.1f MB", recorder["writing"].get<bool>() ? "writing" : "stopped",

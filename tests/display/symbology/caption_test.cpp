@@ -127,6 +127,36 @@ TEST(Caption, EveryCharacterOfTheShippedToursIsInTheFont) {
   }
 }
 
+TEST(Caption, CoversNoSymbolNoNameNoSteeringLineAndNoScaleWhereThereIsRoom) {
+  for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {
+    for (const double range_nm : {3.0, 6.0, 9.0, 30.0, 36.0}) {
+      DisplayInput input = testing::operating(mode, 40.0);
+      const geo::GeoPoint target = testing::at(40.0, range_nm);
+      testing::put_target(input, target, 70.0, databuffer::SteeringLine::line_of_sight);
+      testing::add_point(input, "4.", radar::PointKind::target, target);
+      testing::add_point(input, "3", radar::PointKind::steer, testing::at(10.0, 5.0));
+      testing::add_point(input, "2", radar::PointKind::steer, testing::at(20.0, 37.0));
+      testing::put_cursor(input, 30.0, 33.0);
+      const DrawList without = testing::drawn(input);
+      input.caption = widest();
+      for (auto& line : input.caption.lines) testing::set_text(line.text, std::string(40, 'w'));
+      const Rect plate = plate_of(testing::drawn(input), without);
+      const std::string what = std::to_string(static_cast<int>(mode)) + " at " + std::to_string(range_nm);
+      for (const OccupiedBox& box : without.occupied()) EXPECT_FALSE(intersect(plate, box.rect)) << box.name << what;
+      for (const Segment& line : without.content(Layer::lines).strokes)
+        EXPECT_FALSE(crosses(plate, line.from, line.to)) << what;
+    }
+  }
+}
+
+TEST(Caption, CoversLeastWhereThereIsNoRoom) {
+  DisplayInput input = testing::crowded(Mode::pvu, 40.0);
+  const Rect plate = plate_over(input);
+  EXPECT_GT(plate.right, plate.left);
+  EXPECT_LE(plate.bottom, 404.0F);
+  EXPECT_GE(plate.top, 66.0F);
+}
+
 // On the ground track at an eighth of the range the cursor is 50 units above the apex, inside the lower plate.
 TEST(Caption, GivesWayToTheCursor) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);

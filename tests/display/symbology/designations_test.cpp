@@ -69,6 +69,26 @@ TEST(Designations, PvuHasItsOwnFormatWithTheMeasuredBeam) {
   EXPECT_THAT(words(input), Not(Contains("--- FT/S")));
 }
 
+// A target near the aircraft: its line of sight leads over the azimuth ticks to the window size and the legends.
+TEST(Designations, TheSteeringLineEndsBeforeALegendOrReadout) {
+  for (const SteeringLine line : {SteeringLine::line_of_sight, SteeringLine::slewing, SteeringLine::fixed}) {
+    for (double bearing_deg = 0.0; bearing_deg < 360.0; bearing_deg += 5.0) {
+      for (const double range_nm : {1.0, 2.0, 3.0, 4.0, 6.0}) {
+        DisplayInput input = testing::operating(Mode::rbm, 40.0);
+        testing::put_target(input, testing::at(bearing_deg, range_nm), bearing_deg, line);
+        const DrawList list = drawn(input);
+        for (const OccupiedBox& box : list.occupied()) {
+          if (box.kind != BoxKind::text) continue;
+          for (const Segment& stroke : list.content(Layer::lines).strokes)
+            EXPECT_FALSE(stroke.ink == Ink::bright && crosses(box.rect, stroke.from, stroke.to))
+                << box.name << " at " << bearing_deg << " deg, " << range_nm << " NM, from " << stroke.from.x << " "
+                << stroke.from.y << " to " << stroke.to.x << " " << stroke.to.y;
+        }
+      }
+    }
+  }
+}
+
 TEST(Designations, TheSteeringLineExtendsBackwardsFromTheTarget) {
   const DrawList without = drawn(testing::operating(Mode::rbm, 40.0));
   struct Case {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "display/symbology/text_lines.hpp"
 #include "tests/display/symbology/overlap.hpp"
 #include "tests/display/symbology/symbology_checks.hpp"
 
@@ -67,11 +68,11 @@ TEST(Help, ItsTextsLieWithinThePlateAndDoNotOverlap) {
 
 TEST(Help, WithoutAnAdviceTheWordsSayThatTheStateMachineIsSilent) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
-  EXPECT_EQ(words_of_button(input, 13), "not known: state-machine is silent");
+  EXPECT_EQ(words_of_button(input, 13), "not known: state-machine is silent; start state-machine");
   input = advised(Mode::rbm);
   EXPECT_EQ(words_of_button(input, 13), "does what is number 13");
   input.state_machine_alive = false;
-  EXPECT_EQ(words_of_button(input, 13), "not known: state-machine is silent");
+  EXPECT_EQ(words_of_button(input, 13), "not known: state-machine is silent; start state-machine");
 }
 
 TEST(Help, LabelsOfPointsStandWhereTheyStoodWhenTheHelpIsGone) {
@@ -91,7 +92,7 @@ TEST(Help, LabelsOfPointsStandWhereTheyStoodWhenTheHelpIsGone) {
   EXPECT_NE(before, during);
 }
 
-TEST(Remedy, ItStandsBelowTheMessageInSmallerLettersOnAtMostTwoLines) {
+TEST(Remedy, ItStandsBelowTheMessageInSmallerLetters) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   testing::set_text(input.state.message, "MIN RANGE");
   testing::set_text(input.advice.remedy, "move the cursor out to 10.0 NM or more, or take window 4.7: acq aft (PgDn)");
@@ -109,6 +110,35 @@ TEST(Remedy, ItStandsBelowTheMessageInSmallerLettersOnAtMostTwoLines) {
   input.state.message[0] = '\0';
   for (const std::string& words : testing::words(input))
     EXPECT_FALSE(words.starts_with("MOVE")) << "no remedy without a message";
+}
+
+TEST(Remedy, TheLongestStandsWhole) {
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
+  testing::set_text(input.state.message, "MAX RANGE");
+  const std::string remedy =
+      "move the cursor in to 160.0 NM or less, or take window 4.7: acq aft (PgDn) 7 times, or more words to fill it up";
+  testing::set_text(input.advice.remedy, remedy);
+  std::string joined;
+  for (const std::string& line : wrapped(in_capitals(remedy), 270.0F / 8.0F)) {
+    EXPECT_THAT(testing::words(input), Contains(line));
+    joined += line + ' ';
+  }
+  EXPECT_EQ(joined, in_capitals(remedy) + ' ');
+  testing::expect_no_overlap(testing::drawn(input), "three lines");
+  input.state_machine_alive = false;
+  EXPECT_THAT(testing::words(input), Not(Contains("MAX RANGE"))) << "a message without a state machine is out of date";
+}
+
+TEST(Remedy, ASilentPartOfTheSetHasOneOnTheDisplay) {
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
+  input.ownship_fresh = input.model_alive = input.state_machine_alive = false;
+  for (const char* remedy : {"START ONE: FLIGHT-MODEL --SOURCE ROUTE:FILE", "START RADAR-MODEL; YARS STATUS SAYS MORE",
+                             "START STATE-MACHINE; YARS STATUS SAYS MORE"})
+    EXPECT_THAT(testing::words(input), Contains(remedy));
+  input.state_machine_alive = true;
+  testing::set_text(input.state.message, "NO OWNSHIP");
+  const auto texts = testing::words(input);
+  EXPECT_EQ(std::ranges::count(texts, "NO OWNSHIP"), 1) << "the message is the same";
 }
 
 TEST(States, OffIsDarkInACockpitAndSaysInAWindowHowToSwitchOn) {
@@ -140,9 +170,37 @@ TEST(States, StatesWithoutAPictureSayWhatTheyAreAndWithHintsHowToGetBack) {
 
 TEST(Text, ProseIsDrawnInCapitalsAndWrappedAtBlanks) {
   EXPECT_EQ(in_capitals("move up v^"), "MOVE UP V^");
-  const auto lines = wrapped("turn 5 deg or more left", text_width("turn 5 deg"));
-  EXPECT_EQ(lines, (std::vector<std::string>{"turn 5 deg", "or more", "left"}));
+  const auto lines = wrapped("turn 5 deg or more left", text_width("turn 5 deg or"));
+  EXPECT_EQ(lines, (std::vector<std::string>{"turn 5 deg", "or more left"}));
   EXPECT_TRUE(wrapped("", 10.0F).empty());
+  EXPECT_EQ(first_words("turn 5 deg or more left", text_width("turn 5 deg")), "turn 5 deg");
+  EXPECT_EQ(first_words("", 10.0F), "");
+}
+
+TEST(Text, NumberAndUnitEventAndKeyStayTogetherAndNoLineIsOneShortWord) {
+  const char* const remedies[] = {
+      "turn 8 deg or more left, or move the cursor 1.4 NM right",
+      "move the cursor out to 10.0 NM or more, or take window 4.7: acq aft (PgDn)",
+      "move the cursor in to 20.0 NM or less, or take window 1.3: acq fwd (PgUp) 2 times",
+      "descend 12300 ft or more, or move the cursor out to 6.3 NM or more",
+      "by the cursor's range, here 3.3 NM; back to 0.67 NM: acq fwd (PgUp)",
+      "start one: yars record FILE",
+  };
+  for (const std::string remedy : remedies) {
+    for (float width = 20.0F; width <= 45.0F; width += 0.5F) {
+      const auto lines = wrapped(in_capitals(remedy), width);
+      std::string joined;
+      for (const std::string& line : lines) {
+        joined += (joined.empty() ? "" : " ") + line;
+        EXPECT_LE(text_width(line), width) << line;
+        const bool single = line.find(' ') == std::string::npos;
+        EXPECT_FALSE(single && line.size() <= 7 && lines.size() > 1) << line << " of " << remedy << " at " << width;
+        for (const char* part : {"NM", "DEG", "FT", "(PGUP)", "(PGDN)", "FWD", "AFT"})
+          EXPECT_FALSE(line.starts_with(part)) << line << " of " << remedy << " at " << width;
+      }
+      EXPECT_EQ(joined, in_capitals(remedy));
+    }
+  }
 }
 
 }  // namespace

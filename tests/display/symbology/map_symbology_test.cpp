@@ -94,6 +94,29 @@ TEST(MapSymbology, AMapIsShownInItsFormatInAirToAirRangingAndHrm) {
   }
 }
 
+TEST(MapSymbology, AMapSaysItsOwnWidthAlsoWhileAnotherWindowIsSelected) {
+  DisplayInput input = patch();
+  input.state.window_nm = 0.67;
+  EXPECT_THAT(words(input), ::testing::IsSupersetOf({"WIDTH", "4.7NM", ".67"}));
+  input.map = {};
+  EXPECT_THAT(words(input), ::testing::Not(::testing::Contains("WIDTH"))) << "the map could not be read";
+  EXPECT_THAT(words(testing::operating(Mode::rbm, 40.0)), ::testing::Not(::testing::Contains("WIDTH")));
+}
+
+TEST(MapSymbology, ACursorOffTheDisplayIsNamedBelowItsReadout) {
+  DisplayInput input = patch();
+  EXPECT_THAT(words(input), ::testing::Not(::testing::Contains("OFF THE"))) << "no cursor is known";
+  put_cursor(input, on_map(input, 20.5, 0.0));
+  EXPECT_THAT(words(input), ::testing::Not(::testing::Contains("OFF THE")));
+  put_cursor(input, on_map(input, 23.0, 0.0));
+  EXPECT_THAT(words(input), ::testing::IsSupersetOf({"OFF THE", "DISPLAY"}));
+  DisplayInput scan = testing::operating(Mode::rbm, 10.0);
+  testing::put_cursor(scan, 30.0, 12.0);
+  EXPECT_THAT(words(scan), ::testing::IsSupersetOf({"OFF THE", "DISPLAY"}));
+  scan.state.range_nm = 20.0;
+  EXPECT_THAT(words(scan), ::testing::Not(::testing::Contains("OFF THE")));
+}
+
 TEST(MapSymbology, InStandbyNoMapIsShown) {
   DisplayInput input = patch();
   EXPECT_TRUE(shows_map(input));

@@ -26,16 +26,15 @@ using testing::words;
 
 TEST(Markers, TheCursorIsAnOpenPlusOnItsGroundPoint) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
+  const DrawList unknown = drawn(input);
   input.state.flags |= databuffer::kCursorValid;
   const geo::GeoPoint position = testing::at(30.0, 20.0);
-  input.state.cursor_latitude_deg = testing::at(30.0, -30.0).latitude_deg;
-  input.state.cursor_longitude_deg = testing::at(30.0, -30.0).longitude_deg;
-  const DrawList away = drawn(input);
   input.state.cursor_latitude_deg = position.latitude_deg;
   input.state.cursor_longitude_deg = position.longitude_deg;
   const DrawList here = drawn(input);
-  EXPECT_EQ(strokes(here), strokes(away) + 4);
-  const Rect plus = bounds_of(more_strokes(here, away));
+  EXPECT_EQ(here.content(Layer::steered).strokes.size(), 4U);
+  EXPECT_EQ(unknown.content(Layer::steered).strokes.size(), 0U);
+  const Rect plus = bounds_of(here.content(Layer::steered).strokes);
   EXPECT_NEAR((plus.left + plus.right) / 2.0F, 240.0F, 0.2F);
   EXPECT_NEAR((plus.top + plus.bottom) / 2.0F, 240.0F, 0.2F);
   for (const Segment& segment : symbol_strokes(here)) {

@@ -50,6 +50,33 @@ TEST(Overlap, ThereIsNoneWithATargetDesignatedAnywhere) {
   }
 }
 
+// A label in the row of the legends would be read as the legend of a button that has none.
+void expect_no_label_among_legends(const DrawList& list, const std::string& what) {
+  for (const OccupiedBox& box : list.occupied()) {
+    if (box.kind != BoxKind::label) continue;
+    EXPECT_GT(box.rect.top, 20.0F) << box.name << ' ' << what;
+    EXPECT_LT(box.rect.bottom, 446.0F) << box.name << ' ' << what;
+  }
+}
+
+TEST(Overlap, ThereIsNoneWithATargetAsternAndNoLabelStandsAmongTheLegends) {
+  for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {
+    for (double bearing_deg = 120.0; bearing_deg <= 300.0; bearing_deg += 5.0) {
+      for (double range_nm = 0.5; range_nm <= 20.0; range_nm *= 1.3) {
+        for (const bool all : {false, true}) {
+          DisplayInput input = all ? crowded(mode, 40.0) : testing::operating(mode, 40.0);
+          const geo::GeoPoint position = testing::at(bearing_deg, range_nm);
+          testing::put_target(input, position, bearing_deg, databuffer::SteeringLine::line_of_sight);
+          testing::add_point(input, "4.", radar::PointKind::target, position);
+          const std::string what = std::to_string(bearing_deg) + " at " + std::to_string(range_nm);
+          expect_no_overlap(drawn(input), what);
+          expect_no_label_among_legends(drawn(input), what);
+        }
+      }
+    }
+  }
+}
+
 TEST(Overlap, PointsInAllDirectionsAreClearOfGrayScaleAndMessages) {
   for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {
     for (const char* message : {"", "BLIND ZONE"}) {

@@ -84,6 +84,22 @@ TEST(Tooltip, ItHasNumberKeyLegendAndWordsAndLiesWithinThePicture) {
   EXPECT_THAT(testing::words(list), Contains("SCAN WIDTH: HALF"));
 }
 
+TEST(Tooltip, ThatBelowTheWindowSaysWhatABlankWindowIsAndHowToGetBack) {
+  DisplayInput input = testing::operating(radar::Mode::rbm, 40.0);
+  testing::set_text(input.advice.buttons[8], "dead in RBM; live in patch map");
+  const auto joined = [&input] {
+    DrawList list;
+    draw_tooltip(kPanel, input, 8, list);
+    std::string words;
+    for (const std::string& line : testing::words(list)) words += line + ' ';
+    return words;
+  };
+  EXPECT_THAT(joined(), ::testing::HasSubstr("WINDOW 4.7 NM: LARGER ACQ FWD (PGUP), SMALLER ACQ AFT (PGDN)"));
+  input.state.window_nm = 0.0;
+  EXPECT_THAT(joined(), ::testing::HasSubstr(
+                            "WINDOW BLANK: THE CURSOR'S RANGE SELECTS IT; BACK TO THE SMALLEST: ACQ FWD (PGUP)"));
+}
+
 TEST(Mouse, AClickOnAButtonPressesIt) {
   Mouse mouse;
   EXPECT_EQ(texts(mouse.press(kPanel, MouseButton::left, drawn_button(13), true)), "pb 13");

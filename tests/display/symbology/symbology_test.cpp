@@ -41,7 +41,7 @@ TEST(Symbology, OffShowsNothingButHowToSwitchOn) {
 TEST(Symbology, AMissingStateMachineIsShownEvenWhenTheRadarIsOff) {
   DisplayInput input;
   input.state_machine_alive = false;
-  EXPECT_THAT(words(input), ::testing::ElementsAre("NO STATE MACHINE"));
+  EXPECT_THAT(words(input), ::testing::ElementsAre("NO STATE MACHINE", "START STATE-MACHINE; YARS STATUS SAYS MORE"));
 }
 
 TEST(Symbology, StandbyShowsLegendsAndStbyAndNoScales) {
