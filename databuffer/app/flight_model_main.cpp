@@ -4,6 +4,7 @@
 #include "databuffer/app/flight_shell.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace {
 
@@ -22,7 +23,7 @@ error::Expected<void> fly(databuffer::Session& session, databuffer::TickLoop& lo
     shell.step(*due);
     loop.done(*due);
     if (due->skipped > 0)
-      session.note(databuffer::NoteKind::late_tick, "flight-model skipped " + std::to_string(due->skipped) + " ticks");
+      session.note(databuffer::NoteKind::late_tick, "flight-model skipped " + text::counted(due->skipped, "tick"));
   }
   return loop.outcome();
 }

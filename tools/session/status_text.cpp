@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "lib/text/plain_text.hpp"
 #include "tools/session/status_json.hpp"
 
 namespace yars::tools {
@@ -76,19 +77,19 @@ void print_ownship(const ordered_json& status) {
                 own["track_deg"].get<double>(), own["ground_speed_kt"].get<double>(),
                 age_text(own["age_ms"].get<double>() / 1000.0).c_str());
   for (const auto& lane : status["ownship_lanes"])
-    std::printf("  lane %d: %s, priority %u, %llu records so far\n", lane["lane"].get<int>(),
-                text(lane["source"]).c_str(), lane["priority"].get<unsigned>(),
-                static_cast<unsigned long long>(lane["records"].get<std::uint64_t>()));
+    std::printf("  lane %d: %s, priority %u, %s so far\n", lane["lane"].get<int>(), text(lane["source"]).c_str(),
+                lane["priority"].get<unsigned>(),
+                text::counted(lane["records"].get<std::uint64_t>(), "record").c_str());
 }
 
 void print_radar(const ordered_json& status) {
   const auto& watch = status["watch"];
   const auto& model = status["model"];
   const std::string fidelity = text(model["fidelity"]);
-  std::printf("radar: %s %s, %.1f NM, fidelity %s, kernel %s of a core, %llu sweeps, terrain %.1f MB\n",
+  std::printf("radar: %s %s, %.1f NM, fidelity %s, kernel %s of a core, %s, terrain %.1f MB\n",
               text(watch["power"]).c_str(), text(watch["mode"]).c_str(), watch["range_nm"].get<double>(),
               fidelity.empty() ? "unknown" : fidelity.c_str(), load_text(model["load"].get<double>()).c_str(),
-              static_cast<unsigned long long>(watch["sweeps"].get<std::uint64_t>()),
+              text::counted(watch["sweeps"].get<std::uint64_t>(), "sweep").c_str(),
               static_cast<double>(model["terrain_bytes"].get<std::uint64_t>()) / 1e6);
   const std::string message = text(watch["message"]), remedy = text(watch["remedy"]);
   if (!message.empty())
@@ -120,8 +121,8 @@ void print_tour(const ordered_json& caption) {
 
 void print_traffic(const ordered_json& traffic) {
   if (traffic.is_null()) return;
-  std::printf("traffic: pid %d reports %u ships and vehicles\n", traffic["holder"].get<int>(),
-              traffic["entities"].get<unsigned>());
+  std::printf("traffic: pid %d reports %s\n", traffic["holder"].get<int>(),
+              text::counted(traffic["entities"].get<unsigned>(), "ship or vehicle", "ships and vehicles").c_str());
 }
 
 void print_notes(const ordered_json& status) {
