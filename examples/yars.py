@@ -3,6 +3,7 @@ Inputs to the session: ownship, navigators, events. Outputs: radar state, output
 Errors: YarsError. No error means only that a record was sent; `yars status` shows the refused ones.
 Platform: Linux on x86-64, where a store of an aligned 64-bit word is atomic and stores stay in order.
 Usage: docs/attach.md. Segment: docs/shared_memory.md. A test compares all offsets here with `yars status --layout`."""
+import difflib
 import enum
 import fcntl
 import math
@@ -242,6 +243,31 @@ class YarsError(Exception):
     """Its message says what is wrong, mostly with the expected value, the found one and a remedy."""
 
 
+class UnknownField(YarsError, KeyError):
+    """A field that a record does not have; also a KeyError."""
+    __str__ = Exception.__str__
+
+
+def meant(name, names):
+    """"did you mean 'latitude_deg'?", or where the names are listed."""
+    near = difflib.get_close_matches(str(name), names, 1)
+    # The beginning of one name, as `latitude` of latitude_deg, is not near by its letters.
+    near = near or [known for known in names if known.startswith(str(name)) and name][:1]
+    return f"did you mean '{near[0]}'?" if near else "see yars_records.h"
+
+
+class Record(dict):
+    """The fields of a record by name. A field that the record does not have is an error that names the nearest one."""
+
+    def __missing__(self, name):
+        raise UnknownField(f"expected a field of {', '.join(self)}, found {name!r}; {meant(name, self)}")
+
+    def __getattr__(self, name):
+        field = name if name in self else (difflib.get_close_matches(name, self, 1) or [None])[0]
+        how = f"write record['{field}']" if field else "the fields of a record are items: record['NAME']"
+        raise AttributeError(f"expected a method of dict, found {name!r}; {how}")
+
+
 def code_of(fields):
     return "<" + "".join(code for _, code in fields)
 
@@ -266,7 +292,7 @@ def pack(what, fields, values):
     names = [name for name, _ in fields if not name.startswith("_")]
     for name in values:
         if name not in names:
-            raise YarsError(f"{what}: expected fields of {', '.join(names)}, found {name!r}; see yars_records.h")
+            raise YarsError(f"{what}: expected fields of {', '.join(names)}, found {name!r}; {meant(name, names)}")
     parts = []
     for name, code in fields:
         value = values.get(name, b"" if code.endswith("s") else 0)
@@ -281,8 +307,8 @@ def pack(what, fields, values):
 
 
 def unpack(fields, record):
-    return {name: value for (name, _), value in zip(fields, struct.unpack(code_of(fields), record))
-            if not name.startswith("_")}
+    return Record({name: value for (name, _), value in zip(fields, struct.unpack(code_of(fields), record))
+                   if not name.startswith("_")})
 
 
 class Session:
@@ -293,10 +319,12 @@ class Session:
         if not re.fullmatch("[0-9A-Za-z_-]{1,40}", name):
             raise YarsError(f"session: expected 1 to 40 letters, digits, '-' or '_', found {name!r}")
         self.path = f"/dev/shm/yars.{os.geteuid()}.{name}"
+        remedy = (f"start the set (scripts/start --session {name}), or give the name of a session that runs "
+                  "(`yars --session NAME status`)")
         try:
             self.descriptor = os.open(self.path, os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)
         except FileNotFoundError:
-            raise YarsError(f"{self.path}: no such session runs") from None
+            raise YarsError(f"{self.path}: no such session runs; {remedy}") from None
         except OSError as problem:
             raise YarsError(f"{self.path}: expected a segment, found: {problem.strerror}") from None
         status = os.fstat(self.descriptor)
@@ -306,7 +334,7 @@ class Session:
         # The write lock on byte 0 is free only if no process is attached.
         if self._lock(0, fcntl.F_WRLCK):
             os.close(self.descriptor)
-            raise YarsError(f"{self.path}: a leftover: its programs have died")
+            raise YarsError(f"{self.path}: a leftover: its programs have died; {remedy}")
         if not self._lock(0, fcntl.F_RDLCK) or not self._is_at_path():
             os.close(self.descriptor)
             raise YarsError(f"{self.path}: it is just ending; try again")
@@ -430,7 +458,7 @@ class Session:
         number = self.words[at // 8]
         if number - self.words[(at + INPUT_POPPED) // 8] >= INPUT_DEPTH:
             self.words[at // 8 + 1] += 1
-            raise YarsError("input lane: full; does the state-machine run?")
+            raise YarsError("input lane: full; check with `yars status` that state-machine runs")
         self.events += 1
         self._store(at + INPUT_RECORDS + number % INPUT_DEPTH * 56, record)
         self.words[at // 8] = number + 1
@@ -443,7 +471,7 @@ class Session:
         if record is None:
             return None
         state = {name: struct.unpack_from("<" + code, record, at)[0] for name, at, code in RADAR_STATE}
-        state = {name: text_of(value) if isinstance(value, bytes) else value for name, value in state.items()}
+        state = Record({name: text_of(value) if isinstance(value, bytes) else value for name, value in state.items()})
         state["legends"] = [text_of(record[LEGENDS_AT + 8 * i:LEGENDS_AT + 8 * i + 8]) for i in range(LEGENDS)]
         return state
 
@@ -468,7 +496,7 @@ class Session:
             return None
         size = struct.calcsize(code_of(CAPTION_LINE))
         lines = [text_of(caption["lines"][at:at + size]) for at in range(0, len(caption["lines"]), size)]
-        return {**caption, "title": text_of(caption["title"]), "lines": [line for line in lines if line]}
+        return Record({**caption, "title": text_of(caption["title"]), "lines": [line for line in lines if line]})
 
     def sweeps(self):
         """List of the sweeps since the last call, oldest first. The first call returns all sweeps in the segment, those

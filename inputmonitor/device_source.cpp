@@ -60,7 +60,7 @@ error::Expected<std::unique_ptr<DeviceReader>> DeviceReader::open(const std::fil
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0) {
     const int code = errno;
-    return fail(path.string(), "an input device that can be read", std::generic_category().message(code),
+    return fail(path.string(), "an input device that can be read", error::reason_of(code),
                 code == EACCES   ? kDevicePermission
                 : code == ENOENT ? kFindDevice
                                  : "");

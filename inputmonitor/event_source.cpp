@@ -6,6 +6,7 @@
 
 #include "databuffer/messages/input_event.hpp"
 #include "inputmonitor/script_lines.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::inputmonitor {
 
@@ -140,7 +141,7 @@ std::vector<InputEvent> ScriptSource::take(const Moment& moment) {
 }
 
 std::string ScriptSource::description() const {
-  return "script " + name_ + ", " + std::to_string(script_.events.size()) + " events";
+  return "script " + name_ + ", " + text::counted(script_.events.size(), "event");
 }
 
 }  // namespace yars::inputmonitor

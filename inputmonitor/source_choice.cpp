@@ -14,6 +14,7 @@
 #include "inputmonitor/terminal.hpp"
 #include "inputmonitor/tour.hpp"
 #include "lib/file/text_file.hpp"
+#include "lib/text/nearest_word.hpp"
 
 namespace yars::inputmonitor {
 
@@ -238,9 +239,13 @@ Expected<SourceChoice> parse_source(std::string_view text) {
     const SourceChoice choice = device_choice(text.substr(kDevice.size()));
     if (!choice.file.empty()) return choice;
   }
-  return tl::unexpected(error::usage_error("--source",
-                                           "window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto",
-                                           '"' + std::string(text) + '"'));
+  static const std::vector<std::string> kKinds{"window", "terminal", "script:", "tour:", "evdev:", "auto"};
+  const std::size_t colon = text.find(':');
+  const std::string_view kind = text.substr(0, colon == std::string_view::npos ? colon : colon + 1);
+  const bool is_known = std::ranges::find(kKinds, kind) != kKinds.end();  // what follows it is missing
+  return tl::unexpected(
+      error::usage_error("--source", "window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto",
+                         '"' + std::string(text) + '"', is_known ? "" : text::did_you_mean(kind, kKinds)));
 }
 
 Expected<SourcePointer> open_sources(const std::vector<SourceChoice>& choices, const SourceContext& context) {

@@ -254,7 +254,7 @@ void TourSource::observe(const std::vector<SeenEvent>& seen) {
 }
 
 std::string TourSource::description() const {
-  return "tour " + name_ + ", " + std::to_string(steps_) + " captions" + (for_pilot_ ? ", waits for the pilot" : "");
+  return "tour " + name_ + ", " + text::counted(steps_, "caption") + (for_pilot_ ? ", waits for the pilot" : "");
 }
 
 }  // namespace yars::inputmonitor

@@ -467,7 +467,7 @@ def run(checker, purpose, findings, clean, draw=None):
     for name, line, rule, message in findings(root):
         print(f"{name}:{line}: {rule}: {message}")
         count += 1
-    print(f"{checker}: {count} findings" if count else f"{checker}: {clean}")
+    print(f"{checker}: {count} finding{'' if count == 1 else 's'}" if count else f"{checker}: {clean}")
     return 1 if count else 0
 
 

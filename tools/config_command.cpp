@@ -12,6 +12,7 @@
 #include "databuffer/runtime/user_defaults.hpp"
 #include "lib/file/file_search.hpp"
 #include "lib/file/output_file.hpp"
+#include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
@@ -42,9 +43,13 @@ void check(const ConfigOptions& options, const CommonOptions& common) {
   const std::string& file = chosen_file(options, common);
   if (file.empty()) throw CommandFailed{"yars config check: expected a GUF file, found none; name one", 2};
   const auto configuration = loaded(file);
-  if (options.json) return print_json({{"file", file}, {"valid", true}, {"warnings", configuration.warnings}});
+  if (options.json) {
+    return print_json(
+        {{"file", file}, {"valid", true}, {"warnings", configuration.warnings}, {"notes", configuration.notes}});
+  }
+  for (const std::string& note : configuration.notes) std::printf("%s\n", note.c_str());
   for (const std::string& warning : configuration.warnings) std::printf("%s\n", warning.c_str());
-  std::printf("%s: valid, %zu warnings\n", file.c_str(), configuration.warnings.size());
+  std::printf("%s: valid, %s\n", file.c_str(), text::counted(configuration.warnings.size(), "warning").c_str());
 }
 
 void print(const ConfigOptions& options, const CommonOptions& common) {

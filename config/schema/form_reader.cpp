@@ -6,6 +6,7 @@
 #include "config/guf/parser.hpp"
 #include "config/guf/tree.hpp"
 #include "config/schema/slot_value.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::config {
 
@@ -95,6 +96,7 @@ void FormReader::read_all(const std::vector<Slot>& arguments) {
   for (const DeferredCheck& deferred : deferred_checks_) {
     if (const auto violation = deferred.check(builder_)) throw_violation(*violation, deferred.where);
   }
+  for (const auto& [where, text] : paired_lists_.warnings(builder_)) warn(where, text);
 }
 
 void FormReader::read_top_level(const Form& form, const Location& where) {
@@ -193,7 +195,7 @@ void FormReader::read_slot(const SlotSchema& schema, const Value& value, const s
   if (!used && !unused_) warn(value.where, std::string(":").append(schema.name) + " of " + form + " is read, not used");
   const bool outer = std::exchange(unused_, unused_ || !used);
   if (const auto* kind = std::get_if<FormSlot>(&schema.binding)) {
-    read_forms(schema, *kind, value);
+    read_forms(schema, *kind, value, form);
   } else if (std::holds_alternative<AngleSlot>(schema.binding) && std::holds_alternative<Form>(value.data)) {
     const Form& angle = std::get<Form>(value.data);
     const KnownForm known = forms_.find(angle.name);
@@ -202,13 +204,36 @@ void FormReader::read_slot(const SlotSchema& schema, const Value& value, const s
     }
     read_form(angle, value.where, known);
     read_sexagesimal(builder_, schema, value.where);
+  } else if (const auto* list = std::get_if<ListSlot>(&schema.binding); list != nullptr && list->of != nullptr) {
+    const std::vector<double> before = list->of(builder_);
+    read_simple(builder_, schema, value);
+    paired_lists_.slot_read(builder_, *list, before, value.where);
   } else {
     read_simple(builder_, schema, value);
   }
   unused_ = outer;
 }
 
-void FormReader::read_forms(const SlotSchema& schema, const FormSlot& kind, const Value& value) {
+void FormReader::read_forms(const SlotSchema& schema, const FormSlot& kind, const Value& value,
+                            const std::string& form) {
+  if (kind.clear == nullptr) {
+    read_items(schema, kind, value);
+    return;
+  }
+  const FormSchema& item = *find_form(kind.accepted.front()).schema;
+  const std::size_t before = item.count(builder_);
+  kind.clear(builder_);
+  read_items(schema, kind, value);
+  if (before == 0 || notes_.size() >= kMaxWarnings) return;
+  std::string text = text_of(value.where) + ": note: :" + std::string(schema.name) + " of " + form + ", with " +
+                     text::counted(item.count(builder_), "form") + ' ' + std::string(item.name) + ", replaces " +
+                     std::to_string(before) + " of earlier forms";
+  for (const SlotSchema& other : find_form(form).schema->slots)
+    if (other.same_as == schema.name) text += "; :" + std::string(other.name) + " adds to them instead";
+  notes_.push_back(std::move(text));
+}
+
+void FormReader::read_items(const SlotSchema& schema, const FormSlot& kind, const Value& value) {
   const auto* list = std::get_if<List>(&value.data);
   if (list == nullptr || !kind.many) {
     read_form_of_slot(schema, kind, value, false);

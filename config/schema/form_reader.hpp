@@ -1,10 +1,11 @@
 // Reader: writes the values of a configuration's syntax tree into a ConfigurationBuilder, by the table of schema.hpp.
 // Inputs: the top-level arguments of the text, which must be forms.
-// Outputs: the builder; warnings for old spellings, unknown forms and slots, and unused slots (validated, no effect).
+// Outputs: the builder; warnings for old spellings, unknown forms and slots, unused slots (validated, no effect), and
+// lists that do not fit together (paired_lists.hpp); notes about lists of forms that a later list replaces.
 // Errors: ParseError with the location of the value.
 // Order: forms are read in the order of the text. A slot's value in a later form replaces its value in an earlier form.
-// A second value of a slot in one form is an error. The forms Devices, Materials and MgDbase add to what earlier forms
-// gave.
+// A second value of a slot in one form is an error. The forms Devices, Materials and MgDbase, and slots such as
+// moreCells, add to what earlier forms gave.
 #pragma once
 
 #include <optional>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "config/guf/tree.hpp"
+#include "config/schema/paired_lists.hpp"
 #include "config/schema/schema.hpp"
 
 namespace yars::config {
@@ -47,6 +49,8 @@ class FormReader {
   FormReader(ConfigurationBuilder& builder, std::vector<std::string>& warnings)
       : builder_(builder), warnings_(warnings) {}
   void read_all(const std::vector<Slot>& arguments);
+  // What a user can intend, and can overlook: "FILE:LINE:COLUMN: note: TEXT".
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   // A slot of a form in the text, with the row of the schema for this slot.
@@ -65,7 +69,8 @@ class FormReader {
   std::vector<MatchedSlot> match_slots(const Form& form, const KnownForm& known);
   const SlotSchema* row_of(const Slot& slot, int index, const Form& form, const KnownForm& known);
   void read_slot(const SlotSchema& schema, const Value& value, const std::string& form);
-  void read_forms(const SlotSchema& schema, const FormSlot& kind, const Value& value);
+  void read_forms(const SlotSchema& schema, const FormSlot& kind, const Value& value, const std::string& form);
+  void read_items(const SlotSchema& schema, const FormSlot& kind, const Value& value);
   void read_form_of_slot(const SlotSchema& schema, const FormSlot& kind, const Value& value, bool in_list);
   void warn_unread(const Slot& slot, const Form& form, const KnownForm& known);
   void warn(const Location& where, const std::string& text);
@@ -75,6 +80,8 @@ class FormReader {
   std::vector<std::string>& warnings_;
   FormDefinitions forms_;
   std::vector<DeferredCheck> deferred_checks_;
+  PairedLists paired_lists_;
+  std::vector<std::string> notes_;
   bool unused_ = false;  // true inside an unused slot: unused slots of the forms in it cause no further warnings
 };
 

@@ -149,30 +149,33 @@ FormSchema scene() {
 }  // namespace
 
 std::vector<FormSchema> traffic_forms() {
-  return {
-      {.name = "Jammers",
-       .purpose = "jammers, and the power and sidelobes of the jammed radar; replaces earlier jammers",
-       .slots = {{.name = "jammers",
-                  .binding = FormSlot{{"Jammer"}, {"Jammer"}, true},
-                  .purpose = "at most 16 jammers"},
-                 number_slot("radarPower", "dBW", 0, 120, {YARS_FIELD(radar.world.jamming.radar_power_dbw)},
-                             "the radar's effective radiated peak power"),
-                 number_slot("sidelobes", "dB", -80, 0, {YARS_FIELD(radar.world.jamming.sidelobe_db)},
-                             "minimum one-way gain of the antenna, relative to the beam centre")},
-       .begin = [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.clear(); }},
-      jammer(),
-      {.name = "Movers",
-       .purpose = "ships and vehicles; replaces earlier movers",
-       .slots = {{.name = "movers", .binding = FormSlot{{"Mover"}, {"Mover"}, true}, .purpose = "at most 64 movers"}},
-       .begin = [](ConfigurationBuilder& builder) { builder.radar.world.movers.clear(); }},
-      mover(),
-      {.name = "Scenes",
-       .purpose = "polygonal scenes; replaces earlier scenes",
-       .slots = {{.name = "scenes",
-                  .binding = FormSlot{{"Scene"}, {"Scene"}, true},
-                  .purpose = "at most 1024 scenes; a scene without position is placed by the file's name or header"}},
-       .begin = [](ConfigurationBuilder& builder) { builder.radar.world.scenes.clear(); }},
-      scene()};
+  return {{.name = "Jammers",
+           .purpose = "jammers, and the power and sidelobes of the jammed radar",
+           .slots = {list_slot(
+                         "jammers", "Jammer",
+                         [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.clear(); },
+                         "at most 16 jammers; they replace those of earlier forms"),
+                     number_slot("radarPower", "dBW", 0, 120, {YARS_FIELD(radar.world.jamming.radar_power_dbw)},
+                                 "the radar's effective radiated peak power"),
+                     number_slot("sidelobes", "dB", -80, 0, {YARS_FIELD(radar.world.jamming.sidelobe_db)},
+                                 "minimum one-way gain of the antenna, relative to the beam centre"),
+                     more_slot("moreJammers", "Jammer", "jammers", "jammers beside those of earlier forms")}},
+          jammer(),
+          {.name = "Movers",
+           .purpose = "ships and vehicles",
+           .slots = {list_slot(
+                         "movers", "Mover", [](ConfigurationBuilder& builder) { builder.radar.world.movers.clear(); },
+                         "at most 64 movers; they replace those of earlier forms"),
+                     more_slot("moreMovers", "Mover", "movers", "movers beside those of earlier forms")}},
+          mover(),
+          {.name = "Scenes",
+           .purpose = "polygonal scenes",
+           .slots = {list_slot(
+                         "scenes", "Scene", [](ConfigurationBuilder& builder) { builder.radar.world.scenes.clear(); },
+                         "at most 1024 scenes; a scene without position is placed by the file's name or header; they "
+                         "replace those of earlier forms"),
+                     more_slot("moreScenes", "Scene", "scenes", "scenes beside those of earlier forms")}},
+          scene()};
 }
 
 namespace {
@@ -224,13 +227,14 @@ FormSchema beacon() {
 
 std::vector<FormSchema> beacon_forms() {
   return {{.name = "Beacons",
-           .purpose = "radar beacons, and the code that the radar interrogates; replaces earlier beacons",
-           .slots = {{.name = "beacons",
-                      .binding = FormSlot{{"Beacon"}, {"Beacon"}, true},
-                      .purpose = "at most 64 beacons"},
+           .purpose = "radar beacons, and the code that the radar interrogates",
+           .slots = {list_slot(
+                         "beacons", "Beacon",
+                         [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.clear(); },
+                         "at most 64 beacons; they replace those of earlier forms"),
                      whole_number("beaconCode", 1, kMaxCode, YARS_FIELD(radar.world.beacons.code),
-                                  "code that the radar interrogates; beacons with another code do not reply")},
-           .begin = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.clear(); }},
+                                  "code that the radar interrogates; beacons with another code do not reply"),
+                     more_slot("moreBeacons", "Beacon", "beacons", "beacons beside those of earlier forms")}},
           beacon()};
 }
 

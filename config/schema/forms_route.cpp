@@ -74,7 +74,7 @@ void end_point(ConfigurationBuilder& builder) {
   builder.radar.route.push_back(builder.point);
 }
 
-void begin_route(ConfigurationBuilder& builder) {
+void clear_route(ConfigurationBuilder& builder) {
   builder.radar.route.clear();
   builder.points_without_kind.clear();
 }
@@ -138,10 +138,7 @@ FormSchema point() {
 std::vector<FormSchema> route_forms() {
   return {{.name = "Route",
            .purpose = "the sequence points; replaces an earlier route",
-           .slots = {{.name = "points",
-                      .binding = FormSlot{{"Point"}, {"Point"}, true},
-                      .purpose = "at most 100 points and their offsets"}},
-           .begin = begin_route,
+           .slots = {list_slot("points", "Point", clear_route, "at most 100 points and their offsets")},
            .end = derive_initial_points},
           point()};
 }

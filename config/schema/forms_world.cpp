@@ -262,22 +262,23 @@ FormSchema rain_cell() {
 }
 
 FormSchema rain() {
-  return {.name = "Rain",
-          .purpose = "showers, and echo and attenuation of rain; its cells replace earlier cells",
-          .slots = {{.name = "cells",
-                     .binding = FormSlot{{"RainCell"}, {"RainCell"}, true},
-                     .purpose = "at most 64 showers"},
-                    number_slot("reflectivityFactor", "", 0, 2000, {YARS_FIELD(radar.world.rain.reflectivity_factor)},
-                                "a of Z = a r^b, Z in mm^6/m^3, rain rate r in mm/h (Marshall and Palmer)"),
-                    number_slot("reflectivityExponent", "", 0.5, 3,
-                                {YARS_FIELD(radar.world.rain.reflectivity_exponent)}, "b of Z = a r^b"),
-                    number_slot("dielectricFactor", "", 0, 1, {YARS_FIELD(radar.world.rain.dielectric_factor)},
-                                "squared magnitude of the dielectric factor K; 0.93 for water, 0.2 for ice"),
-                    number_slot("attenuationFactor", "dB/km", 0, 10, {YARS_FIELD(radar.world.rain.attenuation_factor)},
-                                "k of k r^b, one way (ITU-R P.838-3, 9.6 GHz, horizontal)"),
-                    number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},
-                                "b of k r^b")},
-          .begin = [](ConfigurationBuilder& builder) { builder.radar.world.rain.cells.clear(); }};
+  return {
+      .name = "Rain",
+      .purpose = "showers, and echo and attenuation of rain",
+      .slots = {list_slot(
+                    "cells", "RainCell", [](ConfigurationBuilder& builder) { builder.radar.world.rain.cells.clear(); },
+                    "at most 64 showers; they replace those of earlier forms"),
+                number_slot("reflectivityFactor", "", 0, 2000, {YARS_FIELD(radar.world.rain.reflectivity_factor)},
+                            "a of Z = a r^b, Z in mm^6/m^3, rain rate r in mm/h (Marshall and Palmer)"),
+                number_slot("reflectivityExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.reflectivity_exponent)},
+                            "b of Z = a r^b"),
+                number_slot("dielectricFactor", "", 0, 1, {YARS_FIELD(radar.world.rain.dielectric_factor)},
+                            "squared magnitude of the dielectric factor K; 0.93 for water, 0.2 for ice"),
+                number_slot("attenuationFactor", "dB/km", 0, 10, {YARS_FIELD(radar.world.rain.attenuation_factor)},
+                            "k of k r^b, one way (ITU-R P.838-3, 9.6 GHz, horizontal)"),
+                number_slot("attenuationExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.attenuation_exponent)},
+                            "b of k r^b"),
+                more_slot("moreCells", "RainCell", "cells", "showers beside those of earlier forms")}};
 }
 
 FormSchema atmosphere() {

@@ -16,6 +16,7 @@
 #include "lib/file/file_search.hpp"
 #include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::config {
 
@@ -33,8 +34,11 @@ constexpr int kMaxIncludes = 64;  // includes of one configuration; a repeated f
 std::string text_of_file(const fs::path& path, const std::string& subject) {
   std::error_code problem;
   if (!fs::is_regular_file(path, problem)) {
-    const std::string found = fs::exists(path, problem) ? " is no file" : " does not exist";
-    throw ParseError{error::fail(subject, "a GUF file", path.string() + found, "check the path").value()};
+    const bool is_subject = subject == path.string();  // otherwise the subject is the location of an include
+    const std::string found = fs::exists(path, problem) ? "something else" : "none";
+    throw ParseError{
+        error::fail(subject, "a GUF file", found + (is_subject ? "" : " at " + path.string()), "check the path")
+            .value()};
   }
   auto text = file::read_regular_file(path, kMaxTextBytes + 1);
   if (!text) {
@@ -93,7 +97,7 @@ class TreeReader {
   std::vector<Slot> included(const Value& value) {
     const Form& form = std::get<Form>(value.data);
     const auto* name = form.slots.size() == 1 ? std::get_if<std::string>(&form.slots[0].value.data) : nullptr;
-    if (name == nullptr) reject(value.where, R"(( include "file" ))", std::to_string(form.slots.size()) + " arguments");
+    if (name == nullptr) reject(value.where, R"(( include "file" ))", text::counted(form.slots.size(), "argument"));
     const fs::path path = path_of_include(fs::path(*value.where.file).parent_path(), *name);
     const fs::path canonical = fs::weakly_canonical(path);
     if (!is_inside(canonical, root_) && (installed_.empty() || !is_inside(canonical, installed_))) {
@@ -207,7 +211,9 @@ error::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
   loaded.warnings = std::move(tree.warnings);
   const BuilderPointer builder = new_builder();
   try {
-    FormReader(*builder, loaded.warnings).read_all(tree.arguments);
+    FormReader reader(*builder, loaded.warnings);
+    reader.read_all(tree.arguments);
+    loaded.notes = reader.notes();
   } catch (const ParseError& parse_error) {
     return tl::unexpected(parse_error.error);
   }

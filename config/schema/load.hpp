@@ -20,6 +20,7 @@ namespace yars::config {
 struct LoadedConfiguration {
   radar::RadarConfiguration radar;
   std::vector<std::string> warnings;  // such as: old spellings, unknown forms and slots, values without effect
+  std::vector<std::string> notes;     // lists of forms, such as showers, that replace those of earlier forms
 };
 
 // The configuration of a file. An empty path gives the built-in defaults.

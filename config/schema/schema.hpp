@@ -185,6 +185,7 @@ struct FormSlot {
   bool many = false;                               // true: one form or a list of forms; false: one form
   void (*store)(ConfigurationBuilder&) = nullptr;  // called after each form: copies its value to the slot's field
   void (*load)(ConfigurationBuilder&) = nullptr;   // called before the forms are printed: the inverse of store
+  void (*clear)(ConfigurationBuilder&) = nullptr;  // called before the forms are read: removes those of earlier values
 };
 
 using Binding = std::variant<NumberSlot, IntegerSlot, CounterSlot, BooleanSlot, TextSlot, PathSlot, AngleSlot,
@@ -283,6 +284,24 @@ std::optional<ConstraintViolation> check_coordinates(geo::GeoPoint position);
 inline SlotSchema number_slot(std::string_view name, std::string_view unit, double lowest, double highest,
                               NumberSlot binding, std::string_view purpose) {
   return {.name = name, .unit = unit, .lowest = lowest, .highest = highest, .binding = binding, .purpose = purpose};
+}
+
+// Slot for a list of forms that replaces the lists of earlier forms. It is read before the other slots of its form.
+inline SlotSchema list_slot(std::string_view name, std::string_view form, void (*clear)(ConfigurationBuilder&),
+                            std::string_view purpose) {
+  return {.name = name,
+          .binding = FormSlot{.accepted = {form}, .printed = {form}, .many = true, .clear = clear},
+          .purpose = purpose,
+          .before_others = true};
+}
+
+// Slot for forms that are added to the list of the slot `list`.
+inline SlotSchema more_slot(std::string_view name, std::string_view form, std::string_view list,
+                            std::string_view purpose) {
+  return {.name = name,
+          .binding = FormSlot{.accepted = {form}, .printed = {}, .many = true},
+          .purpose = purpose,
+          .same_as = list};
 }
 
 inline SlotSchema latitude_slot(double& (*of)(ConfigurationBuilder&)) {

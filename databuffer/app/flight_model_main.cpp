@@ -5,6 +5,7 @@
 #include "databuffer/runtime/program.hpp"
 #include "lib/file/file_search.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace {
 
@@ -23,7 +24,7 @@ error::Expected<void> fly(databuffer::Session& session, databuffer::TickLoop& lo
     shell.step(*due);
     loop.done(*due);
     if (due->skipped > 0)
-      session.note(databuffer::NoteKind::late_tick, "flight-model skipped " + std::to_string(due->skipped) + " ticks");
+      session.note(databuffer::NoteKind::late_tick, "flight-model skipped " + text::counted(due->skipped, "tick"));
   }
   return loop.outcome();
 }

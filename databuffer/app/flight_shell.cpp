@@ -10,6 +10,7 @@
 #include "databuffer/runtime/receivers.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
 
@@ -156,7 +157,7 @@ BridgeShell::BridgeShell(Session& session, bridges::BridgeSource source, UdpSock
 BridgeShell::~BridgeShell() {
   if (traffic_claim_) session_->layout().traffic.clear();
   for (const auto& datagram : source_.bridge->closing_datagrams()) socket_.send(datagram);
-  if (refusals_.count() > 0) log::info(std::to_string(refusals_.count()) + " packets were refused");
+  if (refusals_.count() > 0) log::info(text::counted(refusals_.count(), "refused packet"));
 }
 
 void BridgeShell::step(const TickLoop::Due& due) {
@@ -234,7 +235,7 @@ void BridgeShell::report_drops() {
   const std::uint64_t dropped = socket_.dropped();
   if (dropped == 0 || dropped < 2 * reported_drops_) return;
   reported_drops_ = dropped;
-  const std::string line = source_.name + ": " + std::to_string(dropped) + " packets came too fast and were dropped";
+  const std::string line = source_.name + ": dropped " + text::counted(dropped, "packet") + " that came too fast";
   session_->note(NoteKind::loss, line);
   log::warning(line);
 }

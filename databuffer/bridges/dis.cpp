@@ -77,7 +77,7 @@ std::optional<error::Error> fault_of(memory::Bytes packet) {
     return error::Error{"dis", std::move(expected), std::move(found), {}, false};
   };
   if (packet.size() < kStateBytes)
-    return error("an Entity State PDU of at least 144 bytes", std::to_string(packet.size()) + " bytes");
+    return error("an Entity State PDU of at least 144 bytes", text::counted(packet.size(), "byte"));
   const auto version = memory::big_endian<std::uint8_t>(packet, kVersion);
   if (version < kOldestVersion || version > kNewestVersion)
     return error("protocol version 5, 6 or 7", std::to_string(version));

@@ -46,7 +46,7 @@ bool is_known_form(memory::Bytes packet) {
 }
 
 std::string form_of(memory::Bytes packet) {
-  std::string bytes = std::to_string(packet.size()) + " bytes";
+  std::string bytes = text::counted(packet.size(), "byte");
   if (packet.size() < sizeof(std::uint32_t)) return bytes;
   return "version " + std::to_string(memory::big_endian<std::uint32_t>(packet, 0)) + " and " + bytes;
 }
@@ -293,7 +293,7 @@ Datagram xplane_request(std::size_t number, int times_a_second) {
 error::Expected<std::optional<ExternalSample>> XplaneBridge::receive(memory::Bytes datagram, geo::Duration now) {
   const bool marked = datagram.size() >= kHeadBytes && std::memcmp(datagram.data(), kMark.data(), kMark.size()) == 0;
   if (!marked || (datagram.size() - kHeadBytes) % kPairBytes != 0)
-    return error::fail("xplane", "RREF, a byte, and pairs of 8 bytes", std::to_string(datagram.size()) + " bytes");
+    return error::fail("xplane", "RREF, a byte, and pairs of 8 bytes", text::counted(datagram.size(), "byte"));
   for (std::size_t offset = kHeadBytes; offset < datagram.size(); offset += kPairBytes) {
     const auto number = memory::little_endian<std::uint32_t>(datagram, offset);
     if (number >= kXplaneDatarefs) continue;

@@ -95,6 +95,15 @@ static inline int yars_is_session_name(const char* name) {
   return length >= 1 && length <= 40 && strspn(name, allowed) == length;
 }
 
+/* Fills s->error with why the session `name` cannot be joined, and what to do. Returns -1. */
+static inline int yars_fail_without_set(yars_session* s, const char* name, const char* why) {
+  snprintf(s->error, sizeof s->error,
+           "%s: %s; start the set (scripts/start --session %s), or give the name of a session that runs "
+           "(`yars --session NAME status`)",
+           s->path, why, name);
+  return -1;
+}
+
 /* Joins the running session `name`. `program`: name of this process in `yars status`, at most 23 characters. */
 static inline int yars_attach(yars_session* s, const char* name, const char* program) {
   memset(s, 0, sizeof *s);
@@ -104,13 +113,15 @@ static inline int yars_attach(yars_session* s, const char* name, const char* pro
     return yars_fail(s, "session", "expected 1 to 40 letters, digits, - or _ as its name");
   snprintf(s->path, sizeof s->path, "/dev/shm/yars.%u.%s", (unsigned)geteuid(), name);
   s->descriptor = open(s->path, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
-  if (s->descriptor < 0) return yars_fail(s, s->path, errno == ENOENT ? "no such session runs" : strerror(errno));
+  if (s->descriptor < 0 && errno == ENOENT) return yars_fail_without_set(s, name, "no such session runs");
+  if (s->descriptor < 0) return yars_fail(s, s->path, strerror(errno));
   /* The write lock is granted only if no program takes part. */
   const int leftover = yars_lock(s, 0, F_WRLCK) == 0;
   if (leftover || yars_lock(s, 0, F_RDLCK) != 0 || !yars_is_at_path(s)) {
     close(s->descriptor);
     s->descriptor = -1;
-    return yars_fail(s, s->path, leftover ? "a leftover: its programs have died" : "it is just ending; try again");
+    if (leftover) return yars_fail_without_set(s, name, "a leftover: its programs have died");
+    return yars_fail(s, s->path, "it is just ending; try again");
   }
   if (yars_map(s) != 0) {
     yars_leave(s);

@@ -6,6 +6,8 @@
 #include "databuffer/flight/route_flight.hpp"
 #include "databuffer/flight/track_flight.hpp"
 #include "lib/file/text_file.hpp"
+#include "lib/text/nearest_word.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer::flight {
 
@@ -67,7 +69,7 @@ Expected<FlightSource> open_route(std::string_view file) {
   if (!text) return tl::unexpected(text.error());
   auto route = parse_route(*text, file);
   if (!route) return tl::unexpected(route.error());
-  const std::string length = std::to_string(route->waypoints.size()) + " waypoints" + (route->loop ? ", looped" : "");
+  const std::string length = text::counted(route->waypoints.size(), "waypoint") + (route->loop ? ", looped" : "");
   return FlightSource{std::make_unique<RouteFlight>(*std::move(route)), "route " + std::string(file) + ", " + length};
 }
 
@@ -76,7 +78,7 @@ Expected<FlightSource> open_track(std::string_view file) {
   if (!text) return tl::unexpected(text.error());
   auto track = parse_track(*text, file);
   if (!track) return tl::unexpected(track.error());
-  const std::string length = std::to_string(track->rows.size()) + " rows" + (track->loop ? ", looped" : "");
+  const std::string length = text::counted(track->rows.size(), "row") + (track->loop ? ", looped" : "");
   return FlightSource{std::make_unique<TrackFlight>(*std::move(track)), "track " + std::string(file) + ", " + length};
 }
 
@@ -89,7 +91,11 @@ Expected<FlightSource> open_source(std::string_view text) {
   if (kind == "fixed") return open_fixed(rest);
   if (kind == "route" && !rest.empty()) return open_route(rest);
   if (kind == "csv" && !rest.empty()) return open_track(rest);
-  return tl::unexpected(error::usage_error("--source", std::string(kForms), '"' + std::string(text) + '"'));
+  static const std::vector<std::string> kKinds{"route:", "fixed:", "csv:", "flightgear:", "jsbsim:", "xplane:", "dis:"};
+  const std::string named = std::string(kind) + ':';
+  const bool is_known = std::ranges::find(kKinds, named) != kKinds.end();  // what follows it is missing
+  return tl::unexpected(error::usage_error("--source", std::string(kForms), '"' + std::string(text) + '"',
+                                           is_known ? "" : text::did_you_mean(named, kKinds)));
 }
 
 }  // namespace yars::databuffer::flight

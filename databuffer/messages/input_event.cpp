@@ -19,6 +19,10 @@ namespace {
 constexpr double kMaxInjectedError_ft = 600'000.0;
 constexpr double kMaxInjectedDrift_fps = 1'000.0;
 
+constexpr double kMaxElevation_deg = 60.0;  // of a commanded antenna elevation, up and down
+// 240 steps of 0.5 deg cover the antenna's elevation range of 120 deg. Zero steps are not an event.
+constexpr int kMaxElevationSteps = 240;
+
 constexpr EventKind kLastKind = EventKind::cursor;
 
 void inspect_argument(Inspection& inspection, const InputEvent& event, int lower, int upper) {
@@ -68,11 +72,10 @@ Refusal validate(const InputEvent& event) {
       inspection.range("y", event.y, 0.0, 1.0);
       break;
     case EventKind::elevation:
-      inspection.range("x", event.x, -60.0, 60.0);
+      inspection.range("x", event.x, -kMaxElevation_deg, kMaxElevation_deg);
       break;
     case EventKind::elevation_step:
-      // 240 steps of 0.5 deg cover the antenna's elevation range of 120 deg. Zero steps are not an event.
-      inspect_argument(inspection, event, -240, 240);
+      inspect_argument(inspection, event, -kMaxElevationSteps, kMaxElevationSteps);
       if (event.argument == 0) inspection.fault("argument", "a step up or down", "0");
       break;
     case EventKind::acquisition:
@@ -192,26 +195,87 @@ std::string text_of(const Form& form) {
   return text;
 }
 
-// The forms of a verb; of an unknown verb the forms of all.
-std::string expected_forms(std::string_view verb) {
-  const bool known = is_verb(verb);
-  std::string list;
-  for (const Form& form : kForms)
-    if (!known || form.verb == verb) list += (list.empty() ? "" : " | ") + text_of(form);
-  return list;
-}
-
-// The text with the verb, and with the word after it, that a misspelled one most likely means. nullopt: none is near.
-std::optional<std::string> corrected(const Words& words) {
-  if (words.empty()) return std::nullopt;
-  std::vector<std::string> verbs, operands;
+std::vector<std::string> all_verbs() {
+  std::vector<std::string> verbs;
   for (const Form& form : kForms)
     if (verbs.empty() || verbs.back() != form.verb) verbs.emplace_back(form.verb);
-  const auto verb = is_verb(words[0]) ? std::string(words[0]) : text::nearest_word(words[0], verbs);
+  return verbs;
+}
+
+// The forms of a verb; of an unknown verb all verbs.
+std::string expected_forms(std::string_view verb) {
+  std::string list;
+  for (const Form& form : kForms)
+    if (form.verb == verb) list += (list.empty() ? "" : " | ") + text_of(form);
+  if (!list.empty()) return list;
+  for (const std::string& known : all_verbs()) list += (list.empty() ? "" : ", ") + known;
+  return "an event, which begins with one of " + list;
+}
+
+// What the radar has no event for, because buttons of the display do it.
+// Source: docs/spec/pilots_interface.md#buttons, real beam map.
+struct OnButtons {
+  std::string_view word;
+  std::string_view buttons;
+};
+constexpr std::array kOnButtons{OnButtons{"range", "'pb 13' lengthens it, 'pb 14' shortens it"},
+                                OnButtons{"gain", "'pb 3' steps it"},
+                                OnButtons{"brightness", "'pb 4' raises it, 'pb 5' lowers it"},
+                                OnButtons{"scan", "'pb 9' steps its width"},
+                                OnButtons{"channel", "'pb 19' steps it"},
+                                OnButtons{"band", "'pb 20' steps it"},
+                                OnButtons{"sniff", "'pb 18' switches it"},
+                                OnButtons{"declutter", "'pb 2' switches it"}};
+
+// Remedy for a word that means one of kOnButtons; empty: none is near.
+std::string advice_on_buttons(std::string_view word) {
+  std::vector<std::string> known;
+  for (const OnButtons& row : kOnButtons) known.emplace_back(row.word);
+  const auto meant = text::nearest_word(word, known);
+  if (!meant) return {};
+  const auto* row = std::ranges::find(kOnButtons, *meant, &OnButtons::word);
+  return "the " + *meant + " is on buttons of the display: " + std::string(row->buttons) + " in RBM";
+}
+
+// The words, of which the first is split where its letters end: "pb13" becomes "pb 13". False: there is nothing to
+// split.
+bool split_first(Words& words) {
+  const auto letters = static_cast<std::size_t>(
+      std::ranges::find_if(words[0], [](char c) { return std::isalpha(static_cast<unsigned char>(c)) == 0; }) -
+      words[0].begin());
+  if (letters == 0 || letters == words[0].size()) return false;
+  const std::string_view first = words[0];
+  const std::size_t next = first.find_first_not_of("-_:=", letters);
+  if (next == std::string_view::npos) return false;
+  // A minus sign belongs to the number of tdc and elevation.
+  const bool is_signed = first[letters] == '-' && !first.starts_with("pb");
+  words[0] = first.substr(0, letters);
+  words.insert(words.begin() + 1, first.substr(is_signed ? letters : next));
+  return true;
+}
+
+// Words that other programs and pilots use for an operand.
+constexpr std::array<std::array<std::string_view, 3>, 6> kSynonyms{{{"power", "on", "opr"},
+                                                                    {"power", "operate", "opr"},
+                                                                    {"power", "standby", "stby"},
+                                                                    {"acq", "forward", "fwd"},
+                                                                    {"acq", "back", "aft"},
+                                                                    {"coolie", "forward", "up"}}};
+
+// The text with the verb, and with the word after it, that a misspelled one most likely means. nullopt: none is near.
+std::optional<std::string> corrected(Words words) {
+  if (words.empty()) return std::nullopt;
+  if (!is_verb(words[0])) split_first(words);
+  const auto verb = is_verb(words[0]) ? std::string(words[0]) : text::nearest_word(words[0], all_verbs());
   if (!verb) return std::nullopt;
+  std::vector<std::string> operands;
   for (const Form& form : kForms)
     if (form.verb == *verb && (form.operand == Operand::word || form.operand == Operand::steps))
       operands.emplace_back(form.word);
+  if (words.size() > 1) {
+    for (const auto& [of, synonym, word] : kSynonyms)
+      if (of == *verb && synonym == words[1]) words[1] = word;
+  }
   std::string event = *verb;
   for (std::size_t i = 1; i < words.size(); ++i)
     event += ' ' + (i == 1 ? text::nearest_word(words[i], operands) : std::nullopt).value_or(std::string(words[i]));
@@ -314,14 +378,58 @@ void set_text(InputEvent& event, std::string_view name) {
 
 namespace {
 
-std::optional<InputEvent> parsed(const Words& words) {
+// The event that the words spell. Its numbers may be out of range.
+std::optional<InputEvent> spelled(const Words& words) {
   for (const Form& form : kForms) {
     InputEvent event{};
-    if (words.empty() || form.verb != words[0] || !read_form(event, form, words)) continue;
-    // A parsed event is validated here, so that no consumer refuses it later.
-    return validate(event) ? std::nullopt : std::optional(event);
+    if (!words.empty() && form.verb == words[0] && read_form(event, form, words)) return event;
   }
   return std::nullopt;
+}
+
+// A parsed event is validated here, so that no consumer refuses it later.
+std::optional<InputEvent> parsed(const Words& words) {
+  auto event = spelled(words);
+  return event && !validate(*event) ? event : std::nullopt;
+}
+
+// The nearest event whose numbers are in range; nullopt for a kind that is not of one or two numbers.
+std::optional<InputEvent> in_range(InputEvent event) {
+  switch (static_cast<EventKind>(event.kind)) {
+    case EventKind::push_button:
+      event.argument = std::clamp<std::int16_t>(event.argument, 1, radar::kBezelButtons);
+      break;
+    case EventKind::tdc:
+      event.x = std::clamp(event.x, -1.0, 1.0);
+      event.y = std::clamp(event.y, -1.0, 1.0);
+      break;
+    case EventKind::cursor:
+      event.x = std::clamp(event.x, 0.0, 1.0);
+      event.y = std::clamp(event.y, 0.0, 1.0);
+      break;
+    case EventKind::elevation:
+      event.x = std::clamp(event.x, -kMaxElevation_deg, kMaxElevation_deg);
+      break;
+    case EventKind::elevation_step:
+      event.argument = std::clamp<std::int16_t>(event.argument, -kMaxElevationSteps, kMaxElevationSteps);
+      break;
+    default:
+      return std::nullopt;
+  }
+  return validate(event) ? std::nullopt : std::optional(event);
+}
+
+// What the user can do about words that are no event: "did you mean 'pb 13'?", or which buttons do it; may be empty.
+std::string advice_on(const Words& words) {
+  if (words.empty()) return {};
+  if (const std::string buttons = is_verb(words[0]) ? "" : advice_on_buttons(words[0]); !buttons.empty())
+    return buttons;
+  const auto meant = corrected(words);
+  if (!meant) return {};
+  const Words correction = text::words_of(*meant);
+  auto event = parsed(correction);
+  if (const auto near = event ? event : spelled(correction); near && !event) event = in_range(*near);
+  return event ? "did you mean '" + text_of(*event) + "'?" : std::string();
 }
 
 }  // namespace
@@ -342,11 +450,10 @@ Expected<InputEvent> event_from_text(std::string_view text) {
   const Words words = text::words_of(lower);
   if (const auto event = parsed(words)) return *event;
   const std::string_view verb = words.empty() ? std::string_view() : words[0];
-  const auto meant = corrected(words);
-  // A correction that is an event, too, needs no list of forms for an unknown verb.
-  const bool is_event = meant && *meant != lower && parsed(text::words_of(*meant));
-  return error::fail("event", is_event && !is_verb(verb) ? "an event" : expected_forms(verb),
-                     '"' + std::string(text) + '"', is_event ? "did you mean '" + *meant + "'?" : "");
+  const std::string advice = advice_on(words);
+  // A correction of an unknown verb needs no list of verbs.
+  return error::fail("event", advice.empty() || is_verb(verb) ? expected_forms(verb) : "an event",
+                     '"' + std::string(text) + '"', advice);
 }
 
 std::string text_of(const InputEvent& event) {

@@ -18,7 +18,9 @@
 namespace yars::databuffer {
 
 void print_failure(const std::string& program, const std::string& message) {
-  std::fprintf(stderr, "%s: %s\n", program.c_str(), text::printable(message).c_str());
+  // The message of a subcommand begins with its name, as in "yars inject: expected ...".
+  const std::string prefix = message.starts_with(program + ' ') ? "" : program + ": ";
+  std::fprintf(stderr, "%s%s\n", prefix.c_str(), text::printable(message).c_str());
   log::to_file(message);
 }
 

@@ -129,6 +129,7 @@ TickLoop::Due TickLoop::due_at(const ClockState& clock, std::int64_t newest) {
   if (newest - next_tick_ >= kMaxTicksBehind) {
     due.skipped = static_cast<std::uint64_t>(newest - next_tick_ - kMaxTicksBehind + 1);
     late_ticks_ += due.skipped;
+    session_->layout().skipped_ticks[role_].add(due.skipped, monotonic_ns());
     next_tick_ = newest - kMaxTicksBehind + 1;
   }
   due.tick = next_tick_++;

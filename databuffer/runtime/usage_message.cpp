@@ -122,7 +122,7 @@ const CLI::Option* option_named(const std::vector<const CLI::App*>& chain, const
 }
 
 std::string values_text(int count) {
-  return std::to_string(count) + (count == 1 ? " value" : " values");
+  return text::counted(count, "value");
 }
 
 std::optional<Error> too_many_values(const std::vector<const CLI::App*>& chain) {
@@ -132,7 +132,7 @@ std::optional<Error> too_many_values(const std::vector<const CLI::App*>& chain) 
       const int found = static_cast<int>(option->count());
       if (max <= 0 || found <= max) continue;
       return Error{option->get_name(), max == 1 ? "the option once" : values_text(max),
-                   max == 1 ? "it " + std::to_string(found) + " times" : std::to_string(found), "", true};
+                   max == 1 ? "it " + text::counted(found, "time") : std::to_string(found), "", true};
     }
   return std::nullopt;
 }

@@ -155,7 +155,8 @@ std::string offsets() {
                     {"frames", offsetof(SessionLayout, frames)},
                     {"counters", offsetof(SessionLayout, counters)},
                     {"caption", offsetof(SessionLayout, caption)},
-                    {"advice", offsetof(SessionLayout, advice)}});
+                    {"advice", offsetof(SessionLayout, advice)},
+                    {"skipped_ticks", offsetof(SessionLayout, skipped_ticks)}});
 }
 
 std::string lock_bytes() {

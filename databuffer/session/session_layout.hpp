@@ -88,6 +88,38 @@ struct Lockstep {
   std::array<std::atomic<std::uint32_t>, kLockstepRoles> wake;      // futexes (Linux wait words); +1 with done_tick
 };
 
+// Ticks that a role skipped because it was late, in each of the last 16 seconds of CLOCK_MONOTONIC. One thread of the
+// role's process writes.
+struct SkippedTicks {
+  static constexpr std::size_t kSeconds = 16;
+  std::array<std::atomic<std::uint64_t>, kSeconds> seconds;  // high 32 bits: the second; low: ticks skipped in it
+
+  void add(std::uint64_t ticks, std::int64_t now_ns) {
+    const auto second = static_cast<std::uint64_t>(now_ns / 1'000'000'000) & 0xFFFF'FFFFU;
+    auto& slot = seconds[second % kSeconds];
+    const std::uint64_t before = slot.load(std::memory_order_relaxed);
+    const std::uint64_t counted = before >> 32 == second ? before & 0xFFFF'FFFFU : 0;
+    slot.store(second << 32 | std::min<std::uint64_t>(counted + ticks, 0xFFFF'FFFFU), std::memory_order_relaxed);
+  }
+  struct Sum {
+    std::uint64_t ticks = 0;
+    int seconds = 0;  // in which ticks were skipped
+  };
+  // Sum over the last `count` seconds, the present one included; `count` is at most kSeconds.
+  Sum within(std::int64_t count, std::int64_t now_ns) const {
+    Sum sum;
+    const std::int64_t present = (now_ns / 1'000'000'000) & 0xFFFF'FFFF;
+    for (const auto& slot : seconds) {
+      const std::uint64_t value = slot.load(std::memory_order_relaxed);
+      const std::int64_t age = present - static_cast<std::int64_t>(value >> 32);
+      if (age < 0 || age >= count || (value & 0xFFFF'FFFFU) == 0) continue;
+      sum.ticks += value & 0xFFFF'FFFFU;
+      ++sum.seconds;
+    }
+    return sum;
+  }
+};
+
 // Slot of a patch map. The writer clears the id, writes, and stores the new id last. A reader copies between two loads
 // of the same id. progress_permille of a written slot is always 1000.
 struct PatchSlot {
@@ -105,10 +137,11 @@ struct FrameSlot {
   std::array<std::atomic<std::uint64_t>, kMaxFramePixels * kMaxFramePixels * 4 / 8> pixels;  // RGBA
 };
 
-// [bytes] Part of the reserve that containers occupy: Counters with padding to a cache line, Caption, PilotAdvice. The
-// assertions below SessionLayout hold the value.
-inline constexpr std::size_t kUsedSpareBytes =
-    680 + sizeof(shm::LatestValue<Caption>) + sizeof(shm::LatestValue<PilotAdvice>);
+// [bytes] Part of the reserve that containers occupy: Counters with padding to a cache line, Caption, PilotAdvice,
+// SkippedTicks. The assertions below SessionLayout hold the value.
+inline constexpr std::size_t kUsedSpareBytes = 680 + sizeof(shm::LatestValue<Caption>) +
+                                               sizeof(shm::LatestValue<PilotAdvice>) +
+                                               kLockstepRoles * sizeof(SkippedTicks);
 
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is the layout, and cache lines need the padding
 struct SessionLayout {
@@ -136,6 +169,7 @@ struct SessionLayout {
   Counters counters;
   shm::LatestValue<Caption> caption;  // written by the holder of the role `tour`
   shm::LatestValue<PilotAdvice> advice;
+  std::array<SkippedTicks, kLockstepRoles> skipped_ticks;  // in the order of kLockstepRoleNames
   std::array<std::atomic<std::uint64_t>, (kSpareBytes - kUsedSpareBytes) / 8> spare;
 };
 // New containers leave the end of the reserve, and thus the size of the layout, where it was.

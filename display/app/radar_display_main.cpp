@@ -18,6 +18,7 @@
 #include "display/host/display.hpp"
 #include "display/host/session_link_shell.hpp"
 #include "lib/log/log.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace {
 
@@ -43,6 +44,9 @@ struct DisplayOptions {
 // step (FrameSteps) by about 10 ms at most. No sweep is lost, because the session's ring keeps sweeps for 5 s.
 constexpr std::chrono::milliseconds kHeadlessInterval{10};
 
+// [ns] Longest step of a display on time: below 5 pictures a second a pilot cannot fly by the display.
+constexpr std::int64_t kMaxStep_ns = 200'000'000;
+
 // Display without a window: paints when a picture is due for the folder or the segment.
 class HeadlessDisplay {
  public:
@@ -52,6 +56,7 @@ class HeadlessDisplay {
         mpd_(mpd),
         size_(size),
         steps_(options.every_s),
+        every_ns_(static_cast<std::int64_t>(options.every_s * 1e9)),
         frames_(std::move(frames)),
         publisher_(std::move(publisher)),
         panel_edge_(options.shows_panel() ? display::panel_edge(size, options.bezel) : 0) {
@@ -60,6 +65,9 @@ class HeadlessDisplay {
     mpd_.show_hints(true);
     mpd_.show_help(options.help);
   }
+
+  // [ns] Longest step on time: of frames in a folder alone the interval between them.
+  std::int64_t max_step_ns() const { return publisher_ ? kMaxStep_ns : std::max(kMaxStep_ns, every_ns_); }
 
   // One update without lockstep. A failed write loses only that frame.
   void step(std::int64_t sim_time_ns) {
@@ -127,6 +135,7 @@ class HeadlessDisplay {
   int size_;
   bool failing_ = false;
   display::FrameSteps steps_;
+  std::int64_t every_ns_;
   std::optional<display::FrameWriter> frames_;
   std::optional<display::FramePublisher> publisher_;
   display::host::PanelView view_;
@@ -134,9 +143,21 @@ class HeadlessDisplay {
   std::int64_t next_frame_ns_ = 0;  // CLOCK_MONOTONIC
 };
 
+// Runs step(). The ticks that pass during a step above `max_ns` count as skipped, for the health of the session.
+template <class Function>
+void timed(databuffer::Session& session, std::int64_t max_ns, const Function& step) {
+  const std::int64_t began_ns = monotonic_ns();
+  step();
+  const std::int64_t now_ns = monotonic_ns();
+  if (now_ns - began_ns <= max_ns) return;
+  constexpr auto kRole = static_cast<std::size_t>(databuffer::LockstepRole::radar_display);
+  session.layout().skipped_ticks[kRole].add(static_cast<std::uint64_t>((now_ns - began_ns) / radar::kTickNanoseconds),
+                                            now_ns);
+}
+
 error::Expected<void> run_headless_live(databuffer::Session& session, HeadlessDisplay& headless) {
   while (!databuffer::stop_requested()) {
-    headless.step(session.sim_time_ns());
+    timed(session, headless.max_step_ns(), [&] { headless.step(session.sim_time_ns()); });
     std::this_thread::sleep_for(kHeadlessInterval);
   }
   return headless.end(session.sim_time_ns());
@@ -194,7 +215,7 @@ error::Expected<void> run_window(databuffer::Session& session, const radar::Rada
   if (options.lockstep.empty()) {
     while (!databuffer::stop_requested()) {
       shown.take_input(display::kRedrawInterval_ns);
-      shown.step(session.sim_time_ns());
+      timed(session, kMaxStep_ns, [&] { shown.step(session.sim_time_ns()); });
     }
     pilot->release_all();
     return {};

@@ -10,6 +10,7 @@
 #include "databuffer/session/picture_pool.hpp"
 #include "display/symbology/readouts.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::display {
 
@@ -124,7 +125,7 @@ void SessionFeed::take_sweeps() {
       sweep_sink_(sweep_);
   }
   if (lost == 0) return;
-  const std::string text = "display lost " + std::to_string(lost) + " sweeps";
+  const std::string text = "display lost " + text::counted(lost, "sweep");
   session_->note(databuffer::NoteKind::loss, text);
   log::warning(text);
 }

@@ -85,6 +85,7 @@ int main(int argc, char** argv) {
       .needs(learn)
       .otherwise("standard output");
   return databuffer::run_program(argc, argv, app, options, [&] {
-    return learn_path.empty() ? run(options, sources) : inputmonitor::learn_device(learn_path, map_file);
+    return learn_path.empty() ? run(options, sources)
+                              : inputmonitor::learn_device(learn_path, map_file, options.session);
   });
 }

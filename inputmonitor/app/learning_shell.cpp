@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -19,6 +21,7 @@
 #include "inputmonitor/learning.hpp"
 #include "inputmonitor/terminal.hpp"
 #include "lib/file/output_file.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::inputmonitor {
 
@@ -74,6 +77,9 @@ class LearningDialogue {
   // Runs until no request is left, the device is gone for good, the user ends, or a signal stops the program.
   void run() {
     say(learning_.begin(monotonic_ns()));
+    // A FIFO is silent until a program writes into it; a device is silent until somebody moves it.
+    if (!info_.known && !reader_->plays_once())
+      say("      " + path_ + " is a FIFO: it waits for what another program writes into it\n");
     while (!learning_.finished() && !is_gone_ && !databuffer::stop_requested()) {
       std::array<pollfd, 2> wanted{
           {{reader_ ? reader_->descriptor() : -1, POLLIN, 0}, {typist_.descriptor(), POLLIN, 0}}};
@@ -142,12 +148,24 @@ std::string map_name(const std::string& file) {
   return name;
 }
 
-Expected<void> write_map(const LearningDialogue& dialogue, const std::string& path, const std::string& file) {
+// The text as one word of a shell's command line.
+std::string shell_word(const std::string& text) {
+  const auto is_plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || strchr("/._-:,+@%=", c);
+  };
+  if (!text.empty() && std::ranges::all_of(text, is_plain)) return text;
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return quoted + '\'';
+}
+
+Expected<void> write_map(const LearningDialogue& dialogue, const std::string& path, const std::string& file,
+                         const std::string& session) {
   const std::string name = map_name(file);
   const std::string text =
       "; Made by input-monitor --learn.\n" + config::print_devices({dialogue.learning().device(name)});
   const std::size_t learned = dialogue.learning().learned();
-  const std::string count = std::to_string(learned) + (learned == 1 ? " control" : " controls");
+  const std::string count = text::counted(learned, "control");
   if (file.empty()) {
     std::cerr << "\nThe map, with " << count << ":\n";
     std::cout << text;
@@ -158,15 +176,19 @@ Expected<void> write_map(const LearningDialogue& dialogue, const std::string& pa
     std::cout << text;
     return written;
   }
-  const std::string source = dialogue.info().known ? "" : " --source evdev:" + path + ',' + name;
+  // As a shell reads them, from any folder.
+  const std::string map = shell_word(std::filesystem::absolute(file).lexically_normal().string());
+  const std::string device = std::filesystem::absolute(path).lexically_normal().string();
+  const std::string source = dialogue.info().known ? "" : " --source " + shell_word("evdev:" + device + ',' + name);
   std::cerr << "\nWrote " << file << ": " << count << ", map " << name << ".\n"
-            << "To use it: scripts/start --no-input, and beside it input-monitor --config " << file << source << '\n';
+            << "To use it: scripts/start --session " << session << " --no-input, and beside it\n"
+            << "  input-monitor --session " << session << " --config " << map << source << '\n';
   return {};
 }
 
 }  // namespace
 
-Expected<void> learn_device(const std::string& path, const std::string& file) {
+Expected<void> learn_device(const std::string& path, const std::string& file, const std::string& session) {
   auto reader = DeviceReader::open(path);
   if (!reader) return tl::unexpected(reader.error());
   std::error_code problem;
@@ -177,7 +199,7 @@ Expected<void> learn_device(const std::string& path, const std::string& file) {
   if (dialogue.learning().learned() == 0)
     return fail(path, "at least one learned control", is_gone ? "a disconnected device" : "none",
                 "nothing was written");
-  if (auto written = write_map(dialogue, path, file); !written) return written;
+  if (auto written = write_map(dialogue, path, file, session); !written) return written;
   if (is_gone && !dialogue.learning().finished())
     return fail(path, "a device connected until the last control", "a disconnection",
                 "the map has the controls learned so far");

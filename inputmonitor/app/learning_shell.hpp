@@ -13,6 +13,7 @@
 
 namespace yars::inputmonitor {
 
-error::Expected<void> learn_device(const std::string& path, const std::string& file);
+// `session`: name for the commands that the dialogue advises at its end.
+error::Expected<void> learn_device(const std::string& path, const std::string& file, const std::string& session);
 
 }  // namespace yars::inputmonitor

@@ -1,7 +1,9 @@
 #include "lib/error/error.hpp"
 
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <system_error>
 #include <utility>
 
 #include "lib/text/plain_text.hpp"
@@ -21,6 +23,10 @@ Error usage_error(Error error) {
 
 Error usage_error(std::string subject, std::string expected, std::string found, std::string action) {
   return {std::move(subject), std::move(expected), std::move(found), std::move(action), true};
+}
+
+std::string reason_of(int code, std::string_view absent) {
+  return code == ENOENT ? std::string(absent) : std::generic_category().message(code);
 }
 
 void requirement_broken(std::string_view expression, std::string_view values, const char* file, int line) {

@@ -40,6 +40,10 @@ inline tl::unexpected<Error> fail(std::string subject, std::string expected, std
 Error usage_error(Error error);
 Error usage_error(std::string subject, std::string expected, std::string found, std::string action = {});
 
+// What was found in place of a file or folder, for Error::found: `absent` if there is none, else the system's text for
+// `code`, such as "Permission denied". `code`: errno, or the value of a std::error_code.
+std::string reason_of(int code, std::string_view absent = "none");
+
 // Prints the failed condition and its values on standard error and aborts. Called by YARS_REQUIRE.
 [[noreturn]] void requirement_broken(std::string_view expression, std::string_view values, const char* file, int line);
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <deque>
 #include <fstream>
 
@@ -61,7 +60,7 @@ class FolderWalk {
       remaining_.pop_front();
       if (auto entered = enter(step); !entered) return tl::unexpected(entered.error());
     }
-    if (!current_) return fail(path.string(), "a folder", std::strerror(errno));
+    if (!current_) return fail(path.string(), "a folder", error::reason_of(errno), "make it, or check the path");
     return Folder(std::move(current_), path);
   }
 
@@ -87,12 +86,13 @@ class FolderWalk {
     Descriptor opened(::openat(current_.number(), step.c_str(), kOpen));
     if (!opened && errno == ENOENT && new_folder_mode_) {
       if (::mkdirat(current_.number(), step.c_str(), *new_folder_mode_) != 0 && errno != EEXIST)
-        return fail(step_path.string(), "a folder that can be made", std::strerror(errno), "check the folder above it");
+        return fail(step_path.string(), "a folder that can be made", error::reason_of(errno),
+                    "check the folder above it");
       opened = Descriptor(::openat(current_.number(), step.c_str(), kOpen));
     }
     struct stat status {};
     if (!opened || ::fstat(opened.number(), &status) != 0)
-      return fail(step_path.string(), "a folder", std::strerror(errno));
+      return fail(step_path.string(), "a folder", error::reason_of(errno), "make it, or check the path");
     if (S_ISLNK(status.st_mode)) return follow(step_path, opened, status.st_uid);
     if (!S_ISDIR(status.st_mode)) return fail(step_path.string(), "a folder", name_of_kind(status.st_mode));
     current_ = std::move(opened);
@@ -114,7 +114,8 @@ class FolderWalk {
     std::array<char, PATH_MAX> target{};
     const ssize_t length = ::readlinkat(link.number(), "", target.data(), target.size());
     if (length <= 0)
-      return fail(step_path.string(), "a link that can be read", length < 0 ? std::strerror(errno) : "an empty link");
+      return fail(step_path.string(), "a link that can be read",
+                  length < 0 ? error::reason_of(errno) : "an empty link");
     if (++links_ > kMaxLinks) return fail(step_path.string(), "a link that leads to a folder", "a circle of links");
     push_front(std::string(target.data(), static_cast<std::size_t>(length)));
     return {};
@@ -139,7 +140,8 @@ Expected<Folder> Folder::make_private(const std::filesystem::path& path) {
   auto folder = make(path, Rights::user_alone);
   if (!folder) return folder;
   struct stat status {};
-  if (::fstat(folder->descriptor(), &status) != 0) return fail(path.string(), "a folder", std::strerror(errno));
+  if (::fstat(folder->descriptor(), &status) != 0)
+    return fail(path.string(), "a folder", error::reason_of(errno), "make it, or check the path");
   if (status.st_uid != ::geteuid() && status.st_uid != 0 && ::geteuid() != 0)
     return fail(path.string(), "a folder of this user", "a folder of user " + std::to_string(status.st_uid),
                 "name a folder of your own");

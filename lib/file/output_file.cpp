@@ -9,7 +9,6 @@
 #include <cerrno>
 #include <cinttypes>
 #include <cstdio>
-#include <cstring>
 #include <optional>
 #include <utility>
 
@@ -49,7 +48,7 @@ tl::unexpected<error::Error> wrong_kind_of_file(const std::string& path, const c
 }
 
 tl::unexpected<error::Error> system_failure(const std::string& path, int problem) {
-  return fail(path, "a file that can be written", std::strerror(problem), write_advice(problem));
+  return fail(path, "a file that can be written", error::reason_of(problem, "no folder for it"), write_advice(problem));
 }
 
 }  // namespace
@@ -274,7 +273,8 @@ Expected<void> LogFile::open_newest() {
                                 O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0600));
   struct stat status {};
   if (!newest_ || ::fstat(newest_.number(), &status) != 0)
-    return fail(shown, "a log file that can be written", std::strerror(errno), "check the folder and its rights");
+    return fail(shown, "a log file that can be written", error::reason_of(errno, "no folder for it"),
+                "check the folder and its rights");
   if (const auto found = unsuitable_log(status)) return fail(shown, "a log file of this user", *found, kAdvice);
   ::fchmod(newest_.number(), 0600);
   bytes_ = static_cast<std::size_t>(status.st_size);
@@ -305,8 +305,8 @@ Expected<void> LogFile::append(std::string_view text) {
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) {
       const int problem = count == 0 ? ENOSPC : errno;
-      return fail((folder_.path() / name_of(0)).string(), "a log file that can be written", std::strerror(problem),
-                  write_advice(problem));
+      return fail((folder_.path() / name_of(0)).string(), "a log file that can be written",
+                  error::reason_of(problem, "no folder for it"), write_advice(problem));
     }
     bytes_ += static_cast<std::size_t>(count);
     text.remove_prefix(static_cast<std::size_t>(count));

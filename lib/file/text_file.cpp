@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdint>
-#include <cstring>
 #include <utility>
 
 #include "lib/file/folder.hpp"
@@ -61,7 +60,7 @@ error::Expected<std::string> read_text_file(const std::filesystem::path& path) {
   if (size > kMaxFile_bytes)
     return error::fail(path.string(), "at most 256 MiB of text", std::to_string(size) + " bytes");
   auto text = read_regular_file(path, kMaxFile_bytes + 1);
-  if (!text) return error::fail(path.string(), "a file that can be read", std::strerror(errno), "check the path");
+  if (!text) return error::fail(path.string(), "a file that can be read", error::reason_of(errno), "check the path");
   if (text->size() > kMaxFile_bytes) return error::fail(path.string(), "at most 256 MiB of text", "more");
   if (const auto lines = std::ranges::count(*text, '\n'); lines > kMaxLines)
     return error::fail(path.string(), "at most 10 million lines", std::to_string(lines), "split the file");
@@ -75,7 +74,7 @@ error::Expected<std::vector<double>> parse_numbers(const std::string& subject,
     std::string names;
     for (const NumberField& field : fields)
       names += (names.empty() ? "" : std::string(separator)) + std::string(field.name);
-    return error::fail(subject, names, std::to_string(texts.size()) + " fields");
+    return error::fail(subject, names, text::counted(texts.size(), "field"));
   }
   std::vector<double> values;
   for (std::size_t index = 0; index < fields.size(); ++index) {

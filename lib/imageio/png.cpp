@@ -154,7 +154,7 @@ std::vector<PaletteColour> palette_of(const PngReader& reader) {
 error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int max_side_pixels) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    return error::fail(path.string(), "a PNG file", code ? code.message() : "not a regular file");
+    return error::fail(path.string(), "a PNG file", code ? error::reason_of(code.value()) : "not a regular file");
   const std::unique_ptr<std::FILE, Closer> file(std::fopen(path.c_str(), "rb"));
   if (!file) return error::fail(path.string(), "a PNG file", "a file that cannot be opened");
   const PngReader reader;

@@ -143,6 +143,12 @@ std::optional<double> finite_number(std::string_view word) {
   return value;
 }
 
+std::string counted(std::uint64_t count, std::string_view noun, std::string_view plural) {
+  const std::string text = std::to_string(count) + ' ';
+  if (count == 1) return text + std::string(noun);
+  return plural.empty() ? text + std::string(noun) + 's' : text + std::string(plural);
+}
+
 std::string text_of_number(double value) {
   std::array<char, 32> buffer{};
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <optional>
 #include <string>
@@ -64,6 +65,8 @@ std::optional<Whole> whole_number(std::string_view word, int base = 10) {
   if (problem != std::errc{} || end != word.data() + word.size()) return std::nullopt;
   return value;
 }
+// "1 file", "2 files", "0 files": the number with its noun. `plural`: where it is not the noun with an s.
+std::string counted(std::uint64_t count, std::string_view noun, std::string_view plural = {});
 // The shortest decimal text from which finite_number() returns the same value; `nan` or `inf` if it is not finite.
 std::string text_of_number(double value);
 

@@ -4,6 +4,7 @@
 #include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/app/radar_model_shell.hpp"
 #include "model/terrain/store/directory_store.hpp"
 
@@ -62,7 +63,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Model
     shell.step(*due, loop->late_ticks());
     loop->done(*due);
     if (due->skipped > 0)
-      session->note(databuffer::NoteKind::late_tick, "radar-model skipped " + std::to_string(due->skipped) + " ticks");
+      session->note(databuffer::NoteKind::late_tick, "radar-model skipped " + text::counted(due->skipped, "tick"));
   }
   return loop->outcome();
 }

@@ -3,6 +3,7 @@
 #include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 #include "statemachine/app/state_machine_shell.hpp"
 
 namespace {
@@ -24,8 +25,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options) {
     shell.step(*due);
     loop->done(*due);
     if (due->skipped > 0)
-      session->note(databuffer::NoteKind::late_tick,
-                    "state-machine skipped " + std::to_string(due->skipped) + " ticks");
+      session->note(databuffer::NoteKind::late_tick, "state-machine skipped " + text::counted(due->skipped, "tick"));
   }
   return loop->outcome();
 }

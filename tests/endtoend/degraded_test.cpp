@@ -211,5 +211,27 @@ TEST_F(Degraded, AFloodOfInvalidRecordsHidesNoOtherNote) {
   for (const auto& role : report["roles"]) EXPECT_EQ(role["restarts"], role["name"] == "radar-model" ? 1 : 0);
 }
 
+// Writes the counts that a slow radar-model would write, because no test can rely on a slow machine.
+TEST_F(Degraded, ARoleThatSkipsManyTicksIsTooSlowWithARemedy) {
+  for (const auto* role : {"state-machine", "radar-model"}) set_.start(role, {role});
+  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() == 2; }, kTimeout_s));
+  auto session = databuffer::Session::open(set_.session(), "slow");
+  ASSERT_TRUE(session);
+  // The input monitor does not run, so nobody else counts there.
+  auto& skipped = session->layout().skipped_ticks[1];
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  skipped.add(190, now_ns);
+  EXPECT_THAT(reasons(), Not(HasSubstr("too slow"))) << "one stall";
+  for (const int ago : {1, 2}) skipped.add(20, now_ns - ago * kSecond_ns);
+  EXPECT_THAT(reasons(),
+              HasSubstr("too slow: input-monitor skipped 12 % of its ticks in the last 10 s; end other programs"));
+  EXPECT_EQ(set_.yars({"status"}).code, 3);
+  auto& model = session->layout().skipped_ticks[3];
+  for (const int ago : {0, 1, 2}) model.add(100, now_ns - ago * kSecond_ns);
+  EXPECT_THAT(reasons(), HasSubstr("too slow: radar-model skipped"));
+  EXPECT_THAT(reasons(), HasSubstr("choose a lower fidelity"));
+}
+
 }  // namespace
 }  // namespace yars::endtoend

@@ -87,11 +87,22 @@ TEST_F(Supervision, TheSixthDeathOfANeededRoleWithinAMinuteEndsTheSet) {
   EXPECT_FALSE(set_.segment_exists()) << "all other roles were ended";
 }
 
-TEST_F(Supervision, ARoleThatCannotStartEndsTheSetAtOnceWithItsOwnError) {
+TEST_F(Supervision, AFaultyConfigurationIsReportedOnceAndNothingIsStarted) {
   std::ofstream(set_.folder() / "bad.guf") << "( Apg70 :ranges ( 10 \n";
   start({"--config", (set_.folder() / "bad.guf").string()});
   EXPECT_EQ(set_.wait("start"), 1);
-  EXPECT_THAT(start_log(), HasSubstr("bad.guf:"));
+  const std::string log = start_log();
+  const std::size_t first = log.find("bad.guf:");
+  EXPECT_NE(first, std::string::npos) << log;
+  EXPECT_EQ(log.find("bad.guf:", first + 1), std::string::npos) << log;
+  EXPECT_THAT(log, HasSubstr("nothing was started"));
+}
+
+TEST_F(Supervision, ARoleThatCannotStartEndsTheSetAtOnceWithItsOwnError) {
+  std::ofstream(set_.folder() / "bad.route") << "no route\n";
+  start({}, "route:" + (set_.folder() / "bad.route").string());
+  EXPECT_EQ(set_.wait("start"), 1);
+  EXPECT_THAT(start_log(), HasSubstr("bad.route:"));
   EXPECT_THAT(start_log(), HasSubstr("before it took part"));
   EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));
 }

@@ -10,6 +10,13 @@ namespace yars::inputmonitor {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(SourceChoice, AMisspelledKindIsAnsweredWithTheNearest) {
+  EXPECT_THAT(parse_source("scrpt:a.script").error().message(), HasSubstr("did you mean 'script:'?"));
+  EXPECT_THAT(parse_source("windw").error().message(), HasSubstr("did you mean 'window'?"));
+  EXPECT_THAT(parse_source("script:").error().message(), Not(HasSubstr("did you mean")));
+}
 
 TEST(SourceChoice, EachKindIsParsed) {
   EXPECT_EQ(parse_source("window")->kind, SourceKind::window);

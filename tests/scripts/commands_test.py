@@ -169,7 +169,11 @@ def check_wrong_help():
 def check_events():
     """Words of `yars inject`; these fail before a session is looked for."""
     for words, part in ((["freze"], "did you mean 'freeze'?"), (["power oper"], "did you mean 'power opr'?"),
-                        (["powr opr"], "did you mean 'power opr'?"), (["xyzzyx"], "pb 1..20 | tdc"), (["pb 21"], "pb 1..20")):
+                        (["powr opr"], "did you mean 'power opr'?"), (["xyzzyx"], "which begins with one of pb, tdc"), (["pb 21"], "pb 1..20"),
+                        (["pb13"], "did you mean 'pb 13'? See"), (["pb 21"], "did you mean 'pb 20'?"),
+                        (["power", "on"], "did you mean 'power opr'?"),
+                        (["rage", "inc"], "the range is on buttons of the display: 'pb 13'"),
+                        (["pb", "thirteen"], "yars inject: expected pb 1..20, found \"pb thirteen\"; see yars inject --help")):
         done = run(["yars", "inject", *words])
         if done.returncode != 2 or part not in done.stderr or len(done.stderr.splitlines()) != 1:
             faults.append(f"inject {words}: expected {part}, found {done}")

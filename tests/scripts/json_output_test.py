@@ -68,7 +68,7 @@ def offline():
     expect("scene info", forms[0] == forms[1] == forms[2] and len(forms[0].get("files", [])) == 1, forms)
     pathlib.Path("plain.guf").write_text("( Apg70 )\n")
     expect("config check", object_of("config", "check", "plain.guf", "--json") == {
-        "file": "plain.guf", "valid": True, "warnings": []})
+        "file": "plain.guf", "valid": True, "warnings": [], "notes": []})
     object_of("config", "user", "--json")
     place = ["--terrain", "cells", "--lat", "36.5", "--lon", "-123.5"]
     scan = object_of("scan", *place, "--samples", "32", "--json")

@@ -162,12 +162,16 @@ class Learn(unittest.TestCase):
         self.assertIn("0 warnings", checked.stdout)
 
     def test_the_map_of_a_dialogue_sends_the_events(self):
-        program = self.start("--out", str(self.map))
+        program = self.start("--out", os.path.relpath(self.map), "--session", "learned-here")
         self.learn_some(program)
         program.type("q")
         code, output = program.end()
         self.assertEqual((code, output), (0, ""), program.shown)
         self.assertIn("5 controls, map panel", program.shown)
+        self.assertIn("is a FIFO: it waits for what another program writes into it", program.shown)
+        self.assertIn("scripts/start --session learned-here --no-input", program.shown)
+        self.assertIn(f"input-monitor --session learned-here --config {self.map} "
+                      f"--source evdev:{self.device.path},panel", program.shown.replace("\r\n", " "))
         self.check_map()
         for jargon in ("ABS_", "BTN_", "\x1b"):
             self.assertNotIn(jargon, program.shown)

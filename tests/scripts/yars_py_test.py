@@ -118,7 +118,9 @@ def what_cannot_be_done_is_an_error(session):
     refuses("push_event: expected an input lane, found none; call claim_input_lane", session.push_event, 1, 13)
     refuses("priority: expected a whole number 0 to", session.claim_ownship_lane, -1)
     session.claim_ownship_lane(50)
-    refuses("found 'latitude'; see", session.publish_ownship, latitude=36.5)
+    refuses("found 'latitude'; did you mean 'latitude_deg'?", session.publish_ownship, latitude=36.5)
+    refuses("found 'lattitude_deg'; did you mean 'latitude_deg'?", session.publish_ownship, lattitude_deg=36.5)
+    refuses("found 'wingspan'; see yars_records.h", session.publish_ownship, wingspan=13.0)
     refuses("latitude_deg: expected a number, found '36.5'", session.publish_ownship, latitude_deg="36.5")
     refuses("source: expected a text of at most 15", session.publish_ownship, source="sixteen letters!")
     refuses("source: expected a text of at most 23", session.claim_input_lane, 5)
@@ -189,6 +191,24 @@ def a_set_runs_while_a_role_is_held(session, made_up):
     same("set_runs at the end", session.set_runs(), False)
 
 
+def a_misspelled_field_is_answered_with_the_nearest(session):
+    clock = yars.unpack(yars.CLOCK, bytes(struct.calcsize(yars.code_of(yars.CLOCK))))
+    refuses("found 'base_sim'; did you mean 'base_sim_ns'?", lambda: clock["base_sim"])
+    try:
+        clock["zzz"]
+        faults.append("clock['zzz'] was taken")
+    except KeyError as error:
+        same("a KeyError reads as a sentence", str(error).startswith("expected a field of base_sim_ns"), True)
+    for name, said in (("rate", "write record['rate']"), ("epok", "write record['epoch']"), ("zzz", "record['NAME']")):
+        try:
+            getattr(clock, name)
+            faults.append(f"clock.{name} was taken")
+        except AttributeError as error:
+            same(f"clock.{name}", said in str(error), True)
+    same("a record is a dict", (clock.get("zzz"), json.loads(json.dumps(clock))["epoch"]), (None, 0))
+    refuses("no such session runs; start the set (scripts/start --session none-there)", yars.Session, "none-there")
+
+
 def a_name_leads_nowhere_else():
     for name in ("../../x", "", "a/b", "a\x1b[2J", "x" * 41):
         try:
@@ -202,6 +222,7 @@ a_name_leads_nowhere_else()
 with MadeUpSession() as made_up, yars.Session(made_up.name, "yars_py_test") as session:
     what_cannot_be_done_is_an_error(session)
     a_caption_is_there_while_its_tour_runs(session)
+    a_misspelled_field_is_answered_with_the_nearest(session)
     sweeps_come_once_and_the_lost_are_counted(session, made_up)
     a_set_runs_while_a_role_is_held(session, made_up)
 print("\n".join(faults) or "yars.py: as the layout")

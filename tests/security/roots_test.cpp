@@ -104,7 +104,7 @@ TEST_F(Roots, AnIncludeByAnAbsolutePathIsRefused) {
 TEST_F(Roots, AnIncludeOfAPipeIsRefused) {
   fifo("pipe.guf");
   const auto path = write("a.guf", "( include \"pipe.guf\" )");
-  EXPECT_THAT(refusal_of(config::load_configuration(path)), HasSubstr("is no file"));
+  EXPECT_THAT(refusal_of(config::load_configuration(path)), HasSubstr("found something else"));
 }
 
 // ---- Files that a scene refers to ----

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <fstream>
 #include <utility>
 
@@ -17,7 +16,8 @@ error::Expected<RecordingReader> RecordingReader::open(const std::filesystem::pa
     return error::fail(path.string(), "a recording in a regular file", "a folder, a pipe, a socket or a device",
                        "copy the recording into a regular file");
   auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
-  if (!*file) return error::fail(path.string(), "a recording that can be read", std::strerror(errno));
+  if (!*file)
+    return error::fail(path.string(), "a recording that can be read", error::reason_of(errno), "check the path");
   return read(std::move(file), path.string());
 }
 

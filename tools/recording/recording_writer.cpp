@@ -180,12 +180,12 @@ error::Expected<void> RecordingWriter::write(const std::vector<std::byte>& bytes
 
 tl::unexpected<error::Error> RecordingWriter::write_failed(int error_number) {
   const bool space = file::is_missing_space(error_number);
-  error_ =
-      error::Error{(folder_->path() / name_).string(),
-                   space ? "free space on the disk" : "a recording that can be written", std::strerror(error_number),
-                   (space ? "" : std::string(file::write_advice(error_number)) + "; ") +
-                       std::string("the blocks already in the file can be read"),
-                   false};
+  error_ = error::Error{(folder_->path() / name_).string(),
+                        space ? "free space on the disk" : "a recording that can be written",
+                        error::reason_of(error_number, "no folder for it"),
+                        (space ? "" : std::string(file::write_advice(error_number)) + "; ") +
+                            std::string("the blocks already in the file can be read"),
+                        false};
   return tl::unexpected(*error_);
 }
 

@@ -14,6 +14,7 @@
 #include "lib/file/output_file.hpp"
 #include "lib/geo/frames.hpp"
 #include "lib/radar/world.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"
@@ -211,14 +212,14 @@ void generate(const GenerateOptions& options) {
   constexpr std::uint64_t kStep = 10'000;  // triangles per progress report
   Progress progress(options.triangles / kStep + 1);
   const worldgen::GeneratedScene made = worldgen::generate_scene(
-      order, [&](std::uint64_t triangles) { progress.done(std::to_string(triangles) + " triangles"); });
+      order, [&](std::uint64_t triangles) { progress.done(text::counted(triangles, "triangle")); });
   const std::filesystem::path path = std::filesystem::absolute(options.out);
   if (const auto written = file::write_file_and_folders(path, made.file); !written) throw_failure(written.error());
   if (options.json)
     return print_json(
         {{"file", options.out}, {"kind", options.kind}, {"triangles", made.triangles}, {"bytes", made.file.size()}});
-  std::printf("%s  %s of %llu triangles, %zu bytes\n", options.out.c_str(), options.kind.c_str(),
-              static_cast<unsigned long long>(made.triangles), made.file.size());
+  std::printf("%s  %s of %s, %s\n", options.out.c_str(), options.kind.c_str(),
+              text::counted(made.triangles, "triangle").c_str(), text::counted(made.file.size(), "byte").c_str());
 }
 
 }  // namespace

@@ -67,14 +67,17 @@ using databuffer::AppliedEvent;
 using databuffer::InputEvent;
 using databuffer::Session;
 
+constexpr const char* kSubject = "yars inject";  // with what its errors begin
+
 constexpr std::int64_t kTimeout_ns = 2'000'000'000;  // [ns] 2 s: docs/spec/commands.md#inject
 
 // Parses the arguments. Either all arguments together are one event (pb 13), or each is one event ('pb 13' 'sp 2').
 std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) {
   const auto refuse = [](const error::Error& error) {
-    const std::string& meant = error.action;
-    throw_failure(error::usage_error("inject", error.expected, error.found,
-                                     meant + (meant.empty() ? "see" : " See") + " yars inject --help"));
+    // An advice is a question, or a sentence without its end.
+    std::string action = error.action;
+    action += action.empty() ? "see" : action.ends_with('?') ? " See" : "; see";
+    throw_failure(error::usage_error(kSubject, error.expected, error.found, action + " yars inject --help"));
   };
   std::string joined;
   for (const auto& argument : arguments) joined += (joined.empty() ? "" : " ") + argument;
@@ -113,7 +116,7 @@ Outcome wait_until_applied(Session& session, std::uint32_t lane, std::uint64_t c
 }
 
 std::string events_text(std::size_t count) {
-  return std::to_string(count) + (count == 1 ? " event" : " events");
+  return text::counted(count, "event");
 }
 
 databuffer::RadarState published_state(Session& session) {
@@ -200,7 +203,7 @@ std::string advice_on_point(const statemachine::AppliedSequence& applied, const 
     advice = "send an event alone for its reason";
   else if (advice.empty())
     advice = "see points, cursor and limits in `yars watch --json`";
-  throw_failure({"inject", "events that can be carried out", refused, advice, false});
+  throw_failure({kSubject, "events that can be carried out", refused, advice, false});
 }
 
 struct InjectOptions {
@@ -230,12 +233,12 @@ void inject(const CommonOptions& common, const InjectOptions& options) {
       sent = push();
     }
     if (!sent)
-      throw_failure({"inject", "free space in the input lane", "a full lane",
+      throw_failure({kSubject, "free space in the input lane", "a full lane",
                      "start state-machine, or send fewer events at once", false});
   }
   const Outcome outcome = wait_until_applied(*session, static_cast<std::uint32_t>(lane->lane()), cursor, events.size());
   if (outcome.size() < events.size())
-    throw_failure({"inject", events_text(events.size()) + " applied within 2 s", std::to_string(outcome.size()),
+    throw_failure({kSubject, events_text(events.size()) + " applied within 2 s", std::to_string(outcome.size()),
                    "check with `yars status` that state-machine and the clock run", false});
   const bool all_done = std::ranges::count(outcome, databuffer::kEventDone) == std::ssize(outcome);
   const databuffer::RadarState after = all_done ? databuffer::RadarState{} : state_after_events(*session);

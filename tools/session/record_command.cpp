@@ -11,6 +11,7 @@
 #include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/session.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/recording/recording_writer.hpp"
@@ -90,8 +91,8 @@ void print_summary(const Recorder& recorder, std::uint64_t bytes, const RecordOp
                        {"sweeps", recorder.sweeps()},
                        {"bytes", bytes},
                        {"refused", recorder.refused()}});
-  std::printf("%llu ticks, %llu sweeps, %llu bytes in %s\n", static_cast<unsigned long long>(recorder.ticks()),
-              static_cast<unsigned long long>(recorder.sweeps()), static_cast<unsigned long long>(bytes),
+  std::printf("%s, %s, %s in %s\n", text::counted(recorder.ticks(), "tick").c_str(),
+              text::counted(recorder.sweeps(), "sweep").c_str(), text::counted(bytes, "byte").c_str(),
               options.file.c_str());
 }
 
@@ -122,7 +123,7 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   if (outcome) outcome = writer->close();
   if (is_there) print_summary(recorder, writer->bytes(), options);
   if (recorder.refused() > 0)
-    log::warning(std::to_string(recorder.refused()) + " records failed validation and were not recorded");
+    log::warning("not recorded: " + text::counted(recorder.refused(), "record") + " that failed validation");
   if (!outcome) throw_failure(outcome.error());
 }
 

@@ -12,6 +12,7 @@
 #include "databuffer/session/session_layout.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::tools {
 
@@ -185,9 +186,9 @@ void Recorder::take_all(std::int64_t tick) {
   if (extras_.patches) take_patches();
   if (gap.ticks + gap.events + gap.sweeps > 0) {
     append(gap);
-    session_->note(databuffer::NoteKind::loss, "recorder fell behind by " + std::to_string(gap.ticks) + " ticks, " +
-                                                   std::to_string(gap.events) + " events, " +
-                                                   std::to_string(gap.sweeps) + " sweeps");
+    session_->note(databuffer::NoteKind::loss, "recorder fell behind by " + text::counted(gap.ticks, "tick") + ", " +
+                                                   text::counted(gap.events, "event") + ", " +
+                                                   text::counted(gap.sweeps, "sweep"));
   }
 }
 

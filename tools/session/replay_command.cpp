@@ -15,6 +15,7 @@
 #include "databuffer/runtime/program.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/configuration.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
@@ -80,9 +81,7 @@ void report_missing(const recording::RecordingReader& reader, const std::string&
   for (std::size_t i = 0; i < std::min(missing.size(), kMaxListed); ++i)
     ticks += (i == 0 ? "" : ", ") + text_of_ticks(missing[i]);
   if (missing.size() > kMaxListed) ticks += ", and more";
-  throw_failure({file, "undamaged blocks",
-                 std::to_string(missing.size()) + (missing.size() == 1 ? " damaged block" : " damaged blocks") +
-                     "; missing ticks: " + ticks,
+  throw_failure({file, "undamaged blocks", text::counted(missing.size(), "damaged block") + "; missing ticks: " + ticks,
                  "the rest was read", false});
 }
 
@@ -216,7 +215,7 @@ nlohmann::ordered_json KernelRerun::result(const recording::RecordingReader& rea
 }
 
 std::string cause_of_difference(const KernelRerun& run, const recording::RecordingReader& reader) {
-  if (run.lost() > 0) return std::to_string(run.lost()) + " ticks are missing in the recording";
+  if (run.lost() > 0) return "the recording lacks " + text::counted(run.lost(), "tick");
   if (reader.cut_short()) return "the file has no valid index, so parts of it may be missing";
   return "replay with the same terrain and configuration";
 }
@@ -239,8 +238,7 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
   const auto& comparison = run.replay().comparison();
   if (comparison.different() > 0)
     throw_failure({options.file, "the sweeps of the recording",
-                   std::to_string(comparison.different()) + " different sweeps", cause_of_difference(run, reader),
-                   false});
+                   text::counted(comparison.different(), "different sweep"), cause_of_difference(run, reader), false});
   if (comparison.equal() == 0 && comparison.missing() > 0)
     throw_failure({options.file, "the sweeps of the recording", "none of these sweeps",
                    "replay with the same configuration", false});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
@@ -9,9 +10,11 @@
 
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/receivers.hpp"
+#include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
+#include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
 #include "tools/session/watch_json.hpp"
 
@@ -23,8 +26,13 @@ namespace yars::tools {
 // A role of kSet hangs if its heartbeat is older than 2 s. Only restarts by the supervisor count.
 nlohmann::ordered_json roles_json(const databuffer::Session& session);
 
+// How far each role of kLockstepRoleNames lags behind the clock: {ROLE: {"skipped": ticks, "share": of the ticks that
+// were due, "seconds": in which ticks were skipped}}, over the last kLag_s. Roles that skipped none, and a frozen
+// clock's roles, are left out.
+nlohmann::ordered_json lag_json(const databuffer::Session& session);
+
 // {"state": "OK", "DEGRADED" or "NOTHING RUNS", "reasons": [texts]}. `status` must have watch, model, roles, recorder,
-// ownship_lanes, frames_failing, input, refusals, clock_problem and named.
+// lag, ownship_lanes, frames_failing, input, refusals, clock_problem and named.
 nlohmann::ordered_json health_json(const nlohmann::ordered_json& status);
 
 namespace {
@@ -32,6 +40,12 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr double kHangsAfter_ms = 2000.0;
+// The machine is too slow if a role skips more than this share of its ticks within kLag_s, in at least kMinLagging_s
+// different seconds. A single stall, as by a program that starts, is no reason.
+constexpr double kMaxSkipped = 0.05;
+constexpr std::int64_t kLag_s = 10;
+constexpr int kMinLagging_s = 3;
+constexpr double kMostSkipped = 0.5;  // above it one second less is enough, because stalls may last seconds
 constexpr std::int64_t kLastMinute_ns = 60'000'000'000;
 
 struct SetRole {
@@ -78,6 +92,29 @@ void add_role_reasons(const ordered_json& roles, std::vector<std::string>& reaso
     if (restarts == 0) continue;
     reasons.push_back(name + " was started again " + (restarts == 1 ? "once" : std::to_string(restarts) + " times") +
                       " in the last minute");
+  }
+}
+
+// What a user can do for a role that is too slow at a clock of this rate.
+std::string remedy_of_lag(const std::string& role, double rate) {
+  std::string remedy;
+  if (rate > 1.0) remedy = "let time run slower (yars sim rate 1), ";
+  if (role == "radar-model") remedy += "choose a lower fidelity (( Fidelity :preset draft ) or :automatic true), ";
+  if (role == "radar-display") remedy += "make the display smaller (--size), ";
+  return remedy + (remedy.empty() ? "" : "or ") + "end other programs";
+}
+
+void add_lag_reasons(const ordered_json& status, std::vector<std::string>& reasons) {
+  for (const auto& [role, lag] : status["lag"].items()) {
+    const double share = lag["share"];
+    if (share <= kMaxSkipped || lag["seconds"] < (share > kMostSkipped ? kMinLagging_s - 1 : kMinLagging_s)) continue;
+    const long percent = std::lround(100.0 * share);
+    const std::string time = std::to_string(percent) + " % of ";
+    const std::string window = "the last " + std::to_string(kLag_s) + " s";
+    const std::string found = role == "radar-display" ? "pictures of the display took longer than they may in " + time
+                                                      : role + " skipped " + time + "its ticks in ";
+    reasons.push_back("too slow: " + found + window + "; " +
+                      remedy_of_lag(role, status["watch"]["rate"].get<double>()));
   }
 }
 
@@ -135,12 +172,33 @@ ordered_json roles_json(const databuffer::Session& session) {
   return roles;
 }
 
+ordered_json lag_json(const databuffer::Session& session) {
+  ordered_json lags = ordered_json::object();
+  const databuffer::ClockState clock = session.clock();
+  if (clock.running == 0 || !(clock.rate > 0.0)) return lags;
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  for (std::size_t role = 0; role < databuffer::kLockstepRoles; ++role) {
+    const auto lag = session.layout().skipped_ticks[role].within(kLag_s, now_ns);
+    if (lag.ticks == 0) continue;
+    // A late picture of the display counts by real time.
+    const bool is_display = role == static_cast<std::size_t>(databuffer::LockstepRole::radar_display);
+    const double due = static_cast<double>(kLag_s) * 1e9 / static_cast<double>(radar::kTickNanoseconds) *
+                       (is_display ? 1.0 : clock.rate);
+    lags[std::string(databuffer::kLockstepRoleNames[role])] = {
+        {"skipped", lag.ticks},
+        {"share", std::min(1.0, static_cast<double>(lag.ticks) / due)},
+        {"seconds", lag.seconds}};
+  }
+  return lags;
+}
+
 ordered_json health_json(const ordered_json& status) {
   const auto& roles = status["roles"];
   if (std::ranges::none_of(roles, [](const auto& role) { return role["pid"] != 0; }))
     return {{"state", "NOTHING RUNS"}, {"reasons", {"the session exists, but no program takes part"}}};
   std::vector<std::string> reasons;
   add_role_reasons(roles, reasons);
+  add_lag_reasons(status, reasons);
   add_radar_reasons(status, reasons);
   if (const auto& recorder = status["recorder"]; !recorder.is_null() && !recorder["problem"].is_null())
     reasons.push_back("the recorder does not write: " + recorder["problem"].get<std::string>());
@@ -286,6 +344,7 @@ ordered_json status_json(const databuffer::Session& session, const std::string& 
   object["frames_failing"] = session.layout().counters.frames_failing.load() != 0;
   const auto problem = session.clock_problem();
   object["clock_problem"] = problem ? ordered_json(*problem) : ordered_json(nullptr);
+  object["lag"] = lag_json(session);
   object["health"] = health_json(object);
   return object;
 }

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "databuffer/messages/derived_values.hpp"
+#include "lib/text/plain_text.hpp"
 #include "tools/session/status_json.hpp"
 
 namespace yars::tools {
@@ -78,9 +79,9 @@ void print_ownship(const ordered_json& status) {
                 own["track_deg"].get<double>(), own["ground_speed_kt"].get<double>(),
                 age_text(own["age_ms"].get<double>() / 1000.0).c_str());
   for (const auto& lane : status["ownship_lanes"])
-    std::printf("  lane %d: %s, priority %u, %llu records so far\n", lane["lane"].get<int>(),
-                text(lane["source"]).c_str(), lane["priority"].get<unsigned>(),
-                static_cast<unsigned long long>(lane["records"].get<std::uint64_t>()));
+    std::printf("  lane %d: %s, priority %u, %s so far\n", lane["lane"].get<int>(), text(lane["source"]).c_str(),
+                lane["priority"].get<unsigned>(),
+                text::counted(lane["records"].get<std::uint64_t>(), "record").c_str());
 }
 
 bool takes_part(const ordered_json& roles, std::string_view name) {
@@ -107,10 +108,10 @@ void print_radar(const ordered_json& status) {
   const auto& watch = status["watch"];
   const auto& model = status["model"];
   const std::string fidelity = text(model["fidelity"]);
-  std::printf("radar: %s %s, %.1f NM, fidelity %s, kernel %s of a core, %llu sweeps, terrain %.1f MB\n",
+  std::printf("radar: %s %s, %.1f NM, fidelity %s, kernel %s of a core, %s, terrain %.1f MB\n",
               text(watch["power"]).c_str(), text(watch["mode"]).c_str(), watch["range_nm"].get<double>(),
               fidelity.empty() ? "unknown" : fidelity.c_str(), load_text(model["load"].get<double>()).c_str(),
-              static_cast<unsigned long long>(watch["sweeps"].get<std::uint64_t>()),
+              text::counted(watch["sweeps"].get<std::uint64_t>(), "sweep").c_str(),
               static_cast<double>(model["terrain_bytes"].get<std::uint64_t>()) / 1e6);
   print_display_words(status);
   const auto& recorder = status["recorder"];
@@ -140,8 +141,8 @@ void print_tour(const ordered_json& caption) {
 
 void print_traffic(const ordered_json& traffic) {
   if (traffic.is_null()) return;
-  std::printf("traffic: pid %d reports %u ships and vehicles\n", traffic["holder"].get<int>(),
-              traffic["entities"].get<unsigned>());
+  std::printf("traffic: pid %d reports %s\n", traffic["holder"].get<int>(),
+              text::counted(traffic["entities"].get<unsigned>(), "ship or vehicle", "ships and vehicles").c_str());
 }
 
 void print_notes(const ordered_json& status) {

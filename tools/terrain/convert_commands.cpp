@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/formats/culture.hpp"
@@ -197,7 +198,7 @@ void print_totals(const BatchTotals& totals, const std::vector<std::string>& pro
                        {"bytes_out", totals.bytes_out},
                        {"files", totals.files},
                        {"problems", problems}});
-  std::printf("%zu cells, %s to %s, ratio %.2f\n", written, megabytes(totals.bytes_in).c_str(),
+  std::printf("%s, %s to %s, ratio %.2f\n", text::counted(written, "cell").c_str(), megabytes(totals.bytes_in).c_str(),
               megabytes(totals.bytes_out).c_str(), totals.ratio());
 }
 

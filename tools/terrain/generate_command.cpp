@@ -15,6 +15,7 @@
 #include <thread>
 #include <vector>
 
+#include "lib/text/plain_text.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "tools/command/command.hpp"
@@ -85,8 +86,8 @@ class Generation {
                          {"land_cells", land},
                          {"sea_cells", sea},
                          {"files", options_.sea ? land + sea : land}});
-    std::printf("%zu cells with land in %s; %zu cells with only sea %s\n", land, options_.out.c_str(), sea,
-                options_.sea ? "also have files" : "have no file");
+    std::printf("%s with land in %s; %s with only sea, %s\n", text::counted(land, "cell").c_str(), options_.out.c_str(),
+                text::counted(sea, "cell").c_str(), options_.sea ? "with files, too" : "without files");
   }
 
  private:

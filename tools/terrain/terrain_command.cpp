@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "lib/text/plain_text.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "model/terrain/gdal/raster_survey.hpp"
@@ -112,8 +113,9 @@ struct Totals {
   void print() const {
     const std::string heights =
         voids == posts ? "no heights" : height_text(lowest_m) + " to " + height_text(highest_m) + " m";
-    std::printf("%zu %s, latitude %d to %d, longitude %d to %d, %s, %zu of %zu posts void\n", cells,
-                cells == 1 ? "cell" : "cells", south_deg, north_deg, west_deg, east_deg, heights.c_str(), voids, posts);
+    std::printf("%s, latitude %d to %d, longitude %d to %d, %s, %zu of %zu posts void\n",
+                text::counted(cells, "cell").c_str(), south_deg, north_deg, west_deg, east_deg, heights.c_str(), voids,
+                posts);
   }
 };
 

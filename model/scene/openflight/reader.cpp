@@ -21,10 +21,10 @@ namespace fs = std::filesystem;
 error::Expected<std::vector<std::byte>> read_bytes(const fs::path& path, std::uintmax_t max_bytes) {
   std::error_code code;
   if (!fs::is_regular_file(path, code))
-    return error::fail(path.string(), "an OpenFlight file", code ? code.message() : "not a regular file",
-                       "give the path of a .flt file");
+    return error::fail(path.string(), "an OpenFlight file",
+                       code ? error::reason_of(code.value()) : "not a regular file", "give the path of a .flt file");
   const std::uintmax_t size = fs::file_size(path, code);
-  if (code) return error::fail(path.string(), "a readable file", code.message());
+  if (code) return error::fail(path.string(), "a readable file", error::reason_of(code.value()));
   if (size > kMaxFileBytes)
     return error::fail(path.string(), "at most " + std::to_string(kMaxFileBytes) + " bytes",
                        std::to_string(size) + " bytes", "split the scene into several files");

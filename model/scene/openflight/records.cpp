@@ -1,5 +1,7 @@
 #include "model/scene/openflight/records.hpp"
 
+#include "lib/text/plain_text.hpp"
+
 namespace yars::model::scene {
 
 namespace {
@@ -40,7 +42,7 @@ error::Expected<std::optional<Record>> RecordStream::single() {
   if (!record) {
     const std::size_t left = bytes_.size() - at_;
     const std::string at = "a whole record at byte " + std::to_string(at_);
-    const std::string end = std::to_string(left) + (left == 1 ? " byte" : " bytes") + " up to the file's end";
+    const std::string end = text::counted(left, "byte") + " up to the file's end";
     if (left < kHeadBytes)
       return error::fail(subject_, at + ", of " + std::to_string(kHeadBytes) + " bytes or more", end,
                          "the file is truncated or damaged; fetch it again");

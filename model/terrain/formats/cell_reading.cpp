@@ -32,9 +32,10 @@ std::string impossible_heights_warning(std::size_t posts) {
 error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    return error::fail(path.string(), "an elevation file", code ? code.message() : "not a regular file");
+    return error::fail(path.string(), "an elevation file",
+                       code ? error::reason_of(code.value()) : "not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(path, code);
-  if (code) return error::fail(path.string(), "a readable file", code.message());
+  if (code) return error::fail(path.string(), "a readable file", error::reason_of(code.value()));
   return size;
 }
 
@@ -52,7 +53,7 @@ error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::pa
   file.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(bytes));
   if (!file)
     return error::fail(path.string(), "a readable file of " + std::to_string(*length) + " bytes",
-                       errno != 0 ? std::strerror(errno) : "a failed read",
+                       errno != 0 ? error::reason_of(errno) : "a failed read",
                        "check the rights of the file and the disk");
   return part;
 }

@@ -102,7 +102,8 @@ error::Expected<Raster> open_raster(const std::filesystem::path& path) {
   const std::string subject = path.string();
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    return error::fail(subject, "a raster of heights in a regular file", code ? code.message() : "not a regular file");
+    return error::fail(subject, "a raster of heights in a regular file",
+                       code ? error::reason_of(code.value()) : "not a regular file");
   const MessageCapture messages;
   // An absolute path cannot begin with a prefix of a GDAL driver. The check above refuses virtual folders
   // (/vsizip/...).

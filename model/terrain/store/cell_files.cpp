@@ -258,7 +258,7 @@ std::optional<std::string> unreadable_folder(const std::filesystem::directory_en
   if (!entry.is_directory(code) || entry.is_symlink(code)) return std::nullopt;
   const std::filesystem::directory_iterator first(entry.path(), code);
   if (!code) return std::nullopt;
-  return error::Error{entry.path().string(), "a folder that can be read", lower_first(code.message()),
+  return error::Error{entry.path().string(), "a folder that can be read", lower_first(error::reason_of(code.value())),
                       "check its permissions", false}
       .message();
 }
@@ -280,7 +280,8 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
                                                 std::vector<std::string>* problems) {
   std::error_code code;
   if (!std::filesystem::is_directory(directory, code))
-    return error::fail(directory.string(), "a directory with elevation cells", code ? code.message() : "no directory",
+    return error::fail(directory.string(), "a directory with elevation cells",
+                       code ? error::reason_of(code.value()) : "no directory",
                        "make one with `yars terrain generate --out DIR`");
   DirectoryIndex index;
   file::FolderNames names;
@@ -301,7 +302,7 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
                           .message());
   }
   if (code)
-    return error::fail(directory.string(), "a directory that can be read", lower_first(code.message()),
+    return error::fail(directory.string(), "a directory that can be read", lower_first(error::reason_of(code.value())),
                        "check its permissions");
   add_cultures(index, names);
   std::sort(found.begin(), found.end());

@@ -56,10 +56,10 @@ TEST(Convert, KeepsDefinitionsOfForms) {
 
 TEST(Convert, InsertsTheContentsOfIncludes) {
   const Folder folder;
-  folder.write("part.guf", ":ranges `( 5 6 )");
+  folder.write("part.guf", ":ranges `( 5 6 ) :pulseWidths `( 1 2 )");
   const auto conversion = convert_configuration(folder.write("a.guf", "( Apg70 ( include \"part.guf\" ) )"), {});
   ASSERT_TRUE(conversion);
-  EXPECT_EQ(conversion->text, "( Apg70 :ranges `( 5 6 ) )\n");
+  EXPECT_EQ(conversion->text, "( Apg70 :ranges `( 5 6 ) :pulseWidths `( 1 2 ) )\n");
   EXPECT_THAT(conversion->warnings, IsEmpty());
 }
 
@@ -90,7 +90,8 @@ TEST(Convert, RefusesAnInvalidOrMissingConfiguration) {
   const auto conversion = convert_configuration_text("Radar: { ranges: { 0 } }", "text.guf");
   ASSERT_FALSE(conversion);
   EXPECT_THAT(conversion.error().message(), HasSubstr("text.guf:1:20: expected a list of 1 to 16 ascending numbers"));
-  EXPECT_THAT(convert_configuration("none.guf", {}).error().message(), HasSubstr("none.guf does not exist"));
+  EXPECT_THAT(convert_configuration("none.guf", {}).error().message(),
+              HasSubstr("none.guf: expected a GUF file, found none; check the path"));
 }
 
 TEST(Convert, RefusesAResultThatIsTooLongForOneFile) {

@@ -36,7 +36,8 @@ TEST(Slots, AnUnnamedValueFollowsThePositionOfTheNamedSlotBeforeIt) {
 
 TEST(Slots, OfTheReportKeepTheirPositions) {
   // Positions in the report: in Apg70 (table 18) 4 is samples, 6 is ranges; in SarMode 6 is patchSizes.
-  const auto configuration = loaded("( Apg70 :4 256 :6 `( 5 15 ) :5 `( ( SarMode :6 `( 100 3200 ) ) ) )");
+  const auto configuration =
+      loaded("( Apg70 :pulseWidths `( 1 2 ) :4 256 :6 `( 5 15 ) :5 `( ( SarMode :6 `( 100 3200 ) ) ) )");
   EXPECT_EQ(configuration.radar.fidelity.samples, 256);
   EXPECT_THAT(configuration.radar.ranges_nm, ElementsAre(5, 15));
   EXPECT_THAT(configuration.warnings, ElementsAre(AllOf(HasSubstr(":patchSizes of SarMode"), HasSubstr("not used"))));
@@ -77,7 +78,7 @@ TEST(Slots, BeyondTheLastPositionAreRefused) {
 }
 
 TEST(Slots, OfDifferentCaseAreReadWithAWarning) {
-  const auto configuration = loaded("( apg70 :Ranges `( 1 2 ) )");
+  const auto configuration = loaded("( apg70 :Ranges `( 1 2 ) :pulseWidths `( 1 2 ) )");
   EXPECT_THAT(configuration.radar.ranges_nm, ElementsAre(1, 2));
   EXPECT_THAT(configuration.warnings, ElementsAre("text.guf:1:1: apg70 is an old spelling; write Apg70",
                                                   "text.guf:1:9: :Ranges is an old spelling; write :ranges"));

@@ -283,6 +283,25 @@ TEST(Manual, ContainsTheTablesOfPrintMarkdown) {
   }
 }
 
+// The example that adds a shower, read as a file of a user beside the configurations that came with YARS.
+TEST(Manual, TheExampleOfMoreCellsAddsOneShower) {
+  const testing::Folder folder;
+  std::filesystem::copy(std::filesystem::path(YARS_SOURCE_DIR) / "config", folder.path(),
+                        std::filesystem::copy_options::recursive);
+  const std::string manual = text_of_file("docs/configuration.md");
+  const std::size_t middle = manual.find(":moreCells `(");
+  ASSERT_NE(middle, std::string::npos);
+  const std::size_t begin = manual.rfind("```\n", middle) + 4;
+  const std::string example = manual.substr(begin, manual.find("```", middle) - begin);
+  const auto without = load_configuration(folder.path() / "default.guf");
+  const auto with = load_configuration(folder.write("own.guf", example));
+  ASSERT_TRUE(without);
+  ASSERT_TRUE(with) << with.error().message();
+  EXPECT_EQ(with->radar.world.rain.cells.size(), without->radar.world.rain.cells.size() + 1);
+  EXPECT_THAT(with->warnings, IsEmpty());
+  EXPECT_THAT(with->notes, IsEmpty());
+}
+
 TEST(Manual, HasNoTablesForAnUnknownGroup) {
   EXPECT_EQ(print_markdown("unknown"), "");
 }

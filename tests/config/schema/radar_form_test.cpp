@@ -9,6 +9,7 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using testing::loaded;
 using testing::refusal;
 
@@ -38,6 +39,46 @@ TEST(WindowLimits, MustAgreeInNumberAndOrder) {
               HasSubstr("expected 3 numbers, one for each of :blankWindows, for :blankUpTo, found 2"));
   EXPECT_THAT(refusal("( WindowLimits :blankWindows `( 3.3 5 10 ) )"),
               HasSubstr("expected windows that :windows lists for :blankWindows, found 5"));
+}
+
+TEST(PairedLists, ADifferentNumberOfValuesIsWarnedOfWithBothSlots) {
+  EXPECT_THAT(loaded("( Apg70 :ranges `( 10 20 40 )\n:pulseWidths `( 0.5 1 ) )").warnings,
+              ElementsAre("text.guf:2:14: expected a value of :pulseWidths for each of :ranges, found 2 for 3; by "
+                          "position 10 NM has 0.5 us, 20 NM has 1 us, 40 NM has 1 us; give :pulseWidths with 3 values "
+                          "beside :ranges"));
+  EXPECT_THAT(loaded("( RbmDisplay :rangeRings `( 1 2 ) )").warnings,
+              ElementsAre(HasSubstr("a value of :rangeRings for each of :ranges, found 2 for 6")));
+}
+
+TEST(PairedLists, AFirstListThatChangesAloneIsWarnedOf) {
+  EXPECT_THAT(loaded("( Apg70 :ranges `( 10 20 ) )").warnings,
+              ElementsAre("text.guf:1:17: expected a value of :pulseWidths for each of :ranges, found :ranges changed "
+                          "without :pulseWidths; by position 10 NM has 0.26 us, 20 NM has 0.5 us; give :pulseWidths "
+                          "with 2 values beside :ranges"));
+  EXPECT_THAT(loaded("( RealBeamMode :ranges `( 5 10 20 40 80 160 ) )").warnings,
+              ElementsAre(HasSubstr("found :ranges changed without :pulseWidths")));
+  EXPECT_THAT(
+      loaded("( WindowLimits :windows `( 0.67 1.3 3.3 4.7 9 10 20 80 ) )( SarMode :windows `( 9 ) )").warnings,
+      ElementsAre(HasSubstr(":windows changed without :least"), HasSubstr(":windows changed without :greatest")));
+}
+
+TEST(PairedLists, AFileThatChangesRangesOfAnIncludedFileIsWarnedOf) {
+  const testing::Folder folder;
+  folder.write("base.guf", "( Apg70 :pulseWidths `( 1 2 ) :ranges `( 10 20 ) )");
+  const auto warnings = [&](const std::string& text) {
+    return load_configuration(folder.write("own.guf", "( include \"base.guf\" )" + text)).value().warnings;
+  };
+  EXPECT_THAT(warnings(""), IsEmpty());
+  EXPECT_THAT(warnings("( Apg70 :ranges `( 40 80 ) )"), ElementsAre(HasSubstr("40 NM has 1 us, 80 NM has 2 us")));
+  EXPECT_THAT(warnings("( Apg70 :ranges `( 10 20 ) )"), IsEmpty());
+  EXPECT_THAT(warnings("( Apg70 :pulseWidths `( 3 4 ) )"), IsEmpty());
+  EXPECT_THAT(warnings("( Apg70 :ranges `( 40 80 ) ) ( Apg70 :pulseWidths `( 3 4 ) )"), IsEmpty());
+  EXPECT_THAT(warnings("( Apg70 :pulseWidths `( 3 4 ) ) ( Apg70 :ranges `( 40 80 ) )"), IsEmpty());
+}
+
+TEST(PairedLists, OneValueForAllIsNoReasonForAWarning) {
+  EXPECT_THAT(loaded("( Apg70 :ranges `( 10 20 40 ) :pulseWidths `( 1 ) )( RbmDisplay :rangeRings `( 5 ) )").warnings,
+              IsEmpty());
 }
 
 TEST(HeightRanges, HaveOneRangeMoreThanHeights) {

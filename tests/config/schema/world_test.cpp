@@ -9,6 +9,7 @@
 namespace yars::config {
 namespace {
 
+using ::testing::ElementsAre;
 using testing::fields;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -53,6 +54,42 @@ TEST(Sea, AcceptsAStateOrAWindSpeed) {
   EXPECT_EQ(sea.wind_from_deg, 180.0);
   EXPECT_THAT(refusal("( Sea :state 7 )"), HasSubstr("a number in [0, 6] for :state"));
   EXPECT_THAT(refusal("( Sea :vertical `( 1 2 3 4 ) )"), HasSubstr("a list of 5 numbers"));
+}
+
+TEST(Rain, AFormWithoutCellsKeepsTheEarlierCells) {
+  const auto rain = loaded("( Rain `( ( RainCell 37.5 -123 ) ) ) ( Rain :reflectivityFactor 300 )").radar.world.rain;
+  EXPECT_EQ(rain.cells.size(), 1u);
+  EXPECT_EQ(rain.reflectivity_factor, 300.0);
+}
+
+TEST(ListsOfForms, AddToTheEarlierOnesWithTheirSlotMore) {
+  const auto configuration = loaded(
+      "( Rain `( ( RainCell 37.5 -123 ) ) ) ( Rain :moreCells `( ( RainCell 38 -122 ) ) )"
+      "( Jammers `( ( Jammer \"a\" 37 -122 ) ) ) ( Jammers :moreJammers `( ( Jammer \"b\" 38 -122 ) ) )"
+      "( Movers `( ( Mover \"a\" 37 -122 ) ) ) ( Movers :moreMovers ( Mover \"b\" 38 -122 ) )"
+      "( Scenes `( ( Scene \"a.flt\" ) ) ) ( Scenes :moreScenes `( ( Scene \"b.flt\" ) ) )"
+      "( Beacons `( ( Beacon \"a\" 37 -122 ) ) ) ( Beacons :moreBeacons `( ( Beacon \"b\" 38 -122 ) ) )");
+  const auto& world = configuration.radar.world;
+  ASSERT_EQ(world.rain.cells.size(), 2u);
+  EXPECT_EQ(world.rain.cells[1].position.latitude_deg, 38.0);
+  EXPECT_EQ(world.jamming.jammers.size(), 2u);
+  EXPECT_EQ(world.movers.size(), 2u);
+  EXPECT_EQ(world.scenes.size(), 2u);
+  EXPECT_EQ(world.beacons.beacons.size(), 2u);
+  EXPECT_THAT(configuration.warnings, IsEmpty());
+  EXPECT_THAT(configuration.notes, IsEmpty());
+}
+
+TEST(ListsOfForms, ANoteSaysHowManyFormsReplaceHowMany) {
+  const auto rain = loaded(
+      "( Rain `( ( RainCell 37.5 -123 ) ( RainCell 38 -123 ) ) )\n"
+      "( Rain `( ( RainCell 37 -122 ) ) )");
+  EXPECT_THAT(rain.notes,
+              ElementsAre("text.guf:2:8: note: :cells of Rain, with 1 form RainCell, replaces 2 of earlier forms; "
+                          ":moreCells adds to them instead"));
+  EXPECT_THAT(rain.warnings, IsEmpty());
+  EXPECT_THAT(loaded("( Route `( ( Point \"1\" 37 -122 ) ) )\n( Route `( ) )").notes,
+              ElementsAre("text.guf:2:9: note: :points of Route, with 0 forms Point, replaces 1 of earlier forms"));
 }
 
 TEST(Rain, ALaterListOfCellsReplacesAnEarlierList) {

@@ -16,6 +16,10 @@ error::Error refusal_of(const std::string& text) {
   return source ? error::Error{} : source.error();
 }
 
+TEST(FlightSource, AMisspelledKindIsAnsweredWithTheNearest) {
+  EXPECT_THAT(open_source("rout:x.route").error().message(), ::testing::HasSubstr("did you mean 'route:'?"));
+}
+
 TEST(FlightSource, AFixedSourceOpens) {
   auto source = open_source("fixed:38,-123,15000,160,480");
   ASSERT_TRUE(source) << source.error().message();

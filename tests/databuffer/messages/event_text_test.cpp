@@ -144,6 +144,33 @@ TEST(EventText, AnUnknownEventShowsAllSpellings) {
     EXPECT_THAT(message, HasSubstr(verb));
 }
 
+TEST(EventText, AMisspelledEventIsAnsweredWithTheOneThatWasMeant) {
+  for (const auto& [text, meant] : {std::pair{"pb13", "pb 13"},
+                                    {"pb-13", "pb 13"},
+                                    {"PB_13", "pb 13"},
+                                    {"elvation5", "elevation 5"},
+                                    {"pb 21", "pb 20"},
+                                    {"pb 0", "pb 1"},
+                                    {"sp2.1", "sp 2.1"},
+                                    {"power on", "power opr"},
+                                    {"power standby", "power stby"},
+                                    {"elevation 500", "elevation 60"},
+                                    {"elevation-5", "elevation -5"},
+                                    {"tdc 2 0", "tdc 1 0"},
+                                    {"cursor 1.2 0.5", "cursor 1 0.5"},
+                                    {"elevation up 300", "elevation up 240"}})
+    EXPECT_THAT(refusal_of(text), HasSubstr("did you mean '" + std::string(meant) + "'?")) << text;
+  for (const char* text : {"pb", "pb x", "sp 999", "13", "-", "freeze 1", "nav drift mn 1e9 0"})
+    EXPECT_EQ(refusal_of(text).find("did you mean"), std::string::npos) << refusal_of(text);
+}
+
+TEST(EventText, WhatButtonsDoIsAnsweredWithTheButtons) {
+  EXPECT_EQ(refusal_of("rage inc"),
+            "event: expected an event, found \"rage inc\"; the range is on buttons of the display: 'pb 13' lengthens "
+            "it, 'pb 14' shortens it in RBM");
+  EXPECT_THAT(refusal_of("gain up"), HasSubstr("'pb 3' steps it"));
+}
+
 TEST(EventText, MalformedEventsAndValuesOutOfRangeAreRefused) {
   for (const auto* text : {"",
                            "   ",

@@ -39,6 +39,22 @@ TEST_F(CountersTest, SimilarNotesInAFloodAreCountedAndNotWritten) {
   EXPECT_EQ(layout.counters.restarts[*counted_role("radar-model")].within(60'000'000'000, monotonic_ns()), 1);
 }
 
+TEST(SkippedTicks, AreSummedOverTheLastSeconds) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  SkippedTicks skipped{};
+  EXPECT_EQ(skipped.within(10, 100 * kSecond_ns).ticks, 0u);
+  skipped.add(5, 100 * kSecond_ns);
+  skipped.add(7, 100 * kSecond_ns + 999'999'999);
+  skipped.add(20, 103 * kSecond_ns);
+  EXPECT_EQ(skipped.within(10, 103 * kSecond_ns).ticks, 32u);
+  EXPECT_EQ(skipped.within(10, 103 * kSecond_ns).seconds, 2);
+  EXPECT_EQ(skipped.within(10, 110 * kSecond_ns).ticks, 20u) << "the second 100 is over";
+  EXPECT_EQ(skipped.within(10, 113 * kSecond_ns).ticks, 0u);
+  skipped.add(1, 116 * kSecond_ns);  // the slot of second 100
+  EXPECT_EQ(skipped.within(16, 116 * kSecond_ns).ticks, 21u);
+  EXPECT_EQ(skipped.within(10, 99 * kSecond_ns).ticks, 0u) << "a damaged second in the future counts for nothing";
+}
+
 TEST_F(CountersTest, NotesThatWereNotWrittenAreReportedWhenTheSessionCloses) {
   Session watcher = open("watcher");
   {

@@ -62,6 +62,14 @@ TEST(PlainText, ANumberIsUnchangedAfterConversionToTextAndBack) {
   }
 }
 
+TEST(PlainText, ACountHasItsNounInTheSingularOrThePlural) {
+  EXPECT_EQ(counted(0, "warning"), "0 warnings");
+  EXPECT_EQ(counted(1, "warning"), "1 warning");
+  EXPECT_EQ(counted(2, "warning"), "2 warnings");
+  EXPECT_EQ(counted(1, "vertex", "vertices"), "1 vertex");
+  EXPECT_EQ(counted(3, "vertex", "vertices"), "3 vertices");
+}
+
 TEST(TextFile, IsReadCompletelyAndErrorsNameTheReason) {
   const auto path = std::filesystem::temp_directory_path() / ("yars_text_file_test_" + std::to_string(::getpid()));
   std::ofstream(path) << "one\ntwo\n";

@@ -269,7 +269,7 @@ TEST(Polygons, WithoutAreaGiveNoTriangle) {
 TEST(Files, ThatAreMissingAreNamedInTheError) {
   const auto model = read_openflight(std::filesystem::path("/nowhere/a.flt"));
   ASSERT_FALSE(model);
-  EXPECT_THAT(model.error().message(), HasSubstr("/nowhere/a.flt: expected an OpenFlight file, found No such file"));
+  EXPECT_THAT(model.error().message(), HasSubstr("/nowhere/a.flt: expected an OpenFlight file, found none"));
 }
 
 TEST(EveryRecord, IsReadFromOneFile) {

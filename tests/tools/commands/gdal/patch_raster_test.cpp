@@ -196,7 +196,7 @@ TEST(PatchRaster, AnOutputThatCannotBeWrittenIsAnErrorOfOneLine) {
   const View view{{37.6, -122.5}, {37.8, -122.3}, 3.3};
   const auto run = patch(view, folder.path() / "missing" / "map.tif");
   EXPECT_EQ(run.code, 1);
-  EXPECT_THAT(run.errors, HasSubstr("missing: expected a folder, found No such file or directory"));
+  EXPECT_THAT(run.errors, HasSubstr("missing: expected a folder, found none"));
   EXPECT_EQ(std::count(run.errors.begin(), run.errors.end(), '\n'), 1) << run.errors;
   const auto no_georeference = patch(view, folder.path() / "map.png", {"--pixels", "power"});
   EXPECT_EQ(no_georeference.code, 2);
