@@ -1,6 +1,6 @@
-// Input event of a pilot, panel or program: validation and text form. input_event_record.idl defines the record.
+// Input event of a pilot, panel or program: its text form. validation.hpp checks it. input_event_record.idl defines the record.
 // Inputs: the record from an input lane, or a text such as `tdc 0.5 0`.
-// Outputs: the first fault of a record; the event parsed from a text; the text of an event.
+// Outputs: the event parsed from a text; the text of an event.
 // Units: degrees (antenna elevation above the horizontal), feet and feet per second as stated per kind; times [ns].
 // Errors: a text that matches no form is an Error with the valid forms of its verb.
 // Source: docs/spec/pilots_interface.md#controls.
@@ -15,8 +15,9 @@
 
 namespace yars::databuffer {
 
-// Returns the first fault of an input event as text, nullopt if it is valid. validation.hpp validates other records.
-Refusal validate(const InputEvent& event);
+inline constexpr double kMaxElevation_deg = 60.0;  // of a commanded antenna elevation, up and down
+// 240 steps of 0.5 deg cover the antenna's elevation range of 120 deg. Zero steps are not an event.
+inline constexpr int kMaxElevationSteps = 240;
 
 // Text form of events, for scripts, `yars inject` and logs. `coolie up` is a push of the castle switch.
 //   pb 13 | tdc 0.5 0 | tdc press | tdc release | cursor 0.5 0.4 | coolie up | acq fwd|aft | freeze | elevation -5 |

@@ -1,9 +1,11 @@
 #include "databuffer/messages/validation.hpp"
 
 #include <cmath>
+#include <string>
 
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/messages/record_checks.hpp"
+#include "lib/radar/modes.hpp"
 
 // check_fields() is generated from the ranges in the IDL. This file checks the fields whose range applies only under a
 // condition on another field, such as a flag. The IDL marks these fields with @by_hand.
@@ -109,6 +111,107 @@ Refusal validate(const Sweep& sweep) {
 
 Refusal validate(const ModelTick& tick) {
   return validate_fields(tick);
+}
+
+namespace {
+
+// Limits of the position error (about 100 NM) and velocity error (drift, 305 m/s), north and east each, that an
+// instructor injects into a navigator.
+constexpr double kMaxInjectedError_ft = 600'000.0;
+constexpr double kMaxInjectedDrift_fps = 1'000.0;
+
+constexpr EventKind kLastKind = EventKind::cursor;
+
+void inspect_argument(Inspection& inspection, const InputEvent& event, int lower, int upper) {
+  inspection.range("argument", event.argument, lower, upper);
+}
+
+void inspect_sign(Inspection& inspection, const InputEvent& event) {
+  if (event.argument != 1 && event.argument != -1)
+    inspection.fault("argument", "+1 or -1", std::to_string(event.argument));
+}
+
+void inspect_radar_mode(Inspection& inspection, const InputEvent& event) {
+  constexpr std::array kCommanded{radar::Mode::rbm, radar::Mode::hrm, radar::Mode::beacon, radar::Mode::pvu};
+  const auto matches = [&event](radar::Mode mode) { return event.argument == static_cast<int>(mode); };
+  if (std::ranges::none_of(kCommanded, matches))
+    inspection.fault("argument", "RBM 0, HRM 1, BCN 3 or PVU 4", std::to_string(event.argument));
+}
+
+void inspect_injected(Inspection& inspection, const InputEvent& event, double upper) {
+  inspect_argument(inspection, event, 0, 1);
+  inspection.range("x", event.x, -upper, upper);
+  inspection.range("y", event.y, -upper, upper);
+}
+
+void inspect_name(Inspection& inspection, const InputEvent& event) {
+  inspection.text("text", event.text);
+  const auto end = std::ranges::find(event.text, '\0');
+  if (!radar::point_name({event.text, static_cast<std::size_t>(end - event.text)}))
+    inspection.fault("text", "a sequence point like 2, 2., 2.1, 2.01",
+                     '"' + std::string(event.text, static_cast<std::size_t>(end - event.text)) + '"');
+}
+
+}  // namespace
+
+Refusal validate(const InputEvent& event) {
+  Inspection inspection;
+  switch (static_cast<EventKind>(event.kind)) {
+    case EventKind::push_button:
+      inspect_argument(inspection, event, 1, radar::kBezelButtons);
+      break;
+    case EventKind::tdc:
+      inspection.range("x", event.x, -1.0, 1.0);
+      inspection.range("y", event.y, -1.0, 1.0);
+      break;
+    case EventKind::cursor:
+      inspection.range("x", event.x, 0.0, 1.0);
+      inspection.range("y", event.y, 0.0, 1.0);
+      break;
+    case EventKind::elevation:
+      inspection.range("x", event.x, -kMaxElevation_deg, kMaxElevation_deg);
+      break;
+    case EventKind::elevation_step:
+      inspect_argument(inspection, event, -kMaxElevationSteps, kMaxElevationSteps);
+      if (event.argument == 0) inspection.fault("argument", "a step up or down", "0");
+      break;
+    case EventKind::acquisition:
+    case EventKind::contrast:
+      inspect_sign(inspection, event);
+      break;
+    case EventKind::master_mode:
+    case EventKind::power:
+      inspect_argument(inspection, event, 0, 2);
+      break;
+    case EventKind::radar_mode:
+      inspect_radar_mode(inspection, event);
+      break;
+    case EventKind::navigator:
+      inspect_argument(inspection, event, -1, 1);
+      break;
+    case EventKind::altimeter:
+      inspect_argument(inspection, event, 0, 1);
+      break;
+    case EventKind::sequence_point:
+      inspect_name(inspection, event);
+      break;
+    case EventKind::navigator_error:
+      inspect_injected(inspection, event, kMaxInjectedError_ft);
+      break;
+    case EventKind::navigator_drift:
+      inspect_injected(inspection, event, kMaxInjectedDrift_fps);
+      break;
+    case EventKind::tdc_press:
+    case EventKind::tdc_release:
+    case EventKind::castle_up:
+    case EventKind::freeze:
+    case EventKind::next:
+      break;
+    case EventKind::none:
+    default:
+      inspection.fault("kind", "1.." + std::to_string(static_cast<int>(kLastKind)), std::to_string(event.kind));
+  }
+  return inspection.result();
 }
 
 }  // namespace yars::databuffer

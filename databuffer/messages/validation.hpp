@@ -1,4 +1,4 @@
-// Validation of the records that other processes write (trust boundary). input_event.hpp validates input events.
+// Validation of the records that other processes write (trust boundary).
 // Outputs: the first fault as text (field, expected value, found value); nullopt for a valid record.
 // Use: validate() repairs nothing. The reader skips the record, so that its last valid one stays in use, and reports
 // the refusal.
@@ -28,6 +28,7 @@ Refusal validate(const GlassFrame& frame);
 Refusal validate(const Outputs& outputs);
 Refusal validate(const RadarState& state);
 Refusal validate(const Caption& caption);
+Refusal validate(const InputEvent& event);
 Refusal validate(const PilotAdvice& advice);
 // Records of radar-model.
 Refusal validate(const ModelStatus& status);
