@@ -319,7 +319,7 @@ class Session:
         if not re.fullmatch("[0-9A-Za-z_-]{1,40}", name):
             raise YarsError(f"session: expected 1 to 40 letters, digits, '-' or '_', found {name!r}")
         self.path = f"/dev/shm/yars.{os.geteuid()}.{name}"
-        remedy = (f"start the set (scripts/start --session {name}), or give the name of a session that runs "
+        remedy = (f"start the set with --session {name}, or give the name of a session that runs "
                   "(`yars --session NAME status`)")
         try:
             self.descriptor = os.open(self.path, os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)

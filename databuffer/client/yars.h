@@ -98,7 +98,7 @@ static inline int yars_is_session_name(const char* name) {
 /* Fills s->error with why the session `name` cannot be joined, and what to do. Returns -1. */
 static inline int yars_fail_without_set(yars_session* s, const char* name, const char* why) {
   snprintf(s->error, sizeof s->error,
-           "%s: %s; start the set (scripts/start --session %s), or give the name of a session that runs "
+           "%s: %s; start the set with --session %s, or give the name of a session that runs "
            "(`yars --session NAME status`)",
            s->path, why, name);
   return -1;

@@ -52,7 +52,7 @@ class CheckCitations(unittest.TestCase):
         self.assertEqual(status, 1, output)
         self.assertIn(f"{name}:{finding}", output)
         self.assertIn(words, output)
-        self.assertIn("check_citations: 1 findings", output)
+        self.assertIn("check_citations: 1 finding", output)
 
     def test_a_clean_tree_passes(self):
         self.assertEqual(check({}), ("check_citations: every citation leads somewhere\n", 0))

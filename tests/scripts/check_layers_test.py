@@ -43,7 +43,7 @@ class CheckLayers(unittest.TestCase):
         output, status = check({name: text})
         self.assertEqual(status, 1, output)
         self.assertIn(f"{name}:{finding}", output)
-        self.assertIn("check_layers: 1 findings", output)
+        self.assertIn("check_layers: 1 finding", output)
 
     def test_a_clean_tree_passes(self):
         output, status = check({})

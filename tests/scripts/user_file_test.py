@@ -94,6 +94,7 @@ def start_follows_it(home):
     for path in (bin_folder / "yars-start", supervise):
         path.chmod(0o755)
     text = "session = mine\nterrain = ~/cells\nlog-level = debug\nlog-dir = ~/logs\nsize = 300\nconfig = apg68.guf\n"
+    (home.folder / "apg68.guf").write_text("( Apg70 :name \"MINE\" )\n")  # yars-start checks it
     words = [str(bin_folder / "yars-start"), "--headless", "1"]
     done = home.run(*words, text=text)
     for part in ("--session\nmine\n", f"--terrain\n{home.folder}/cells\n", "--log-level\ndebug\n",

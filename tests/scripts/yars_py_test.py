@@ -206,7 +206,7 @@ def a_misspelled_field_is_answered_with_the_nearest(session):
         except AttributeError as error:
             same(f"clock.{name}", said in str(error), True)
     same("a record is a dict", (clock.get("zzz"), json.loads(json.dumps(clock))["epoch"]), (None, 0))
-    refuses("no such session runs; start the set (scripts/start --session none-there)", yars.Session, "none-there")
+    refuses("no such session runs; start the set with --session none-there", yars.Session, "none-there")
 
 
 def a_name_leads_nowhere_else():

@@ -6,6 +6,7 @@
 
 #include "databuffer/bridges/flight_simulators.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "lib/text/plain_text.hpp"
 #include "tests/databuffer/bridges/packets.hpp"
 
 namespace yars::databuffer::bridges {
@@ -87,7 +88,7 @@ TEST(FlightGear, LengthAndVersionMustAgree) {
   for (const std::size_t length : {0U, 1U, 3U, 4U, 88U, 407U, 409U, 552U, 65'507U}) {
     PacketBytes packet = good;
     packet.resize(length);
-    EXPECT_THAT(flightgear_refusal(packet), HasSubstr(std::to_string(length) + " bytes"));
+    EXPECT_THAT(flightgear_refusal(packet), HasSubstr(text::counted(length, "byte")));
   }
 }
 
