@@ -1,23 +1,17 @@
-// Input event of a pilot, panel or program: its text form. validation.hpp checks it. input_event_record.idl defines the record.
-// Inputs: the record from an input lane, or a text such as `tdc 0.5 0`.
-// Outputs: the event parsed from a text; the text of an event.
-// Units: degrees (antenna elevation above the horizontal), feet and feet per second as stated per kind; times [ns].
-// Errors: a text that matches no form is an Error with the valid forms of its verb.
-// Source: docs/spec/pilots_interface.md#controls.
+// Input event of a pilot, panel or program: its text form. validation.hpp checks it. input_event_record.idl defines the
+// record. Inputs: the record from an input lane, or a text such as `tdc 0.5 0`. Outputs: the event parsed from a text;
+// the text of an event. Units: degrees (antenna elevation above the horizontal), feet and feet per second as stated per
+// kind; times [ns]. Errors: a text that matches no form is an Error with the valid forms of its verb. Source:
+// docs/spec/pilots_interface.md#controls.
 #pragma once
 
 #include <string>
 #include <string_view>
 
 #include "databuffer/messages/input_event_record.hpp"
-#include "databuffer/messages/inspection.hpp"
 #include "lib/error/error.hpp"
 
 namespace yars::databuffer {
-
-inline constexpr double kMaxElevation_deg = 60.0;  // of a commanded antenna elevation, up and down
-// 240 steps of 0.5 deg cover the antenna's elevation range of 120 deg. Zero steps are not an event.
-inline constexpr int kMaxElevationSteps = 240;
 
 // Text form of events, for scripts, `yars inject` and logs. `coolie up` is a push of the castle switch.
 //   pb 13 | tdc 0.5 0 | tdc press | tdc release | cursor 0.5 0.4 | coolie up | acq fwd|aft | freeze | elevation -5 |

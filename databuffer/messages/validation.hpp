@@ -9,7 +9,7 @@
 #pragma once
 
 #include "databuffer/messages/caption.hpp"
-#include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/input_event_record.hpp"
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/messages/model_records.hpp"
 #include "databuffer/messages/pictures.hpp"
@@ -17,6 +17,10 @@
 #include "databuffer/messages/world_state.hpp"
 
 namespace yars::databuffer {
+
+inline constexpr double kMaxElevation_deg = 60.0;  // of a commanded antenna elevation, up and down
+// 240 steps of 0.5 deg cover the antenna's elevation range of 120 deg. Zero steps are not an event.
+inline constexpr int kMaxElevationSteps = 240;
 
 Refusal validate(const Ownship& ownship);
 Refusal validate(const Nav& nav);
