@@ -115,6 +115,14 @@ bool tool_exists(const std::string& name) {
   return run_tool({"sh", "-c", "command -v " + name}).code == 0;
 }
 
+std::vector<std::string> faults_in(const nlohmann::json& status) {
+  if (status.is_null()) return {"no status"};
+  std::vector<std::string> faults;
+  for (const std::string reason : status["health"]["reasons"])
+    if (!reason.starts_with("too slow")) faults.push_back(reason);
+  return faults;
+}
+
 ProcessSet::ProcessSet(const std::string& session)
     : session_(session + "-" + std::to_string(getpid())), folder_(fresh_folder(session)) {}
 

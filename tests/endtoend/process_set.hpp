@@ -25,6 +25,10 @@ Finished run_program(const std::vector<std::string>& command, double timeout_s =
 Finished run_tool(const std::vector<std::string>& command, double timeout_s = 60.0);
 bool tool_exists(const std::string& name);
 
+// Reasons of `yars status --json` why the set is not OK, but those of a slow machine: no test depends on its speed. A
+// status that is null is a fault, too.
+std::vector<std::string> faults_in(const nlohmann::json& status);
+
 class ProcessSet {
  public:
   // The name of the session is `session` and the process id. folder() is new and empty; the destructor removes it.

@@ -70,6 +70,7 @@ class Supervision : public ::testing::Test {
     return finished.output.starts_with('{') ? nlohmann::json::parse(finished.output) : nlohmann::json();
   }
   std::string reasons() const { return status()["health"]["reasons"].dump(); }
+  std::vector<std::string> faults() const { return faults_in(status()); }
   int pid_of(const std::string& role) const {
     const auto processes = set_.watch()["processes"];
     return processes.contains(role) ? processes[role]["pid"].get<int>() : 0;
