@@ -102,7 +102,7 @@ TEST(Include, ByANameAloneMeansTheFileThatCameWithYarsWhereNoneIsBeside) {
 
 TEST(Include, WithAFolderNeverMeansAFileThatCameWithYars) {
   const Folder folder;
-  EXPECT_THAT(refusal_of(folder.write("a.guf", "( include \"./apg68.guf\" )")), HasSubstr("does not exist"));
+  EXPECT_THAT(refusal_of(folder.write("a.guf", "( include \"./apg68.guf\" )")), HasSubstr("a.guf:1:1: expected a GUF file"));
 }
 
 TEST(Include, RefusesACycleOfFiles) {
