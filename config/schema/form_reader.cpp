@@ -99,10 +99,19 @@ void FormReader::read_all(const std::vector<Slot>& arguments) {
   for (const auto& [where, text] : paired_lists_.warnings(builder_)) warn(where, text);
 }
 
+namespace {
+
+std::string unknown_form(const std::string& name) {
+  const std::string nearest = nearest_form(name);
+  return "the form " + name + " is unknown and ignored" + (nearest.empty() ? "" : "; nearest name: " + nearest);
+}
+
+}  // namespace
+
 void FormReader::read_top_level(const Form& form, const Location& where) {
   const KnownForm known = forms_.find(form.name);
   if (known.schema == nullptr) {
-    warn(where, "the form " + form.name + " is unknown and ignored");
+    warn(where, unknown_form(form.name));
     return;
   }
   if (known.schema->part_of_value) {
@@ -185,9 +194,15 @@ void FormReader::warn_unread(const Slot& slot, const Form& form, const KnownForm
     warn(slot.where, ":" + slot.name + " is read, not used");
     return;
   }
-  const std::string_view nearest = nearest_slot(*known.schema, slot.name);
-  warn(slot.where, "the form " + form.name + " has no slot :" + slot.name + "; the slot is ignored" +
-                       (nearest.empty() ? "" : "; nearest name: :" + std::string(nearest)));
+  const std::string nearest = nearest_slot(*known.schema, slot.name);
+  const std::string_view other = form_with_slot(slot.name);
+  std::string advice;
+  if (!other.empty()) {
+    advice = "; the form " + std::string(other) + " has it";
+  } else if (!nearest.empty()) {
+    advice = "; nearest name: :" + nearest;
+  }
+  warn(slot.where, "the form " + form.name + " has no slot :" + slot.name + "; the slot is ignored" + advice);
 }
 
 void FormReader::read_slot(const SlotSchema& schema, const Value& value, const std::string& form) {
@@ -250,7 +265,7 @@ void FormReader::read_form_of_slot(const SlotSchema& schema, const FormSlot& kin
   const KnownForm known = form == nullptr ? KnownForm{} : forms_.find(form->name);
   const bool unknown = form != nullptr && known.schema == nullptr;
   if (unknown && in_list) {
-    warn(value.where, "the form " + form->name + " is unknown and ignored");
+    warn(value.where, unknown_form(form->name));
     return;
   }
   if (form == nullptr || unknown || !accepts(kind, *known.schema)) {

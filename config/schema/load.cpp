@@ -16,6 +16,7 @@
 #include "lib/file/file_search.hpp"
 #include "lib/file/text_file.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/nearest_word.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::config {
@@ -58,6 +59,17 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
   return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
+// "did you mean" with the nearest name of a GUF file in one of the folders, else that the path is to be checked.
+std::string advice_on_missing(const std::string& name, const std::vector<fs::path>& folders) {
+  std::vector<std::string> names;
+  std::error_code problem;
+  for (const fs::path& folder : folders)
+    for (auto it = fs::directory_iterator(folder, problem); it != fs::directory_iterator(); it.increment(problem))
+      if (it->path().extension() == ".guf") names.push_back(it->path().filename().string());
+  const std::string meant = text::did_you_mean(name, names);
+  return meant.empty() ? "check the path" : meant;
+}
+
 // Reads a file and its includes as one tree of GUF.
 // `( include "part.guf" )` is replaced by all arguments of that file. An include that is the value of `:name`
 // or of `:2` needs a file with exactly one argument, without name or position.
@@ -69,7 +81,7 @@ bool is_inside(const fs::path& path, const fs::path& folder) {
 class TreeReader {
  public:
   ParsedText read(const fs::path& path) {
-    root_ = fs::weakly_canonical(path).parent_path();
+    root_ = fs::weakly_canonical(fs::absolute(path)).parent_path();
     result_.arguments = arguments_of(path, path.string());
     return in_messages_ ? guf_from_messages(std::move(result_)) : std::move(result_);
   }
@@ -87,7 +99,7 @@ class TreeReader {
                            .value()};
     }
     std::move(parsed->warnings.begin(), parsed->warnings.end(), std::back_inserter(result_.warnings));
-    open_files_.push_back(fs::weakly_canonical(path));
+    open_files_.push_back(fs::weakly_canonical(fs::absolute(path)));
     std::vector<Slot> arguments = expanded(std::move(parsed->arguments));
     open_files_.pop_back();
     return arguments;
@@ -99,10 +111,13 @@ class TreeReader {
     const auto* name = form.slots.size() == 1 ? std::get_if<std::string>(&form.slots[0].value.data) : nullptr;
     if (name == nullptr) reject(value.where, R"(( include "file" ))", text::counted(form.slots.size(), "argument"));
     const fs::path path = path_of_include(fs::path(*value.where.file).parent_path(), *name);
-    const fs::path canonical = fs::weakly_canonical(path);
+    const fs::path canonical = fs::weakly_canonical(fs::absolute(path));
     if (!is_inside(canonical, root_) && (installed_.empty() || !is_inside(canonical, installed_))) {
       reject(value.where, "an include inside " + root_.string(), path.string(),
              "copy the file there; a file that came with YARS is included by its name alone");
+    }
+    if (std::error_code problem; !fs::exists(canonical, problem)) {
+      reject(value.where, "a GUF file", "none at " + path.string(), advice_on_missing(*name, {root_, installed_}));
     }
     if (std::find(open_files_.begin(), open_files_.end(), canonical) != open_files_.end()) {
       reject(value.where, "an include that does not lead back to its own file", path.string());

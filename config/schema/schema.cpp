@@ -8,6 +8,7 @@
 
 #include "config/guf/tree.hpp"
 #include "lib/radar/configuration.hpp"
+#include "lib/text/nearest_word.hpp"
 
 namespace yars::config {
 
@@ -101,20 +102,6 @@ Found<Schema> find_named(const std::vector<Schema>& rows, std::string_view name)
   return {};
 }
 
-// Levenshtein distance; upper and lower case are equal. Time is proportional to the product of the lengths.
-std::size_t edit_distance(std::string_view left, std::string_view right) {
-  std::vector<std::size_t> row(right.size() + 1);
-  for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= left.size(); ++i) {
-    std::size_t diagonal = std::exchange(row[0], i);
-    for (std::size_t j = 1; j < row.size(); ++j) {
-      const std::size_t changed = diagonal + (lower(left[i - 1]) == lower(right[j - 1]) ? 0 : 1);
-      diagonal = std::exchange(row[j], std::min({row[j] + 1, row[j - 1] + 1, changed}));
-    }
-  }
-  return row.back();
-}
-
 std::vector<FormSchema> all_forms() {
   std::vector<FormSchema> forms;
   for (const auto group :
@@ -197,20 +184,32 @@ Found<SlotSchema> find_slot(const FormSchema& form, std::string_view name) {
   return find_named(form.slots, name);
 }
 
-std::string_view nearest_slot(const FormSchema& form, std::string_view name) {
-  constexpr std::size_t kMaxDistance = 2;     // [letters] inserted, deleted or replaced; above: unrelated names
-  constexpr std::size_t kMaxNameLength = 40;  // bounds the time for a hostile text
-  std::string_view nearest;
-  std::size_t smallest = kMaxDistance + 1;
-  if (name.size() > kMaxNameLength) return nearest;
-  for (const SlotSchema& slot : form.slots) {
-    const std::size_t distance = edit_distance(slot.name, name);
-    if (distance < smallest) {
-      smallest = distance;
-      nearest = slot.name;
-    }
-  }
-  return nearest;
+namespace {
+
+constexpr std::size_t kMaxNameLength = 40;  // bounds the time for a hostile text
+
+template <class Schema>
+std::string nearest_of(const std::vector<Schema>& rows, std::string_view name) {
+  std::vector<std::string> names;
+  for (const Schema& row : rows) names.emplace_back(row.name);
+  return name.size() > kMaxNameLength ? std::string() : text::nearest_word(name, names).value_or("");
+}
+
+}  // namespace
+
+std::string nearest_slot(const FormSchema& form, std::string_view name) {
+  return nearest_of(form.slots, name);
+}
+
+std::string nearest_form(std::string_view name) {
+  return nearest_of(schema(), name);
+}
+
+std::string_view form_with_slot(std::string_view name) {
+  for (const FormSchema& form : schema())
+    for (const SlotSchema& slot : form.slots)
+      if (slot.name == name) return form.name;
+  return {};
 }
 
 bool is_used(const SlotSchema& slot) {

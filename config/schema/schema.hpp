@@ -241,8 +241,11 @@ struct Found {
 Found<FormSchema> find_form(std::string_view name);
 Found<SlotSchema> find_slot(const FormSchema& form, std::string_view name);
 
-// The slot name that is nearest to a misspelled name by edit distance. Empty: no slot name is within a distance of 2.
-std::string_view nearest_slot(const FormSchema& form, std::string_view name);
+// The name that a misspelled one most likely means (lib/text/nearest_word.hpp); empty: none is near.
+std::string nearest_slot(const FormSchema& form, std::string_view name);
+std::string nearest_form(std::string_view name);
+// The first form with a slot of this name; empty: no form has one.
+std::string_view form_with_slot(std::string_view name);
 
 // True if the slot, or a slot of one of the forms in it, stores its value in the configuration. False: the value is
 // validated, but has no effect.

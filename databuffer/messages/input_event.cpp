@@ -127,8 +127,9 @@ constexpr std::array kOnButtons{OnButtons{"range", "'pb 13' lengthens it, 'pb 14
 std::string advice_on_buttons(std::string_view word) {
   std::vector<std::string> known;
   for (const OnButtons& row : kOnButtons) known.emplace_back(row.word);
+  constexpr std::size_t kShort = 4;  // so short a word is near to too many others: rain is not gain
   const auto meant = text::nearest_word(word, known);
-  if (!meant) return {};
+  if (!meant || (meant->size() <= kShort && *meant != word)) return {};
   const auto* row = std::ranges::find(kOnButtons, *meant, &OnButtons::word);
   return "the " + *meant + " is on buttons of the display: " + std::string(row->buttons) + " in RBM";
 }
@@ -151,7 +152,9 @@ bool split_first(Words& words) {
 }
 
 // Words that other programs and pilots use for an operand.
-constexpr std::array<std::array<std::string_view, 3>, 6> kSynonyms{{{"power", "on", "opr"},
+constexpr std::array<std::array<std::string_view, 3>, 8> kSynonyms{{{"acq", "up", "fwd"},
+                                                                    {"acq", "down", "aft"},
+                                                                    {"power", "on", "opr"},
                                                                     {"power", "operate", "opr"},
                                                                     {"power", "standby", "stby"},
                                                                     {"acq", "forward", "fwd"},

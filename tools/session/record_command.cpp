@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <utility>
 
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
@@ -48,10 +50,17 @@ void drain_remaining(Session& session, Recorder& recorder) {
   recorder.drain(tick_of(session) + recording::kPaceTicks);
 }
 
+// True if another program than the recorder takes part.
+bool has_programs(const Session& session) {
+  return session.processes().size() > 1;
+}
+
 // Polls a live session. After a write error the process continues, so that the display can report the problem
 // (docs/spec/pilots_interface.md#rule-22).
-void record_live(Session& session, Recorder& recorder, const recording::RecordingWriter& writer) {
+void record_live(Session& session, const std::string& name, Recorder& recorder,
+                 const recording::RecordingWriter& writer) {
   int quiet_polls = 0;
+  bool warned = false;
   while (!databuffer::stop_requested()) {
     const std::uint64_t bytes_before = writer.bytes();
     recorder.drain(tick_of(session));
@@ -59,6 +68,10 @@ void record_live(Session& session, Recorder& recorder, const recording::Recordin
     if (quiet_polls >= kQuietPolls) {
       recorder.flush();
       quiet_polls = 0;
+      if (!has_programs(session) && !std::exchange(warned, true))
+        log::warning("no program runs in session " + name +
+                     ": it is recorded from when one does; --session "
+                     "names another");
     }
     session.heartbeat();
     const timespec pause{0, kRecordInterval_ns};
@@ -115,7 +128,7 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   Recorder recorder(*session, *writer, extras, from_oldest);
   log::info("records session " + common.session + " to " + options.file);
   if (options.lockstep.empty())
-    record_live(*session, recorder, *writer);
+    record_live(*session, common.session, recorder, *writer);
   else
     record_in_lockstep(*session, recorder, options.lockstep);
   error::Expected<void> outcome = recorder.outcome();

@@ -70,8 +70,9 @@ void report(const Session& session, bool json) {
   if (json)
     return print_json(
         {{"sim_time", sim_time_s}, {"rate", clock.rate}, {"running", clock.running != 0}, {"epoch", clock.epoch}});
-  std::printf("sim time %.3f s, rate %g, %s, epoch %u\n", sim_time_s, clock.rate,
-              clock.running != 0 ? "running" : "frozen", clock.epoch);
+  std::printf("sim time %.3f s, rate %g, %s, epoch %u%s\n", sim_time_s, clock.rate,
+              clock.running != 0 ? "running" : "frozen", clock.epoch,
+              clock.running != 0 ? "" : "; yars sim run lets it run");
 }
 
 // Reads only, so it works in lockstep, too.

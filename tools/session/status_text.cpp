@@ -48,7 +48,8 @@ void print_verdict(const ordered_json& status) {
   const auto& health = status["health"];
   std::string reasons;
   for (const auto& reason : health["reasons"]) reasons += (reasons.empty() ? "" : "; ") + text(reason);
-  if (reasons.empty()) reasons = "the set runs";
+  const bool is_frozen = !status["watch"]["running"].get<bool>();
+  if (reasons.empty()) reasons = is_frozen ? "the set runs, its sim time is frozen: yars sim run" : "the set runs";
   std::printf("%s: %s\n", text(health["state"]).c_str(), reasons.c_str());
   const auto& watch = status["watch"];
   std::printf("session %s: sim time %.1f s, %s, rate %g, epoch %u\n", text(status["session"]).c_str(),

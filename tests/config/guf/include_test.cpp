@@ -100,9 +100,22 @@ TEST(Include, ByANameAloneMeansTheFileThatCameWithYarsWhereNoneIsBeside) {
   EXPECT_THAT(ranges_of(path), ElementsAre(1, 2));
 }
 
+TEST(Include, OfAMissingFileIsAnsweredWithTheNearestName) {
+  const Folder folder;
+  const auto path = folder.write("a.guf", "( include \"apg86.guf\" )");
+  EXPECT_THAT(refusal_of(path), HasSubstr("found none at "));
+  EXPECT_THAT(refusal_of(path), HasSubstr("did you mean 'apg68.guf'?"));
+  // A path relative to the current folder leads to the same answer.
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  EXPECT_THAT(refusal_of("a.guf"), HasSubstr("did you mean 'apg68.guf'?"));
+  std::filesystem::current_path(before);
+}
+
 TEST(Include, WithAFolderNeverMeansAFileThatCameWithYars) {
   const Folder folder;
-  EXPECT_THAT(refusal_of(folder.write("a.guf", "( include \"./apg68.guf\" )")), HasSubstr("a.guf:1:1: expected a GUF file"));
+  EXPECT_THAT(refusal_of(folder.write("a.guf", "( include \"./apg68.guf\" )")),
+              HasSubstr("a.guf:1:1: expected a GUF file"));
 }
 
 TEST(Include, RefusesACycleOfFiles) {

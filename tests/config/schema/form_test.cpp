@@ -53,6 +53,11 @@ TEST(Slots, UnknownOnesWarnWithTheNearestName) {
   EXPECT_THAT(
       configuration.warnings,
       ElementsAre("text.guf:1:9: the form Apg70 has no slot :rnages; the slot is ignored; nearest name: :ranges"));
+  EXPECT_THAT(
+      loaded("( Apg70 :moreCells `() )").warnings,
+      ElementsAre("text.guf:1:9: the form Apg70 has no slot :moreCells; the slot is ignored; the form Rain has it"));
+  EXPECT_THAT(loaded("( Rian )").warnings,
+              ElementsAre("text.guf:1:1: the form Rian is unknown and ignored; nearest name: Rain"));
   EXPECT_EQ(fields(configuration.radar), fields(radar::RadarConfiguration{}));
 }
 

@@ -16,6 +16,7 @@ namespace yars::databuffer {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 struct EventSpelling {
   const char* text;
@@ -169,6 +170,7 @@ TEST(EventText, WhatButtonsDoIsAnsweredWithTheButtons) {
             "event: expected an event, found \"rage inc\"; the range is on buttons of the display: 'pb 13' lengthens "
             "it, 'pb 14' shortens it in RBM");
   EXPECT_THAT(refusal_of("gain up"), HasSubstr("'pb 3' steps it"));
+  EXPECT_THAT(refusal_of("rain"), Not(HasSubstr("gain is on buttons")));
 }
 
 TEST(EventText, MalformedEventsAndValuesOutOfRangeAreRefused) {
