@@ -69,7 +69,10 @@ error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet) {
   reading.velocity_down_mps = speed_at(packet, fdm::kDown);
   const AttitudeRates rates{degrees_at(packet, fdm::kHeadingRate), degrees_at(packet, fdm::kPitchRate),
                             degrees_at(packet, fdm::kRollRate)};
-  return checked_sample("flightgear", reading, rates);
+  auto sample = checked_sample("flightgear", reading, rates);
+  if (!sample && sample.error().expected.find("itude_deg") != std::string::npos)
+    sample.error().action = "the packet has latitude and longitude in radians";
+  return sample;
 }
 
 namespace {

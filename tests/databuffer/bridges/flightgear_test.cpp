@@ -99,6 +99,7 @@ TEST(FlightGear, InvalidNumbersAndPositionsAreRefusedByName) {
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e300, -7.0}) {
     EXPECT_THAT(flightgear_refusal(with(good, 8, bad)), HasSubstr("longitude"));
     EXPECT_THAT(flightgear_refusal(with(good, 16, bad)), HasSubstr("latitude"));
+    EXPECT_THAT(flightgear_refusal(with(good, 8, bad)), HasSubstr("in radians"));
   }
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e300, -2000.0})
     EXPECT_THAT(flightgear_refusal(with(good, 24, bad)), HasSubstr("altitude"));
