@@ -26,7 +26,7 @@ namespace yars::databuffer {
 
 // What to do about a silent part of the set: remedies of NO OWNSHIP, NO MODEL and NO STATE MACHINE. A line of the
 // display has space for 43 characters. Source: docs/spec/pilots_interface.md#remedies.
-inline constexpr const char* kRemedyNoOwnship = "start one: flight-model --source route:FILE";
+inline constexpr const char* kRemedyNoOwnship = "see yars status, or start a flight-model";
 inline constexpr const char* kRemedyNoModel = "start radar-model; yars status says more";
 inline constexpr const char* kRemedyNoStateMachine = "start state-machine; yars status says more";
 

@@ -61,6 +61,22 @@ int edit_distance(std::string_view from, std::string_view to) {
   return table.at(from.size() + 1, to.size() + 1);
 }
 
+namespace {
+
+constexpr std::size_t kMinBegin = 4;  // shorter words begin too many others
+
+// The shortest valid word that begins with `lower`, of equally short ones the first.
+std::optional<std::string> shortest_completion(const std::string& lower, std::span<const std::string> valid) {
+  std::optional<std::string> shortest;
+  for (const std::string& candidate : valid)
+    if (lower.size() >= kMinBegin && candidate.size() <= kMaxLength && lower_case(candidate).starts_with(lower) &&
+        (!shortest || candidate.size() < shortest->size()))
+      shortest = candidate;
+  return shortest;
+}
+
+}  // namespace
+
 std::optional<std::string> nearest_word(std::string_view word, std::span<const std::string> valid) {
   const std::string lower = lower_case(word);
   int best = static_cast<int>(word.size() / 3) + 1;  // found: a smaller distance
@@ -72,7 +88,7 @@ std::optional<std::string> nearest_word(std::string_view word, std::span<const s
     best = distance;
     nearest = candidate;
   }
-  return nearest;
+  return nearest ? nearest : shortest_completion(lower, valid);
 }
 
 std::string did_you_mean(std::string_view word, std::span<const std::string> valid) {

@@ -175,7 +175,7 @@ TEST_F(Supervision, StatusNamesHangingAndMissingRoles) {
   const std::vector<std::string> no_source{"no ownship: no source runs"};
   EXPECT_TRUE(eventually([&] { return faults() == no_source; }, kTimeout_s)) << reasons();
   const auto says = [&] { return set_.yars({"status"}).output; };
-  EXPECT_THAT(says(), HasSubstr("display says: NO OWNSHIP; start one: flight-model --source route:FILE\n"));
+  EXPECT_THAT(says(), HasSubstr("display says: NO OWNSHIP; see yars status, or start a flight-model\n"));
   set_.kill("radar-display", SIGSTOP);
   EXPECT_TRUE(eventually([&] { return reasons().find("the display hangs") != std::string::npos; }, kTimeout_s));
   set_.kill("radar-display", SIGCONT);

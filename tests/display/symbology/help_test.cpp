@@ -132,7 +132,7 @@ TEST(Remedy, TheLongestStandsWhole) {
 TEST(Remedy, ASilentPartOfTheSetHasOneOnTheDisplay) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
   input.ownship_fresh = input.model_alive = input.state_machine_alive = false;
-  for (const char* remedy : {"START ONE: FLIGHT-MODEL --SOURCE ROUTE:FILE", "START RADAR-MODEL; YARS STATUS SAYS MORE",
+  for (const char* remedy : {"SEE YARS STATUS, OR START A FLIGHT-MODEL", "START RADAR-MODEL; YARS STATUS SAYS MORE",
                              "START STATE-MACHINE; YARS STATUS SAYS MORE"})
     EXPECT_THAT(testing::words(input), Contains(remedy));
   input.state_machine_alive = true;

@@ -60,5 +60,12 @@ TEST(DidYouMean, IsAPartOfAMessage) {
   EXPECT_EQ(did_you_mean("nonsense", kCommands), "");
 }
 
+TEST(NearestWord, ABeginOfFourCharactersMeansTheShortestWordThatItBegins) {
+  const std::vector<std::string> valid{"statistics", "status", "sim"};
+  EXPECT_EQ(nearest_word("stat", valid), "status");
+  EXPECT_EQ(nearest_word("sta", valid), std::nullopt);
+  EXPECT_EQ(nearest_word("--window", std::vector<std::string>{"--windows-of-another", "--window-nm"}), "--window-nm");
+}
+
 }  // namespace
 }  // namespace yars::text
