@@ -86,7 +86,7 @@ std::string leave_blind_zone(const RefusedMap& map, const radar::MapLimits& limi
   if (std::abs(squint_deg) > 90.0) return turn_toward(map, limits.antenna.azimuth_limit_deg);
   const int turn_deg = whole_degrees(limits.blind_zone_deg - std::abs(squint_deg));
   const bool right = squint_deg >= 0.0;
-  const std::string turn = formatted("turn %d deg or more %s", turn_deg, right ? "left" : "right");
+  std::string turn = formatted("turn %d deg or more %s", turn_deg, right ? "left" : "right");
   if (map.again) return turn;
   const double across_nm = across_blind_zone_nm(map, squint_deg, limits.blind_zone_deg);
   return turn + formatted(", or move the cursor %.1f NM %s", tenths_up(across_nm), right ? "right" : "left");
@@ -129,7 +129,7 @@ std::string return_into_gimbal(const RefusedMap& map, const radar::MapLimits& li
   const double slope = std::tan(antenna.elevation_limit_deg * geo::kRadiansPerDegree);
   const double height_m = map.from.altitude.metres() - (std::isnan(ground_m) ? 0.0 : ground_m);
   const auto surplus = Length::metres(height_m - map.path.distance.metres() * slope);
-  const std::string descend = formatted("descend %.0f ft or more", std::ceil(surplus.feet() / kStep_ft) * kStep_ft);
+  std::string descend = formatted("descend %.0f ft or more", std::ceil(surplus.feet() / kStep_ft) * kStep_ft);
   if (map.again) return descend;
   const auto least = Length::metres(height_m / slope);
   return descend + formatted(", or move the cursor out to %.1f NM or more", tenths_up(least.nautical_miles()));

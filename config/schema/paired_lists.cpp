@@ -66,6 +66,21 @@ void PairedLists::slot_read(ConfigurationBuilder& builder, const ListSlot& slot,
   }
 }
 
+namespace {
+
+// `alone`: the first list was changed without the second.
+std::string warning_text(const Pair& pair, const std::vector<double>& first, const std::vector<double>& second,
+                         bool alone) {
+  const std::string one = ':' + std::string(pair.first), other = ':' + std::string(pair.second);
+  const std::string given = alone ? one + " changed without " + other
+                                  : std::to_string(second.size()) + " for " + std::to_string(first.size());
+  return "expected a value of " + other + " for each of " + one + ", found " + given + "; by position " +
+         pairing_text(pair, first, second) + "; give " + other + " with " + text::counted(first.size(), "value") +
+         " beside " + one;
+}
+
+}  // namespace
+
 std::vector<PairedLists::Warning> PairedLists::warnings(ConfigurationBuilder& builder) const {
   std::vector<Warning> found;
   for (std::size_t i = 0; i < kPairs; ++i) {
@@ -74,13 +89,7 @@ std::vector<PairedLists::Warning> PairedLists::warnings(ConfigurationBuilder& bu
     const auto &first = pair.first_of(builder), &second = pair.second_of(builder);
     const bool alone = !state.changed_from.empty();
     if ((!state.first && !state.second) || second.size() <= 1 || (first.size() == second.size() && !alone)) continue;
-    const std::string one = ':' + std::string(pair.first), other = ':' + std::string(pair.second);
-    const std::string given = alone ? one + " changed without " + other
-                                    : std::to_string(second.size()) + " for " + std::to_string(first.size());
-    found.push_back({alone || !state.second ? *state.first : *state.second,
-                     "expected a value of " + other + " for each of " + one + ", found " + given + "; by position " +
-                         pairing_text(pair, first, second) + "; give " + other + " with " +
-                         text::counted(first.size(), "value") + " beside " + one});
+    found.push_back({alone || !state.second ? *state.first : *state.second, warning_text(pair, first, second, alone)});
   }
   return found;
 }

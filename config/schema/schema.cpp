@@ -191,6 +191,7 @@ constexpr std::size_t kMaxNameLength = 40;  // bounds the time for a hostile tex
 template <class Schema>
 std::string nearest_of(const std::vector<Schema>& rows, std::string_view name) {
   std::vector<std::string> names;
+  names.reserve(rows.size());
   for (const Schema& row : rows) names.emplace_back(row.name);
   return name.size() > kMaxNameLength ? std::string() : text::nearest_word(name, names).value_or("");
 }

@@ -126,6 +126,7 @@ constexpr std::array kOnButtons{OnButtons{"range", "'pb 13' lengthens it, 'pb 14
 // Remedy for a word that means one of kOnButtons; empty: none is near.
 std::string advice_on_buttons(std::string_view word) {
   std::vector<std::string> known;
+  known.reserve(kOnButtons.size());
   for (const OnButtons& row : kOnButtons) known.emplace_back(row.word);
   constexpr std::size_t kShort = 4;  // so short a word is near to too many others: rain is not gain
   const auto meant = text::nearest_word(word, known);
@@ -321,8 +322,7 @@ std::optional<InputEvent> in_range(InputEvent event) {
 // What the user can do about words that are no event: "did you mean 'pb 13'?", or which buttons do it; may be empty.
 std::string advice_on(const Words& words) {
   if (words.empty()) return {};
-  if (const std::string buttons = is_verb(words[0]) ? "" : advice_on_buttons(words[0]); !buttons.empty())
-    return buttons;
+  if (std::string buttons = is_verb(words[0]) ? "" : advice_on_buttons(words[0]); !buttons.empty()) return buttons;
   const auto meant = corrected(words);
   if (!meant) return {};
   const Words correction = text::words_of(*meant);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <utility>
 
 #include "display/symbology/draw_list.hpp"
 
@@ -98,8 +99,11 @@ std::vector<std::string> wrapped(std::string_view text, float max_width) {
 std::string first_words(std::string_view text, float max_width) {
   std::string line;
   for (const std::string& word : words_in(text)) {
-    if (!line.empty() && text_width(line + ' ' + word) > max_width) break;
-    line += (line.empty() ? "" : " ") + word;
+    std::string longer = line;
+    if (!line.empty()) longer += ' ';
+    longer += word;
+    if (!line.empty() && text_width(longer) > max_width) break;
+    line = std::move(longer);
   }
   return line;
 }

@@ -104,17 +104,18 @@ std::string remedy_of_lag(const std::string& role, double rate) {
   return remedy + (remedy.empty() ? "" : "or ") + "end other programs";
 }
 
+std::string reason_of_lag(const std::string& role, double share, double rate) {
+  const std::string time = std::to_string(std::lround(100.0 * share)) + " % of ";
+  const std::string found = role == "radar-display" ? "pictures of the display took longer than they may in " + time
+                                                    : role + " skipped " + time + "its ticks in ";
+  return "too slow: " + found + "the last " + std::to_string(kLag_s) + " s; " + remedy_of_lag(role, rate);
+}
+
 void add_lag_reasons(const ordered_json& status, std::vector<std::string>& reasons) {
   for (const auto& [role, lag] : status["lag"].items()) {
     const double share = lag["share"];
     if (share <= kMaxSkipped || lag["seconds"] < (share > kMostSkipped ? kMinLagging_s - 1 : kMinLagging_s)) continue;
-    const long percent = std::lround(100.0 * share);
-    const std::string time = std::to_string(percent) + " % of ";
-    const std::string window = "the last " + std::to_string(kLag_s) + " s";
-    const std::string found = role == "radar-display" ? "pictures of the display took longer than they may in " + time
-                                                      : role + " skipped " + time + "its ticks in ";
-    reasons.push_back("too slow: " + found + window + "; " +
-                      remedy_of_lag(role, status["watch"]["rate"].get<double>()));
+    reasons.push_back(reason_of_lag(role, share, status["watch"]["rate"]));
   }
 }
 

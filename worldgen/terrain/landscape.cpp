@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "lib/error/error.hpp"
@@ -280,8 +279,7 @@ MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads) 
   for (int first = 1; first < threads; ++first) others.emplace_back(work, first);
   work(0);
   for (std::thread& other : others) other.join();
-  return {model::terrain::Cell(corner, rows, columns, std::move(posts)),
-          model::terrain::Culture(corner, rows, columns, codes)};
+  return {model::terrain::Cell(corner, rows, columns, posts), model::terrain::Culture(corner, rows, columns, codes)};
 }
 
 bool Landscape::may_have_land(CellCorner corner) const {
