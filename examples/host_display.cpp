@@ -2,7 +2,8 @@
 // Scene: 1280 x 800 pixels; viewport: 600 x 600 pixels. EGL, which connects OpenGL to a window system, gives a context
 // without a surface, so the example needs no window. It draws 30 x SECONDS pictures (SECONDS is 5 by default), at most
 // 30 per second, and writes the last scene as a portable pixmap (PPM).
-//   host_display [SESSION [FILE.ppm [SECONDS]]]
+//   host_display [SESSION [FILE.ppm [SECONDS [CONFIGURATION]]]]
+// CONFIGURATION is that of the set, `default.guf` for scripts/start; without it the built-in APG-70.
 // Build: c++ host_display.cpp $(pkg-config --cflags --libs yars-display epoxy) -o host_display, or with the
 // CMakeLists.txt beside this file. libepoxy gives OpenGL and EGL to this example; the display does not need it.
 #include <epoxy/egl.h>
@@ -115,7 +116,8 @@ int main(int argc, char** argv) {
     return 1;
   }
   make_canvas();
-  yars_display* const radar_display = yars_display_attach(argc > 1 ? argv[1] : "default", nullptr, "host_display");
+  yars_display* const radar_display =
+      yars_display_attach(argc > 1 ? argv[1] : "default", argc > 4 ? argv[4] : nullptr, "host_display");
   if (radar_display == nullptr) {
     std::fprintf(stderr, "%s\n", yars_display_error());
     return 1;

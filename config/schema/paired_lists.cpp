@@ -50,7 +50,6 @@ std::string pairing_text(const Pair& pair, const std::vector<double>& first, con
 void PairedLists::slot_read(ConfigurationBuilder& builder, const ListSlot& slot, const std::vector<double>& before,
                             const Location& where) {
   static_assert(kTable.size() == kPairs);
-  if (slot.of == nullptr) return;
   const std::vector<double>* given = &slot.of(builder);
   for (std::size_t i = 0; i < kPairs; ++i) {
     State& state = states_[i];

@@ -18,7 +18,7 @@ namespace yars::config {
 
 class PairedLists {
  public:
-  // A slot was read. `before`: the slot's values before that. `where`: location of the new values.
+  // A slot with a list of numbers (`slot.of`) was read. `before`: its values before that. `where`: location of the new.
   void slot_read(ConfigurationBuilder& builder, const ListSlot& slot, const std::vector<double>& before,
                  const Location& where);
   // Location and text of each warning.

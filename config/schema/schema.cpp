@@ -186,14 +186,12 @@ Found<SlotSchema> find_slot(const FormSchema& form, std::string_view name) {
 
 namespace {
 
-constexpr std::size_t kMaxNameLength = 40;  // bounds the time for a hostile text
-
 template <class Schema>
 std::string nearest_of(const std::vector<Schema>& rows, std::string_view name) {
   std::vector<std::string> names;
   names.reserve(rows.size());
   for (const Schema& row : rows) names.emplace_back(row.name);
-  return name.size() > kMaxNameLength ? std::string() : text::nearest_word(name, names).value_or("");
+  return text::nearest_word(name, names).value_or("");
 }
 
 }  // namespace

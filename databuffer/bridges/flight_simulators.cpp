@@ -4,7 +4,9 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lib/geo/frames.hpp"
@@ -58,8 +60,14 @@ error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet) {
     return error::fail("flightgear", "version 24 and 408 bytes, or 25 and 552", form_of(packet),
                        "send it by --native-fdm=socket,out,30,HOST,PORT,udp");
   Reading reading{};
-  reading.latitude_deg = memory::big_endian<double>(packet, fdm::kLatitude) / geo::kRadiansPerDegree;
-  reading.longitude_deg = memory::big_endian<double>(packet, fdm::kLongitude) / geo::kRadiansPerDegree;
+  const auto latitude_rad = memory::big_endian<double>(packet, fdm::kLatitude),
+             longitude_rad = memory::big_endian<double>(packet, fdm::kLongitude);
+  // Angles in degrees are the usual mistake of other programs.
+  for (const auto& [name, angle_rad] : {std::pair("latitude", latitude_rad), std::pair("longitude", longitude_rad)})
+    if (std::abs(angle_rad) > 2.0 * std::numbers::pi)
+      return error::fail("flightgear", std::string(name) + " in radians", text::text_of_number(angle_rad));
+  reading.latitude_deg = latitude_rad / geo::kRadiansPerDegree;
+  reading.longitude_deg = longitude_rad / geo::kRadiansPerDegree;
   reading.altitude_msl_m = memory::big_endian<double>(packet, fdm::kAltitude);
   reading.heading_deg = degrees_at(packet, fdm::kHeading);
   reading.pitch_deg = degrees_at(packet, fdm::kPitch);
@@ -69,10 +77,7 @@ error::Expected<ExternalSample> decode_flightgear(memory::Bytes packet) {
   reading.velocity_down_mps = speed_at(packet, fdm::kDown);
   const AttitudeRates rates{degrees_at(packet, fdm::kHeadingRate), degrees_at(packet, fdm::kPitchRate),
                             degrees_at(packet, fdm::kRollRate)};
-  auto sample = checked_sample("flightgear", reading, rates);
-  if (!sample && sample.error().expected.find("itude_deg") != std::string::npos)
-    sample.error().action = "the packet has latitude and longitude in radians";
-  return sample;
+  return checked_sample("flightgear", reading, rates);
 }
 
 namespace {

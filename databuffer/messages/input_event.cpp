@@ -153,12 +153,12 @@ bool split_first(Words& words) {
 }
 
 // Words that other programs and pilots use for an operand.
-constexpr std::array<std::array<std::string_view, 3>, 8> kSynonyms{{{"acq", "up", "fwd"},
-                                                                    {"acq", "down", "aft"},
-                                                                    {"power", "on", "opr"},
+constexpr std::array<std::array<std::string_view, 3>, 8> kSynonyms{{{"power", "on", "opr"},
                                                                     {"power", "operate", "opr"},
                                                                     {"power", "standby", "stby"},
+                                                                    {"acq", "up", "fwd"},
                                                                     {"acq", "forward", "fwd"},
+                                                                    {"acq", "down", "aft"},
                                                                     {"acq", "back", "aft"},
                                                                     {"coolie", "forward", "up"}}};
 

@@ -1,8 +1,10 @@
-// Input event of a pilot, panel or program: its text form. validation.hpp checks it. input_event_record.idl defines the
-// record. Inputs: the record from an input lane, or a text such as `tdc 0.5 0`. Outputs: the event parsed from a text;
-// the text of an event. Units: degrees (antenna elevation above the horizontal), feet and feet per second as stated per
-// kind; times [ns]. Errors: a text that matches no form is an Error with the valid forms of its verb. Source:
-// docs/spec/pilots_interface.md#controls.
+// Text form of an input event of a pilot, panel or program. input_event_record.idl defines the record, validation.hpp
+// checks it.
+// Inputs: the record from an input lane, or a text such as `tdc 0.5 0`.
+// Outputs: the event parsed from a text; the text of an event.
+// Units: degrees (antenna elevation above the horizontal), feet and feet per second as stated per kind; times [ns].
+// Errors: a text that matches no form is an Error with the valid forms of its verb.
+// Source: docs/spec/pilots_interface.md#controls.
 #pragma once
 
 #include <string>

@@ -1,5 +1,7 @@
 #include "databuffer/messages/validation.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 

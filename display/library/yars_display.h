@@ -38,10 +38,12 @@ typedef struct {
 } yars_panel;
 
 /* Joins a session, and makes it if it does not exist. NULL: an error.
- * session: NULL is "default". configuration: the GUF file with which the set was started, a path or the name of one
- * that came with YARS; NULL is the built-in APG-70. program: name of this program in `yars status`; NULL is "host
- * display". Errors: no current context, or OpenGL older than 3.3; an unreadable or invalid configuration; a session of
- * another user or another version. */
+ * session: NULL is "default".
+ * configuration: the GUF file with which the set was started, a path or the name of a file that came with YARS. NULL is
+ * the built-in APG-70.
+ * program: name of this program in `yars status`; NULL is "host display".
+ * Errors: no current context, or OpenGL older than 3.3; an unreadable or invalid configuration; a session of another
+ * user or another version. */
 YARS_DISPLAY_API yars_display* yars_display_attach(const char* session, const char* configuration, const char* program);
 
 /* Leaves the session and frees the display. NULL is allowed. */

@@ -1,7 +1,9 @@
-// Finds files: the configurations, routes and scripts that came with YARS, by their name alone; and files whose names
-// may differ in upper and lower case: n36.smc.png finds N36.SMC.PNG. Inputs: the name or the path of a file. Outputs:
-// the path of the file that exists. Errors: none. A folder that cannot be read has no entries. Threads: an object of
-// FolderNames belongs to one thread; the functions are for any.
+// Finds files: configurations, routes and scripts that came with YARS, by their name alone; and files whose names may
+// differ in upper and lower case, as N36.SMC.PNG for n36.smc.png.
+// Inputs: the name or the path of a file.
+// Outputs: the path of the file that exists.
+// Errors: none. A folder that cannot be read has no entries.
+// Threads: an object of FolderNames belongs to one thread; any thread may call the functions.
 #pragma once
 
 #include <filesystem>

@@ -95,7 +95,8 @@ def check_programs(how, folder, prefix, **environment):
     """The embedding program makes the session; meanwhile the client in C and the one in Python take part in it."""
     alone = run(folder / "fly", SESSION, folder=folder)
     expect(f"{how}: the client in C without a session", alone.returncode == 1 and "no such session" in alone.stderr, alone)
-    host = subprocess.Popen([folder / "host_display", SESSION, folder / "scene.ppm", "3"], text=True,
+    # The library finds a configuration that came with YARS from where it lies itself.
+    host = subprocess.Popen([folder / "host_display", SESSION, folder / "scene.ppm", "3", "apg68.guf"], text=True,
                             stderr=subprocess.PIPE, env={**ENVIRONMENT, **environment})
     client = alone
     while client.returncode != 0 and host.poll() is None:

@@ -69,9 +69,7 @@ void record_live(Session& session, const std::string& name, Recorder& recorder,
       recorder.flush();
       quiet_polls = 0;
       if (!has_programs(session) && !std::exchange(warned, true))
-        log::warning("no program runs in session " + name +
-                     ": it is recorded from when one does; --session "
-                     "names another");
+        log::warning("no program runs in session " + name + " yet; --session chooses another");
     }
     session.heartbeat();
     const timespec pause{0, kRecordInterval_ns};

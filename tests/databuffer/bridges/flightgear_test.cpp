@@ -99,8 +99,9 @@ TEST(FlightGear, InvalidNumbersAndPositionsAreRefusedByName) {
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e300, -7.0}) {
     EXPECT_THAT(flightgear_refusal(with(good, 8, bad)), HasSubstr("longitude"));
     EXPECT_THAT(flightgear_refusal(with(good, 16, bad)), HasSubstr("latitude"));
-    EXPECT_THAT(flightgear_refusal(with(good, 8, bad)), HasSubstr("in radians"));
   }
+  EXPECT_THAT(flightgear_refusal(with(good, 8, -122.5)), HasSubstr("expected longitude in radians, found -122.5"));
+  EXPECT_THAT(flightgear_refusal(with(good, 16, 37.5)), HasSubstr("expected latitude in radians, found 37.5"));
   for (const double bad : {kNan, kInfinity, -kInfinity, 1e300, -2000.0})
     EXPECT_THAT(flightgear_refusal(with(good, 24, bad)), HasSubstr("altitude"));
   struct Field {
