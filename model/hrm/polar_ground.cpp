@@ -219,7 +219,7 @@ std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGri
   // Crests on the lines of posts between the samples also raise the horizon.
   const physics::EffectiveEarth& earth = geometry.earth();
   if (view.crests(column.positions.run(),
-                  {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples)},
+                  {geometry.altitude_m(), earth.curvature(), std::span(column.distance_m).first(samples), {}},
                   std::span(column.crest).first(samples)))
     tangent = std::max(
         tangent, *std::max_element(column.crest.begin(), column.crest.begin() + static_cast<std::ptrdiff_t>(samples)));
@@ -239,10 +239,11 @@ void PolarGround::read_crests(const PatchGeometry& geometry, const PatchTerrain&
   float* crest_m = &strip_crest_[lane * pitch_];
   std::fill_n(crest_m, rows, kNoHorizon);
   if (terrain.crests.summits) raise_to_summits(geometry, lane);
-  if (!terrain.crests.lines || !terrain.window->crests(column.positions.run(),
-                                                       {geometry.altitude_m(), geometry.earth().curvature(),
-                                                        std::span(column.distance_m).first(rows)},
-                                                       std::span(column.crest).first(rows)))
+  if (!terrain.crests.lines ||
+      !terrain.window->crests(
+          column.positions.run(),
+          {geometry.altitude_m(), geometry.earth().curvature(), std::span(column.distance_m).first(rows), {}},
+          std::span(column.crest).first(rows)))
     return;
   column.crest[0] = terrain::kNoTangent;
   const auto plane_m = static_cast<float>(geometry.plane_msl_m());

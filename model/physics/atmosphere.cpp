@@ -8,6 +8,7 @@
 
 #include "lib/geo/earth.hpp"
 #include "lib/radar/world.hpp"
+#include "model/physics/ray.hpp"
 #include "model/physics/reflectivity.hpp"
 
 namespace yars::model::physics {
@@ -165,7 +166,6 @@ constexpr std::array<double, 4> kNodes{0.1834346424956498, 0.5255324099163290, 0
 constexpr std::array<double, 4> kWeights{0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
                                          0.1012285362903763};
 constexpr std::array<double, 3> kHeights_km{0.0, 2.0, 5.0};  // heights at which GasSamples' parabola equals the loss
-constexpr float kParabolaLowest_m = -500.0F, kParabolaHighest_m = 6000.0F;  // heights are clamped to this interval
 
 // Effective earth: flat, or a sphere from the mean earth radius, which is within 0.6 % of the ellipsoid's radius of
 // curvature everywhere.
@@ -201,7 +201,7 @@ double GasPath::one_way_transmission(const EffectiveEarth& earth, double altitud
 }
 
 GasSamples::GasSamples(const RadarParameters& parameters, std::size_t samples)
-    : earth_(round_earth(parameters.geometry)), constant_(samples), slope_(samples), bend_(samples) {}
+    : earth_(round_earth(parameters.geometry)), constant_(samples + kPairSlack), slope_(constant_), bend_(constant_) {}
 
 GasSamples::Parabola GasSamples::parabola_at(const GasPath& path, double altitude_m, double distance_m) const {
   const auto& h = kHeights_km;
@@ -224,7 +224,7 @@ void GasSamples::use(const GasPath& path, double altitude_m, double range_m, std
       knots_[knot] = parabola_at(path, altitude_m, range_m * static_cast<double>(knot) / (kKnots - 1));
   }
   const double scale = static_cast<double>(kKnots - 1) / range_m;
-  for (std::size_t i = 0; i < constant_.size(); ++i) {
+  for (std::size_t i = 0; i < distance_m.size(); ++i) {
     const double index = std::clamp(static_cast<double>(distance_m[i]) * scale, 0.0, static_cast<double>(kKnots - 1));
     const auto near = std::min(static_cast<std::size_t>(index), kKnots - 2);
     const double fraction = index - static_cast<double>(near);
@@ -233,14 +233,6 @@ void GasSamples::use(const GasPath& path, double altitude_m, double range_m, std
     constant_[i] = static_cast<float>(a.constant + fraction * (b.constant - a.constant));
     slope_[i] = static_cast<float>((a.slope + fraction * (b.slope - a.slope)) / 1000.0);
     bend_[i] = static_cast<float>((a.bend + fraction * (b.bend - a.bend)) / 1'000'000.0);
-  }
-}
-
-void GasSamples::apply(const float* height_m, float* power) const {
-  for (std::size_t i = 0; i < constant_.size(); ++i) {
-    const float known_m = height_m[i] == height_m[i] ? height_m[i] : 0.0F;
-    const float up_m = std::min(std::max(known_m, kParabolaLowest_m), kParabolaHighest_m);
-    power[i] *= constant_[i] + up_m * (slope_[i] + up_m * bend_[i]);
   }
 }
 

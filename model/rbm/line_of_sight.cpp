@@ -40,7 +40,7 @@ bool RayCrests::find(const terrain::TerrainView& terrain, const Ray& ray, const 
   split(passage, sight.distance_m);
   const std::size_t count = pieces_.count;
   physics::sample_positions(ray.apex, ray.azimuth, ray.range, ray.knots, distance_m_.data(), pieces_);
-  const terrain::RaySight pieces{sight.altitude_m, sight.curvature, std::span(distance_m_).first(count)};
+  const terrain::RaySight pieces{sight.altitude_m, sight.curvature, std::span(distance_m_).first(count), {}};
   if (!terrain.crests(pieces_.run(), pieces, std::span(crest_).first(count))) return false;
   sample_short_pieces(terrain, sight);
   const float* from = crest_.data();
@@ -135,7 +135,7 @@ bool SightLine::clear(const physics::GeometryParameters& parameters, const physi
                        earth.sight(geometry.altitude.metres(), static_cast<double>(distance_m_[i]), height_m).tangent);
   }
   if (ray_crests_.find(terrain, {geometry.apex, path.azimuth_at_start, path.distance, parameters.geodesic_knots},
-                       positions_, {geometry.altitude.metres(), earth.curvature(), all(distance_m_)}, all(crest_)))
+                       positions_, {geometry.altitude.metres(), earth.curvature(), all(distance_m_), {}}, all(crest_)))
     highest = std::max(highest, static_cast<double>(*std::max_element(crest_.data(), crest_.data() + kSamples)));
   return highest < earth.sight(geometry.altitude.metres(), distance_m, altitude_m).tangent;
 }

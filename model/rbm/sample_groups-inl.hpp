@@ -109,6 +109,10 @@ HWY_INLINE Group max(const Group& a, const Group& b) {
   return each([](Floats x, Floats y) { return hn::Max(x, y); }, a, b);
 }
 template <class Group>
+HWY_INLINE Group min(const Group& a, const Group& b) {
+  return each([](Floats x, Floats y) { return hn::Min(x, y); }, a, b);
+}
+template <class Group>
 HWY_INLINE Group abs(const Group& a) {
   return each([](Floats x) { return hn::Abs(x); }, a);
 }

@@ -36,10 +36,13 @@ Standard::Standard(const physics::RadarParameters& parameters)
       elevation_(count_, kVoid),
       water_(count_, 0.0F),
       peak_(count_, kVoid),
+      near_(count_, kVoid),
+      near_back_(count_, 0.0F),
       side_(count_, 0.0F),
       crest_(count_, simd::kNoHorizon),
       cross_slope_(count_, 0.0F),
       tangent_(count_, simd::kNoHorizon),
+      near_tangent_(count_, simd::kNoHorizon),
       before_(count_, simd::kNoHorizon),
       horizon_(count_, simd::kNoHorizon),
       power_(count_, 0.0F),
@@ -61,20 +64,22 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   const double pulse_samples = fidelity_.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
   const terrain::PositionRun positions = positions_.run();
-  const bool crests =
-      ray_crests_.find(terrain, {geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots}, positions_,
-                       {geometry.altitude.metres(), earth.curvature(), distance_.first(count_)}, crest_.first(count_));
-  const simd::SweepInputs inputs{distance_.data(), elevation_.data(),
-                                 // Where a cell is reduced to fewer posts, the highest original posts cast the shadow.
-                                 terrain.has_peaks() ? peak_.data() : nullptr, crests ? crest_.data() : nullptr,
-                                 fidelity_.cross_track_slope ? cross_slope_.data() : nullptr, one_step_inverse_.data(),
-                                 two_step_inverse_.data(),
-                                 ground_.prepare(geometry, positions, water_.data(), terrain.has_materials())};
-  simd::sweep(count_, constants, fidelity_.beam, inputs,
-              {tangent_.data(), before_.data(), horizon_.data(), power_.data()});
+  simd::SweepInputs inputs{distance_.data(), elevation_.data(),
+                           // Where a cell is reduced to fewer posts, the highest original posts cast the shadow.
+                           terrain.has_peaks() ? peak_.data() : nullptr, near_.data(), near_back_.data(), nullptr,
+                           fidelity_.cross_track_slope ? cross_slope_.data() : nullptr, one_step_inverse_.data(),
+                           two_step_inverse_.data(), gas_loss(geometry),
+                           ground_.prepare(geometry, positions, water_.data(), terrain.has_materials())};
+  const simd::SweepOutputs outputs{near_tangent_.data(), tangent_.data(), before_.data(), horizon_.data(),
+                                   power_.data()};
+  simd::profile(count_, constants, inputs, outputs);
+  if (ray_crests_.find(terrain, {geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots}, positions_,
+                       {geometry.altitude.metres(), earth.curvature(), distance_.first(count_), horizon_.first(count_)},
+                       crest_.first(count_)))
+    inputs.crest = crest_.data();
+  simd::sweep(count_, constants, fidelity_.beam, inputs, outputs);
   // sweep() may have written after the last sample. The smear reads those entries, so they are set to 0.
   std::fill_n(power_.data() + count_, simd::kPad, 0.0F);
-  attenuate(geometry);
   const physics::GroundWalk walk(geometry, earth, terrain, fidelity_.interpolation);
   if (scene_return_.enter(geometry, environment.scenes))
     add_scenes(geometry, walk, receiver, *environment.scenes, pulse_samples);
@@ -97,11 +102,11 @@ void Standard::lit(std::span<std::uint8_t> mask) const {
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = tangent_.data()[i] > before_.data()[i] ? 1 : 0;
 }
 
-void Standard::attenuate(const physics::SweepGeometry& geometry) {
-  if (gas_.none()) return;
+physics::GasSamples::Coefficients Standard::gas_loss(const physics::SweepGeometry& geometry) {
+  if (gas_.none()) return {};
   gas_samples_.use(gas_, geometry.altitude.metres(), geometry.range.metres(), distance_.first(count_),
                    !fidelity_.slant_range);
-  gas_samples_.apply(elevation_.data(), power_.data());
+  return gas_samples_.coefficients();
 }
 
 void Standard::add_scenes(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
@@ -196,12 +201,15 @@ std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const
   physics::sample_positions(geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots, distance_.data(),
                             positions_);
   const bool peaks = terrain.has_peaks();
+  const auto step_m = static_cast<float>(geometry.range.metres() / static_cast<double>(count_));
+  std::fill_n(near_.data(), count_, kVoid);
   const terrain::SurfaceRun found{elevation_.first(count_),
                                   water_.first(count_),
                                   peak_.first(peaks ? count_ : 0),
-                                  {ground_.materials().data(), terrain.has_materials() ? count_ : 0}};
+                                  {ground_.materials().data(), terrain.has_materials() ? count_ : 0},
+                                  {step_m, near_.first(fidelity_.slant_range ? 0 : count_), near_back_.first(count_)}};
   const std::size_t pending = terrain.surfaces(positions_.run(), fidelity_.interpolation, found);
-  for (Padded* heights : {&elevation_, &peak_}) {
+  for (Padded* heights : {&elevation_, &peak_, &near_}) {
     std::fill_n(heights->data(), holes_, kVoid);
     std::fill_n(heights->data() + count_, terrain::kRunSlack, kVoid);
   }

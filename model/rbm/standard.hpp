@@ -56,7 +56,7 @@ class Standard : public Algorithm {
                 const physics::Receiver& receiver);
   void add_scenes(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
                   const physics::Receiver& receiver, const scene::SceneView& scenes, double pulse_samples);
-  void attenuate(const physics::SweepGeometry& geometry);
+  physics::GasSamples::Coefficients gas_loss(const physics::SweepGeometry& geometry);
   void read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
   simd::SweepConstants sweep_constants(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                                        const physics::Receiver& receiver) const;
@@ -85,8 +85,8 @@ class Standard : public Algorithm {
   Padded distance_, one_step_inverse_, two_step_inverse_;
   physics::PositionArrays positions_;
   RayCrests ray_crests_;
-  Padded elevation_, water_, peak_, side_, crest_, cross_slope_;
-  Padded tangent_, before_, horizon_;
+  Padded elevation_, water_, peak_, near_, near_back_, side_, crest_, cross_slope_;
+  Padded tangent_, near_tangent_, before_, horizon_;
   Padded power_, variate_;
   memory::CacheAlignedVector<std::int32_t> cell_;  // resolution cell of each sample
 };

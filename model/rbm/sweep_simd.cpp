@@ -174,22 +174,26 @@ class SweepPass {
     const auto known = is_number(elevation);
     const auto height = or_zero(known, elevation);
     const auto g = geometry(c_, distance, height);
-    auto tangent =
-        in_.peak_m == nullptr ? tangent_of(g, known) : peak_tangent(c_, distance, load<Group>(in_.peak_m + i));
-    const auto crest = in_.crest == nullptr ? constant<Group>(kNoHorizon) : load<Group>(in_.crest + i);
-    const auto [upto, before_crest] = horizon_.after(max(tangent, crest));
-    const auto before = max(before_crest, crest);
-    // Beside a void, peak_m may be known where elevation_m is NaN. This ground casts a shadow but returns no power.
-    tangent = choose(known, tangent, constant<Group>(kNoHorizon));
-    store(tangent, out_.tangent + i);
+    const auto tangent = load<Group>(out_.tangent + i);
+    const auto before = raise_horizon<Group>(i);
     store(before, out_.before + i);
-    store(upto, out_.horizon + i);
     const auto lit = less(before, tangent);
     if (none(lit)) return store(constant<Group>(0.0F), out_.power + i);
     store_power(i, g, height, lit);
   }
 
  private:
+  // Raises the horizon to the crests and the ground before the samples. Returns the maximum tangent of all ground
+  // nearer than each sample.
+  template <class Group>
+  HWY_INLINE Group raise_horizon(std::size_t i) {
+    auto crest = load<Group>(out_.near + i);
+    if (in_.crest != nullptr) crest = max(crest, load<Group>(in_.crest + i));
+    const auto [upto, before] = horizon_.after(max(load<Group>(out_.horizon + i), crest));
+    store(upto, out_.horizon + i);
+    return max(before, crest);
+  }
+
   template <class Group, class GroupMask>
   HWY_INLINE void store_power(std::size_t i, const Geometry<Group>& g, const Group& height, const GroupMask& lit) {
     // A void counts as ground of height 0, and the aircraft may be at that ground. The slant range is at least 1 m.
@@ -204,7 +208,15 @@ class SweepPass {
           slant_square);
       power = mul(power, control);
     }
+    if (in_.gas.constant != nullptr) power = mul(power, gas(i, height));
     store(power, out_.power + i);
+  }
+  template <class Group>
+  HWY_INLINE Group gas(std::size_t i, const Group& height) const {
+    const auto lowest = constant<Group>(physics::GasSamples::kLowest_m);
+    const auto up = min(max(height, lowest), constant<Group>(physics::GasSamples::kHighest_m));
+    const auto slope = add(load<Group>(in_.gas.slope + i), mul(up, load<Group>(in_.gas.bend + i)));
+    return add(load<Group>(in_.gas.constant + i), mul(up, slope));
   }
 
   const SweepConstants c_;
@@ -216,6 +228,35 @@ class SweepPass {
   RunningMaximum horizon_;
   const Floats range_octaves_;  // log2 of R0 [m], the range at which sensitivity time control is 1
 };
+
+// Tangents of the ground shortly before the samples where it reaches the horizon, else kNoHorizon.
+template <class Group>
+HWY_INLINE Group near_tangent(const SweepConstants& c, const SweepInputs& in, std::size_t i, const Group& horizon) {
+  const auto height = load<Group>(in.near_m + i);
+  const auto g = geometry(c, sub(load<Group>(in.distance_m + i), load<Group>(in.near_back_m + i)), height);
+  // Compared by a product, which needs no division. False for NaN.
+  const auto reaching = less_or_equal(mul(horizon, g.out_m), g.up_m);
+  const auto none_here = constant<Group>(kNoHorizon);
+  return none(reaching) ? none_here : choose(reaching, div(g.up_m, g.out_m), none_here);
+}
+
+void profile(std::size_t count, const SweepConstants& constants, const SweepInputs& in, const SweepOutputs& out) {
+  using Group = Pair<Floats>;
+  RunningMaximum horizon;
+  for (std::size_t i = 0; i < count; i += lanes_of<Group>()) {
+    const auto distance = load<Group>(in.distance_m + i);
+    const auto elevation = load<Group>(in.elevation_m + i);
+    const auto known = is_number(elevation);
+    const auto tangent = in.peak_m == nullptr
+                             ? tangent_of(geometry(constants, distance, or_zero(known, elevation)), known)
+                             : peak_tangent(constants, distance, load<Group>(in.peak_m + i));
+    const auto upto = horizon.after(tangent).upto;
+    store(upto, out.horizon + i);
+    store(near_tangent(constants, in, i, upto), out.near + i);
+    // Beside a void, peak_m may be known where elevation_m is NaN. This ground casts a shadow but returns no power.
+    store(choose(known, tangent, constant<Group>(kNoHorizon)), out.tangent + i);
+  }
+}
 
 void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,
            const SweepOutputs& outputs) {
@@ -263,9 +304,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace yars::model::rbm::simd {
 
+HWY_EXPORT(profile);
 HWY_EXPORT(sweep);
 HWY_EXPORT(smear);
 
+void profile(std::size_t count, const SweepConstants& constants, const SweepInputs& inputs,
+             const SweepOutputs& outputs) {
+  HWY_DYNAMIC_DISPATCH(profile)(count, constants, inputs, outputs);
+}
 void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,
            const SweepOutputs& outputs) {
   HWY_DYNAMIC_DISPATCH(sweep)(count, constants, beam, inputs, outputs);

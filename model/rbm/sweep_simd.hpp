@@ -14,6 +14,7 @@
 #include <cstdint>
 
 #include "lib/radar/modes.hpp"
+#include "model/physics/atmosphere.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
@@ -46,21 +47,30 @@ struct SweepInputs {
   const float* distance_m;        // ground distance from the apex
   const float* elevation_m;       // [m MSL] ground that returns power; NaN: void
   const float* peak_m;            // [m MSL] highest ground around the sample, which casts the shadow; null: elevation_m
+  const float* near_m;            // [m MSL] terrain::NearGround; NaN: none
+  const float* near_back_m;       // [m] its distance before the sample
   const float* crest;             // maximum tangent of ground between the previous sample and this one; null: no crests
   const float* cross_slope;       // slope (rise per distance) across the sweep; its sign has no effect; null: 0
   const float* one_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i])
   const float* two_step_inverse;  // [1/m] 1 / (distance[i + 1] - distance[i - 1])
+  physics::GasSamples::Coefficients gas;      // two-way loss by the gases of the air
   const physics::simd::GroundInputs* ground;  // null: all samples are land without culture and texture
 };
 struct SweepOutputs {
+  float* near;     // tangent of the ground shortly before the sample; at most the sample's horizon: kNoHorizon
   float* tangent;  // tangent of the elevation angle of the ground that casts the shadow; kNoHorizon over a void
   float* before;   // maximum tangent of all ground nearer than the sample
   float* horizon;  // maximum tangent of all ground up to and including the sample
   float* power;    // full scale = 1, after sensitivity time control, before pulse smear; 0 in shadow and over a void
 };
 
-// Computes power from terrain in one pass: tangents, shadow, slopes, local grazing angle, two-way gain, illuminated
-// area, reflectivity.
+// Computes the tangent of each sample, the horizon that the samples alone make, and `near`. Crests below this horizon
+// hide nothing. Does not read slopes, crests and `ground`.
+void profile(std::size_t count, const SweepConstants& constants, const SweepInputs& inputs,
+             const SweepOutputs& outputs);
+
+// Computes power from terrain in one pass: shadow, slopes, local grazing angle, two-way gain, illuminated area,
+// reflectivity. Requires the outputs of profile(). Raises the horizon to the crests.
 void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPattern beam, const SweepInputs& inputs,
            const SweepOutputs& outputs);
 

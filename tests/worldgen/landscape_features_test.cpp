@@ -289,7 +289,7 @@ TEST(LandscapeRepeats, WithAnyNumberOfThreads) {
   const MadeCell first = one.make({37, -122}, 121, 121, 1);
   const MadeCell second = two.make({37, -122}, 121, 121, 2);
   EXPECT_EQ(first.cell.posts(), second.cell.posts());
-  EXPECT_TRUE(std::equal(first.culture.codes().begin(), first.culture.codes().end(), second.culture.codes().begin()));
+  EXPECT_EQ(first.culture.codes(), second.culture.codes());
 }
 
 TEST(LandscapeRepeats, InAnyOrderOfCells) {

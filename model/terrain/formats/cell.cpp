@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -17,12 +18,13 @@ int blocks_over(int intervals, int step) {
 }
 }  // namespace
 
-PostBlocks::PostBlocks(int rows, int columns, std::span<const std::int16_t> posts)
+template <class Post>
+Blocks<Post>::Blocks(int rows, int columns, std::span<const Post> posts)
     : block_rows_(blocks_over(rows - 1, kRowStep)), block_columns_(blocks_over(columns - 1, kColumnStep)) {
   YARS_REQUIRE(rows, >=, 2);
   YARS_REQUIRE(columns, >=, 2);
   YARS_REQUIRE(posts.size(), ==, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
-  blocks_.resize(static_cast<std::size_t>(block_rows_) * static_cast<std::size_t>(block_columns_));
+  blocks_.resize(static_cast<std::size_t>(block_rows_) * static_cast<std::size_t>(block_columns_) + 1);
   auto block = blocks_.begin();
   for (int block_row = 0; block_row < block_rows_; ++block_row)
     for (int block_column = 0; block_column < block_columns_; ++block_column, ++block)
@@ -35,6 +37,41 @@ PostBlocks::PostBlocks(int rows, int columns, std::span<const std::int16_t> post
       }
 }
 
+template class Blocks<std::int16_t>;
+template class Blocks<std::uint8_t>;
+
+Ceilings::Ceilings(int rows, int columns, std::span<const std::int16_t> posts)
+    : tile_rows_(blocks_over(rows - 1, kTile)), tile_columns_(blocks_over(columns - 1, kTile)) {
+  // Maximum of squares of kReach x kReach posts. A tile with its surroundings is four by four of them.
+  static_assert(kTile == 2 * kReach);
+  const int square_rows = blocks_over(rows, kReach), square_columns = blocks_over(columns, kReach);
+  std::vector<std::int16_t> squares(static_cast<std::size_t>(square_rows) * static_cast<std::size_t>(square_columns));
+  std::vector<std::int16_t> column_peaks(static_cast<std::size_t>(columns));
+  for (int square_row = 0; square_row < square_rows; ++square_row) {
+    const int first = square_row * kReach;
+    std::fill(column_peaks.begin(), column_peaks.end(), std::numeric_limits<std::int16_t>::min());
+    for (int row = first; row < std::min(first + kReach, rows); ++row) {
+      const auto line = posts.subspan(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns));
+      for (std::size_t column = 0; column < column_peaks.size(); ++column)
+        column_peaks[column] = std::max(column_peaks[column], line[column]);
+    }
+    for (int square_column = 0; square_column < square_columns; ++square_column) {
+      const auto from = column_peaks.begin() + square_column * kReach;
+      const auto to = column_peaks.begin() + std::min((square_column + 1) * kReach, columns);
+      squares[static_cast<std::size_t>(square_row * square_columns + square_column)] = *std::max_element(from, to);
+    }
+  }
+  for (int tile_row = 0; tile_row < tile_rows_; ++tile_row)
+    for (int tile_column = 0; tile_column < tile_columns_; ++tile_column) {
+      std::int16_t highest = std::numeric_limits<std::int16_t>::min();
+      for (int row = std::max(2 * tile_row - 1, 0); row < std::min(2 * tile_row + 3, square_rows); ++row)
+        for (int column = std::max(2 * tile_column - 1, 0); column < std::min(2 * tile_column + 3, square_columns);
+             ++column)
+          highest = std::max(highest, squares[static_cast<std::size_t>(row * square_columns + column)]);
+      highest_.push_back(highest);
+    }
+}
+
 CellCorner cell_containing(geo::GeoPoint point) {
   const double latitude_deg = std::clamp(point.latitude_deg, -90.0, 90.0);
   const double longitude_deg = geo::wrapped_degrees(point.longitude_deg);
@@ -44,7 +81,12 @@ CellCorner cell_containing(geo::GeoPoint point) {
 }
 
 Cell::Cell(CellCorner corner, int rows, int columns, const std::vector<std::int16_t>& posts, double unit_m)
-    : corner_(corner), rows_(rows), columns_(columns), unit_m_(unit_m), blocks_(rows, columns, posts) {
+    : corner_(corner),
+      rows_(rows),
+      columns_(columns),
+      unit_m_(unit_m),
+      blocks_(rows, columns, posts),
+      ceilings_(rows, columns, posts) {
   YARS_REQUIRE(unit_m, >, 0.0);
   bool any = false;
   for (const std::int16_t post : posts) {

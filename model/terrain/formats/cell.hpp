@@ -41,20 +41,21 @@ constexpr CellCorner corner_of_slot(std::size_t slot) {
 // cell north or east of that edge. Requires finite coordinates.
 CellCorner cell_containing(geo::GeoPoint point);
 
-// The posts of a grid in blocks of 4 rows x 8 columns: 64 bytes, one cache line. A block begins every 3 rows and 7
-// columns, so that blocks overlap by one post. The four posts around any position therefore lie in one cache line.
-// Two adjacent posts of a row lie in 32 adjacent bits, which SIMD sampling gathers at once.
+// The posts of a grid in blocks of 4 rows x 8 columns. A block of heights is 64 bytes, one cache line. A block begins
+// every 3 rows and 7 columns, so that blocks overlap by one post. The four posts around any position therefore lie in
+// one block. Two adjacent heights of a row lie in 32 adjacent bits, which SIMD sampling gathers at once.
 // Memory: 32/21 of a grid without overlaps.
-class PostBlocks {
+template <class Post>
+class Blocks {
  public:
   static constexpr int kRows = 4, kColumns = 8;        // posts of a block
   static constexpr int kRowStep = 3, kColumnStep = 7;  // [posts] from one block to the next
   static constexpr std::size_t kPosts = static_cast<std::size_t>(kRows) * kColumns;
 
   // Requires rows, columns >= 2 and rows * columns posts, row by row.
-  PostBlocks(int rows, int columns, std::span<const std::int16_t> posts);
+  Blocks(int rows, int columns, std::span<const Post> posts);
 
-  std::int16_t post(int row, int column) const {
+  Post post(int row, int column) const {
     const int block_row = std::min(row / kRowStep, block_rows_ - 1);
     const int block_column = std::min(column / kColumnStep, block_columns_ - 1);
     const Block& block = blocks_[static_cast<std::size_t>(block_row) * static_cast<std::size_t>(block_columns_) +
@@ -65,18 +66,43 @@ class PostBlocks {
 
   // The posts of all blocks, for SIMD gathers. Post (row, column) with row < rows - 1 and column < columns - 1 is entry
   // (row / 3 * block_columns + column / 7) * 32 + row % 3 * 8 + column % 7, with integer division. Its northern
-  // neighbour is entry + 8.
-  const std::int16_t* data() const { return blocks_.front().posts.data(); }
+  // neighbour is entry + 8, its eastern neighbour entry + 1. A spare block follows the last one.
+  const Post* data() const { return blocks_.front().posts.data(); }
   int block_columns() const { return block_columns_; }
   std::size_t bytes() const { return blocks_.size() * sizeof(Block); }
 
  private:
-  struct alignas(64) Block {
-    std::array<std::int16_t, kPosts> posts;
+  struct alignas(kPosts * sizeof(Post)) Block {
+    std::array<Post, kPosts> posts;
   };
   int block_rows_;
   int block_columns_;
   memory::CacheAlignedVector<Block> blocks_;
+};
+using PostBlocks = Blocks<std::int16_t>;  // heights
+using CodeBlocks = Blocks<std::uint8_t>;  // surface material codes
+
+// Upper bound of the posts around each tile of a grid. A tile is a square of kTile x kTile intervals between posts.
+class Ceilings {
+ public:
+  static constexpr int kTile = 16;  // [posts] side of a tile
+  static constexpr int kReach = 8;  // [posts] the bound holds this far beyond a tile's edges
+
+  // Requires rows, columns >= 2 and rows * columns posts, row by row.
+  Ceilings(int rows, int columns, std::span<const std::int16_t> posts);
+
+  // No post within kReach rows and columns of position (row, column) is higher. Positions beyond the grid are clamped.
+  std::int16_t around(float row, float column) const {
+    const int tile_row = std::clamp(static_cast<int>(row) / kTile, 0, tile_rows_ - 1);
+    const int tile_column = std::clamp(static_cast<int>(column) / kTile, 0, tile_columns_ - 1);
+    return highest_[static_cast<std::size_t>(tile_row) * static_cast<std::size_t>(tile_columns_) +
+                    static_cast<std::size_t>(tile_column)];
+  }
+  std::size_t bytes() const { return highest_.size() * sizeof(std::int16_t); }
+
+ private:
+  int tile_rows_, tile_columns_;
+  std::vector<std::int16_t> highest_;
 };
 
 // Value of a void: a post without a height. Neither DTED nor HGT can store this value as a height.
@@ -100,11 +126,12 @@ class Cell {
   std::int16_t post(int row, int column) const { return blocks_.post(row, column); }  // [unit_m]
   std::vector<std::int16_t> posts() const;                                            // [unit_m] all, row by row
   const PostBlocks& blocks() const { return blocks_; }
+  const Ceilings& ceilings() const { return ceilings_; }
   std::size_t voids() const { return voids_; }             // posts without a height
   std::size_t sea_posts() const { return sea_posts_; }     // posts at exactly 0 m
   double lowest_m() const { return lowest_ * unit_m_; }    // [m] voids left out; 0 m if all posts are void
   double highest_m() const { return highest_ * unit_m_; }  // [m] voids left out; 0 m if all posts are void
-  std::size_t bytes() const { return sizeof(*this) + blocks_.bytes(); }
+  std::size_t bytes() const { return sizeof(*this) + blocks_.bytes() + ceilings_.bytes(); }
 
  private:
   CellCorner corner_;
@@ -112,6 +139,7 @@ class Cell {
   int columns_;
   double unit_m_;
   PostBlocks blocks_;
+  Ceilings ceilings_;
   std::size_t voids_ = 0;
   std::size_t sea_posts_ = 0;
   std::int16_t lowest_ = 0;

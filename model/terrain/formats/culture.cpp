@@ -15,13 +15,17 @@
 
 namespace yars::model::terrain {
 
-Culture::Culture(CellCorner corner, int rows, int columns, std::vector<std::uint8_t> codes)
-    : corner_(corner), rows_(rows), columns_(columns), codes_(std::move(codes)) {
-  YARS_REQUIRE(rows, >=, 2);
-  YARS_REQUIRE(columns, >=, 2);
-  YARS_REQUIRE(codes_.size(), ==, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
-  YARS_REQUIRE(static_cast<int>(*std::max_element(codes_.begin(), codes_.end())), <=, static_cast<int>(kMaxMaterial));
-  codes_.resize(codes_.size() + kSpareBytes);
+Culture::Culture(CellCorner corner, int rows, int columns, std::span<const std::uint8_t> codes)
+    : corner_(corner), rows_(rows), columns_(columns), blocks_(rows, columns, codes) {
+  YARS_REQUIRE(static_cast<int>(*std::max_element(codes.begin(), codes.end())), <=, static_cast<int>(kMaxMaterial));
+}
+
+std::vector<std::uint8_t> Culture::codes() const {
+  std::vector<std::uint8_t> codes;
+  codes.reserve(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_));
+  for (int row = 0; row < rows_; ++row)
+    for (int column = 0; column < columns_; ++column) codes.push_back(code(row, column));
+  return codes;
 }
 
 Culture Culture::reduced(int reduction) const {
@@ -36,7 +40,7 @@ Culture Culture::reduced(int reduction) const {
   std::vector<std::uint8_t> codes;
   for (int row = 0; row < rows_; row += row_step)
     for (int column = 0; column < columns_; column += column_step) codes.push_back(code(row, column));
-  return {corner_, (rows_ - 1) / row_step + 1, (columns_ - 1) / column_step + 1, std::move(codes)};
+  return {corner_, (rows_ - 1) / row_step + 1, (columns_ - 1) / column_step + 1, codes};
 }
 
 std::uint8_t Culture::nearest(double north_deg, double east_deg) const {
@@ -91,7 +95,7 @@ error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCor
   std::vector<std::uint8_t> codes(image->pixels.size());
   for (std::ptrdiff_t row = 0; row < image->height; ++row)
     std::copy_n(image->pixels.begin() + row * width, width, codes.end() - (row + 1) * width);
-  return Culture(corner, image->height, image->width, std::move(codes));
+  return Culture(corner, image->height, image->width, codes);
 }
 
 namespace {
@@ -124,10 +128,11 @@ error::Expected<void> write_culture(const std::filesystem::path& path, const Cul
   imageio::IndexedImage image{culture.columns(), culture.rows(), {}, {}};
   for (std::uint8_t material = 0; material <= kMaxMaterial; ++material)
     image.palette.push_back(material_colour(material));
-  image.pixels.resize(culture.codes().size());
+  const std::vector<std::uint8_t> codes = culture.codes();
+  image.pixels.resize(codes.size());
   const auto width = static_cast<std::ptrdiff_t>(culture.columns());
   for (std::ptrdiff_t row = 0; row < culture.rows(); ++row)
-    std::copy_n(culture.codes().begin() + row * width, width, image.pixels.end() - (row + 1) * width);
+    std::copy_n(codes.begin() + row * width, width, image.pixels.end() - (row + 1) * width);
   return imageio::write_indexed_png(path, image);
 }
 

@@ -43,30 +43,25 @@ inline constexpr std::uint8_t kMaxMaterial = 31;
 class Culture {
  public:
   // Requires rows, columns >= 2 and rows * columns codes. No code may exceed kMaxMaterial.
-  Culture(CellCorner corner, int rows, int columns, std::vector<std::uint8_t> codes);
+  Culture(CellCorner corner, int rows, int columns, std::span<const std::uint8_t> codes);
 
   int rows() const { return rows_; }
   int columns() const { return columns_; }
-  // Row by row. Three spare bytes follow the last code, so that a SIMD gather may load four bytes at any code.
-  std::span<const std::uint8_t> codes() const { return {codes_.data(), codes_.size() - kSpareBytes}; }
+  const CodeBlocks& blocks() const { return blocks_; }
+  std::vector<std::uint8_t> codes() const;  // all, row by row
   // Returns the culture with every 2^reduction-th post. Each dimension is halved up to `reduction` times. Halving stops
   // when the number of intervals is odd, or when fewer than two intervals would remain.
   Culture reduced(int reduction) const;
-  std::uint8_t code(int row, int column) const {
-    return codes_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
-                  static_cast<std::size_t>(column)];
-  }
+  std::uint8_t code(int row, int column) const { return blocks_.post(row, column); }
   // Code of the nearest post. Degrees count from the south-west corner and are clamped to [0, 1].
   std::uint8_t nearest(double north_deg, double east_deg) const;
-  std::size_t bytes() const { return sizeof(*this) + codes_.size(); }
+  std::size_t bytes() const { return sizeof(*this) + blocks_.bytes(); }
 
  private:
-  static constexpr std::size_t kSpareBytes = 3;
-
   CellCorner corner_;
   int rows_;
   int columns_;
-  std::vector<std::uint8_t> codes_;
+  CodeBlocks blocks_;
 };
 
 inline constexpr int kMaxCulturePosts = 10801;  // per edge, 1/3 arc second apart; bounds the memory for a file

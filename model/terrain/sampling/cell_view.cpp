@@ -143,17 +143,23 @@ double walked_spacing_m(const Cell& cell) {
   return std::clamp(spacing_m(cell), rows_m / 3.0, rows_m);
 }
 
-sampling::Grid grid_of(const Cell& cell) {
-  return sampling::Grid{&cell.blocks(),   cell.rows(),          cell.columns(),
-                        cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
+// `culture`: null, or that of the cell.
+sampling::Grid grid_of(const Cell& cell, const Culture* culture = nullptr) {
+  const bool same_posts = culture != nullptr && culture->rows() == cell.rows() && culture->columns() == cell.columns();
+  return {
+      &cell.blocks(),   &cell.ceilings(),     same_posts ? &culture->blocks() : nullptr, cell.rows(), cell.columns(),
+      cell.voids() > 0, cell.sea_posts() > 0, static_cast<float>(cell.unit_m())};
 }
 
-// The cell of position `i` for crests::raise(). If the cell is reduced, its peaks are used, because the highest ground
-// casts the shadow.
-crests::CrossedCell crossed(const TerrainCell& cell, const PositionRun& positions, std::size_t i) {
-  const double ray_step_m = walked_spacing_m(*cell.heights);
-  return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), positions.cells_north[i], positions.cells_east[i],
-          static_cast<float>(ray_step_m), spacing_m(*cell.heights) < ray_step_m};
+// [m] Spacing of the distances if it is the same everywhere, else 0.
+float even_spacing_m(std::span<const float> distance_m) {
+  if (distance_m.size() < 3) return 0.0F;
+  const std::size_t last = distance_m.size() - 1;
+  const float rounding_m = 0.01F + 2e-7F * distance_m[last];
+  const float step_m = (distance_m[last] - distance_m[0]) / static_cast<float>(last);
+  for (const std::size_t i : {std::size_t{1}, last / 4, last / 2})
+    if (std::abs(distance_m[0] + static_cast<float>(i) * step_m - distance_m[i]) > rounding_m) return 0.0F;
+  return step_m;
 }
 
 }  // namespace
@@ -179,6 +185,8 @@ void CellView::add(TerrainCell cell) {
     resident_bytes_ += cell.culture->bytes();
     has_materials_ = true;
   }
+  const double ray_step_m = walked_spacing_m(*cell.heights);
+  spacings_.push_back({static_cast<float>(ray_step_m), posts_m < ray_step_m});
   cells_.push_back(std::move(cell));
 }
 
@@ -252,22 +260,46 @@ void CellView::sample_singly(const Run& run, const PositionRun& positions, Inter
   }
 }
 
+// NearGround in a cell, in the direction from the run's first position to its last.
+sampling::Near CellView::near_ground(const Run& run, const PositionRun& positions, const NearGround& near) const {
+  if (near.height_m.empty() || run.count < 2 || run.beyond_pole) return {};
+  constexpr float kSpacings = 0.1F;
+  const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
+  const Spacing& spacing = spacings_[run.table_entry - kFirstCell];
+  const float back_m = kSpacings * spacing.ray_step_m;
+  // Where columns are close, the direction of a ray changes within a cell, and crests() samples this ground itself.
+  if (spacing.close_columns || !(back_m < near.step_m)) return {};
+  std::fill_n(&near.back_m[run.first], run.count, back_m);
+  const Cell& grid = cell.peaks ? *cell.peaks : *cell.heights;
+  const std::size_t last = run.first + run.count - 1;
+  const float part = back_m / (near.step_m * static_cast<float>(run.count - 1));
+  return {part * (positions.north_deg[last] - positions.north_deg[run.first]) * static_cast<float>(grid.rows() - 1),
+          part * (positions.east_deg[last] - positions.east_deg[run.first]) * static_cast<float>(grid.columns() - 1),
+          &near.height_m[run.first]};
+}
+
 void CellView::sample_run(const Run& run, const PositionRun& positions, Interpolation interpolation,
                           const SurfaceRun& found) const {
   const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
   const float* const north_deg = &positions.north_deg[run.first];
   const float* const east_deg = &positions.east_deg[run.first];
   const bool nearest = interpolation == Interpolation::nearest;
-  if (interpolation == Interpolation::cubic || run.beyond_pole)
+  const sampling::Near near = near_ground(run, positions, found.near);
+  const sampling::Grid grid = grid_of(*cell.heights, cell.culture.get());
+  std::int32_t* const material = found.material.empty() || !cell.culture ? nullptr : &found.material[run.first];
+  const bool singly = interpolation == Interpolation::cubic || run.beyond_pole;
+  const bool with_heights = grid.codes != nullptr && !singly;
+  if (singly)
     sample_singly(run, positions, interpolation, found);
   else
-    sampling::heights(grid_of(*cell.heights), north_deg, east_deg, run.count, nearest, &found.elevation_m[run.first],
-                      &found.water[run.first]);
-  if (!found.material.empty() && cell.culture)
-    sampling::codes(*cell.culture, north_deg, east_deg, run.count, &found.material[run.first]);
+    sampling::heights(grid, north_deg, east_deg, run.count, nearest,
+                      {&found.elevation_m[run.first], &found.water[run.first], with_heights ? material : nullptr,
+                       cell.peaks ? sampling::Near{} : near});
+  if (material != nullptr && !with_heights) sampling::codes(*cell.culture, north_deg, east_deg, run.count, material);
   if (found.peak_m.empty()) return;
   if (cell.peaks)
-    sampling::heights(grid_of(*cell.peaks), north_deg, east_deg, run.count, nearest, &found.peak_m[run.first], nullptr);
+    sampling::heights(grid_of(*cell.peaks), north_deg, east_deg, run.count, nearest,
+                      {&found.peak_m[run.first], nullptr, nullptr, near});
   else
     std::copy_n(&found.elevation_m[run.first], run.count, &found.peak_m[run.first]);
 }
@@ -283,7 +315,10 @@ std::size_t CellView::surfaces(const PositionRun& positions, Interpolation inter
   std::size_t not_loaded = 0;
   for (std::size_t first = 0; first < count;) {
     const Run run = run_at(positions, first);
+    // The run before may have written here.
     if (!found.material.empty()) std::fill_n(&found.material[first], run.count, 0);
+    if (!found.near.height_m.empty())
+      std::fill_n(&found.near.height_m[first], run.count, std::numeric_limits<float>::quiet_NaN());
     if (run.table_entry >= kFirstCell) {
       sample_run(run, positions, interpolation, found);
     } else {
@@ -299,23 +334,36 @@ std::size_t CellView::surfaces(const PositionRun& positions, Interpolation inter
   return not_loaded;
 }
 
+// The cell of position `i` for crests::raise(). If the cell is reduced, its peaks are used, because the highest ground
+// casts the shadow.
+crests::CrossedCell CellView::crossed(const Run& run, const PositionRun& positions, std::size_t i) const {
+  const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
+  const Spacing& spacing = spacings_[run.table_entry - kFirstCell];
+  return {grid_of(cell.peaks ? *cell.peaks : *cell.heights), positions.cells_north[i], positions.cells_east[i],
+          spacing.ray_step_m, spacing.close_columns};
+}
+
 bool CellView::crests(const PositionRun& positions, const RaySight& sight, std::span<float> tangent) const {
   const std::size_t count = positions.north_deg.size();
   YARS_REQUIRE(sight.distance_m.size(), ==, count);
   YARS_REQUIRE(tangent.size(), ==, count);
   std::fill(tangent.begin(), tangent.end(), kNoTangent);
-  const crests::Ray ray{
-      positions.cells_north.data(),       positions.cells_east.data(), positions.north_deg.data(),
-      positions.east_deg.data(),          sight.distance_m.data(),     static_cast<float>(sight.altitude_m),
-      static_cast<float>(sight.curvature)};
+  const crests::Ray ray{positions.cells_north.data(),
+                        positions.cells_east.data(),
+                        positions.north_deg.data(),
+                        positions.east_deg.data(),
+                        sight.distance_m.data(),
+                        static_cast<float>(sight.altitude_m),
+                        static_cast<float>(sight.curvature),
+                        sight.horizon.empty() ? nullptr : sight.horizon.data(),
+                        sight.horizon.empty() ? 0.0F : even_spacing_m(sight.distance_m)};
   for (std::size_t first = 0; first < count;) {
     const Run run = run_at(positions, first);
     const std::size_t behind = first + run.count;
     if (run.table_entry >= kFirstCell && !run.beyond_pole) {
-      const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
       // The step into this cell and the step out of it each lie partly in a neighbouring cell. raise() examines their
       // parts in this cell.
-      crests::raise(crossed(cell, positions, first), ray, std::max<std::size_t>(first, 1), std::min(behind + 1, count),
+      crests::raise(crossed(run, positions, first), ray, std::max<std::size_t>(first, 1), std::min(behind + 1, count),
                     tangent.data());
     }
     first = behind;
@@ -345,10 +393,9 @@ void CellView::raise_first_crest(const PositionRun& positions, const RaySight& s
   const Two distance_m{0.0F, sight.distance_m[0]};
   Two found{};
   found.fill(kNoTangent);
-  const TerrainCell& cell = cells_[run.table_entry - kFirstCell];
-  crests::raise(crossed(cell, positions, 0),
+  crests::raise(crossed(run, positions, 0),
                 {cells_north.data(), cells_east.data(), north_deg.data(), east_deg.data(), distance_m.data(),
-                 static_cast<float>(sight.altitude_m), static_cast<float>(sight.curvature)},
+                 static_cast<float>(sight.altitude_m), static_cast<float>(sight.curvature), nullptr, 0.0F},
                 1, 2, found.data());
   tangent = std::max(tangent, found[1]);
 }

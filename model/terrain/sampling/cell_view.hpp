@@ -13,6 +13,8 @@
 
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/culture.hpp"
+#include "model/terrain/sampling/crests_simd.hpp"
+#include "model/terrain/sampling/height_simd.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::model::terrain {
@@ -85,8 +87,15 @@ class CellView final : public TerrainView {
     // PositionRun::cells_north leads to a cell beyond a pole; table_entry is then that of the cell at the pole.
     bool beyond_pole = false;
   };
+  // Spacing of a cell's posts along a ray.
+  struct Spacing {
+    float ray_step_m = 0.0F;     // PostSpacing::ray_step_m
+    bool close_columns = false;  // crests::CrossedCell::close_columns
+  };
   Run run_at(const PositionRun& positions, std::size_t first) const;
   void raise_first_crest(const PositionRun& positions, const RaySight& sight, float& tangent) const;
+  sampling::Near near_ground(const Run& run, const PositionRun& positions, const NearGround& near) const;
+  crests::CrossedCell crossed(const Run& run, const PositionRun& positions, std::size_t i) const;
   void sample_run(const Run& run, const PositionRun& positions, Interpolation interpolation,
                   const SurfaceRun& found) const;
   void sample_singly(const Run& run, const PositionRun& positions, Interpolation interpolation,
@@ -101,6 +110,7 @@ class CellView final : public TerrainView {
   bool has_peaks_ = false;
   bool has_materials_ = false;
   std::vector<TerrainCell> cells_;
+  std::vector<Spacing> spacings_;  // of cells_
   std::array<std::uint16_t, static_cast<std::size_t>(kCellRows) * kCellColumns> table_;
 };
 

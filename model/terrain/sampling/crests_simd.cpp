@@ -1,6 +1,7 @@
 #include "model/terrain/sampling/crests_simd.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "model/terrain/sampling/crests_simd.cpp"
@@ -22,8 +23,11 @@ using Mask = hn::Mask<FloatLanes>;
 // [m] A crossing closer than this to the step's end is left out. With a smaller value, rounding would decide whether
 // the ground at the crossing or at the end is higher.
 constexpr float kOwnGround_m = 0.5F;
+constexpr float kMaxPiece_m = 40000.0F;  // [m] maximum length of a RayPiece: 0.2 m off the ray
+constexpr float kMinPiece_m = 3000.0F;   // [m] length of a piece that is used even if it is not straight: 0.4 m off
 // Fractions of CrossedCell::spacing_m.
 constexpr float kSlopeFraction = 0.1F;   // distance before a position at which the ground is also sampled
+constexpr float kLoose = 1.0e-6F;        // relative rounding of a comparison with the floor, rounded up
 constexpr float kColumnFraction = 0.3F;  // columns are skipped while examined ones stay this close along the ray
 
 // Start and end of a vector of ray steps along one axis of a cell [posts]. A line of posts is a row or column across
@@ -74,14 +78,73 @@ HWY_INLINE Height between(const sampling::Grid& grid, Ints near, Ints far, Float
   return {grid.unit_m == 1.0F ? posts : hn::Mul(posts, hn::Set(d, grid.unit_m)), known};
 }
 
+// Ground in the vertical plane of the ray, relative to the observer.
+struct Sight {
+  Floats out_m, up_m;
+};
+
+// Curvature of the earth and altitude of the observer.
+class Observer {
+ public:
+  HWY_INLINE explicit Observer(const Ray& ray)
+      : curvature_(hn::Set(FloatLanes(), ray.curvature)), altitude_m_(hn::Set(FloatLanes(), ray.altitude_m)) {}
+
+  // Ground at a distance and a height. angle: at the earth's centre [rad]. drop_m and chord_m: series of (1 - cos
+  // angle) and sin angle, times the radius; the same as in model/rbm/sweep_simd.cpp.
+  HWY_INLINE Sight sight_of(Floats distance_m, Floats height_m) const {
+    const FloatLanes d;
+    const auto angle = hn::Mul(distance_m, curvature_);
+    const auto square = hn::Mul(angle, angle);
+    const auto fall = fused::neg_mul_add(square, hn::Set(d, 0.0416666667F), hn::Set(d, 0.5F));
+    const auto drop_m = hn::Mul(hn::Mul(distance_m, angle), fall);
+    const auto chord_m = fused::neg_mul_add(hn::Mul(distance_m, square), hn::Set(d, 0.166666667F), distance_m);
+    const auto sine = hn::Mul(chord_m, curvature_);
+    const auto cosine = fused::neg_mul_add(drop_m, curvature_, hn::Set(d, 1.0F));
+    return {fused::mul_add(height_m, sine, chord_m), fused::mul_sub(height_m, cosine, hn::Add(drop_m, altitude_m_))};
+  }
+
+ private:
+  Floats curvature_, altitude_m_;
+};
+
+// True where the tangent of `sight` may reach the floor. The product needs no division, and is loose by more than the
+// rounding of both sides.
+HWY_INLINE Mask reaches(const Sight& sight, Floats floor) {
+  const FloatLanes d;
+  const auto above = fused::neg_mul_add(floor, sight.out_m, sight.up_m);
+  return hn::Ge(above, hn::Mul(hn::Abs(sight.up_m), hn::Set(d, -kLoose)));
+}
+
+struct Posts {
+  Ints near, far;
+};
+HWY_INLINE Posts posts_of_row(const sampling::Grid& grid, const BlockLanes& blocks, Ints row, Ints column) {
+  const auto word = gather_word(grid.posts->data(), blocks.offset(row, column));
+  return {western(word), eastern(word)};
+}
+HWY_INLINE Posts posts_of_column(const sampling::Grid& grid, const BlockLanes& blocks, Ints row, Ints column) {
+  const Words words = gather(grid.posts->data(), blocks.offset(row, column));
+  return {western(words.south), western(words.north)};
+}
+HWY_INLINE Ints whole(Mask valid, Floats number) {
+  return hn::ConvertTo(IntLanes(), hn::IfThenElseZero(valid, number));
+}
+
+// Whole numbers from 0 to 2^23 as integers.
+HWY_INLINE Ints integer(Floats number) {
+  constexpr float kIntegerBias = 8388608.0F;  // 2^23: the sum has the integer in its lowest mantissa bits
+  const IntLanes di;
+  return hn::Sub(hn::BitCast(di, hn::Add(number, hn::Set(FloatLanes(), kIntegerBias))), hn::Set(di, 0x4b000000));
+}
+
 // One vector of steps between successive positions.
 class RaySteps {
  public:
   HWY_INLINE RaySteps(const CrossedCell& cell, const Ray& ray, std::size_t i, std::size_t end)
       : grid_(cell.grid),
         blocks_(*cell.grid.posts),
-        curvature_(hn::Set(FloatLanes(), ray.curvature)),
-        altitude_m_(hn::Set(FloatLanes(), ray.altitude_m)),
+        observer_(ray),
+        floor_(ray.floor == nullptr ? hn::Set(FloatLanes(), kNoTangent) : hn::LoadU(FloatLanes(), ray.floor + i)),
         highest_(hn::Set(FloatLanes(), kNoTangent)) {
     const FloatLanes d;
     const auto row_intervals = hn::Set(d, static_cast<float>(grid_.rows - 1));
@@ -113,16 +176,12 @@ class RaySteps {
   // Examines the points where steps cross rows. Each point lies between two posts of the row. cross_columns() does the
   // same for columns.
   HWY_INLINE void cross_rows() {
-    cross_lines(rows_, columns_, grid_.rows, grid_.columns, [&](Ints row, Ints column) {
-      const auto word = gather_word(grid_.posts->data(), blocks_.offset(row, column));
-      return Posts{western(word), eastern(word)};
-    });
+    cross_lines(rows_, columns_, grid_.rows, grid_.columns,
+                [&](Ints row, Ints column) { return posts_of_row(grid_, blocks_, row, column); });
   }
   HWY_INLINE void cross_columns() {
-    cross_lines(columns_, rows_, grid_.columns, grid_.rows, [&](Ints column, Ints row) {
-      const Words words = gather(grid_.posts->data(), blocks_.offset(row, column));
-      return Posts{western(words.south), western(words.north)};
-    });
+    cross_lines(columns_, rows_, grid_.columns, grid_.rows,
+                [&](Ints column, Ints row) { return posts_of_column(grid_, blocks_, row, column); });
   }
   // Examines the bilinear ground kSlopeFraction * spacing_m before the end of the step.
   HWY_INLINE void consider_slope(float spacing_m) {
@@ -146,8 +205,7 @@ class RaySteps {
     // If both southern posts or both northern posts are void, this candidate is left out.
     valid = hn::And(valid, hn::And(lower.known, upper.known));
     const auto height_m = fused::mul_add(north_fraction, hn::Sub(upper.height_m, lower.height_m), lower.height_m);
-    const auto tangent = tangent_of(fused::mul_add(fraction, step_m_, from_m_), height_m);
-    highest_ = hn::IfThenElse(valid, hn::Max(highest_, tangent), highest_);
+    consider(observer_.sight_of(fused::mul_add(fraction, step_m_, from_m_), height_m), valid);
   }
   // Raises the tangents of the steps to the highest tangents examined.
   HWY_INLINE void raise(float* tangent) const {
@@ -157,10 +215,6 @@ class RaySteps {
   }
 
  private:
-  struct Posts {
-    Ints near, far;
-  };
-
   // Examines the lines of posts across `axis`. `other`: axis along the lines. posts_at(line, post) returns a post of a
   // line and the next post of that line.
   template <class PostsAt>
@@ -190,37 +244,246 @@ class RaySteps {
       const auto post = hn::Min(hn::Floor(at), last_post);
       const Posts posts = posts_at(whole(valid, line), whole(valid, post));
       const Height height = between(grid_, posts.near, posts.far, hn::Sub(at, post));
-      const auto tangent = tangent_of(hn::Add(from_m_, on_m), height.height_m);
-      highest_ = hn::IfThenElse(hn::And(valid, height.known), hn::Max(highest_, tangent), highest_);
+      consider(observer_.sight_of(hn::Add(from_m_, on_m), height.height_m), hn::And(valid, height.known));
     }
   }
-  HWY_INLINE static Ints whole(Mask valid, Floats number) {
-    return hn::ConvertTo(IntLanes(), hn::IfThenElseZero(valid, number));
-  }
-
-  // Tangent of the elevation angle of the ground, seen by the observer. angle: at the earth's centre [rad]. drop_m and
-  // chord_m: series of (1 - cos angle) and sin angle, times the radius; the same as in model/rbm/sweep_simd.cpp.
-  HWY_INLINE Floats tangent_of(Floats distance_m, Floats height_m) const {
-    const FloatLanes d;
-    const auto angle = hn::Mul(distance_m, curvature_);
-    const auto square = hn::Mul(angle, angle);
-    const auto fall = fused::neg_mul_add(square, hn::Set(d, 0.0416666667F), hn::Set(d, 0.5F));
-    const auto drop_m = hn::Mul(hn::Mul(distance_m, angle), fall);
-    const auto chord_m = fused::neg_mul_add(hn::Mul(distance_m, square), hn::Set(d, 0.166666667F), distance_m);
-    const auto sine = hn::Mul(chord_m, curvature_);
-    const auto cosine = fused::neg_mul_add(drop_m, curvature_, hn::Set(d, 1.0F));
-    return hn::Div(fused::mul_sub(height_m, cosine, hn::Add(drop_m, altitude_m_)),
-                   fused::mul_add(height_m, sine, chord_m));
+  HWY_INLINE void consider(const Sight& sight, Mask valid) {
+    const auto reaching = hn::And(valid, reaches(sight, floor_));
+    if (hn::AllFalse(FloatLanes(), reaching)) return;
+    highest_ = hn::IfThenElse(reaching, hn::Max(highest_, hn::Div(sight.up_m, sight.out_m)), highest_);
   }
 
   const sampling::Grid& grid_;
   const BlockLanes blocks_;
+  const Observer observer_;
   Axis rows_, columns_;
-  Floats from_m_, step_m_, curvature_, altitude_m_, highest_;
+  Floats from_m_, step_m_, floor_, highest_;
   Mask active_;
 };
 
+// Ground on lines of posts that may reach the floor. Collected without branches, because whether a line reaches it
+// cannot be predicted.
+class Summits {
+ public:
+  HWY_INLINE void add(Floats distance_m, Floats height_m, Mask reaching) {
+    const FloatLanes d;
+    // A copy, because the compiler must assume that the stores change count_.
+    const std::size_t count = count_;
+    hn::StoreU(hn::Compress(distance_m, reaching), d, distance_m_ + count);
+    hn::StoreU(hn::Compress(height_m, reaching), d, height_m_ + count);
+    count_ = count + hn::CountTrue(d, reaching);
+  }
+  bool full() const { return count_ + kRunSlack > kCapacity; }
+
+  // Raises the tangents of the steps, and empties the collection.
+  HWY_INLINE void raise(const Observer& observer, const Ray& ray, float* tangent) {
+    const FloatLanes d;
+    const float first_m = ray.distance_m[0], steps_per_m = 1.0F / ray.even_step_m;
+    const float own_steps = kOwnGround_m * steps_per_m;
+    for (std::size_t i = 0; i < count_; i += hn::Lanes(d)) {
+      const Sight sight = observer.sight_of(hn::LoadU(d, distance_m_ + i), hn::LoadU(d, height_m_ + i));
+      hn::StoreU(hn::Div(sight.up_m, sight.out_m), d, height_m_ + i);
+    }
+    for (std::size_t i = 0; i < count_; ++i) {
+      const float on_steps = (distance_m_[i] - first_m) * steps_per_m;
+      const float end = std::floor(on_steps) + 1.0F;
+      // The ground at the end of a step is the step's own.
+      if (end - on_steps <= own_steps) continue;
+      float& highest = tangent[static_cast<std::size_t>(end)];
+      highest = std::max(highest, height_m_[i]);
+    }
+    count_ = 0;
+  }
+
+ private:
+  static constexpr std::size_t kCapacity = 256;
+  std::size_t count_ = 0;
+  HWY_ALIGN float distance_m_[kCapacity];
+  HWY_ALIGN float height_m_[kCapacity];
+};
+
+// A piece of a ray with evenly spaced positions. Latitude and longitude are quadratic along the piece. All lines of
+// posts that it crosses are examined, a vector of successive lines at a time.
+class RayPiece {
+ public:
+  // The piece leads from position `start` to position `stop`.
+  HWY_INLINE RayPiece(const CrossedCell& cell, const Ray& ray, float* tangent, std::size_t start, std::size_t stop)
+      : ray_(ray),
+        grid_(cell.grid),
+        tangent_(tangent),
+        start_(start),
+        steps_(static_cast<float>(stop - start)),
+        from_m_(ray.distance_m[start]),
+        piece_m_(ray.distance_m[stop] - from_m_) {
+    const auto row = [&](std::size_t i) {
+      return ((ray.cells_north[i] - cell.cells_north) + ray.north_deg[i]) * static_cast<float>(grid_.rows - 1);
+    };
+    const auto column = [&](std::size_t i) {
+      return ((ray.cells_east[i] - cell.cells_east) + ray.east_deg[i]) * static_cast<float>(grid_.columns - 1);
+    };
+    rows_ = span_of(start, stop, row);
+    columns_ = span_of(start, stop, column);
+  }
+  // True if the piece is nearly straight, so that the first step of Newton's method finds its crossings.
+  HWY_INLINE bool straight() const {
+    const auto slight = [](const Span& span) {
+      const float bend = std::abs(span.bend);
+      return bend * bend <= kMaxBend_posts * std::abs(span.to - span.from) || bend <= kMinBend_posts;
+    };
+    return slight(rows_) && slight(columns_);
+  }
+
+  // Adds the ground on the rows (columns) of posts that the piece crosses and where it may reach the floor.
+  HWY_INLINE void cross_rows(const Observer& observer, const BlockLanes& blocks, Summits& summits) const {
+    cross_lines({rows_, columns_, grid_.rows, grid_.columns}, observer, summits,
+                [&](Ints row, Ints column) { return posts_of_row(grid_, blocks, row, column); });
+  }
+  HWY_INLINE void cross_columns(const Observer& observer, const BlockLanes& blocks, Summits& summits) const {
+    cross_lines({columns_, rows_, grid_.columns, grid_.rows}, observer, summits,
+                [&](Ints column, Ints row) { return posts_of_column(grid_, blocks, row, column); });
+  }
+  // True if the whole piece lies in the shadow of nearer positions, and none of its ground reaches the floor.
+  HWY_INLINE bool hidden() const { return dark(0.0F, 1.0F) && below_floor(0.0F, 1.0F); }
+
+ private:
+  static constexpr float kMaxBend_posts = 0.1F;   // [posts] of bend^2 / way: a crossing is 0.01 posts off at most
+  static constexpr float kMinBend_posts = 0.01F;  // [posts] four times the distance from a straight piece
+  static constexpr float kPartPosts = 13.0F;      // [posts] length within the reach of one ceiling
+  static_assert(kPartPosts / 2 + 1.5F <= Ceilings::kReach);
+  // Positions along one axis [posts]: from + f (to - from) + f (1 - f) bend at the fraction f of the piece.
+  struct Span {
+    float from, to, bend;
+  };
+  template <class PositionAt>
+  HWY_INLINE static Span span_of(std::size_t start, std::size_t stop, PositionAt position_at) {
+    const std::size_t middle = (start + stop) / 2;
+    const float from = position_at(start), to = position_at(stop);
+    if (middle == start) return {from, to, 0.0F};
+    const float f = static_cast<float>(middle - start) / static_cast<float>(stop - start);
+    return {from, to, (position_at(middle) - from - f * (to - from)) / (f * (1.0F - f))};
+  }
+  // Lines of posts across one axis. `other`: axis along the lines.
+  struct LinesAcross {
+    Span axis, other;
+    int lines_of_grid, posts_of_line;
+  };
+  struct Interval {
+    float first, last;
+  };
+
+  // True if no position between two fractions of the piece raises the floor: as a rule, all lie in shadow.
+  HWY_INLINE bool dark(float from, float to) const {
+    const float* const floor = ray_.floor + start_;
+    return floor[static_cast<int>(std::max(0.0F, from * steps_))] ==
+           floor[static_cast<int>(std::min(steps_, to * steps_ + 1.0F))];
+  }
+  // True if no ground between two fractions of the piece reaches the floor.
+  HWY_INLINE bool below_floor(float from, float to) const {
+    const float rows = rows_.to - rows_.from, columns = columns_.to - columns_.from;
+    const float posts = std::max(std::abs(rows), std::abs(columns)) * (to - from);
+    const int parts = 1 + static_cast<int>(posts * (1.0F / kPartPosts));
+    const float part = (to - from) / static_cast<float>(parts);
+    int highest = kVoid;
+    for (int i = 0; i < parts; ++i) {
+      const float middle = from + (static_cast<float>(i) + 0.5F) * part;
+      highest =
+          std::max<int>(highest, grid_.ceilings->around(rows_.from + middle * rows, columns_.from + middle * columns));
+    }
+    const float near_m = from_m_ + from * piece_m_, far_m = from_m_ + to * piece_m_;
+    const float floor = ray_.floor[start_ + static_cast<std::size_t>(std::max(0.0F, from * steps_))];
+    // The drop of the earth's surface is that at the near end, less a thousandth for the series and rounding.
+    const float up_m =
+        static_cast<float>(highest) * grid_.unit_m - 0.4995F * near_m * near_m * ray_.curvature - ray_.altitude_m;
+    const float out_m = up_m < 0.0F ? far_m * 1.01F : near_m * 0.99F;
+    return up_m + 1.0F < floor * out_m;
+  }
+
+  // The lines strictly between the ends of the piece, where the piece is inside the cell. Empty if last < first.
+  HWY_INLINE Interval lines_within(const LinesAcross& lines) const {
+    float from = lines.axis.from, to = lines.axis.to;
+    const float end = static_cast<float>(lines.posts_of_line - 1);
+    const float drift = lines.other.to - lines.other.from;
+    if (std::min(lines.other.from, lines.other.to) < 0.0F || std::max(lines.other.from, lines.other.to) > end) {
+      const float south = -lines.other.from / drift, north = (end - lines.other.from) / drift;
+      const float run = to - from;
+      to = from + std::min(1.0F, std::max(south, north)) * run;
+      from = from + std::max(0.0F, std::min(south, north)) * run;
+    }
+    return {std::max(std::floor(std::min(from, to)) + 1.0F, 0.0F),
+            std::min(std::ceil(std::max(from, to)) - 1.0F, static_cast<float>(lines.lines_of_grid - 2))};
+  }
+
+  template <class PostsAt>
+  HWY_INLINE void cross_lines(const LinesAcross& lines, const Observer& observer, Summits& summits,
+                              PostsAt posts_at) const {
+    const FloatLanes d;
+    const Interval within = lines_within(lines);
+    if (!(within.last >= within.first)) return;
+    const float inverse = 1.0F / (lines.axis.to - lines.axis.from);
+    const auto last_line = hn::Set(d, within.last);
+    const auto last_post = hn::Set(d, static_cast<float>(lines.posts_of_line - 2));
+    const auto last_step = hn::Set(d, steps_ - 1.0F);
+    const auto axis_bend = hn::Set(d, lines.axis.bend * inverse), other_bend = hn::Set(d, lines.other.bend);
+    const auto other_run = hn::Set(d, lines.other.to - lines.other.from);
+    const auto bow = [](Floats f) { return fused::neg_mul_add(f, f, f); };  // f (1 - f)
+    const auto lanes = static_cast<float>(hn::Lanes(d));
+    for (float begin = within.first; begin <= within.last; begin += lanes) {
+      const float begin_on = (begin - lines.axis.from) * inverse;
+      const float end_on = (std::min(begin + lanes - 1.0F, within.last) - lines.axis.from) * inverse;
+      const float from = std::min(begin_on, end_on), to = std::max(begin_on, end_on);
+      if (dark(from, to) && below_floor(from, to)) continue;
+      // The lanes after the last line repeat it.
+      const auto line = hn::Min(hn::Add(hn::Set(d, begin), hn::Iota(d, 0.0F)), last_line);
+      const auto straight = hn::Mul(hn::Sub(line, hn::Set(d, lines.axis.from)), hn::Set(d, inverse));
+      const auto fraction = fused::neg_mul_add(bow(straight), axis_bend, straight);
+      const auto along = fused::mul_add(fraction, other_run, hn::Set(d, lines.other.from));
+      const auto at = fused::mul_add(bow(fraction), other_bend, along);
+      const auto post = hn::Min(hn::Max(hn::Floor(at), hn::Zero(d)), last_post);
+      const Posts posts = posts_at(integer(line), integer(post));
+      const Height height = between(grid_, posts.near, posts.far, hn::Sub(at, post));
+      const auto distance_m = fused::mul_add(fraction, hn::Set(d, piece_m_), hn::Set(d, from_m_));
+      const auto step = hn::Min(hn::Max(hn::Floor(hn::Mul(fraction, hn::Set(d, steps_))), hn::Zero(d)), last_step);
+      const auto floor = hn::GatherIndex(d, ray_.floor + start_ + 1, integer(step));
+      const auto reaching = hn::And(reaches(observer.sight_of(distance_m, height.height_m), floor), height.known);
+      summits.add(distance_m, height.height_m, reaching);
+      if (summits.full()) summits.raise(observer, ray_, tangent_);
+    }
+  }
+
+  const Ray& ray_;
+  const sampling::Grid& grid_;
+  float* tangent_;
+  std::size_t start_;
+  float steps_, from_m_, piece_m_;
+  Span rows_{}, columns_{};
+};
+
+void raise_by_pieces(const CrossedCell& cell, const Ray& ray, std::size_t first, std::size_t end, float* tangent) {
+  const auto steps_in = [&](float length_m) {
+    return static_cast<std::size_t>(std::max(1.0F, length_m / ray.even_step_m));
+  };
+  const std::size_t min_steps = steps_in(kMinPiece_m);
+  std::size_t steps = steps_in(kMaxPiece_m);
+  const Observer observer(ray);
+  const BlockLanes blocks(*cell.grid.posts);
+  Summits summits;
+  for (std::size_t start = first - 1; start + 1 < end;) {
+    const std::size_t stop = std::min(start + steps, end - 1);
+    const RayPiece piece(cell, ray, tangent, start, stop);
+    if (!piece.straight() && stop - start > min_steps) {
+      steps = std::max(min_steps, (stop - start) / 2);
+      continue;
+    }
+    start = stop;
+    if (piece.hidden()) continue;
+    piece.cross_rows(observer, blocks, summits);
+    piece.cross_columns(observer, blocks, summits);
+  }
+  summits.raise(observer, ray, tangent);
+}
+
 void raise(const CrossedCell& cell, const Ray& ray, std::size_t first, std::size_t end, float* tangent) {
+  if (ray.even_step_m > 0.0F && !cell.close_columns) return raise_by_pieces(cell, ray, first, end, tangent);
   for (std::size_t i = first; i < end; i += hn::Lanes(FloatLanes())) {
     RaySteps steps(cell, ray, i, end);
     steps.cross_rows();

@@ -24,6 +24,10 @@ struct Ray {
   const float* distance_m = nullptr;
   float altitude_m = 0.0F;  // [m] MSL of the observer
   float curvature = 0.0F;   // [1/m] curvature of the effective earth
+  // Tangents that ground must reach to be of interest, one per position, ascending; null: all ground is.
+  const float* floor = nullptr;
+  // [m] Distance between neighbouring positions if it is the same everywhere and `floor` is given, else 0.
+  float even_step_m = 0.0F;
 };
 
 // A cell on the ray's path.
@@ -37,9 +41,9 @@ struct CrossedCell {
   bool close_columns = false;
 };
 
-// For each i in [first, end): raises tangent[i] to the maximum tangent between positions i - 1 and i if that is higher.
-// Examines only the part of the step inside the cell. The step is straight in latitude and longitude. Requires
-// first >= 1.
+// For each i in [first, end): raises tangent[i] to the maximum tangent between positions i - 1 and i if that is higher
+// and reaches floor[i]. Lower tangents may or may not be stored. Examines only the part of the step inside the cell.
+// Requires first >= 1, and that steps are straight in latitude and longitude; with even_step_m, within 5 km.
 void raise(const CrossedCell& cell, const Ray& ray, std::size_t first, std::size_t end, float* tangent);
 
 }  // namespace yars::model::terrain::crests

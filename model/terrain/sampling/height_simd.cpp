@@ -163,8 +163,47 @@ HWY_INLINE WeightedMean without_voids(const Posts& posts, Floats north, Floats e
   return {hn::IfThenElse(some, hn::Div(height, divisor), nothing), hn::Div(water, divisor)};
 }
 
+// Height `near` posts before the position. NaN if that lies beyond the four posts or one of them is void.
+HWY_INLINE Floats near_height(const Grid& grid, const Posts& posts, Floats north, Floats east, const Near& near) {
+  const FloatLanes d;
+  const IntLanes di;
+  const auto zero = hn::Zero(d);
+  const auto one = hn::Set(d, 1.0F);
+  const auto before_north = hn::Sub(north, hn::Set(d, near.rows));
+  const auto before_east = hn::Sub(east, hn::Set(d, near.columns));
+  auto inside =
+      hn::And(hn::Ge(hn::Min(before_north, before_east), zero), hn::Le(hn::Max(before_north, before_east), one));
+  if (grid.voids) inside = hn::AndNot(hn::RebindMask(d, any_equal(posts, hn::Set(di, kVoid))), inside);
+  const auto height =
+      bilinear(hn::ConvertTo(d, posts.south_west), hn::ConvertTo(d, posts.south_east),
+               hn::ConvertTo(d, posts.north_west), hn::ConvertTo(d, posts.north_east), before_north, before_east);
+  return hn::IfThenElse(inside, height, hn::Set(d, std::numeric_limits<float>::quiet_NaN()));
+}
+
+// The same outputs from a later position on.
+Heights outputs_from(Heights found, std::size_t start) {
+  const auto advance = [start](auto*& values) {
+    if (values != nullptr) values += start;
+  };
+  advance(found.elevation_m);
+  advance(found.water);
+  advance(found.material);
+  advance(found.near.elevation_m);
+  return found;
+}
+
+// Codes of the nearest of the four posts. `offset`: of the south-western post [bytes] in the blocks of heights.
+HWY_INLINE Ints code_of_nearest(const CodeBlocks& codes, Ints offset, Floats north, Floats east) {
+  const FloatLanes d;
+  const IntLanes di;
+  const auto half = hn::Set(d, 0.5F);
+  const auto up = hn::IfThenElseZero(hn::RebindMask(di, hn::Ge(north, half)), hn::Set(di, CodeBlocks::kColumns));
+  const auto right = hn::IfThenElseZero(hn::RebindMask(di, hn::Ge(east, half)), hn::Set(di, 1));
+  return gather_code(codes, hn::Add(hn::ShiftRight<1>(offset), hn::Add(up, right)));
+}
+
 HWY_INLINE void interpolate(const Grid& grid, std::size_t count, const Located& located, bool nearest,
-                            float* elevation_m, float* water) {
+                            const Heights& found) {
   const FloatLanes d;
   const IntLanes di;
   const auto one = hn::Set(d, 1.0F);
@@ -181,7 +220,7 @@ HWY_INLINE void interpolate(const Grid& grid, std::size_t count, const Located& 
     auto height = bilinear(hn::ConvertTo(d, posts.south_west), hn::ConvertTo(d, posts.south_east),
                            hn::ConvertTo(d, posts.north_west), hn::ConvertTo(d, posts.north_east), north, east);
     // The sea and void branches run only if an element of the vector needs them. Skipping them changes no result.
-    const bool dry = water == nullptr || !grid.sea || none_at_sea(words, posts);
+    const bool dry = found.water == nullptr || !grid.sea || none_at_sea(words, posts);
     auto sea_weight = dry ? hn::Zero(d) : water_fraction(posts, north, east);
     if (grid.voids) {
       const auto has_void = any_equal(posts, hn::Set(di, kVoid));
@@ -191,10 +230,72 @@ HWY_INLINE void interpolate(const Grid& grid, std::size_t count, const Located& 
         sea_weight = hn::IfThenElse(hn::RebindMask(d, has_void), mean.water, sea_weight);
       }
     }
-    hn::StoreU(height, d, elevation_m + i);
-    if (water != nullptr) hn::StoreU(sea_weight, d, water + i);
+    hn::StoreU(height, d, found.elevation_m + i);
+    if (found.material != nullptr)
+      hn::StoreU(code_of_nearest(*grid.codes, hn::Load(di, located.offset + i), hn::Load(d, located.north + i),
+                                 hn::Load(d, located.east + i)),
+                 di, found.material + i);
+    if (found.water != nullptr) hn::StoreU(sea_weight, d, found.water + i);
+    if (found.near.elevation_m != nullptr)
+      hn::StoreU(near_height(grid, posts, north, east, found.near), d, found.near.elevation_m + i);
   }
 }
+
+// Positions of a run whose near ground lies beyond the four posts around them. Their posts are looked up in batches.
+class NearBeyond {
+ public:
+  HWY_INLINE NearBeyond(const Grid& grid, const float* north_deg, const float* east_deg, const Near& near)
+      : grid_(grid), north_deg_(north_deg), east_deg_(east_deg), near_(near) {}
+
+  // Fills the entries of near.elevation_m that are NaN.
+  HWY_INLINE void fill(std::size_t count) {
+    const FloatLanes d;
+    const IntLanes di;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+      const auto height = hn::LoadU(d, near_.elevation_m + i);
+      const auto missing = hn::AndNot(hn::Eq(height, height), hn::FirstN(d, count - i));
+      const auto index = hn::Iota(di, static_cast<std::int32_t>(i));
+      const std::size_t found = found_;
+      hn::StoreU(hn::Compress(index, hn::RebindMask(di, missing)), di, index_ + found);
+      found_ = found + hn::CountTrue(d, missing);
+      if (found_ >= kBatch) look_up();
+    }
+    look_up();
+  }
+
+ private:
+  HWY_INLINE void look_up() {
+    const FloatLanes d;
+    const IntLanes di;
+    const auto rows = hn::Set(d, near_.rows / static_cast<float>(grid_.rows - 1));
+    const auto columns = hn::Set(d, near_.columns / static_cast<float>(grid_.columns - 1));
+    HWY_ALIGN float north[kBatch], east[kBatch], height[kBatch];
+    while (found_ > 0) {
+      const std::size_t count = std::min(found_, kBatch);
+      const std::size_t first = found_ - count;
+      for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+        const auto valid = hn::FirstN(di, count - i);
+        const auto index = hn::IfThenElseZero(valid, hn::LoadU(di, index_ + first + i));
+        hn::Store(hn::Sub(hn::GatherIndex(d, north_deg_, index), rows), d, north + i);
+        hn::Store(hn::Sub(hn::GatherIndex(d, east_deg_, index), columns), d, east + i);
+      }
+      locate(grid_, north, east, count, hn::Lanes(d), located_);
+      interpolate(grid_, count, located_, false, {height, nullptr, nullptr, {}});
+      const auto inside = [](float degrees) { return degrees >= 0.0F && degrees <= 1.0F; };
+      for (std::size_t i = 0; i < count; ++i)
+        if (inside(north[i]) && inside(east[i])) near_.elevation_m[index_[first + i]] = height[i];
+      found_ = first;
+    }
+  }
+
+  const Grid& grid_;
+  const float* north_deg_;
+  const float* east_deg_;
+  const Near near_;
+  std::size_t found_ = 0;
+  std::int32_t index_[kBatch + kRunSlack] = {};
+  Located located_;
+};
 
 void to_metres(float unit_m, std::size_t count, float* elevation_m) {
   const FloatLanes d;
@@ -203,7 +304,7 @@ void to_metres(float unit_m, std::size_t count, float* elevation_m) {
 }
 
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
-             float* elevation_m, float* water) {
+             const Heights& found) {
   if (count == 0) return;
   Located located[2];
   const auto batch = [count](std::size_t start) { return std::min(kBatch, count - start); };
@@ -212,10 +313,12 @@ void heights(const Grid& grid, const float* north_deg, const float* east_deg, st
   for (std::size_t start = 0, turn = 0; start < count; start += kBatch, turn = 1 - turn) {
     const std::size_t next = start + kBatch;
     if (next < count) locate(grid, north_deg + next, east_deg + next, batch(next), fetch_step, located[1 - turn]);
-    interpolate(grid, batch(start), located[turn], nearest, elevation_m + start,
-                water == nullptr ? nullptr : water + start);
+    interpolate(grid, batch(start), located[turn], nearest, outputs_from(found, start));
   }
-  if (grid.unit_m != 1.0F) to_metres(grid.unit_m, count, elevation_m);
+  if (found.near.elevation_m != nullptr) NearBeyond(grid, north_deg, east_deg, found.near).fill(count);
+  if (grid.unit_m == 1.0F) return;
+  to_metres(grid.unit_m, count, found.elevation_m);
+  if (found.near.elevation_m != nullptr) to_metres(grid.unit_m, count, found.near.elevation_m);
 }
 
 std::size_t same_cell_count(const float* cells_north, const float* cells_east, std::size_t count) {
@@ -243,18 +346,16 @@ HWY_INLINE hn::Vec<IntLanes> nearest(const float* degrees, float intervals) {
 void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,
            std::int32_t* material) {
   const IntLanes di;
-  const std::uint8_t* const posts = culture.codes().data();
+  const auto last_row = hn::Set(di, culture.rows() - 2), last_column = hn::Set(di, culture.columns() - 2);
+  const BlockLanes blocks(culture.blocks());
   for (std::size_t i = 0; i < count; i += hn::Lanes(di)) {
     const auto row = nearest(north_deg + i, static_cast<float>(culture.rows() - 1));
     const auto column = nearest(east_deg + i, static_cast<float>(culture.columns() - 1));
-    const auto entry = hn::Add(hn::Mul(row, hn::Set(di, culture.columns())), column);
-#if HWY_TARGET == HWY_SCALAR
-    // Highway's scalar gather requires aligned words.
-    const auto word = hn::Set(di, std::int32_t{posts[hn::GetLane(entry)]});
-#else
-    const auto word = hn::GatherOffset(di, reinterpret_cast<const std::int32_t*>(posts), entry);
-#endif
-    hn::StoreU(hn::And(word, hn::Set(di, 0xff)), di, material + i);
+    // Offsets of posts are known up to the last but one row and column.
+    const auto south = hn::Min(row, last_row), west = hn::Min(column, last_column);
+    const auto beyond = hn::Add(hn::Mul(hn::Sub(row, south), hn::Set(di, CodeBlocks::kColumns)), hn::Sub(column, west));
+    const auto entry = hn::Add(hn::ShiftRight<1>(blocks.offset(south, west)), beyond);
+    hn::StoreU(gather_code(culture.blocks(), entry), di, material + i);
   }
 }
 
@@ -268,8 +369,8 @@ HWY_EXPORT(heights);
 HWY_EXPORT(same_cell_count);
 
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
-             float* elevation_m, float* water) {
-  HWY_DYNAMIC_DISPATCH(heights)(grid, north_deg, east_deg, count, nearest, elevation_m, water);
+             const Heights& found) {
+  HWY_DYNAMIC_DISPATCH(heights)(grid, north_deg, east_deg, count, nearest, found);
 }
 
 std::size_t same_cell_count(const float* cells_north, const float* cells_east, std::size_t count) {

@@ -17,6 +17,8 @@ namespace yars::model::terrain::sampling {
 // One grid of a cell: heights or peaks.
 struct Grid {
   const PostBlocks* posts = nullptr;
+  const Ceilings* ceilings = nullptr;
+  const CodeBlocks* codes = nullptr;  // codes of the same posts; null: none, or those of another grid
   int rows = 0, columns = 0;
   bool voids = false;   // true if any post is kVoidPost
   bool sea = false;     // true if any post is exactly 0 m
@@ -26,11 +28,25 @@ struct Grid {
 // Number of leading positions in the same cell as the first one. Cell counts: see PositionRun.
 std::size_t same_cell_count(const float* cells_north, const float* cells_east, std::size_t count);
 
+// Ground shortly before each position (NearGround) in the same grid.
+struct Near {
+  float rows = 0.0F, columns = 0.0F;  // [posts] from that ground to the position
+  float* elevation_m = nullptr;       // [m MSL]; NaN: void, or beyond the cell; null: not computed
+};
+
+// Outputs of heights(). Each may be null except elevation_m.
+struct Heights {
+  float* elevation_m = nullptr;      // [m MSL]
+  float* water = nullptr;            // fraction of water [0, 1]
+  std::int32_t* material = nullptr;  // codes, as codes(); requires Grid::codes
+  Near near{};
+};
+
 // Bilinear elevation and water fraction. With `nearest`, the values of the nearest of the four posts around the
 // position. Void posts are left out, and the weights of the others are scaled to a sum of 1. If the others have no
-// weight, the elevation is NaN. `water` may be null.
+// weight, the elevation is NaN.
 void heights(const Grid& grid, const float* north_deg, const float* east_deg, std::size_t count, bool nearest,
-             float* elevation_m, float* water);
+             const Heights& found);
 
 // Material code of the culture post nearest to each position. The spare entries of `material` are overwritten.
 void codes(const Culture& culture, const float* north_deg, const float* east_deg, std::size_t count,

@@ -40,10 +40,11 @@ HWY_INLINE Ints divided(Ints number) {
 #endif
 }
 
-// Byte offsets of posts in the blocks of a grid.
+// Byte offsets of heights in the blocks of a grid; half of them are the offsets of its codes.
 class BlockLanes {
  public:
-  HWY_INLINE explicit BlockLanes(const PostBlocks& posts)
+  template <class Post>
+  HWY_INLINE explicit BlockLanes(const Blocks<Post>& posts)
       : row_of_blocks_(hn::Set(IntLanes(),
                                kPost * (posts.block_columns() * kBlock - PostBlocks::kRowStep * PostBlocks::kColumns))),
         column_of_blocks_(hn::Set(IntLanes(), kPost * (kBlock - PostBlocks::kColumnStep))) {}
@@ -75,6 +76,17 @@ HWY_INLINE Ints gather_word(const std::int16_t* posts, Ints offset) {
   return hn::GatherOffset(IntLanes(), reinterpret_cast<const std::int32_t*>(posts), offset);
 #endif
 }
+// Material codes at `entry` of the blocks.
+HWY_INLINE Ints gather_code(const CodeBlocks& codes, Ints entry) {
+#if HWY_TARGET == HWY_SCALAR
+  return hn::Set(IntLanes(), std::int32_t{codes.data()[hn::GetLane(entry)]});
+#else
+  // Four bytes, of which the lowest is the code. The spare block after the last one keeps this within the blocks.
+  const auto words = hn::GatherOffset(IntLanes(), reinterpret_cast<const std::int32_t*>(codes.data()), entry);
+  return hn::And(words, hn::Set(IntLanes(), 0xff));
+#endif
+}
+
 // The four posts around a position: the southern pair and the northern pair, each as a word of gather_word().
 struct Words {
   Ints south, north;

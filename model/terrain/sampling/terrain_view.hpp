@@ -51,12 +51,22 @@ inline geo::GeoPoint position_of(const PositionRun& positions, std::size_t i) {
               static_cast<double>(positions.east_deg[i])};
 }
 
+// Ground shortly before each position of a ray, seen from its start. It limits the error of a horizon where bilinear
+// ground bulges between the rows and columns of posts. NaN where that ground lies beyond the position's cell. Views
+// that do not compute it write nothing. Requires evenly spaced positions.
+struct NearGround {
+  float step_m = 0.0F;          // [m] distance between successive positions
+  std::span<float> height_m{};  // [m MSL] as peak_m; empty: not computed
+  std::span<float> back_m{};    // [m] distance before the position: a tenth of the posts' spacing, below step_m
+};
+
 // Outputs of the fast path, each as long as the positions. An empty `peak_m` or `material` is not computed.
 struct SurfaceRun {
   std::span<float> elevation_m;      // [m] MSL; NaN = void
   std::span<float> water;            // [0, 1]
   std::span<float> peak_m;           // [m] MSL highest ground around it if the cell is reduced, else elevation_m
   std::span<std::int32_t> material;  // codes as in Surface::material, 0 to kMaxMaterial
+  NearGround near{};
 };
 
 // Spare entries after the last one in arrays of the fast path. SIMD code may read and overwrite them.
@@ -73,6 +83,10 @@ struct RaySight {
   double altitude_m = 0.0;            // [m] MSL of the observer
   double curvature = 0.0;             // [1/m] curvature of the effective earth
   std::span<const float> distance_m;  // [m] ground distance of the positions, ascending
+  // For each position, the highest tangent of all positions up to it, itself included. Crests below it hide nothing,
+  // and crests() may leave them out, as well as the ground shortly before evenly spaced positions (NearGround).
+  // Empty: all crests are found.
+  std::span<const float> horizon{};
 };
 inline constexpr float kNoTangent = -1.0e30F;  // tangent of an elevation angle below any ground
 

@@ -117,13 +117,15 @@ TEST(Gases, OfSamplesAgreeWithThoseOfRays) {
         for (std::size_t i = 0; i < kSamples; ++i)
           distance_m[i] = static_cast<float>((static_cast<double>(i) + 0.5) * range_nm * kNauticalMile_m / kSamples);
         samples.use(path, altitude_m, range_nm * kNauticalMile_m, distance_m, true);
-        samples.apply(heights.data(), factor.data());
+        const physics::GasSamples::Coefficients loss = samples.coefficients();
+        const float h = std::clamp(height_m, physics::GasSamples::kLowest_m, physics::GasSamples::kHighest_m);
         for (std::size_t i = 0; i < kSamples; ++i) {
           const auto height = static_cast<double>(height_m);
           if (lowest_m(altitude_m, static_cast<double>(distance_m[i]), height) < kDeepest_m) continue;
           const double expected_db =
               -2.0 * path.one_way_db(earth, altitude_m, static_cast<double>(distance_m[i]), height);
-          ASSERT_NEAR(10.0 * std::log10(static_cast<double>(factor[i])), expected_db, 0.1)
+          ASSERT_NEAR(10.0 * std::log10(static_cast<double>(loss.constant[i] + h * (loss.slope[i] + h * loss.bend[i]))),
+                      expected_db, 0.1)
               << altitude_m << " m, " << range_nm << " NM, " << height_m << " m, sample " << i;
         }
       }

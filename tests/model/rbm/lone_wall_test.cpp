@@ -164,6 +164,60 @@ TEST_F(LoneWall, HasTheSameCrestsAfterATurnOfLongitude) {
   EXPECT_EQ(crests(), without_turn);
 }
 
+// With a horizon, crests() looks at long pieces of an even ray and leaves out what hides nothing. The horizon that
+// results is that of all crests, each step by itself.
+TEST_F(LoneWall, HidesTheSameWithAHorizonToReach) {
+  constexpr std::size_t kCount = 700;
+  view_.add(std::make_shared<const terrain::Cell>(test::rough_cell({37, -121}, kPosts, kPosts, 7)));
+  view_.add(std::make_shared<const terrain::Cell>(test::rough_cell({38, -122}, 601, 401, 8)));
+  for (const double step_m : {20.0, 75.0, 280.0})
+    for (const double altitude_m : {900.0, 4500.0})
+      for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 7.5) {
+        physics::PositionArrays positions(kCount);
+        std::vector<float> distance_m(kCount + physics::kPairSlack);
+        for (std::size_t i = 0; i < distance_m.size(); ++i)
+          distance_m[i] = static_cast<float>((static_cast<double>(std::min(i, kCount - 1)) + 0.5) * step_m);
+        physics::sample_positions({37.7, -121.4}, geo::Bearing::degrees(azimuth_deg),
+                                  geo::Length::metres(kCount * step_m), 5, distance_m.data(), positions);
+        const auto spare = [] { return std::vector<float>(kCount + physics::kPairSlack); };
+        std::vector<float> height_m = spare(), water = spare(), near_m = spare(), near_back_m = spare();
+        view_.surfaces(
+            positions.run(), radar::Interpolation::bilinear,
+            {std::span(height_m).first(kCount),
+             std::span(water).first(kCount),
+             {},
+             {},
+             {static_cast<float>(step_m), std::span(near_m).first(kCount), std::span(near_back_m).first(kCount)}});
+        const physics::EffectiveEarth earth(8.5e6);
+        const auto tangent = [&](float at_m, float ground_m) {
+          const bool known = ground_m == ground_m;
+          return known ? static_cast<float>(
+                             earth.sight(altitude_m, static_cast<double>(at_m), static_cast<double>(ground_m)).tangent)
+                       : terrain::kNoTangent;
+        };
+        std::vector<float> horizon = spare(), all = spare(), raised = spare();
+        float highest = terrain::kNoTangent;
+        for (std::size_t i = 0; i < kCount; ++i)
+          horizon[i] = highest = std::max(highest, tangent(distance_m[i], height_m[i]));
+        const auto crests = [&](std::span<const float> reached, std::vector<float>& found) {
+          ASSERT_TRUE(view_.crests(positions.run(),
+                                   {altitude_m, earth.curvature(), std::span(distance_m).first(kCount), reached},
+                                   std::span(found).first(kCount)));
+        };
+        crests({}, all);
+        crests(std::span(horizon).first(kCount), raised);
+        float expected = terrain::kNoTangent, found = terrain::kNoTangent;
+        std::size_t different = 0;
+        for (std::size_t i = 0; i < kCount; ++i) {
+          expected = std::max({expected, horizon[i], all[i]});
+          found = std::max({found, horizon[i], raised[i], tangent(distance_m[i] - near_back_m[i], near_m[i])});
+          // A crossing 0.5 m before a sample may count in only one of the two.
+          if (std::abs(expected - found) > 2e-3F * static_cast<float>(altitude_m) / distance_m[i]) ++different;
+        }
+        EXPECT_LE(different, kCount / 100) << step_m << " m, " << altitude_m << " m, " << azimuth_deg << " degrees";
+      }
+}
+
 TEST_F(LoneWall, HasTheSameCrestsOnEveryVectorTarget) {
   physics::PositionArrays positions(333);
   std::vector<float> distance_m(333 + physics::kPairSlack);
@@ -175,16 +229,19 @@ TEST_F(LoneWall, HasTheSameCrestsOnEveryVectorTarget) {
     for (const double azimuth_deg : {0.0, 33.0, 90.0, 181.0, 275.0}) {
       physics::sample_positions(apex, geo::Bearing::degrees(azimuth_deg), geo::Length::metres(50000.0), 5,
                                 distance_m.data(), positions);
-      std::vector<float> first;
-      test::for_each_vector_target([&](const char* name) {
-        std::vector<float> crests(333 + physics::kPairSlack);
-        ASSERT_TRUE(view_.crests(positions.run(), {1500.0, 1.0 / 8.5e6, std::span(distance_m).first(333)},
-                                 std::span(crests).first(333)));
-        crests.resize(333);
-        EXPECT_GT(*std::max_element(crests.begin(), crests.end()), terrain::kNoTangent) << azimuth_deg;
-        if (first.empty()) first = crests;
-        EXPECT_EQ(crests, first) << name << ", " << azimuth_deg;
-      });
+      const std::vector<float> low(333 + physics::kPairSlack, -0.2F);
+      for (const std::span<const float> horizon : {std::span<const float>(), std::span(low).first(333)}) {
+        std::vector<float> first;
+        test::for_each_vector_target([&](const char* name) {
+          std::vector<float> crests(333 + physics::kPairSlack);
+          ASSERT_TRUE(view_.crests(positions.run(), {1500.0, 1.0 / 8.5e6, std::span(distance_m).first(333), horizon},
+                                   std::span(crests).first(333)));
+          crests.resize(333);
+          EXPECT_GT(*std::max_element(crests.begin(), crests.end()), terrain::kNoTangent) << azimuth_deg;
+          if (first.empty()) first = crests;
+          EXPECT_EQ(crests, first) << name << ", " << azimuth_deg;
+        });
+      }
     }
 }
 

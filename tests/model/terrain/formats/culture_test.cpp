@@ -28,7 +28,7 @@ TEST(Culture, IsUnchangedAfterWritingAndReading) {
   ASSERT_TRUE(read.has_value()) << read.error().message();
   ASSERT_EQ(read->rows(), 4);
   ASSERT_EQ(read->columns(), 3);
-  EXPECT_TRUE(std::equal(read->codes().begin(), read->codes().end(), small_culture().codes().begin()));
+  EXPECT_EQ(read->codes(), small_culture().codes());
 }
 
 TEST(Culture, HasNorthOnTopInItsPicture) {

@@ -216,6 +216,52 @@ TEST(CellView, APositionGetsTheSameBitsInAnyRunOfPositions) {
 }
 
 // With every instruction set that this machine has, and with scalar code.
+// The ground a tenth of the posts' spacing before each position of a ray, with and without voids about it.
+TEST(CellView, NearGroundIsTheGroundBeforeThePosition) {
+  for (const Cell& cell :
+       {test::rough_cell({36, -122}, 121, 121, 7), test::cell_of({36, -122}, 121, 121, [](int row, int column) {
+          return 100 + row * row % 37 + column * column % 41;
+        })}) {
+    CellView view(1, Absence::sea);
+    view.add(std::make_shared<const Cell>(cell));
+    constexpr std::size_t kCount = 150;
+    const double step_m = 500.0, spacing_m = view.post_spacing_at({36.5, -121.5}).ray_step_m;
+    std::vector<float> zeros(kCount + kRunSlack), north_deg(zeros), east_deg(zeros), height_m(zeros), water(zeros),
+        near_m(zeros), back_m(zeros);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      north_deg[i] = static_cast<float>(0.05 + 0.0045 * static_cast<double>(i));
+      east_deg[i] = static_cast<float>(0.9 - 0.0031 * static_cast<double>(i));
+    }
+    const auto of = [](auto& values) { return std::span(values).first(kCount); };
+    view.surfaces({{36, -122}, of(zeros), of(zeros), of(north_deg), of(east_deg)}, radar::Interpolation::bilinear,
+                  {of(height_m), of(water), {}, {}, {static_cast<float>(step_m), of(near_m), of(back_m)}});
+    const double part = 0.1 * spacing_m / step_m;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      EXPECT_NEAR(static_cast<double>(back_m[i]), 0.1 * spacing_m, 0.01);
+      const geo::GeoPoint before{36.0 + static_cast<double>(north_deg[i]) - 0.0045 * part,
+                                 -122.0 + static_cast<double>(east_deg[i]) + 0.0031 * part};
+      const double expected_m = view.elevation_m(before);
+      if (std::isnan(expected_m))
+        EXPECT_TRUE(std::isnan(near_m[i])) << i;
+      else
+        EXPECT_NEAR(static_cast<double>(near_m[i]), expected_m, 0.5) << i;
+    }
+  }
+}
+
+TEST(Ceilings, AreNotBelowAnyPostAround) {
+  for (const auto& [rows, columns] : {std::pair{121, 61}, {16, 17}, {2, 2}, {33, 100}}) {
+    const Cell cell = test::rough_cell({36, -122}, rows, columns, 3);
+    for (int row = 0; row < rows; row += 3)
+      for (int column = 0; column < columns; column += 2) {
+        const int ceiling = cell.ceilings().around(static_cast<float>(row), static_cast<float>(column));
+        for (int r = std::max(0, row - Ceilings::kReach); r < std::min(rows, row + Ceilings::kReach); ++r)
+          for (int c = std::max(0, column - Ceilings::kReach); c < std::min(columns, column + Ceilings::kReach); ++c)
+            ASSERT_GE(ceiling, cell.post(r, c)) << row << ", " << column;
+      }
+  }
+}
+
 TEST(CellView, EveryWidthOfVectorGivesTheSameBits) {
   constexpr unsigned kSeed = 13;
   std::mt19937_64 random(kSeed);
