@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <ostream>
 #include <span>
@@ -240,6 +241,8 @@ nlohmann::ordered_json summary(std::span<const databuffer::Sweep> sweeps, const 
   line["sweeps"] = sweeps.size();
   line["samples"] = sweeps.front().samples;
   line["kernel_ms"] = kernel_ms;
+  line["mean_ms"] =
+      std::accumulate(times.whole_ms.begin(), times.whole_ms.end(), 0.0) / static_cast<double>(times.whole_ms.size());
   line["cpu_ms"] = median(times.cpu_ms);
   line["sweep_ms"] = median(times.measure_ms);
   line["first_ms"] = times.first_ms;
