@@ -23,8 +23,9 @@ elif "patch" in words:
 else:
     threads = int(words[words.index("--threads") + 1]) if "--threads" in words else 1
     ms = {factor} * (5.0 if "--config" in words else 2.0)
+    ms /= threads
     found = {{"kernel_ms": ms, "cpu_ms": ms, "sweep_ms": ms, "first_ms": 9.0, "sweeps": 182, "samples": 480, "hash": "{hash}",
-              "samples_per_second": 1e6 * threads}}
+              "mean_ms": ms}}
     {change}
     print(json.dumps(found))
 """
