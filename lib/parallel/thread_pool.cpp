@@ -1,8 +1,7 @@
 #include "lib/parallel/thread_pool.hpp"
 
-#include <time.h>
-
 #include <chrono>
+#include <ctime>
 
 namespace yars::parallel {
 
