@@ -16,11 +16,10 @@
 
 namespace yars::parallel {
 
-// Waits until `value` differs from `seen`, and returns the new value. The thread spins for a few hundred microseconds,
-// then blocks. The thread that changes the value must call notify_one() or notify_all().
-std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t seen);
-
 // Pool of threads that are reused for all jobs. Starting threads takes as long as a short scan of `yars scan`.
+// Nobody waits for a worker that has not begun. On a busy machine a worker may lose its core while it works, and then
+// the caller waits for it. When such waits have cost more time than the workers have saved, run() calls job(0) alone
+// for some time.
 class ThreadPool {
  public:
   // `threads`: number of threads including the calling thread, at least 1.
@@ -30,21 +29,33 @@ class ThreadPool {
   ThreadPool& operator=(const ThreadPool&) = delete;
 
   std::size_t threads() const { return workers_.size() + 1; }
-  // Calls job(0) on the calling thread and job(1) to job(threads() - 1) on the workers. Blocks until all have returned.
+  // Calls job(0) on the calling thread, and job(1) to job(threads() - 1) on those workers that begin before job(0) has
+  // returned. Blocks until all of these have returned. Requirement: job(0) does all the work that no worker has taken.
   void run(const std::function<void(std::size_t)>& job);
 
  private:
+  void open(const std::function<void(std::size_t)>* job);
+  void close();
+  void settle(std::int64_t saved_ns);
+  bool enter(std::uint32_t& state);
+  void leave();
   void run_worker(std::size_t number);
 
   // Separate cache lines avoid false sharing: polling one atomic does not slow writes to the other.
-  alignas(64) std::atomic<std::uint32_t> job_number_{0};
-  alignas(64) std::atomic<std::uint32_t> busy_workers_{0};
-  const std::function<void(std::size_t)>* job_ = nullptr;  // null: the workers end at the next change of job_number_
+  // Bit 31: workers may enter the job. Bits 16 to 30: number of the job. Bits 0 to 15: workers inside the job.
+  alignas(64) std::atomic<std::uint32_t> state_{0};
+  alignas(64) std::atomic<std::uint32_t> left_{0};         // 1: the last worker has left the closed job
+  alignas(64) std::atomic<std::int64_t> worked_ns_{0};     // processor time of the workers in the job
+  const std::function<void(std::size_t)>* job_ = nullptr;  // null: the workers that enter end
+  std::int64_t saved_ns_ = 0;                              // time that workers have saved the caller and not cost yet
+  std::int64_t alone_factor_ = 0;                          // 0: the machine counts as quiet
+  std::int64_t alone_until_ns_ = 0;                        // steady clock; 0: the workers take part
   std::vector<std::thread> workers_;
 };
 
-// Function interface to a thread pool. Kernels receive an Executor instead of a ThreadPool. run(job) calls job(0) to
-// job(threads - 1) concurrently and blocks until all have returned. The default runs job(0) on the calling thread.
+// Function interface to a thread pool. Kernels receive an Executor instead of a ThreadPool. run(job) calls job(0) and
+// at most job(1) to job(threads - 1) concurrently, and blocks until all have returned. The default runs job(0) on the
+// calling thread.
 struct Executor {
   std::size_t threads = 1;
   std::function<void(const std::function<void(std::size_t)>&)> run = [](const auto& job) { job(0); };
@@ -76,24 +87,38 @@ class ChunkQueue {
   alignas(64) std::atomic<std::uint64_t> left_{0};
 };
 
+// Queues of the chunks of one loop, one for each thread. In all loops of equal size, a thread begins with the same
+// chunks, whose data is often still in its cache. A thread without chunks takes chunks of other threads.
+class ChunkQueues {
+ public:
+  explicit ChunkQueues(std::size_t threads) : queues_(threads) {}
+  // Distributes the chunks [0, chunks). Must not run concurrently with take().
+  void begin(std::size_t chunks) {
+    for (std::size_t thread = 0; thread < queues_.size(); ++thread)
+      queues_[thread].begin(static_cast<std::uint32_t>(thread * chunks / queues_.size()),
+                            static_cast<std::uint32_t>((thread + 1) * chunks / queues_.size()));
+  }
+  // Takes a chunk for this thread and returns its number, or -1 if none is left.
+  int take(std::size_t thread) {
+    for (std::size_t offset = 0; offset < queues_.size(); ++offset)
+      if (const int chunk = queues_[(thread + offset) % queues_.size()].take(offset == 0); chunk >= 0) return chunk;
+    return -1;
+  }
+
+ private:
+  std::vector<ChunkQueue> queues_;
+};
+
 // Calls job(first, end, thread) for ranges [first, end) of at most `chunk` items, which together cover `count` items.
-// In all loops of equal `count` and `chunk`, a thread begins with the same chunks, whose data is often still in its
-// cache. A thread without chunks takes chunks of other threads. With one thread, the job is called once for all
-// items, and `chunk` has no effect.
+// ChunkQueues distributes them. With one thread, the job is called once for all items, and `chunk` has no effect.
 template <class Job>
 void parallel_for(const Executor& executor, int count, int chunk, const Job& job) {
   if (executor.threads == 1) return executor.run([&](std::size_t thread) { job(0, count, thread); });
-  const std::size_t chunks = static_cast<std::size_t>((count + chunk - 1) / chunk);
-  std::vector<ChunkQueue> queues(executor.threads);
-  for (std::size_t thread = 0; thread < executor.threads; ++thread)
-    queues[thread].begin(static_cast<std::uint32_t>(thread * chunks / executor.threads),
-                         static_cast<std::uint32_t>((thread + 1) * chunks / executor.threads));
+  ChunkQueues queues(executor.threads);
+  queues.begin(static_cast<std::size_t>((count + chunk - 1) / chunk));
   executor.run([&](std::size_t thread) {
-    for (std::size_t offset = 0; offset < executor.threads; ++offset) {
-      ChunkQueue& queue = queues[(thread + offset) % executor.threads];
-      for (int number = queue.take(offset == 0); number >= 0; number = queue.take(offset == 0))
-        job(number * chunk, std::min((number + 1) * chunk, count), thread);
-    }
+    for (int number = queues.take(thread); number >= 0; number = queues.take(thread))
+      job(number * chunk, std::min((number + 1) * chunk, count), thread);
   });
 }
 

@@ -9,12 +9,19 @@
 
 namespace yars::model::kernel {
 
+namespace {
+// Sweeps of a piece: 20 to 100 us. A thread waits about so long at the end of a scan. With fewer, threads meet more
+// often at the queues.
+constexpr std::size_t kSweepsPerPiece = 4;
+}  // namespace
+
 OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanRequest& request, int threads)
     : workers_(static_cast<std::size_t>(std::max(1, threads))),
       seed_(parameters.seed),
       gain_(request.gain),
       samples_(rbm::sample_count(parameters)),
-      measured_(workers_.threads()) {
+      to_measure_(workers_.threads()),
+      to_form_(workers_.threads()) {
   position_sweeps(parameters, request);
   for (std::size_t thread = 0; thread < workers_.threads(); ++thread) {
     algorithms_.push_back(rbm::make_algorithm(parameters));
@@ -24,6 +31,7 @@ OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanR
   jamming_.assign(positions_.size(), 0.0);
   power_.assign(positions_.size() * samples_, 0.0F);
   sweeps_.resize(positions_.size());
+  ready_ = std::vector<std::atomic<std::uint8_t>>(std::max(positions_.size() / kSweepsPerPiece, std::size_t{1}));
 }
 
 void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, const ScanRequest& request) {
@@ -40,16 +48,11 @@ void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, co
 }
 
 // The assignment of sweeps to threads does not change results, because each sweep is measured from the inputs alone.
-OfflineScan::Part OfflineScan::part(std::size_t thread) const {
-  const std::size_t threads = workers_.threads();
-  return {thread, thread * positions_.size() / threads, (thread + 1) * positions_.size() / threads};
-}
-
-void OfflineScan::measure_part(const Part& part, const physics::Environment& environment) {
-  for (std::size_t sweep = part.first; sweep < part.end; ++sweep) {
+void OfflineScan::measure_piece(std::size_t piece, std::size_t thread, const physics::Environment& environment) {
+  for (std::size_t sweep = first_of(piece); sweep < first_of(piece + 1); ++sweep) {
     const physics::SweepGeometry geometry = geometry_of(positions_[sweep]);
-    const std::size_t pending = algorithms_[part.thread]->measure(geometry, environment, power_of(sweep));
-    jamming_[sweep] = strobes_[part.thread].level(geometry, environment.terrain);
+    const std::size_t pending = algorithms_[thread]->measure(geometry, environment, power_of(sweep));
+    jamming_[sweep] = strobes_[thread].level(geometry, environment.terrain);
     flags_[sweep] = pending > 0 || !environment.scenes_ready ? databuffer::kSweepNotReady : 0U;
   }
 }
@@ -70,29 +73,38 @@ void OfflineScan::form_sweep_video(std::size_t sweep, std::size_t thread) {
                {power_of(before), power_of(sweep), power_of(after), jamming_[sweep]}, sweeps_[sweep]);
 }
 
+// Call it when a thread takes the piece to form it, and when it or a neighbour is measured. The last of these calls
+// forms the video. So no thread waits for the power of a neighbouring piece.
+void OfflineScan::form_if_ready(std::size_t piece, std::size_t thread) {
+  const int neighbours = (piece > 0 ? 1 : 0) + (piece + 1 < pieces() ? 1 : 0);
+  const int calls_before = ready_[piece].fetch_add(1, std::memory_order_acq_rel);
+  if (calls_before != 1 + neighbours) return;
+  for (std::size_t sweep = first_of(piece); sweep < first_of(piece + 1); ++sweep) form_sweep_video(sweep, thread);
+}
+
 void OfflineScan::measure(const physics::Environment& environment) {
-  workers_.run([&](std::size_t thread) { measure_part(part(thread), environment); });
-}
-
-void OfflineScan::await_measured(std::size_t thread) {
-  const std::atomic<std::uint32_t>& scans = measured_[thread].scans;
-  for (std::uint32_t seen = scans.load(std::memory_order_acquire); seen != scans_;)
-    seen = parallel::wait_for_change(scans, seen);
-}
-
-void OfflineScan::run(const physics::Environment& environment) {
-  ++scans_;
+  to_measure_.begin(pieces());
   workers_.run([&](std::size_t thread) {
-    const Part own = part(thread);
-    measure_part(own, environment);
-    measured_[thread].scans.store(scans_, std::memory_order_release);
-    measured_[thread].scans.notify_all();
-    // The first and the last sweep of a part need power from neighbouring parts. The inner sweeps are formed first, to
-    // reduce waiting.
-    for (std::size_t sweep = own.first + 1; sweep + 1 < own.end; ++sweep) form_sweep_video(sweep, thread);
-    for (std::size_t other = 0; other < measured_.size(); ++other) await_measured(other);
-    if (own.first < own.end) form_sweep_video(own.first, thread);
-    if (own.first + 1 < own.end) form_sweep_video(own.end - 1, thread);
+    for (int piece = to_measure_.take(thread); piece >= 0; piece = to_measure_.take(thread))
+      measure_piece(static_cast<std::size_t>(piece), thread, environment);
+  });
+}
+
+// A thread measures until nothing is left to measure, and forms then. That is faster than both in turn.
+void OfflineScan::run(const physics::Environment& environment) {
+  for (std::atomic<std::uint8_t>& ready : ready_) ready.store(0, std::memory_order_relaxed);
+  to_measure_.begin(pieces());
+  to_form_.begin(pieces());
+  workers_.run([&](std::size_t thread) {
+    for (int taken = to_measure_.take(thread); taken >= 0; taken = to_measure_.take(thread)) {
+      const auto piece = static_cast<std::size_t>(taken);
+      measure_piece(piece, thread, environment);
+      if (piece > 0) form_if_ready(piece - 1, thread);
+      form_if_ready(piece, thread);
+      if (piece + 1 < pieces()) form_if_ready(piece + 1, thread);
+    }
+    for (int piece = to_form_.take(thread); piece >= 0; piece = to_form_.take(thread))
+      form_if_ready(static_cast<std::size_t>(piece), thread);
   });
 }
 

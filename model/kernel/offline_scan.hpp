@@ -40,8 +40,8 @@ class OfflineScan {
  public:
   OfflineScan(const physics::RadarParameters& parameters, const ScanRequest& request, int threads);
 
-  // Computes power, video and hashes. Each thread computes successive sweeps. It waits for the other threads only
-  // before it forms the video of the first and the last of these sweeps.
+  // Computes power, video and hashes. Each thread takes pieces of successive sweeps. No thread waits for another one
+  // before it finds none to measure or to form.
   void run(const physics::Environment& environment);
   // Computes power, without video and hashes.
   void measure(const physics::Environment& environment);
@@ -53,14 +53,13 @@ class OfflineScan {
 
  private:
   std::span<float> power_of(std::size_t sweep) { return {power_.data() + sweep * samples_, samples_}; }
-  // Sweeps [first, end) of one thread. They are contiguous, because the azimuth smear joins neighbours.
-  struct Part {
-    std::size_t thread, first, end;
-  };
-  Part part(std::size_t thread) const;
-  void measure_part(const Part& part, const physics::Environment& environment);
+  // A piece is a number of successive sweeps that one thread measures or forms at a time.
+  // First sweep of a piece. The first sweep of the piece `pieces()` is the number of sweeps.
+  std::size_t first_of(std::size_t piece) const { return piece * positions_.size() / pieces(); }
+  std::size_t pieces() const { return ready_.size(); }
+  void measure_piece(std::size_t piece, std::size_t thread, const physics::Environment& environment);
+  void form_if_ready(std::size_t piece, std::size_t thread);
   void form_sweep_video(std::size_t sweep, std::size_t thread);
-  void await_measured(std::size_t thread);
   void position_sweeps(const physics::RadarParameters& parameters, const ScanRequest& request);
 
   parallel::ThreadPool workers_;
@@ -74,11 +73,9 @@ class OfflineScan {
   std::vector<double> jamming_;              // by sweep; full scale = 1
   memory::CacheAlignedVector<float> power_;  // sweep after sweep
   std::vector<databuffer::Sweep> sweeps_;
-  struct alignas(64) Progress {
-    std::atomic<std::uint32_t> scans{0};  // number of run() calls in which the thread has measured its part
-  };
-  std::uint32_t scans_ = 0;         // number of run() calls
-  std::vector<Progress> measured_;  // one per thread
+  parallel::ChunkQueues to_measure_, to_form_;  // pieces
+  // By piece: number of measured pieces among itself and its neighbours, and one when a thread has taken it to form it.
+  std::vector<std::atomic<std::uint8_t>> ready_;
 };
 
 }  // namespace yars::model::kernel

@@ -73,8 +73,13 @@ def offline():
     place = ["--terrain", "cells", "--lat", "36.5", "--lon", "-123.5"]
     scan = object_of("scan", *place, "--samples", "32", "--json")
     expect("scan", scan.get("samples") == 32, scan)
-    object_of("patch", *place, "--target-lat", "36.6", "--target-lon", "-123.3", "--heading", "30", "--size", "32", "--force",
-              "--json")
+    patch = ["patch", *place, "--target-lat", "36.6", "--target-lon", "-123.3", "--heading", "30", "--size", "32", "--force"]
+    expect("patch", object_of(*patch, "--json").get("cpu_ms", 0) > 0)
+    before = sorted(os.listdir("."))
+    nothing = object_of("scan", *place, "--samples", "32", "--out", "none", "--shadow", "none")
+    expect("scan --out none", nothing["hash"] == scan["hash"] and nothing["cpu_ms"] > 0, nothing)
+    object_of(*patch, "--out", "none")
+    expect("--out none", sorted(os.listdir(".")) == before, os.listdir("."))
     object_of("trade", *place[:2], "--presets", "draft", "--repeat", "1", "--ruler-samples", "16", "--json")
 
 

@@ -1,5 +1,6 @@
 #include "tools/command/output.hpp"
 
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -28,9 +29,13 @@ std::string ending_of(const std::string& name) {
   return ending;
 }
 
+bool names_file(const std::string& name) {
+  return !name.empty() && name != kNoFile;
+}
+
 void check_file_name(const std::string& option, const std::string& name, const std::vector<std::string>& endings) {
   const std::string ending = ending_of(name);
-  if (name.empty()) return;
+  if (!names_file(name)) return;
   if (std::find(endings.begin(), endings.end(), ending) != endings.end()) {
     // place() is never called, so the destructor of NewFile discards the file.
     if (const auto begun = file::NewFile::create(name); !begun) throw_failure(begun.error());
@@ -61,6 +66,12 @@ error::Expected<void> write_floats(const std::filesystem::path& path, std::span<
 
 double wall_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+double processor_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
 }
 
 double median(std::vector<double> values) {

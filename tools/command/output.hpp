@@ -16,8 +16,13 @@ namespace yars::tools {
 // Extension of a file name in lower case with its dot, such as ".png"; empty if there is none.
 std::string ending_of(const std::string& name);
 
+// Value of an output option that means no output file.
+constexpr const char* kNoFile = "none";
+// Whether the value of an output option names a file: it is neither empty nor kNoFile.
+bool names_file(const std::string& name);
+
 // Requires that `name` ends in one of `endings` (".png") and that a file can be created at this path. `option` names
-// the command-line option in the message. An empty name means no output file and passes.
+// the command-line option in the message. A name without a file (names_file()) passes.
 void check_file_name(const std::string& option, const std::string& name, const std::vector<std::string>& endings);
 
 // Requires a folder name. A name that ends like a file which YARS reads or writes (".png", ".dt1") is an error.
@@ -29,6 +34,8 @@ error::Expected<void> write_floats(const std::filesystem::path& path, std::span<
 
 // [ms] Reading of the steady clock. Only differences of two readings have a meaning.
 double wall_ms();
+// [ms] Processor time of all threads of this process since its start.
+double processor_ms();
 // The median; for an even number of values, the larger of the two middle values. Requires at least one value.
 double median(std::vector<double> values);
 

@@ -35,7 +35,7 @@ namespace yars::tools {
 // GDAL). The first row is the far edge of the map. Errors: the functions throw CommandFailed.
 
 struct PatchOutput {
-  std::string file;              // empty: none
+  std::string file = kNoFile;    // kNoFile: computed and reported, nothing written
   std::string pixels = "video";  // pixels of a .tif: "video" or "power"
 };
 
@@ -92,8 +92,7 @@ void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const
 void check_patch_output(const PatchOutput& output) {
   const std::string suffix = ending_of(output.file);
   if (output.pixels != "video" && suffix != ".tif")
-    throw_failure(
-        error::usage_error("--pixels", "an --out that ends in .tif", output.file.empty() ? "none" : output.file));
+    throw_failure(error::usage_error("--pixels", "an --out that ends in .tif", output.file));
   if (suffix == ".tif" && !gdal::available())
     throw_failure({output.file, "a YARS built with GDAL to write a GeoTIFF", "one built without it",
                    "run `scripts/setup --gdal` and build again, or write a .png"});
@@ -129,9 +128,10 @@ struct PatchOptions {
   bool json = false;  // accepted, because all commands with facts have it; the summary is JSON without it, too
 };
 
-// Wall time of one map [ms]: all stages together, and each stage of PatchFormation.
+// Times of one map [ms]: wall time of all stages together, and of each stage of PatchFormation.
 struct Timing {
   double whole_ms = 0.0;
+  double cpu_ms = 0.0;  // processor time of all threads, all stages together
   std::array<double, hrm::kPatchStages.size()> stages_ms{};
 };
 
@@ -160,6 +160,7 @@ Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
   Timing timing;
   patch_formation.begin(order);
   const double begin_ms = wall_ms();
+  const double cpu_begin_ms = processor_ms();
   patch_formation.set_environment(environment);
   while (patch_formation.state() != hrm::PatchState::done) {
     const auto stage = static_cast<std::size_t>(patch_formation.stages_done());
@@ -168,6 +169,7 @@ Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
     timing.stages_ms[stage] = wall_ms() - stage_begin_ms;
   }
   timing.whole_ms = wall_ms() - begin_ms;
+  timing.cpu_ms = processor_ms() - cpu_begin_ms;
   return timing;
 }
 
@@ -231,18 +233,20 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   check_terrain_read("yars patch", configuration.terrain.directory, **window_store, path_store->get());
   if (!options.force) check_heights(order, environment, configuration);
   const double database_ms = wall_ms() - begin_ms;
-  std::vector<double> whole_ms;
+  std::vector<double> whole_ms, cpu_ms;
   std::array<std::vector<double>, hrm::kPatchStages.size()> stages_ms;
   for (int run = 0; run <= options.repeat; ++run) {
     const Timing timing = run_once(patch_formation, order, environment);
     if (run == 0) continue;  // warm-up: its time is not used
     whole_ms.push_back(timing.whole_ms);
+    cpu_ms.push_back(timing.cpu_ms);
     for (std::size_t stage = 0; stage < stages_ms.size(); ++stage) stages_ms[stage].push_back(timing.stages_ms[stage]);
   }
   nlohmann::ordered_json line;
   line["size"] = patch_formation.image().size;
   line["triangles"] = patch_formation.triangles();
   line["kernel_ms"] = median(whole_ms);
+  line["cpu_ms"] = median(cpu_ms);
   for (std::size_t stage = 0; stage < stages_ms.size(); ++stage)
     line["stages_ms"][std::string(hrm::kPatchStages[stage])] = median(stages_ms[stage]);
   line["database_ms"] = database_ms;
@@ -252,7 +256,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   line["threads"] = options.threads;
   line["fidelity"] = configuration.fidelity.name;
   report_dark_pixels(patch_formation.image());
-  if (!options.output.file.empty()) write_patch(options.output, order, patch_formation);
+  if (names_file(options.output.file)) write_patch(options.output, order, patch_formation);
   print_json(line);
 }
 
@@ -281,9 +285,9 @@ void add_patch_command(databuffer::Command app, const CommonOptions& common) {
   command.option("--repeat", options->repeat, "number of maps to time, after one untimed map").range(1, 1000000);
   command
       .option("--out", options->output.file,
-              "file: .png, .tif (georeferenced) or .f32 (power: little-endian floats, rows from the far edge)")
-      .value_name("FILE")
-      .otherwise("none");
+              "file: .png, .tif (georeferenced) or .f32 (power: little-endian floats, rows from the far edge); none: "
+              "no file")
+      .value_name("FILE");
   command.option("--pixels", options->output.pixels, "pixels of a .tif: video (8 bits) or power (32-bit float)")
       .one_of({"video", "power"});
   add_json_flag(command, options->json, "the summary is always one JSON object");

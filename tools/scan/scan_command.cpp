@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <optional>
 #include <ostream>
 #include <span>
@@ -129,7 +130,7 @@ namespace {
 struct ScanOptions {
   ConfigurationOptions configuration;
   PoseOptions pose;
-  std::string out, shadow;
+  std::string out = kNoFile, shadow = kNoFile;  // kNoFile: computed and reported, nothing written
   std::string color = "green";
   double range_nm = 40.0, width_deg = 100.0, elevation_deg = 0.0;
   std::optional<int> samples, size;  // nullopt: as configured
@@ -208,6 +209,7 @@ struct Times {
   double first_ms = 0.0;           // [ms] wall time of the first scan, including reading of terrain
   std::vector<double> measure_ms;  // [ms] wall time of each warm scan, from terrain to power
   std::vector<double> whole_ms;    // [ms] wall time of each warm scan, from terrain to video and hash
+  std::vector<double> cpu_ms;      // [ms] processor time of all threads in the same scan
 };
 
 // Runs one scan. Then, `repeat` times, runs a warm scan to the video and another warm scan to the power only.
@@ -217,12 +219,14 @@ Times run_scans(model::kernel::OfflineScan& work, const model::physics::Environm
   Times times;
   for (int run = 0; run <= repeat; ++run) {
     const double run_begin_ms = wall_ms();
+    const double cpu_begin_ms = processor_ms();
     work.run(environment);
     if (run == 0) {
       times.first_ms = wall_ms() - begin_ms;
       continue;
     }
     times.whole_ms.push_back(wall_ms() - run_begin_ms);
+    times.cpu_ms.push_back(processor_ms() - cpu_begin_ms);
     const double measure_begin_ms = wall_ms();
     work.measure(environment);
     times.measure_ms.push_back(wall_ms() - measure_begin_ms);
@@ -237,6 +241,9 @@ nlohmann::ordered_json summary(std::span<const databuffer::Sweep> sweeps, const 
   line["sweeps"] = sweeps.size();
   line["samples"] = sweeps.front().samples;
   line["kernel_ms"] = kernel_ms;
+  line["mean_ms"] =
+      std::accumulate(times.whole_ms.begin(), times.whole_ms.end(), 0.0) / static_cast<double>(times.whole_ms.size());
+  line["cpu_ms"] = median(times.cpu_ms);
   line["sweep_ms"] = median(times.measure_ms);
   line["first_ms"] = times.first_ms;
   line["index_ms"] = index_ms;
@@ -278,8 +285,8 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   line["threads"] = options.threads;
   line["fidelity"] = configuration.fidelity.name;
   line["hash"] = model::kernel::scan_hash(work.sweeps());
-  if (!options.out.empty()) write_result(options, configuration.view, work);
-  if (!options.shadow.empty()) {
+  if (names_file(options.out)) write_result(options, configuration.view, work);
+  if (names_file(options.shadow)) {
     std::ostringstream file;
     write_shadow(file, work.headers(), trade::ray_samples(configuration, work.headers(), *terrain));
     write_text_file(options.shadow, file);
@@ -318,12 +325,12 @@ void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   command.option("--color", options->color, "colours of the picture").one_of({"green", "gray"});
   command
       .option("--out", options->out,
-              "file: .png, .csv (video) or .f32 (power: little-endian floats, one row per sweep)")
-      .value_name("FILE")
-      .otherwise("none");
-  command.option("--shadow", options->shadow, "file: .csv with position, elevation and shadow of each sample")
-      .value_name("FILE")
-      .otherwise("none");
+              "file: .png, .csv (video) or .f32 (power: little-endian floats, one row per sweep); none: no file")
+      .value_name("FILE");
+  command
+      .option("--shadow", options->shadow,
+              "file: .csv with position, elevation and shadow of each sample; none: no file")
+      .value_name("FILE");
   add_json_flag(command, options->json, "the summary is always one JSON object");
   command.callback([options, &common] { scan(common, *options); });
 }

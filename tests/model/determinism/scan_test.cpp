@@ -52,6 +52,17 @@ TEST(Determinism, AnyNumberOfThreadsGivesTheSameHashes) {
   }
 }
 
+TEST(Determinism, ThreadsThatStealPiecesGiveTheSameHashesInEveryRun) {
+  const auto configuration = with(radar::Algorithm::standard, 37);
+  const auto alone = hashes(configuration, 1);
+  test::Cockpit cockpit(configuration, terrain::built_in_hills());
+  OfflineScan scan(configuration, request_of(cockpit.tick), 3);
+  for (int run = 0; run < 200; ++run) {
+    scan.run({cockpit.terrain, nullptr});
+    for (std::size_t i = 0; i < alone.size(); ++i) ASSERT_EQ(scan.sweeps()[i].hash, alone[i]) << run << ' ' << i;
+  }
+}
+
 // 300 houses and a runway (height 0) within the scan of test::Cockpit.
 scene::SceneViewPointer town() {
   std::vector<test::Building> all{{0.0, 900.0, 45.0, 1800.0, 0.0, 9}};
