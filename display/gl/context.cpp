@@ -128,6 +128,34 @@ namespace yars::display::gl {
 
 namespace {
 
+// glXCopySubBufferMESA: shows a rectangle of the back buffer, whose content stays. Source: GLX_MESA_copy_sub_buffer.
+// Used with the software renderer alone. There, drawing and showing a whole window is most of the work; a GPU does it in
+// no time, and swaps of buffers are what its driver does best.
+class PartialPresent {
+ public:
+  PartialPresent() {
+    const std::string renderer = text_of(GL_RENDERER);
+    const bool software = renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
+    if (!software || glfwExtensionSupported("GLX_MESA_copy_sub_buffer") == GLFW_FALSE) return;
+    display_ = reinterpret_cast<CurrentDisplay>(glfwGetProcAddress("glXGetCurrentDisplay"));
+    drawable_ = reinterpret_cast<CurrentDrawable>(glfwGetProcAddress("glXGetCurrentDrawable"));
+    copy_ = reinterpret_cast<CopySubBuffer>(glfwGetProcAddress("glXCopySubBufferMESA"));
+  }
+  bool is_available() const { return display_ != nullptr && drawable_ != nullptr && copy_ != nullptr; }
+  void present(int left, int bottom, int width, int height) const {
+    copy_(display_(), drawable_(), left, bottom, width, height);
+  }
+
+ private:
+  using CurrentDisplay = void* (*)();          // a Display*
+  using CurrentDrawable = unsigned long (*)();  // a GLXDrawable
+  using CopySubBuffer = void (*)(void*, unsigned long, int, int, int, int);
+  CurrentDisplay display_ = nullptr;
+  CurrentDrawable drawable_ = nullptr;
+  CopySubBuffer copy_ = nullptr;
+};
+
+// The context of the window must be current.
 class GlfwWindow final : public Window {
  public:
   explicit GlfwWindow(GLFWwindow* window) : window_(window) {
@@ -191,7 +219,16 @@ class GlfwWindow final : public Window {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glClearBufferfv(GL_COLOR, 0, kBlack.data());
   }
-  void present() override { glfwSwapBuffers(window_); }
+  void present() override {
+    if (!keeps_framebuffer()) return glfwSwapBuffers(window_);
+    const Pixels whole = pixels();
+    partial_.present(0, 0, whole.width, whole.height);
+  }
+  bool keeps_framebuffer() const override { return partial_.is_available(); }
+  void present(int left, int bottom, Pixels size) override {
+    if (!keeps_framebuffer()) return glfwSwapBuffers(window_);
+    partial_.present(left, bottom, size.width, size.height);
+  }
 
  private:
   static GlfwWindow& self_of(GLFWwindow* window) { return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window)); }
@@ -235,6 +272,7 @@ class GlfwWindow final : public Window {
   };
   Frame windowed_;  // position and size to return to from full screen
   GLFWwindow* window_;
+  PartialPresent partial_;
   WindowInput input_;
 };
 

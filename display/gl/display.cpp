@@ -3,9 +3,11 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
+#include "display/gl/damage.hpp"
 #include "display/gl/framebuffer.hpp"
 #include "display/gl/passes.hpp"
 #include "display/gl/shaders.hpp"
@@ -20,20 +22,33 @@ namespace yars::display::gl {
 
 namespace {
 
-// [display units] Minimum displacement of the video that causes a redraw: 0.2 pixel on a display of 480 pixels.
+// [pixels] Displacement from which kept video is drawn again.
+constexpr double kKeptShift = 0.5;
+// [display units] The same for video without new sweeps in a display that keeps no video: 0.2 pixel of 480.
 constexpr double kVisibleShift = 0.2;
+// Pictures, half a second, after which sweeps that newer sweeps have replaced vanish from kept video. Until then they
+// show where the newer sweeps leave gaps. Sweeps that none has replaced vanish at once.
+constexpr int kMaxStalePictures = 30;
 
 }  // namespace
 
+// What a picture shows below its symbols: stored sweeps or a patch map, kept in a framebuffer of its own. The picture is
+// this base with the symbols over it. Only the damaged parts of the picture are drawn again.
 struct Display::State {
-  // Inputs that a picture shows, for comparison with the next picture. Symbols are compared separately, as draw lists.
-  struct Shown {
-    std::uint64_t video_version = 0;
+  struct Base {
     bool video = false;     // stored sweeps are drawn
     std::uint64_t map = 0;  // id of the patch map drawn; 0: none
     ViewFrame frame;
     std::uint8_t brightness = 0, contrast = 0;
-    int size = 0;
+
+    bool has_same_settings(const Base& other) const {
+      return video == other.video && map == other.map && brightness == other.brightness && contrast == other.contrast;
+    }
+  };
+  // State of the store when the video was drawn.
+  struct DrawnStore {
+    std::uint64_t version = 0, erasures = 0, losses = 0;
+    std::uint64_t newest = 0;  // greatest serial
   };
 
   State(const SymbologyParameters& parameters, int size, const ColorScheme& colors_used)
@@ -42,32 +57,80 @@ struct Display::State {
         route(parameters.route),
         colors(colors_used),
         view(parameters.view),
-        framebuffer(size) {}
+        picture(size),
+        base_picture(size),
+        damage(size) {}
 
-  // True if the framebuffer already shows these inputs and the symbols in `list`. The video may be displaced by less
-  // than kVisibleShift.
-  bool is_shown(const Shown& wanted) const {
-    return shown && shown->size == wanted.size && shown->video == wanted.video && shown->map == wanted.map &&
-           shown->brightness == wanted.brightness && shown->contrast == wanted.contrast &&
-           (!wanted.video || (shown->video_version == wanted.video_version &&
-                              displacement_units(view, shown->frame, wanted.frame) < kVisibleShift)) &&
-           list == shown_list;
+  double pixels_per_unit() const { return picture.size() / static_cast<double>(kDisplayUnits); }
+
+  // True if the video in the base differs from the stored sweeps by more than new sweeps.
+  bool needs_all_sweeps(const ViewFrame& frame) {
+    const double shift = displacement_units(view, base->frame, frame);
+    if (!keeps_video) return store.version() != drawn.version || shift >= kVisibleShift;
+    if (store.losses() != drawn.losses || shift * pixels_per_unit() >= kKeptShift) return true;
+    return store.erasures() != drawn.erasures && ++stale_pictures >= kMaxStalePictures;
   }
 
-  void render(const Shown& wanted) {
-    const std::array<float, 256> light = video_light(wanted.brightness, wanted.contrast);
-    framebuffer.bind();
+  void update_base(const Base& wanted) {
+    if (!base || !base->has_same_settings(wanted) || (wanted.video && needs_all_sweeps(wanted.frame))) {
+      draw_base(wanted);
+    } else if (wanted.video && store.version() != drawn.version) {
+      draw_new_sweeps();
+    }
+  }
+
+  void draw_base(const Base& wanted) {
+    light = video_light(wanted.brightness, wanted.contrast);
+    light_texture.set(light);
+    base_picture.bind();
     const std::array<float, 4> ground{colors.ground.red, colors.ground.green, colors.ground.blue, 1.0F};
     glClearBufferfv(GL_COLOR, 0, ground.data());
+    base = wanted;
+    drawn = {store.version(), store.erasures(), store.losses(), 0};
+    stale_pictures = 0;
+    if (wanted.video) draw_sweeps();
+    if (wanted.map != 0) map_pass.draw(wanted.map, light_texture, colors.video, base_picture.size());
+    damage.mark_all();
+  }
+
+  // Draws the sweeps that the base does not show yet, in the frame of the base.
+  void draw_sweeps() {
+    place_wedges(store, view, base->frame, wedges, drawn.newest);
+    video_pass.draw(store, wedges, light_texture, colors.video);
+    if (!wedges.empty()) drawn.newest = wedges.back().serial;
+    drawn.version = store.version();
+  }
+
+  void draw_new_sweeps() {
+    base_picture.bind();
+    draw_sweeps();
+    const auto scale = static_cast<float>(pixels_per_unit());
+    const float margin = VideoPass::kMargin * scale + 1.0F;
+    for (const Wedge& wedge : wedges) {
+      const float reach = wedge.range / std::cos(wedge.half_width);
+      const auto corner = [&](Point edge, float length) {
+        return Point{(wedge.apex.x + edge.x * length) * scale, (wedge.apex.y + edge.y * length) * scale};
+      };
+      damage.mark_polygon(std::array{corner({}, 0.0F), corner(wedge.left, reach), corner(wedge.right, reach)}, margin);
+    }
+  }
+
+  void mark_changed_symbols() {
+    const auto scale = static_cast<float>(pixels_per_unit());
+    constexpr float kFadingEdge = 1.5F;  // [pixels]
+    visit_changes(shown_list, list, [&](const Rect& box) {
+      damage.mark(
+          grown({box.left * scale, box.top * scale, box.right * scale, box.bottom * scale}, kFadingEdge));
+    });
+  }
+
+  // Draws the damaged parts of the picture.
+  void compose() {
+    picture.bind();
+    picture_pass.draw(base_picture, 0, 0, damage.rects());
     // Antialiased edges of symbols have an alpha below 1. The color mask keeps the alpha of the picture at 1.
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
-    light_texture.set(light);
-    if (wanted.video) {
-      place_wedges(store, view, wanted.frame, wedges);
-      video_pass.draw(store, wedges, light_texture, colors.video);
-    }
-    if (wanted.map != 0) map_pass.draw(wanted.map, light_texture, colors.video, wanted.size);
-    overlay_pass.draw(list, colors, light, {static_cast<float>(framebuffer.size()) / kDisplayUnits});
+    overlay_pass.draw(list, colors, light, {.edge = picture.size(), .damage = &damage});
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
 
@@ -76,17 +139,22 @@ struct Display::State {
   std::vector<radar::RoutePoint> route;
   ColorScheme colors;
   PlanView view;
-  Framebuffer framebuffer;
+  Framebuffer picture, base_picture;
   LightTexture light_texture;
   VideoPass video_pass;
   MapPass map_pass;
   OverlayPass overlay_pass;
   PicturePass picture_pass;
   PolarStore store;
-  DrawList list, shown_list;  // symbols to draw, and symbols in the framebuffer
+  DrawList list, shown_list;  // symbols to draw, and symbols in the picture
   LabelMemory labels;
   std::vector<Wedge> wedges;
-  std::optional<Shown> shown;
+  std::array<float, 256> light{};
+  bool keeps_video = true;
+  std::optional<Base> base;  // nullopt: neither base nor picture have been drawn in this size
+  DrawnStore drawn;
+  int stale_pictures = 0;  // pictures since replaced sweeps in the video were erased from the store
+  Damage damage;           // by the last draw()
 };
 
 Display::Display(const SymbologyParameters& parameters, int size)
@@ -106,45 +174,60 @@ void Display::add(const databuffer::PatchMap& map, std::span<const std::uint8_t>
 }
 
 void Display::resize(int size) {
-  state_->framebuffer.resize(size);
+  state_->picture.resize(size);
+  state_->base_picture.resize(size);
+  state_->base.reset();
 }
 
 int Display::size() const {
-  return state_->framebuffer.size();
+  return state_->picture.size();
+}
+
+void Display::keep_video(bool on) {
+  state_->keeps_video = on;
 }
 
 bool Display::draw(const DisplayInput& input) {
   State& state = *state_;
   // Sweeps stored in a mode other than the radar state's are not shown.
   const bool video = shows_video(input.state) && state.store.mode() == input.state.mode;
-  State::Shown wanted;
-  wanted.video_version = state.store.version();
+  State::Base wanted;
   wanted.video = video;
   state.map_pass.keep(std::array{input.state.map_newest, input.state.map_old, input.state.map_stored});
   wanted.map = shows_map(input) && state.map_pass.has(input.map.id) ? input.map.id : 0;
   wanted.frame = present_frame(input, video ? state.store.newest() : nullptr);
   wanted.brightness = input.state.brightness;
   wanted.contrast = input.state.contrast;
-  wanted.size = state.framebuffer.size();
   draw_symbology(input, {state.view_section, state.blind_zone_deg, state.route}, state.view, wanted.frame, state.labels,
                  state.list);
-  if (state.is_shown(wanted)) return false;
-  state.render(wanted);
-  state.shown = wanted;
+  state.damage.reset(state.picture.size());
+  state.update_base(wanted);
+  state.mark_changed_symbols();
+  if (state.damage.empty()) return false;
+  state.compose();
   std::swap(state.list, state.shown_list);
   return true;
 }
 
+const Damage& Display::damage() const {
+  return state_->damage;
+}
+
 imageio::Image Display::read() const {
-  return state_->framebuffer.read();
+  return state_->picture.read();
 }
 
 const Framebuffer& Display::picture() const {
-  return state_->framebuffer;
+  return state_->picture;
 }
 
 void Display::show(int left, int bottom) {
-  state_->picture_pass.draw(state_->framebuffer, left, bottom);
+  const auto edge = static_cast<float>(size());
+  show(left, bottom, std::array{Rect{0.0F, 0.0F, edge, edge}});
+}
+
+void Display::show(int left, int bottom, std::span<const Rect> parts) {
+  state_->picture_pass.draw(state_->picture, left, bottom, parts);
 }
 
 }  // namespace yars::display::gl

@@ -150,9 +150,11 @@ bool Readback::copy_out(const Copy& copy, Picture& picture) {
 namespace {
 
 constexpr const char* kPictureVertex = R"(#version 330 core
+layout(location = 0) in vec4 part;  // [pixels] left, top, right, bottom
+uniform float edge;                 // of the picture [pixels]
 void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+  vec2 at = mix(part.xy, part.zw, vec2(gl_VertexID & 1, gl_VertexID >> 1)) / (edge * 0.5) - 1.0;
+  gl_Position = vec4(at.x, -at.y, 0.0, 1.0);
 }
 )";
 
@@ -169,25 +171,38 @@ void main() {
 }  // namespace
 
 PicturePass::PicturePass() : program_("picture", kPictureVertex, kPictureFragment) {
+  static_assert(sizeof(Rect) == 4 * sizeof(float));
   glGenVertexArrays(1, &vertex_array_);
+  glGenBuffers(1, &parts_);
+  glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, parts_);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(Rect), nullptr);
+  glVertexAttribDivisor(0, 1);
   program_.use();
   glUniform1i(program_.uniform("picture"), 0);
   corner_location_ = program_.uniform("corner");
+  edge_location_ = program_.uniform("edge");
 }
 
 PicturePass::~PicturePass() {
+  glDeleteBuffers(1, &parts_);
   glDeleteVertexArrays(1, &vertex_array_);
 }
 
-void PicturePass::draw(const Framebuffer& picture, int left, int bottom) {
+void PicturePass::draw(const Framebuffer& picture, int left, int bottom, std::span<const Rect> parts) {
+  if (parts.empty()) return;
   glViewport(left, bottom, picture.size(), picture.size());
   glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, parts_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(parts.size_bytes()), parts.data(), GL_STREAM_DRAW);
   glActiveTexture(GL_TEXTURE0);
   picture.bind_texture();
   program_.use();
   glUniform2i(corner_location_, left, bottom);
+  glUniform1f(edge_location_, static_cast<float>(picture.size()));
   glDisable(GL_BLEND);
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(parts.size()));
 }
 
 }  // namespace yars::display::gl

@@ -7,9 +7,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "display/gl/shaders.hpp"
+#include "display/symbology/draw_list.hpp"
 #include "lib/imageio/png.hpp"
 
 namespace yars::display {
@@ -78,7 +80,7 @@ class Readback {
   std::size_t first_ = 0, count_ = 0;  // index of the oldest pending copy; number of pending copies
 };
 
-// Copies the content of a Framebuffer into the current framebuffer without scaling.
+// Copies the content of a Framebuffer, or parts of it, into the current framebuffer without scaling.
 class PicturePass {
  public:
   PicturePass();
@@ -87,12 +89,13 @@ class PicturePass {
   PicturePass& operator=(const PicturePass&) = delete;
 
   // `picture`: source. `left`, `bottom`: lower left corner of the copy in the current framebuffer [pixels].
-  void draw(const Framebuffer& picture, int left, int bottom);
+  // `parts`: from the upper left corner of the picture [pixels].
+  void draw(const Framebuffer& picture, int left, int bottom, std::span<const Rect> parts);
 
  private:
   ShaderProgram program_;
-  std::uint32_t vertex_array_ = 0;
-  int corner_location_ = 0;
+  std::uint32_t vertex_array_ = 0, parts_ = 0;
+  int corner_location_ = 0, edge_location_ = 0;
 };
 
 }  // namespace yars::display::gl

@@ -119,10 +119,12 @@ class GroundPlan {
 
 }  // namespace
 
-void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges) {
+void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges,
+                  std::uint64_t after) {
   const GroundPlan plan(view, frame);
   wedges.clear();
   for (const StoredSweep& sweep : store.by_azimuth()) {
+    if (sweep.serial <= after) continue;
     wedges.push_back({plan.at(sweep.apex_ecef), plan.direction(sweep.apex_ecef, sweep.left_ecef),
                       plan.direction(sweep.apex_ecef, sweep.right_ecef),
                       static_cast<float>(sweep.range_m * plan.units_per_metre()),

@@ -91,8 +91,9 @@ struct Wedge {
   std::uint64_t serial = 0;  // StoredSweep::serial
 };
 
-// Replaces `wedges` by all sweeps of the store, oldest first. A sweep keeps its measured range and azimuth about
-// its own apex.
-void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges);
+// Replaces `wedges` by the sweeps of the store with a serial above `after`, oldest first; 0: all sweeps. A sweep keeps
+// its measured range and azimuth about its own apex.
+void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges,
+                  std::uint64_t after = 0);
 
 }  // namespace yars::display

@@ -75,6 +75,8 @@ void PolarStore::clear() {
   free_rows_.resize(kRows);
   for (int row = 0; row < kRows; ++row) free_rows_[static_cast<std::size_t>(row)] = kRows - 1 - row;
   ++version_;
+  ++erasures_;
+  ++losses_;
 }
 
 Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
@@ -148,6 +150,7 @@ std::size_t PolarStore::cover_between(double first_key_deg, double last_key_deg)
   for (auto at = begin; at != end; ++at) {
     if (at->covered && *at->covered != swept_.scan && !narrowed) {
       free_rows_.push_back(at->row);
+      ++erasures_;
       continue;
     }
     at->covered = swept_.scan;
@@ -162,6 +165,8 @@ void PolarStore::erase_if(Predicate gone) {
   std::erase_if(sweeps_, [&](const StoredSweep& sweep) {
     if (!gone(sweep)) return false;
     free_rows_.push_back(sweep.row);
+    ++erasures_;
+    if (!sweep.covered) ++losses_;
     return true;
   });
 }
@@ -194,6 +199,8 @@ int PolarStore::take_row() {
       return a.covered.has_value() != b.covered.has_value() ? a.covered.has_value() : a.serial < b.serial;
     });
     free_rows_.push_back(oldest->row);
+    ++erasures_;
+    if (!oldest->covered) ++losses_;
     sweeps_.erase(oldest);
   }
   const int row = free_rows_.back();
