@@ -129,13 +129,14 @@ namespace yars::display::gl {
 namespace {
 
 // glXCopySubBufferMESA: shows a rectangle of the back buffer, whose content stays. Source: GLX_MESA_copy_sub_buffer.
-// Used with the software renderer alone. There, drawing and showing a whole window is most of the work; a GPU does it in
-// no time, and swaps of buffers are what its driver does best.
+// Used with the software renderer alone. There, drawing and showing a whole window is most of the work; a GPU does it
+// in no time, and swaps of buffers are what its driver does best.
 class PartialPresent {
  public:
   PartialPresent() {
     const std::string renderer = text_of(GL_RENDERER);
-    const bool software = renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
+    const bool software =
+        renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
     if (!software || glfwExtensionSupported("GLX_MESA_copy_sub_buffer") == GLFW_FALSE) return;
     display_ = reinterpret_cast<CurrentDisplay>(glfwGetProcAddress("glXGetCurrentDisplay"));
     drawable_ = reinterpret_cast<CurrentDrawable>(glfwGetProcAddress("glXGetCurrentDrawable"));
@@ -147,7 +148,7 @@ class PartialPresent {
   }
 
  private:
-  using CurrentDisplay = void* (*)();          // a Display*
+  using CurrentDisplay = void* (*)();           // a Display*
   using CurrentDrawable = unsigned long (*)();  // a GLXDrawable
   using CopySubBuffer = void (*)(void*, unsigned long, int, int, int, int);
   CurrentDisplay display_ = nullptr;

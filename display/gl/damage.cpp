@@ -42,7 +42,8 @@ void Damage::mark(const Rect& box) {
 }
 
 void Damage::mark_polygon(std::span<const Point> corners, float margin) {
-  if (std::ranges::any_of(corners, [](Point at) { return !std::isfinite(at.x) || !std::isfinite(at.y); })) return mark_all();
+  if (std::ranges::any_of(corners, [](Point at) { return !std::isfinite(at.x) || !std::isfinite(at.y); }))
+    return mark_all();
   const auto [top, bottom] = std::ranges::minmax(corners, {}, &Point::y);
   const float edge = static_cast<float>(size_);
   if (all_ || !(bottom.y + margin > 0.0F && top.y - margin < edge)) return;
@@ -85,8 +86,9 @@ void Damage::build() const {
   const float edge = static_cast<float>(size_);
   if (all_) rects_.push_back({0.0F, 0.0F, edge, edge});
   for (int row = 0; row < tiles_across_; ++row) {
-    const auto tiles = std::span(tiles_).subspan(static_cast<std::size_t>(row) * static_cast<std::size_t>(tiles_across_),
-                                                 static_cast<std::size_t>(tiles_across_));
+    const auto tiles =
+        std::span(tiles_).subspan(static_cast<std::size_t>(row) * static_cast<std::size_t>(tiles_across_),
+                                  static_cast<std::size_t>(tiles_across_));
     for (std::size_t at = 0; !all_ && at < tiles.size();) {
       const auto begin = std::find(tiles.begin() + static_cast<std::ptrdiff_t>(at), tiles.end(), 1);
       const auto end = std::find(begin, tiles.end(), 0);

@@ -22,18 +22,20 @@ namespace yars::display::gl {
 
 namespace {
 
-// [pixels] Displacement from which kept video is drawn again.
+// [pixels] Displacement across the direction of flight from which kept video is drawn again. Along the direction of
+// flight kept video is scrolled by whole pixels, so its displacement is at most half a pixel, too.
 constexpr double kKeptShift = 0.5;
+constexpr int kScrollRows = 64;  // [pixels] way that kept video is scrolled before it is drawn again
 // [display units] The same for video without new sweeps in a display that keeps no video: 0.2 pixel of 480.
 constexpr double kVisibleShift = 0.2;
-// Pictures, half a second, after which sweeps that newer sweeps have replaced vanish from kept video. Until then they
-// show where the newer sweeps leave gaps. Sweeps that none has replaced vanish at once.
-constexpr int kMaxStalePictures = 30;
+// Pictures, one second, after which sweeps that newer sweeps have replaced vanish from kept video. Until then they show
+// where the newer sweeps leave gaps, which is near the aircraft. Sweeps that none has replaced vanish at once.
+constexpr int kMaxStalePictures = 60;
 
 }  // namespace
 
-// What a picture shows below its symbols: stored sweeps or a patch map, kept in a framebuffer of its own. The picture is
-// this base with the symbols over it. Only the damaged parts of the picture are drawn again.
+// What a picture shows below its symbols: stored sweeps or a patch map, kept in a framebuffer of its own. The picture
+// is this base with the symbols over it. Only the damaged parts of the picture are drawn again.
 struct Display::State {
   struct Base {
     bool video = false;     // stored sweeps are drawn
@@ -58,25 +60,36 @@ struct Display::State {
         colors(colors_used),
         view(parameters.view),
         picture(size),
-        base_picture(size),
+        base_picture(size, kScrollRows),
         damage(size) {}
 
   double pixels_per_unit() const { return picture.size() / static_cast<double>(kDisplayUnits); }
 
-  // True if the video in the base differs from the stored sweeps by more than new sweeps.
-  bool needs_all_sweeps(const ViewFrame& frame) {
-    const double shift = displacement_units(view, base->frame, frame);
-    if (!keeps_video) return store.version() != drawn.version || shift >= kVisibleShift;
-    if (store.losses() != drawn.losses || shift * pixels_per_unit() >= kKeptShift) return true;
+  // True if the video in the base differs from the stored sweeps by more than new sweeps and its movement.
+  bool needs_all_sweeps() {
+    if (!keeps_video) return store.version() != drawn.version;
+    if (store.losses() != drawn.losses) return true;
     return store.erasures() != drawn.erasures && ++stale_pictures >= kMaxStalePictures;
   }
 
+  // Rows by which to scroll the base so that it shows this frame; nullopt: it must be drawn again.
+  std::optional<int> scroll_to(const ViewFrame& frame) const {
+    if (!keeps_video)
+      return displacement_units(view, base->frame, frame) < kVisibleShift ? std::optional(0) : std::nullopt;
+    const std::optional<Movement> moved = movement_units(view, base->frame, frame);
+    if (!moved || moved->across * pixels_per_unit() >= kKeptShift) return std::nullopt;
+    const double rows = std::round(moved->along * pixels_per_unit());
+    return rows >= 0.0 && rows <= kScrollRows ? std::optional(static_cast<int>(rows)) : std::nullopt;
+  }
+
   void update_base(const Base& wanted) {
-    if (!base || !base->has_same_settings(wanted) || (wanted.video && needs_all_sweeps(wanted.frame))) {
-      draw_base(wanted);
-    } else if (wanted.video && store.version() != drawn.version) {
-      draw_new_sweeps();
-    }
+    if (!base || !base->has_same_settings(wanted)) return draw_base(wanted);
+    if (!wanted.video) return;
+    const std::optional<int> rows = scroll_to(wanted.frame);
+    if (!rows || needs_all_sweeps()) return draw_base(wanted);
+    if (*rows != scrolled) damage.mark_all();
+    scrolled = *rows;
+    if (store.version() != drawn.version) draw_new_sweeps();
   }
 
   void draw_base(const Base& wanted) {
@@ -87,29 +100,31 @@ struct Display::State {
     glClearBufferfv(GL_COLOR, 0, ground.data());
     base = wanted;
     drawn = {store.version(), store.erasures(), store.losses(), 0};
-    stale_pictures = 0;
-    if (wanted.video) draw_sweeps();
+    stale_pictures = scrolled = 0;
     if (wanted.map != 0) map_pass.draw(wanted.map, light_texture, colors.video, base_picture.size());
+    if (wanted.video) draw_sweeps();
     damage.mark_all();
   }
 
   // Draws the sweeps that the base does not show yet, in the frame of the base.
   void draw_sweeps() {
     place_wedges(store, view, base->frame, wedges, drawn.newest);
-    video_pass.draw(store, wedges, light_texture, colors.video);
+    const auto size = static_cast<float>(base_picture.size());
+    if (keeps_video) base_picture.bind_with_rows_above();
+    video_pass.draw(store, wedges, light_texture, colors.video, keeps_video ? size / (size + kScrollRows) : 1.0F);
     if (!wedges.empty()) drawn.newest = wedges.back().serial;
     drawn.version = store.version();
   }
 
   void draw_new_sweeps() {
-    base_picture.bind();
     draw_sweeps();
     const auto scale = static_cast<float>(pixels_per_unit());
     const float margin = VideoPass::kMargin * scale + 1.0F;
     for (const Wedge& wedge : wedges) {
       const float reach = wedge.range / std::cos(wedge.half_width);
       const auto corner = [&](Point edge, float length) {
-        return Point{(wedge.apex.x + edge.x * length) * scale, (wedge.apex.y + edge.y * length) * scale};
+        return Point{(wedge.apex.x + edge.x * length) * scale,
+                     (wedge.apex.y + edge.y * length) * scale + static_cast<float>(scrolled)};
       };
       damage.mark_polygon(std::array{corner({}, 0.0F), corner(wedge.left, reach), corner(wedge.right, reach)}, margin);
     }
@@ -119,16 +134,19 @@ struct Display::State {
     const auto scale = static_cast<float>(pixels_per_unit());
     constexpr float kFadingEdge = 1.5F;  // [pixels]
     visit_changes(shown_list, list, [&](const Rect& box) {
-      damage.mark(
-          grown({box.left * scale, box.top * scale, box.right * scale, box.bottom * scale}, kFadingEdge));
+      damage.mark(grown({box.left * scale, box.top * scale, box.right * scale, box.bottom * scale}, kFadingEdge));
     });
   }
 
   // Draws the damaged parts of the picture.
   void compose() {
     picture.bind();
-    picture_pass.draw(base_picture, 0, 0, damage.rects());
+    if (damage.is_all())
+      picture.copy_from(base_picture, scrolled);
+    else
+      picture_pass.draw(base_picture, 0, 0, damage.rects(), scrolled);
     // Antialiased edges of symbols have an alpha below 1. The color mask keeps the alpha of the picture at 1.
+    picture.bind();
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);
     overlay_pass.draw(list, colors, light, {.edge = picture.size(), .damage = &damage});
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -154,6 +172,7 @@ struct Display::State {
   std::optional<Base> base;  // nullopt: neither base nor picture have been drawn in this size
   DrawnStore drawn;
   int stale_pictures = 0;  // pictures since replaced sweeps in the video were erased from the store
+  int scrolled = 0;        // lowest row of the base that the picture shows
   Damage damage;           // by the last draw()
 };
 

@@ -24,6 +24,7 @@ layout(location = 2) in vec4 shape;  // range [units], half width [rad], row, sa
 out vec2 offset;
 flat out vec3 wedge;                 // range, row, samples
 uniform float margin;                // units
+uniform float share;                 // of the display in the height of the viewport
 void main() {
   float reach = shape.x / cos(shape.y);
   vec2 edge = (gl_VertexID & 1) == 0 ? edges.xy : edges.zw;
@@ -31,7 +32,7 @@ void main() {
   offset = outward + (gl_VertexID < 2 ? vec2(0.0) : edge * reach);
   wedge = vec3(shape.x, shape.z, shape.w);
   vec2 at = (apex + offset) / 240.0 - 1.0;
-  gl_Position = vec4(at.x, -at.y, 0.0, 1.0);
+  gl_Position = vec4(at.x, -at.y * share + (share - 1.0), 0.0, 1.0);
 }
 )";
 
@@ -79,6 +80,7 @@ VideoPass::VideoPass() : program_("video", kVideoVertex, kVideoFragment), upload
   glUniform1i(program_.uniform("video"), 0);
   glUniform1i(program_.uniform("light"), 1);
   glUniform1f(program_.uniform("margin"), kMargin);
+  share_location_ = program_.uniform("share");
   color_location_ = program_.uniform("color");
 }
 
@@ -101,7 +103,7 @@ void VideoPass::upload_new_rows(const PolarStore& store, std::span<const Wedge> 
 }
 
 void VideoPass::draw(const PolarStore& store, std::span<const Wedge> wedges, const LightTexture& light,
-                     const Color& color) {
+                     const Color& color, float share) {
   if (wedges.empty()) return;
   upload_new_rows(store, wedges);
   instance_data_.clear();
@@ -117,6 +119,7 @@ void VideoPass::draw(const PolarStore& store, std::span<const Wedge> wedges, con
   light.bind(1);
   program_.use();
   glUniform3f(color_location_, color.red, color.green, color.blue);
+  glUniform1f(share_location_, share);
   glDisable(GL_BLEND);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(wedges.size()));
 }
@@ -316,8 +319,9 @@ void OverlayPass::add(const Instance& instance, const Target& target) {
   const Rect box = grown({left * pixels_per_unit - x, top * pixels_per_unit - y, right * pixels_per_unit - x,
                           bottom * pixels_per_unit - y},
                          margin);
-  target.damage->visit(
-      box, [&](const Rect& part) { add_part({part.left + x, part.top + y, part.right + x, part.bottom + y}); });
+  target.damage->visit(box, [&](const Rect& part) {
+    add_part({part.left + x, part.top + y, part.right + x, part.bottom + y});
+  });
 }
 
 void OverlayPass::add_strokes(std::span<const Segment> segments, const ColorScheme& colors, bool halo,

@@ -33,7 +33,9 @@ class VideoPass {
   VideoPass(const VideoPass&) = delete;
   VideoPass& operator=(const VideoPass&) = delete;
 
-  void draw(const PolarStore& store, std::span<const Wedge> wedges, const LightTexture& light, const Color& color);
+  // `share`: of the display in the height of the viewport, from the lower edge.
+  void draw(const PolarStore& store, std::span<const Wedge> wedges, const LightTexture& light, const Color& color,
+            float share = 1.0F);
 
  private:
   void upload_new_rows(const PolarStore& store, std::span<const Wedge> wedges);
@@ -41,7 +43,7 @@ class VideoPass {
   ShaderProgram program_;
   std::uint32_t vertex_array_ = 0, instances_ = 0;
   std::uint32_t video_texture_ = 0;
-  int color_location_ = 0;
+  int color_location_ = 0, share_location_ = 0;
   std::vector<std::uint64_t> uploaded_serial_;  // serial of the sweep in each row; 0: none
   std::vector<float> instance_data_;
 };
@@ -92,9 +94,9 @@ class OverlayPass {
 
   // Square of the current framebuffer, and the part of it to draw.
   struct Target {
-    int left = 0, bottom = 0, edge = 0;  // [pixels] from the framebuffer's lower left corner
-    float units = kDisplayUnits;         // edge of the square
-    const Damage* damage = nullptr;      // nullptr: the whole square
+    int left = 0, bottom = 0, edge = 0;   // [pixels] from the framebuffer's lower left corner
+    float units = kDisplayUnits;          // edge of the square
+    const Damage* damage = nullptr;       // nullptr: the whole square
     int damage_left = 0, damage_top = 0;  // [pixels] position of the damage, from the square's upper left corner
   };
   // `light`: light table of the video, for the gray scale.

@@ -369,7 +369,8 @@ void visit_changes(const DrawList& before, const DrawList& after, const std::fun
   visit_changed(before.panels(), after.panels(), box);
   visit_changed(before.video_steps(), after.video_steps(), box);
   for (std::size_t layer = 0; layer < kLayers; ++layer) {
-    visit_changed(before.content(static_cast<Layer>(layer)).plates, after.content(static_cast<Layer>(layer)).plates, box);
+    visit_changed(before.content(static_cast<Layer>(layer)).plates, after.content(static_cast<Layer>(layer)).plates,
+                  box);
     visit_changed(before.content(static_cast<Layer>(layer)).strokes, after.content(static_cast<Layer>(layer)).strokes,
                   box);
   }
