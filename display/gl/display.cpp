@@ -28,8 +28,9 @@ constexpr double kKeptShift = 0.5;
 constexpr int kScrollRows = 64;  // [pixels] way that kept video is scrolled before it is drawn again
 // [display units] The same for video without new sweeps in a display that keeps no video: 0.2 pixel of 480.
 constexpr double kVisibleShift = 0.2;
-// Pictures, one second, after which sweeps that newer sweeps have replaced vanish from kept video. Until then they show
-// where the newer sweeps leave gaps, which is near the aircraft. Sweeps that none has replaced vanish at once.
+// Pictures, one second, after which sweeps that newer sweeps have replaced vanish from kept video; they vanish at the
+// end of the scan if that is earlier. Until then they show where the newer sweeps leave gaps, which is near the
+// aircraft and at the edges of the scan. Sweeps that none has replaced vanish at once.
 constexpr int kMaxStalePictures = 60;
 
 }  // namespace
@@ -50,6 +51,7 @@ struct Display::State {
   // State of the store when the video was drawn.
   struct DrawnStore {
     std::uint64_t version = 0, erasures = 0, losses = 0;
+    std::uint32_t scan = 0;    // of the newest sweep when all sweeps were drawn
     std::uint64_t newest = 0;  // greatest serial
   };
 
@@ -69,7 +71,8 @@ struct Display::State {
   bool needs_all_sweeps() {
     if (!keeps_video) return store.version() != drawn.version;
     if (store.losses() != drawn.losses) return true;
-    return store.erasures() != drawn.erasures && ++stale_pictures >= kMaxStalePictures;
+    if (store.erasures() == drawn.erasures) return false;
+    return store.newest()->scan != drawn.scan || ++stale_pictures >= kMaxStalePictures;
   }
 
   // Rows by which to scroll the base so that it shows this frame; nullopt: it must be drawn again.
@@ -99,7 +102,7 @@ struct Display::State {
     const std::array<float, 4> ground{colors.ground.red, colors.ground.green, colors.ground.blue, 1.0F};
     glClearBufferfv(GL_COLOR, 0, ground.data());
     base = wanted;
-    drawn = {store.version(), store.erasures(), store.losses(), 0};
+    drawn = {store.version(), store.erasures(), store.losses(), wanted.video ? store.newest()->scan : 0, 0};
     stale_pictures = scrolled = 0;
     if (wanted.map != 0) map_pass.draw(wanted.map, light_texture, colors.video, base_picture.size());
     if (wanted.video) draw_sweeps();

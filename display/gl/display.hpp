@@ -37,8 +37,9 @@ class Display {
 
   // On, as at first: new sweeps are drawn into the video of the last picture, which is scrolled by whole pixels as the
   // aircraft flies. The video is displaced by at most half a pixel along the flight and as much across. All sweeps are
-  // drawn again when it would be more, as in a turn; when sweeps vanish that no newer sweep replaces; and a second
-  // (60 pictures) after newer sweeps replaced others. Off: each picture with new sweeps is drawn from all sweeps.
+  // drawn again when it would be more, as in a turn; when sweeps vanish that no newer sweep replaces; and after
+  // newer sweeps replaced others, at the end of the scan or after a second (60 pictures). Off: each picture with new
+  // sweeps is drawn from all sweeps.
   void keep_video(bool on);
 
   // Draws the parts of the picture that have changed. Returns false, without drawing, if a new picture would not differ

@@ -98,6 +98,7 @@ Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
     mode_ = sweep.mode;
   }
   const bool was_empty = sweeps_.empty();
+  newest_range_m_ = sweep.range_m;
   swept_.extend(sweep.scan, left, width_deg);
   const std::size_t covered = cover((left - reference_).degrees(), width_deg);
   erase_swept({sweep.apex_latitude_deg, sweep.apex_longitude_deg});
@@ -149,8 +150,7 @@ std::size_t PolarStore::cover_between(double first_key_deg, double last_key_deg)
   auto kept = begin;
   for (auto at = begin; at != end; ++at) {
     if (at->covered && *at->covered != swept_.scan && !narrowed) {
-      free_rows_.push_back(at->row);
-      ++erasures_;
+      give_back(*at);
       continue;
     }
     at->covered = swept_.scan;
@@ -160,13 +160,19 @@ std::size_t PolarStore::cover_between(double first_key_deg, double last_key_deg)
   return count;
 }
 
+// Counts an erased sweep, whose row another sweep may take.
+void PolarStore::give_back(const StoredSweep& erased) {
+  constexpr double kRounding = 1.001;  // a sweep with a number of samples that cannot be averaged evenly is shortened
+  free_rows_.push_back(erased.row);
+  ++erasures_;
+  if (!erased.covered || erased.range_m > newest_range_m_ * kRounding) ++losses_;
+}
+
 template <typename Predicate>
 void PolarStore::erase_if(Predicate gone) {
   std::erase_if(sweeps_, [&](const StoredSweep& sweep) {
     if (!gone(sweep)) return false;
-    free_rows_.push_back(sweep.row);
-    ++erasures_;
-    if (!sweep.covered) ++losses_;
+    give_back(sweep);
     return true;
   });
 }
@@ -198,9 +204,7 @@ int PolarStore::take_row() {
     const auto oldest = std::min_element(sweeps_.begin(), sweeps_.end(), [](const auto& a, const auto& b) {
       return a.covered.has_value() != b.covered.has_value() ? a.covered.has_value() : a.serial < b.serial;
     });
-    free_rows_.push_back(oldest->row);
-    ++erasures_;
-    if (!oldest->covered) ++losses_;
+    give_back(*oldest);
     sweeps_.erase(oldest);
   }
   const int row = free_rows_.back();
