@@ -121,7 +121,10 @@ bool WindowDisplay::redraw(std::int64_t now_ns) {
 bool WindowDisplay::refresh(const host::Viewport& whole) {
   const host::Viewport changed = mpd_.refresh_panel(view_, whole);
   if (changed.width <= 0) return false;
-  window_.present(changed.left, changed.bottom, {changed.width, changed.height});
+  // A window that was resized in the meantime has another framebuffer, whose content is undefined.
+  const auto now = window_.pixels();
+  stale_ = now.width != whole.width || now.height != whole.height;
+  if (!stale_) window_.present();
   return true;
 }
 

@@ -128,38 +128,29 @@ namespace yars::display::gl {
 
 namespace {
 
-// glXCopySubBufferMESA: shows a rectangle of the back buffer, whose content stays. Source: GLX_MESA_copy_sub_buffer.
-// Used with the software renderer alone. There, drawing and showing a whole window is most of the work; a GPU does it
-// in no time, and swaps of buffers are what its driver does best.
-class PartialPresent {
- public:
-  PartialPresent() {
-    const std::string renderer = text_of(GL_RENDERER);
-    const bool software =
-        renderer.find("llvmpipe") != std::string::npos || renderer.find("softpipe") != std::string::npos;
-    if (!software || glfwExtensionSupported("GLX_MESA_copy_sub_buffer") == GLFW_FALSE) return;
-    display_ = reinterpret_cast<CurrentDisplay>(glfwGetProcAddress("glXGetCurrentDisplay"));
-    drawable_ = reinterpret_cast<CurrentDrawable>(glfwGetProcAddress("glXGetCurrentDrawable"));
-    copy_ = reinterpret_cast<CopySubBuffer>(glfwGetProcAddress("glXCopySubBufferMESA"));
+// True if the window's framebuffer keeps its content when buffers are swapped, as that of Mesa's software renderer does
+// on X11. Clears, swaps and reads three times, with colors that cannot be told from black: with two or three buffers in
+// turn, another color would be read. Asked of a software renderer alone. A GPU draws a whole window in no time, and its
+// driver may begin to swap in another way.
+bool keeps_content(GLFWwindow* window) {
+  const std::string renderer = text_of(GL_RENDERER);
+  if (renderer.find("llvmpipe") == std::string::npos && renderer.find("softpipe") == std::string::npos) return false;
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  for (int level = 1; level <= 3; ++level) {
+    const std::array<float, 4> color{static_cast<float>(level) / 255.0F, 0.0F, 0.0F, 1.0F};
+    glClearBufferfv(GL_COLOR, 0, color.data());
+    glfwSwapBuffers(window);
+    std::array<std::uint8_t, 4> found{};
+    glReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, found.data());
+    if (found[0] != level) return false;
   }
-  bool is_available() const { return display_ != nullptr && drawable_ != nullptr && copy_ != nullptr; }
-  void present(int left, int bottom, int width, int height) const {
-    copy_(display_(), drawable_(), left, bottom, width, height);
-  }
-
- private:
-  using CurrentDisplay = void* (*)();           // a Display*
-  using CurrentDrawable = unsigned long (*)();  // a GLXDrawable
-  using CopySubBuffer = void (*)(void*, unsigned long, int, int, int, int);
-  CurrentDisplay display_ = nullptr;
-  CurrentDrawable drawable_ = nullptr;
-  CopySubBuffer copy_ = nullptr;
-};
+  return true;
+}
 
 // The context of the window must be current.
 class GlfwWindow final : public Window {
  public:
-  explicit GlfwWindow(GLFWwindow* window) : window_(window) {
+  explicit GlfwWindow(GLFWwindow* window) : window_(window), keeps_framebuffer_(keeps_content(window)) {
     glfwSetWindowUserPointer(window, this);
     glfwSetKeyCallback(window, [](GLFWwindow* from, int key, int, int action, int) {
       if (action != GLFW_REPEAT) input_of(from).keys.push_back({databuffer::key_of_glfw(key), action == GLFW_PRESS});
@@ -220,16 +211,8 @@ class GlfwWindow final : public Window {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     glClearBufferfv(GL_COLOR, 0, kBlack.data());
   }
-  void present() override {
-    if (!keeps_framebuffer()) return glfwSwapBuffers(window_);
-    const Pixels whole = pixels();
-    partial_.present(0, 0, whole.width, whole.height);
-  }
-  bool keeps_framebuffer() const override { return partial_.is_available(); }
-  void present(int left, int bottom, Pixels size) override {
-    if (!keeps_framebuffer()) return glfwSwapBuffers(window_);
-    partial_.present(left, bottom, size.width, size.height);
-  }
+  void present() override { glfwSwapBuffers(window_); }
+  bool keeps_framebuffer() const override { return keeps_framebuffer_; }
 
  private:
   static GlfwWindow& self_of(GLFWwindow* window) { return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window)); }
@@ -273,7 +256,7 @@ class GlfwWindow final : public Window {
   };
   Frame windowed_;  // position and size to return to from full screen
   GLFWwindow* window_;
-  PartialPresent partial_;
+  bool keeps_framebuffer_;
   WindowInput input_;
 };
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "display/gl/damage.hpp"
@@ -206,7 +207,8 @@ int Display::size() const {
 }
 
 void Display::keep_video(bool on) {
-  state_->keeps_video = on;
+  // Kept video has rows above the picture, which other video does not draw.
+  if (std::exchange(state_->keeps_video, on) != on) state_->base.reset();
 }
 
 bool Display::draw(const DisplayInput& input) {
