@@ -64,6 +64,7 @@ class HeadlessDisplay {
     view_.tooltip = view_.lit = options.tooltip.value_or(0);
     mpd_.show_hints(true);
     mpd_.show_help(options.help);
+    if (frames_) mpd_.keep_video(false);  // a file shows its tick, whatever was painted before
   }
 
   // [ns] Longest step on time: of frames in a folder alone the interval between them.

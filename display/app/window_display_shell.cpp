@@ -110,14 +110,33 @@ bool WindowDisplay::redraw(std::int64_t now_ns) {
   const auto pixels = window_.pixels();
   const int edge = std::min(pixels.width, pixels.height);
   if (edge <= 0) return false;  // minimized
-  const bool painted = mpd_.paint_panel(view_, edge);
-  if (painted && publisher_) publisher_->note_painted();
-  if (!painted && !stale_) return true;
-  window_.clear();
-  mpd_.draw_panel(view_, {0, 0, pixels.width, pixels.height});
-  window_.present();
-  stale_ = false;
+  const host::Viewport whole{0, 0, pixels.width, pixels.height};
+  const bool partly = window_.keeps_framebuffer() && !stale_ && shown_ == whole;
+  if (partly ? refresh(whole) : redraw_all(whole, edge))
+    if (publisher_) publisher_->note_painted();
   return true;
+}
+
+// Both return true if the picture has changed.
+bool WindowDisplay::refresh(const host::Viewport& whole) {
+  const host::Viewport changed = mpd_.refresh_panel(view_, whole);
+  if (changed.width <= 0) return false;
+  // A window that was resized in the meantime has another framebuffer, whose content is undefined.
+  const auto now = window_.pixels();
+  stale_ = now.width != whole.width || now.height != whole.height;
+  if (!stale_) window_.present();
+  return true;
+}
+
+bool WindowDisplay::redraw_all(const host::Viewport& whole, int edge) {
+  const bool painted = mpd_.paint_panel(view_, edge);
+  if (!painted && !stale_) return false;
+  window_.clear();
+  mpd_.draw_panel(view_, whole);
+  window_.present();
+  shown_ = whole;
+  stale_ = false;
+  return painted;
 }
 
 }  // namespace yars::display

@@ -39,6 +39,8 @@ class WindowDisplay {
   PanelLayout layout() const { return {view_.bezel ? kBezelBorder : 0.0F}; }
   Point on_panel(Point fractions) const { return {fractions.x * layout().edge(), fractions.y * layout().edge()}; }
   bool redraw(std::int64_t now_ns);
+  bool refresh(const host::Viewport& whole);
+  bool redraw_all(const host::Viewport& whole, int edge);
 
   gl::Window& window_;
   host::Display& mpd_;
@@ -51,6 +53,7 @@ class WindowDisplay {
   std::int64_t notice_end_ns_ = 0;   // CLOCK_MONOTONIC
   std::int64_t next_redraw_ns_ = 0;  // CLOCK_MONOTONIC
   bool stale_ = true;                // true: the window does not show the current picture
+  host::Viewport shown_;             // the window when all of it was drawn
 };
 
 }  // namespace yars::display

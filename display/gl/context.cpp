@@ -128,9 +128,29 @@ namespace yars::display::gl {
 
 namespace {
 
+// True if the window's framebuffer keeps its content when buffers are swapped, as that of Mesa's software renderer does
+// on X11. Clears, swaps and reads three times, with colors that cannot be told from black: with two or three buffers in
+// turn, another color would be read. Asked of a software renderer alone. A GPU draws a whole window in no time, and its
+// driver may begin to swap in another way.
+bool keeps_content(GLFWwindow* window) {
+  const std::string renderer = text_of(GL_RENDERER);
+  if (renderer.find("llvmpipe") == std::string::npos && renderer.find("softpipe") == std::string::npos) return false;
+  glBindFramebuffer(GL_FRAMEBUFFER, 0);
+  for (int level = 1; level <= 3; ++level) {
+    const std::array<float, 4> color{static_cast<float>(level) / 255.0F, 0.0F, 0.0F, 1.0F};
+    glClearBufferfv(GL_COLOR, 0, color.data());
+    glfwSwapBuffers(window);
+    std::array<std::uint8_t, 4> found{};
+    glReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, found.data());
+    if (found[0] != level) return false;
+  }
+  return true;
+}
+
+// The context of the window must be current.
 class GlfwWindow final : public Window {
  public:
-  explicit GlfwWindow(GLFWwindow* window) : window_(window) {
+  explicit GlfwWindow(GLFWwindow* window) : window_(window), keeps_framebuffer_(keeps_content(window)) {
     glfwSetWindowUserPointer(window, this);
     glfwSetKeyCallback(window, [](GLFWwindow* from, int key, int, int action, int) {
       if (action != GLFW_REPEAT) input_of(from).keys.push_back({databuffer::key_of_glfw(key), action == GLFW_PRESS});
@@ -192,6 +212,7 @@ class GlfwWindow final : public Window {
     glClearBufferfv(GL_COLOR, 0, kBlack.data());
   }
   void present() override { glfwSwapBuffers(window_); }
+  bool keeps_framebuffer() const override { return keeps_framebuffer_; }
 
  private:
   static GlfwWindow& self_of(GLFWwindow* window) { return *static_cast<GlfwWindow*>(glfwGetWindowUserPointer(window)); }
@@ -235,6 +256,7 @@ class GlfwWindow final : public Window {
   };
   Frame windowed_;  // position and size to return to from full screen
   GLFWwindow* window_;
+  bool keeps_framebuffer_;
   WindowInput input_;
 };
 

@@ -75,6 +75,9 @@ class Window : public Context {
   virtual bool is_full_screen() const = 0;
   virtual void clear() = 0;    // binds the window's framebuffer and clears it to black
   virtual void present() = 0;  // swaps buffers without waiting for vertical sync
+  // True if the framebuffer keeps its content after present() while the window keeps its size, so that the next picture
+  // need only be drawn where it has changed.
+  virtual bool keeps_framebuffer() const = 0;
 };
 
 // Opens a window of the class "yars-radar-display" (WM_CLASS), with an icon. `size`: width and height of the window

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "databuffer/messages/model_records.hpp"
+#include "display/gl/damage.hpp"
 #include "display/gl/framebuffer.hpp"
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/plan_view.hpp"
@@ -34,13 +35,24 @@ class Display {
   void resize(int size);
   int size() const;
 
-  // Draws the picture. Returns false, without drawing, if a new picture would not differ visibly from the present one.
+  // On, as at first: new sweeps are drawn into the video of the last picture, which is scrolled by whole pixels as the
+  // aircraft flies. The video is displaced by at most half a pixel along the flight and as much across. All sweeps are
+  // drawn again when it would be more, as in a turn; when sweeps vanish that no newer sweep replaces; and after
+  // newer sweeps replaced others, at the end of the scan or after a second (60 pictures). Off: each picture with new
+  // sweeps is drawn from all sweeps.
+  void keep_video(bool on);
+
+  // Draws the parts of the picture that have changed. Returns false, without drawing, if a new picture would not differ
+  // visibly from the present one.
   bool draw(const DisplayInput& input);
+  // The parts that the last draw() has drawn; empty if it returned false.
+  const Damage& damage() const;
 
   imageio::Image read() const;  // RGB
   const Framebuffer& picture() const;
   // Copies the picture unscaled into the current framebuffer. `left`, `bottom`: lower left corner of the copy [pixels].
   void show(int left, int bottom);
+  void show(int left, int bottom, std::span<const Rect> parts);  // from the picture's upper left corner [pixels]
 
  private:
   struct State;

@@ -10,7 +10,7 @@
 
 namespace yars::display::gl {
 
-Framebuffer::Framebuffer(int size) {
+Framebuffer::Framebuffer(int size, int rows_above) : rows_above_(rows_above) {
   glGenFramebuffers(1, &framebuffer_);
   glGenTextures(1, &texture_);
   glBindTexture(GL_TEXTURE_2D, texture_);
@@ -28,7 +28,7 @@ Framebuffer::~Framebuffer() {
 void Framebuffer::resize(int size) {
   size_ = size;
   glBindTexture(GL_TEXTURE_2D, texture_);
-  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size, size, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+  glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, size, size + rows_above_, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
   YARS_REQUIRE(glCheckFramebufferStatus(GL_FRAMEBUFFER), ==, static_cast<GLenum>(GL_FRAMEBUFFER_COMPLETE));
@@ -37,6 +37,18 @@ void Framebuffer::resize(int size) {
 void Framebuffer::bind() const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   glViewport(0, 0, size_, size_);
+}
+
+void Framebuffer::bind_with_rows_above() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  glViewport(0, 0, size_, size_ + rows_above_);
+}
+
+// A software renderer copies memory here. It takes several times as long to draw a picture as a texture.
+void Framebuffer::copy_from(const Framebuffer& other, int first_row) const {
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer_);
+  other.bind_for_reading();
+  glBlitFramebuffer(0, first_row, size_, first_row + size_, 0, 0, size_, size_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 void Framebuffer::bind_for_reading() const {
@@ -150,9 +162,11 @@ bool Readback::copy_out(const Copy& copy, Picture& picture) {
 namespace {
 
 constexpr const char* kPictureVertex = R"(#version 330 core
+layout(location = 0) in vec4 part;  // [pixels] left, top, right, bottom
+uniform float edge;                 // of the picture [pixels]
 void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  gl_Position = vec4(corner * 2.0 - 1.0, 0.0, 1.0);
+  vec2 at = mix(part.xy, part.zw, vec2(gl_VertexID & 1, gl_VertexID >> 1)) / (edge * 0.5) - 1.0;
+  gl_Position = vec4(at.x, -at.y, 0.0, 1.0);
 }
 )";
 
@@ -169,25 +183,38 @@ void main() {
 }  // namespace
 
 PicturePass::PicturePass() : program_("picture", kPictureVertex, kPictureFragment) {
+  static_assert(sizeof(Rect) == 4 * sizeof(float));
   glGenVertexArrays(1, &vertex_array_);
+  glGenBuffers(1, &parts_);
+  glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, parts_);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(Rect), nullptr);
+  glVertexAttribDivisor(0, 1);
   program_.use();
   glUniform1i(program_.uniform("picture"), 0);
   corner_location_ = program_.uniform("corner");
+  edge_location_ = program_.uniform("edge");
 }
 
 PicturePass::~PicturePass() {
+  glDeleteBuffers(1, &parts_);
   glDeleteVertexArrays(1, &vertex_array_);
 }
 
-void PicturePass::draw(const Framebuffer& picture, int left, int bottom) {
+void PicturePass::draw(const Framebuffer& picture, int left, int bottom, std::span<const Rect> parts, int first_row) {
+  if (parts.empty()) return;
   glViewport(left, bottom, picture.size(), picture.size());
   glBindVertexArray(vertex_array_);
+  glBindBuffer(GL_ARRAY_BUFFER, parts_);
+  glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(parts.size_bytes()), parts.data(), GL_STREAM_DRAW);
   glActiveTexture(GL_TEXTURE0);
   picture.bind_texture();
   program_.use();
-  glUniform2i(corner_location_, left, bottom);
+  glUniform2i(corner_location_, left, bottom - first_row);
+  glUniform1f(edge_location_, static_cast<float>(picture.size()));
   glDisable(GL_BLEND);
-  glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(parts.size()));
 }
 
 }  // namespace yars::display::gl

@@ -7,9 +7,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "display/gl/shaders.hpp"
+#include "display/symbology/draw_list.hpp"
 #include "lib/imageio/png.hpp"
 
 namespace yars::display {
@@ -26,24 +28,29 @@ struct Picture {
 
 namespace yars::display::gl {
 
-// Framebuffer object with a square color texture, which can be read back and sampled.
+// Framebuffer object with a square color texture, which can be read back and sampled. Above the square there may be
+// further rows, as room for a picture that moves down.
 class Framebuffer {
  public:
-  explicit Framebuffer(int size);
+  explicit Framebuffer(int size, int rows_above = 0);
   ~Framebuffer();
   Framebuffer(const Framebuffer&) = delete;
   Framebuffer& operator=(const Framebuffer&) = delete;
 
   void resize(int size);
   int size() const { return size_; }
-  void bind() const;              // binds as render target; sets the viewport to the whole picture
+  int rows_above() const { return rows_above_; }
+  void bind() const;  // binds as render target; sets the viewport to the square
+  void bind_with_rows_above() const;
   void bind_for_reading() const;  // binds as source of glReadPixels
   void bind_texture() const;      // binds to the active texture unit
-  imageio::Image read() const;    // RGB
+  imageio::Image read() const;    // RGB, of the square
+  // Copies a square of another framebuffer of this size, whose lowest row is `first_row`.
+  void copy_from(const Framebuffer& other, int first_row) const;
 
  private:
   std::uint32_t framebuffer_ = 0, texture_ = 0;
-  int size_ = 0;
+  int size_ = 0, rows_above_ = 0;
 };
 
 // Asynchronous readback into pixel buffer objects. start() begins a copy. take_if_ready() reads the buffer only after
@@ -78,7 +85,7 @@ class Readback {
   std::size_t first_ = 0, count_ = 0;  // index of the oldest pending copy; number of pending copies
 };
 
-// Copies the content of a Framebuffer into the current framebuffer without scaling.
+// Copies the content of a Framebuffer, or parts of it, into the current framebuffer without scaling.
 class PicturePass {
  public:
   PicturePass();
@@ -87,12 +94,13 @@ class PicturePass {
   PicturePass& operator=(const PicturePass&) = delete;
 
   // `picture`: source. `left`, `bottom`: lower left corner of the copy in the current framebuffer [pixels].
-  void draw(const Framebuffer& picture, int left, int bottom);
+  // `parts`: from the upper left corner of the square [pixels]. `first_row`: lowest row of the square to copy.
+  void draw(const Framebuffer& picture, int left, int bottom, std::span<const Rect> parts, int first_row = 0);
 
  private:
   ShaderProgram program_;
-  std::uint32_t vertex_array_ = 0;
-  int corner_location_ = 0;
+  std::uint32_t vertex_array_ = 0, parts_ = 0;
+  int corner_location_ = 0, edge_location_ = 0;
 };
 
 }  // namespace yars::display::gl

@@ -4,9 +4,8 @@
 
 namespace yars::display::gl {
 
-void PanelPass::draw(const DrawList& list, const ColorScheme& colors, const Square& square, float units) {
-  glViewport(square.left, square.bottom, square.edge, square.edge);
-  overlay_.draw(list, colors, {}, {static_cast<float>(square.edge) / units, units});
+void PanelPass::draw(const DrawList& list, const ColorScheme& colors, const OverlayPass::Target& target) {
+  overlay_.draw(list, colors, {}, target);
 }
 
 }  // namespace yars::display::gl

@@ -1,4 +1,4 @@
-// Draws the surround of a picture: bezel, tooltip, notice; and a square render target for the panel as a whole.
+// Draws the surround of a picture: bezel, tooltip, notice.
 // Inputs: a draw list in panel units (display/symbology/bezel.hpp).
 // Outputs: pixels in the current framebuffer.
 // Threads: objects need a current OpenGL context for their lifetime.
@@ -9,15 +9,10 @@
 
 namespace yars::display::gl {
 
-// Square of the current framebuffer [pixels], from its lower left corner.
-struct Square {
-  int left = 0, bottom = 0, edge = 0;
-};
-
 class PanelPass {
  public:
-  // Draws the list into the square, over what is there. `units`: edge of the panel [panel units].
-  void draw(const DrawList& list, const ColorScheme& colors, const Square& square, float units);
+  // Draws the list into the target, over what is there.
+  void draw(const DrawList& list, const ColorScheme& colors, const OverlayPass::Target& target);
 
  private:
   OverlayPass overlay_;

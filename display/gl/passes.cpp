@@ -17,25 +17,22 @@ namespace {
 constexpr int kFloatsPerWedge = 10;
 
 // The number 240 in the shader of the video is half of kDisplayUnits.
-// kMargin: each wedge is drawn wider by kMargin on either side, so that no gap is visible between adjacent wedges.
-// A gap arises because the apex of a wedge is the aircraft's position, and the aircraft moves between two sweeps.
-// The gap is 0.22 display units in a Doppler beam sharpened scan at 4.7 NM range and 250 m/s ground speed.
-// In the overlap the newer wedge is on top. A margin larger than needed would visibly widen the newest wedges.
 constexpr const char* kVideoVertex = R"(#version 330 core
 layout(location = 0) in vec2 apex;
 layout(location = 1) in vec4 edges;
 layout(location = 2) in vec4 shape;  // range [units], half width [rad], row, samples
 out vec2 offset;
 flat out vec3 wedge;                 // range, row, samples
-const float kMargin = 0.25;          // units
+uniform float margin;                // units
+uniform float share;                 // of the display in the height of the viewport
 void main() {
   float reach = shape.x / cos(shape.y);
   vec2 edge = (gl_VertexID & 1) == 0 ? edges.xy : edges.zw;
-  vec2 outward = normalize(edge - (edges.xy + edges.zw) * 0.5) * kMargin;
+  vec2 outward = normalize(edge - (edges.xy + edges.zw) * 0.5) * margin;
   offset = outward + (gl_VertexID < 2 ? vec2(0.0) : edge * reach);
   wedge = vec3(shape.x, shape.z, shape.w);
   vec2 at = (apex + offset) / 240.0 - 1.0;
-  gl_Position = vec4(at.x, -at.y, 0.0, 1.0);
+  gl_Position = vec4(at.x, -at.y * share + (share - 1.0), 0.0, 1.0);
 }
 )";
 
@@ -82,6 +79,8 @@ VideoPass::VideoPass() : program_("video", kVideoVertex, kVideoFragment), upload
   program_.use();
   glUniform1i(program_.uniform("video"), 0);
   glUniform1i(program_.uniform("light"), 1);
+  glUniform1f(program_.uniform("margin"), kMargin);
+  share_location_ = program_.uniform("share");
   color_location_ = program_.uniform("color");
 }
 
@@ -104,7 +103,7 @@ void VideoPass::upload_new_rows(const PolarStore& store, std::span<const Wedge> 
 }
 
 void VideoPass::draw(const PolarStore& store, std::span<const Wedge> wedges, const LightTexture& light,
-                     const Color& color) {
+                     const Color& color, float share) {
   if (wedges.empty()) return;
   upload_new_rows(store, wedges);
   instance_data_.clear();
@@ -120,6 +119,7 @@ void VideoPass::draw(const PolarStore& store, std::span<const Wedge> wedges, con
   light.bind(1);
   program_.use();
   glUniform3f(color_location_, color.red, color.green, color.blue);
+  glUniform1f(share_location_, share);
   glDisable(GL_BLEND);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(wedges.size()));
 }
@@ -211,46 +211,56 @@ void MapPass::draw(std::uint64_t id, const LightTexture& light, const Color& col
 
 namespace {
 
-// Floats of one instance: from (2), to (2), half width, color (3).
+// Floats of one instance: from (2), to (2), half width, color (3), the part of the square to draw (4) [pixels].
 // The half width kRectangle marks a filled rectangle with the corners `from` and `to`.
-constexpr int kFloatsPerInstance = 8;
+constexpr int kFloatsPerInstance = 12;
 constexpr float kRectangle = -1.0F;
 
 constexpr const char* kOverlayVertex = R"(#version 330 core
 layout(location = 0) in vec4 ends;
 layout(location = 1) in vec4 style;  // half width, color
+layout(location = 2) in vec4 part;   // [pixels] left, top, right, bottom; empty: all of the instance
 uniform float pixels_per_unit;
-uniform float half_units;            // half the edge of the viewport [units]
-out vec2 at;                         // [pixels], like ends and half width below
-flat out vec4 segment;
+uniform float edge;                  // of the square [pixels]
+flat out vec4 segment;               // [pixels], like the half width below
 flat out vec4 stroke;
 void main() {
   segment = ends * pixels_per_unit;
   stroke = vec4(style.x * pixels_per_unit, style.yzw);
   vec2 side = vec2(gl_VertexID & 1, gl_VertexID >> 1);
-  if (style.x < 0.0) {
-    at = mix(segment.xy, segment.zw, side);
+  float margin = style.x < 0.0 ? 0.0 : stroke.x + 1.0;
+  vec2 at;
+  if (style.x < 0.0 || part.z > part.x) {
+    vec2 low = min(segment.xy, segment.zw) - margin;
+    vec2 high = max(segment.xy, segment.zw) + margin;
+    if (part.z > part.x) {
+      low = max(low, part.xy);
+      high = max(low, min(high, part.zw));
+    }
+    at = mix(low, high, side);
   } else {
     vec2 along = segment.zw - segment.xy;
     float size = length(along);
     along = size > 0.0 ? along / size : vec2(1.0, 0.0);
-    float margin = stroke.x + 1.0;
     at = mix(segment.xy - along * margin, segment.zw + along * margin, side.x) +
          vec2(-along.y, along.x) * (side.y * 2.0 - 1.0) * margin;
   }
-  vec2 clip = at / (half_units * pixels_per_unit) - 1.0;
+  vec2 clip = at / (edge * 0.5) - 1.0;
   gl_Position = vec4(clip.x, -clip.y, 0.0, 1.0);
 }
 )";
 
+// The position in the square comes from the pixel, not from the corners of what is drawn. A stroke drawn in parts
+// therefore has the same pixels as a stroke drawn at once.
 constexpr const char* kOverlayFragment = R"(#version 330 core
-in vec2 at;
 flat in vec4 segment;
 flat in vec4 stroke;
+uniform vec2 corner;  // upper left corner of the square, from the framebuffer's lower left corner [pixels]
 out vec4 fragment;
 void main() {
   float cover = 1.0;
   if (stroke.x >= 0.0) {
+    vec2 at = vec2(gl_FragCoord.x - corner.x, corner.y - gl_FragCoord.y);
     vec2 along = segment.zw - segment.xy;
     vec2 from = at - segment.xy;
     float fraction = clamp(dot(from, along) / max(dot(along, along), 1e-6), 0.0, 1.0);
@@ -282,8 +292,10 @@ OverlayPass::OverlayPass() : program_("overlay", kOverlayVertex, kOverlayFragmen
   glBindBuffer(GL_ARRAY_BUFFER, instances_);
   instance_attribute(0, 0);
   instance_attribute(1, 4);
+  instance_attribute(2, 8);
   scale_location_ = program_.uniform("pixels_per_unit");
-  half_location_ = program_.uniform("half_units");
+  edge_location_ = program_.uniform("edge");
+  corner_location_ = program_.uniform("corner");
 }
 
 OverlayPass::~OverlayPass() {
@@ -291,47 +303,69 @@ OverlayPass::~OverlayPass() {
   glDeleteVertexArrays(1, &vertex_array_);
 }
 
-void OverlayPass::add_rectangle(const Rect& rect, const Color& color) {
-  instance_data_.insert(instance_data_.end(),
-                        {rect.left, rect.top, rect.right, rect.bottom, kRectangle, color.red, color.green, color.blue});
+// Adds the instance once for each rectangle of the damage that it may touch.
+void OverlayPass::add(const Instance& instance, const Target& target) {
+  const auto add_part = [&](const Rect& part) {
+    const auto& [from, to, half_width, color] = instance;
+    instance_data_.insert(instance_data_.end(), {from.x, from.y, to.x, to.y, half_width, color.red, color.green,
+                                                 color.blue, part.left, part.top, part.right, part.bottom});
+  };
+  if (target.damage == nullptr || target.damage->is_all()) return add_part({});
+  const float pixels_per_unit = static_cast<float>(target.edge) / target.units;
+  const auto x = static_cast<float>(target.damage_left), y = static_cast<float>(target.damage_top);
+  const float margin = instance.half_width < 0.0F ? 0.0F : instance.half_width * pixels_per_unit + 1.0F;
+  const auto [left, right] = std::minmax(instance.from.x, instance.to.x);
+  const auto [top, bottom] = std::minmax(instance.from.y, instance.to.y);
+  const Rect box = grown({left * pixels_per_unit - x, top * pixels_per_unit - y, right * pixels_per_unit - x,
+                          bottom * pixels_per_unit - y},
+                         margin);
+  target.damage->visit(box, [&](const Rect& part) {
+    add_part({part.left + x, part.top + y, part.right + x, part.bottom + y});
+  });
 }
 
-void OverlayPass::add_strokes(std::span<const Segment> segments, const ColorScheme& colors, bool halo) {
+void OverlayPass::add_strokes(std::span<const Segment> segments, const ColorScheme& colors, bool halo,
+                              const Target& target) {
   for (const Segment& segment : segments) {
     if (halo && segment.halo <= 0.0F) continue;
-    const Color color = halo ? colors.ground : colors.of(segment.ink);
-    const float half_width = segment.width / 2.0F + (halo ? segment.halo : 0.0F);
-    instance_data_.insert(instance_data_.end(), {segment.from.x, segment.from.y, segment.to.x, segment.to.y, half_width,
-                                                 color.red, color.green, color.blue});
+    add({segment.from, segment.to, segment.width / 2.0F + (halo ? segment.halo : 0.0F),
+         halo ? colors.ground : colors.of(segment.ink)},
+        target);
   }
 }
 
-void OverlayPass::flush(const Scale& scale) {
+void OverlayPass::flush(const Target& target) {
+  glViewport(target.left, target.bottom, target.edge, target.edge);
   glBindVertexArray(vertex_array_);
   glBindBuffer(GL_ARRAY_BUFFER, instances_);
   glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(instance_data_.size() * sizeof(float)), instance_data_.data(),
                GL_STREAM_DRAW);
   program_.use();
-  glUniform1f(scale_location_, scale.pixels_per_unit);
-  glUniform1f(half_location_, scale.units / 2.0F);
+  const auto edge = static_cast<float>(target.edge);
+  glUniform1f(scale_location_, edge / target.units);
+  glUniform1f(edge_location_, edge);
+  glUniform2f(corner_location_, static_cast<float>(target.left), static_cast<float>(target.bottom + target.edge));
   glEnable(GL_BLEND);
   glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instance_data_.size() / kFloatsPerInstance));
 }
 
 void OverlayPass::draw(const DrawList& list, const ColorScheme& colors, const std::array<float, 256>& light,
-                       const Scale& scale) {
+                       const Target& target) {
   // Instances are drawn in order: panels, steps of the gray scale, then the layers from bottom to top.
   instance_data_.clear();
+  const auto add_rectangle = [&](const Rect& rect, const Color& color) {
+    add({{rect.left, rect.top}, {rect.right, rect.bottom}, kRectangle, color}, target);
+  };
   for (const Panel& panel : list.panels()) add_rectangle(panel.rect, panel.color);
   for (const VideoStep& step : list.video_steps()) add_rectangle(step.rect, scaled(colors.video, light[step.video]));
   for (std::size_t layer = 0; layer < kLayers; ++layer) {
     const LayerContent& content = list.content(static_cast<Layer>(layer));
     for (const Rect& plate : content.plates) add_rectangle(plate, colors.ground);
-    add_strokes(content.strokes, colors, true);
-    add_strokes(content.strokes, colors, false);
+    add_strokes(content.strokes, colors, true, target);
+    add_strokes(content.strokes, colors, false, target);
   }
-  if (!instance_data_.empty()) flush(scale);
+  if (!instance_data_.empty()) flush(target);
 }
 
 }  // namespace yars::display::gl

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "display/gl/damage.hpp"
 #include "display/gl/shaders.hpp"
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/plan_view.hpp"
@@ -21,12 +22,20 @@ namespace yars::display::gl {
 // video at the pixel's distance from the wedge's apex. Video is interpolated linearly along the range.
 class VideoPass {
  public:
+  // [units] Each wedge is drawn wider by kMargin on either side, so that no gap is visible between adjacent wedges.
+  // A gap arises because the apex of a wedge is the aircraft's position, and the aircraft moves between two sweeps.
+  // The gap is 0.22 display units in a Doppler beam sharpened scan at 4.7 NM range and 250 m/s ground speed.
+  // In the overlap the newer wedge is on top. A margin larger than needed would visibly widen the newest wedges.
+  static constexpr float kMargin = 0.25F;
+
   VideoPass();
   ~VideoPass();
   VideoPass(const VideoPass&) = delete;
   VideoPass& operator=(const VideoPass&) = delete;
 
-  void draw(const PolarStore& store, std::span<const Wedge> wedges, const LightTexture& light, const Color& color);
+  // `share`: of the display in the height of the viewport, from the lower edge.
+  void draw(const PolarStore& store, std::span<const Wedge> wedges, const LightTexture& light, const Color& color,
+            float share = 1.0F);
 
  private:
   void upload_new_rows(const PolarStore& store, std::span<const Wedge> wedges);
@@ -34,7 +43,7 @@ class VideoPass {
   ShaderProgram program_;
   std::uint32_t vertex_array_ = 0, instances_ = 0;
   std::uint32_t video_texture_ = 0;
-  int color_location_ = 0;
+  int color_location_ = 0, share_location_ = 0;
   std::vector<std::uint64_t> uploaded_serial_;  // serial of the sweep in each row; 0: none
   std::vector<float> instance_data_;
 };
@@ -83,21 +92,30 @@ class OverlayPass {
   OverlayPass(const OverlayPass&) = delete;
   OverlayPass& operator=(const OverlayPass&) = delete;
 
-  // `light`: light table of the video, for the gray scale. `scale`: size of the square viewport.
-  struct Scale {
-    float pixels_per_unit = 1.0F;
-    float units = kDisplayUnits;  // edge of the viewport
+  // Square of the current framebuffer, and the part of it to draw.
+  struct Target {
+    int left = 0, bottom = 0, edge = 0;   // [pixels] from the framebuffer's lower left corner
+    float units = kDisplayUnits;          // edge of the square
+    const Damage* damage = nullptr;       // nullptr: the whole square
+    int damage_left = 0, damage_top = 0;  // [pixels] position of the damage, from the square's upper left corner
   };
-  void draw(const DrawList& list, const ColorScheme& colors, const std::array<float, 256>& light, const Scale& scale);
+  // `light`: light table of the video, for the gray scale.
+  void draw(const DrawList& list, const ColorScheme& colors, const std::array<float, 256>& light, const Target& target);
 
  private:
-  void add_rectangle(const Rect& rect, const Color& color);
-  void add_strokes(std::span<const Segment> segments, const ColorScheme& colors, bool halo);
-  void flush(const Scale& scale);
+  // A filled rectangle, or a stroke with its halo [units].
+  struct Instance {
+    Point from, to;
+    float half_width = 0.0F;
+    Color color;
+  };
+  void add(const Instance& instance, const Target& target);
+  void add_strokes(std::span<const Segment> segments, const ColorScheme& colors, bool halo, const Target& target);
+  void flush(const Target& target);
 
   ShaderProgram program_;
   std::uint32_t vertex_array_ = 0, instances_ = 0;
-  int scale_location_ = 0, half_location_ = 0;
+  int scale_location_ = 0, edge_location_ = 0, corner_location_ = 0;
   std::vector<float> instance_data_;
 };
 

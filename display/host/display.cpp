@@ -9,6 +9,7 @@
 #include "config/schema/load.hpp"
 #include "databuffer/session/session.hpp"
 #include "display/gl/context.hpp"
+#include "display/gl/damage.hpp"
 #include "display/gl/display.hpp"
 #include "display/gl/framebuffer.hpp"
 #include "display/gl/host_state_guard.hpp"
@@ -41,7 +42,9 @@ struct Display::State {
             [this](const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) {
               const gl::HostStateGuard guard;
               renderer.add(map, pixels);
-            }) {}
+            }) {
+    renderer.keep_video(!lockstep);
+  }
 
   error::Expected<PilotInput*> pilot_of_session() {
     if (!pilot) {
@@ -59,6 +62,9 @@ struct Display::State {
   gl::Display renderer;
   gl::PanelPass panel_pass;
   DrawList panel, painted_panel;                 // surround to draw, and surround of the last paint_panel()
+  gl::Damage unshown;                            // parts of the picture that have changed since shown_at was drawn
+  std::optional<Viewport> shown_at;              // of the last draw_panel() or refresh_panel()
+  DrawList shown_panel;                          // its surround
   std::optional<gl::Framebuffer> panel_picture;  // made by the first read_panel()
   bool help = false, hints = false;
   gl::Readback readback;
@@ -114,6 +120,11 @@ bool Display::paint(int size) {
   input.help = state.help;
   input.hints = state.hints;
   if (!state.renderer.draw(input)) return false;
+  if (state.unshown.size() != wanted) {
+    state.unshown.reset(wanted);
+    state.unshown.mark_all();
+  }
+  state.unshown.add(state.renderer.damage());
   state.painted_tick = state.feed.input().state.tick;
   state.painted_sim_time_ns = state.sim_time_ns;
   return true;
@@ -155,18 +166,60 @@ bool Display::paint_panel(const PanelView& view, int edge) {
   return true;
 }
 
-bool Display::draw_panel(const PanelView& view, const Viewport& viewport) {
+namespace {
+
+// The largest square of a panel in the middle of the viewport.
+gl::OverlayPass::Target square_in(const Viewport& viewport, const PanelView& view) {
   const auto max_edge = static_cast<int>(static_cast<float>(kMaxPixels) * layout_of(view).edge() / kDisplayUnits);
   const int edge = std::min({viewport.width, viewport.height, max_edge});
-  if (edge <= 0) return false;
-  const gl::Square square{viewport.left + (viewport.width - edge) / 2, viewport.bottom + (viewport.height - edge) / 2,
-                          edge};
-  const bool changed = paint_panel(view, edge);
-  const int inner = picture_edge(view, edge), border = (edge - inner) / 2;
+  return {.left = viewport.left + (viewport.width - edge) / 2,
+          .bottom = viewport.bottom + (viewport.height - edge) / 2,
+          .edge = edge,
+          .units = layout_of(view).edge()};
+}
+
+}  // namespace
+
+bool Display::draw_panel(const PanelView& view, const Viewport& viewport) {
+  State& state = *state_;
+  const gl::OverlayPass::Target square = square_in(viewport, view);
+  if (square.edge <= 0) return false;
+  const bool changed = paint_panel(view, square.edge);
+  const int inner = picture_edge(view, square.edge);
   const gl::HostStateGuard guard;
-  state_->renderer.show(square.left + border, square.bottom + border);
-  state_->panel_pass.draw(state_->panel, state_->colors, square, layout_of(view).edge());
+  state.renderer.show(square.left + (square.edge - inner) / 2, square.bottom + (square.edge - inner) / 2);
+  state.panel_pass.draw(state.panel, state.colors, square);
+  state.unshown.clear();
+  state.shown_at = viewport;
+  state.shown_panel = state.panel;
   return changed;
+}
+
+Viewport Display::refresh_panel(const PanelView& view, const Viewport& viewport) {
+  State& state = *state_;
+  gl::OverlayPass::Target square = square_in(viewport, view);
+  if (square.edge <= 0) return {};
+  paint_panel(view, square.edge);
+  if (state.shown_at != viewport || state.shown_panel != state.panel) {
+    draw_panel(view, viewport);
+    return {square.left, square.bottom, square.edge, square.edge};
+  }
+  if (state.unshown.empty()) return {};
+  const int inner = picture_edge(view, square.edge), border = (square.edge - inner) / 2;
+  const Rect changed = state.unshown.bounds();
+  {
+    const gl::HostStateGuard guard;
+    state.renderer.show(square.left + border, square.bottom + border, state.unshown.rects());
+    // Of the surround, only a tooltip or a notice lies over the picture.
+    square.damage = &state.unshown;
+    square.damage_left = border;
+    square.damage_top = square.edge - inner - border;
+    state.panel_pass.draw(state.panel, state.colors, square);
+  }
+  state.unshown.clear();
+  const auto pixels = [](float length) { return static_cast<int>(length); };
+  return {square.left + border + pixels(changed.left), square.bottom + border + inner - pixels(changed.bottom),
+          pixels(changed.right - changed.left), pixels(changed.bottom - changed.top)};
 }
 
 imageio::Image Display::read_panel(const PanelView& view, int edge) {
@@ -176,7 +229,12 @@ imageio::Image Display::read_panel(const PanelView& view, int edge) {
   if (picture->size() != edge) picture->resize(edge);
   picture->bind();
   draw_panel(view, {0, 0, edge, edge});
+  state_->shown_at.reset();  // the host's framebuffer does not show it
   return picture->read();
+}
+
+void Display::keep_video(bool on) {
+  state_->renderer.keep_video(on);
 }
 
 void Display::show_help(bool on) {

@@ -33,6 +33,7 @@ inline constexpr int kMaxPixels = 4096;  // [pixels] maximum edge of the display
 // Rectangle of the current framebuffer [pixels], from its lower left corner, as in glViewport.
 struct Viewport {
   int left = 0, bottom = 0, width = 0, height = 0;
+  friend bool operator==(const Viewport&, const Viewport&) = default;
 };
 
 // What surrounds the picture: the MPD's bezel, a tooltip, a line of text.
@@ -78,7 +79,13 @@ class Display {
   // reads it as RGB.
   bool paint_panel(const PanelView& view, int edge);
   bool draw_panel(const PanelView& view, const Viewport& viewport);  // true: something has changed
+  // draw_panel() for a framebuffer that still shows what the last draw_panel() or refresh_panel() has drawn: draws only
+  // what has changed. Returns the changed rectangle of the framebuffer; width 0: nothing has changed.
+  Viewport refresh_panel(const PanelView& view, const Viewport& viewport);
   imageio::Image read_panel(const PanelView& view, int edge);
+  // On, as at first in a live session: new sweeps are drawn into the kept video (gl::Display::keep_video), whose
+  // displacement is below half a pixel. Off, as at first in lockstep: a picture depends on its sweeps and tick alone.
+  void keep_video(bool on);
   // Covers the picture with the help: each button with its key and what it does now, the other keys. Off at first.
   void show_help(bool on);
   // Makes states without a picture say how to get back, and OFF how to switch on. Off at first: a cockpit's display is

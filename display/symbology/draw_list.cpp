@@ -330,6 +330,54 @@ Rect DrawList::text(std::string_view words, Point at, const TextStyle& style, Bo
 
 namespace {
 
+Rect box_of(const Rect& plate) {
+  return plate;
+}
+
+Rect box_of(const Panel& panel) {
+  return panel.rect;
+}
+
+Rect box_of(const VideoStep& step) {
+  return step.rect;
+}
+
+Rect box_of(const Segment& stroke) {
+  const auto [left, right] = std::minmax(stroke.from.x, stroke.to.x);
+  const auto [top, bottom] = std::minmax(stroke.from.y, stroke.to.y);
+  return grown({left, top, right, bottom}, stroke.width / 2.0F + stroke.halo);
+}
+
+// Without insertions, elements are compared one by one. Else all between the equal begins and the equal ends differ.
+template <class Element>
+void visit_changed(const std::vector<Element>& before, const std::vector<Element>& after,
+                   const std::function<void(const Rect&)>& box) {
+  const bool same_count = before.size() == after.size();
+  std::size_t begin = 0, end = 0;  // equal elements at the begin and at the end
+  const std::size_t common = std::min(before.size(), after.size());
+  while (begin < common && before[begin] == after[begin]) ++begin;
+  while (end < common - begin && before[before.size() - 1 - end] == after[after.size() - 1 - end]) ++end;
+  for (std::size_t i = begin; i < before.size() - end; ++i)
+    if (!same_count || !(before[i] == after[i])) box(box_of(before[i]));
+  for (std::size_t i = begin; i < after.size() - end; ++i)
+    if (!same_count || !(before[i] == after[i])) box(box_of(after[i]));
+}
+
+}  // namespace
+
+void visit_changes(const DrawList& before, const DrawList& after, const std::function<void(const Rect&)>& box) {
+  visit_changed(before.panels(), after.panels(), box);
+  visit_changed(before.video_steps(), after.video_steps(), box);
+  for (std::size_t layer = 0; layer < kLayers; ++layer) {
+    visit_changed(before.content(static_cast<Layer>(layer)).plates, after.content(static_cast<Layer>(layer)).plates,
+                  box);
+    visit_changed(before.content(static_cast<Layer>(layer)).strokes, after.content(static_cast<Layer>(layer)).strokes,
+                  box);
+  }
+}
+
+namespace {
+
 Color color(const radar::Rgb& rgb) {
   return {static_cast<float>(rgb.red), static_cast<float>(rgb.green), static_cast<float>(rgb.blue)};
 }

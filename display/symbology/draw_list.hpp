@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -194,6 +195,10 @@ class DrawList {
   std::vector<Panel> panels_;
   std::vector<OccupiedBox> occupied_;
 };
+
+// Calls `box` with a rectangle [units] around the ink of each element that only one of the lists has. Elements after an
+// inserted or removed one may be reported, too.
+void visit_changes(const DrawList& before, const DrawList& after, const std::function<void(const Rect&)>& box);
 
 // The box that DrawList::text would occupy.
 Rect text_box(std::string_view words, Point at, const TextStyle& style = {});

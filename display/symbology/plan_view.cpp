@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "databuffer/messages/derived_values.hpp"
 #include "lib/geo/frames.hpp"
@@ -53,6 +54,21 @@ double displacement_units(const PlanView& view, const ViewFrame& drawn, const Vi
   const double moved = geo::geodesic_inverse(drawn.apex, present.apex).distance.metres() / present.range_m;
   const double turned = std::abs((present.up - drawn.up).radians());
   return (moved + turned) * static_cast<double>(view.units_per_range());
+}
+
+std::optional<Movement> movement_units(const PlanView& view, const ViewFrame& drawn, const ViewFrame& present) {
+  constexpr double kNear_m = 1.0;  // between nearer apexes the azimuth is of no account, and may be undefined
+  const geo::GeodesicInverse line = geo::geodesic_inverse(drawn.apex, present.apex);
+  const double moved_m = line.distance.metres();
+  if (drawn.range_m != present.range_m || !(moved_m <= drawn.range_m)) return std::nullopt;
+  const bool near = moved_m < kNear_m;
+  const double aside = near ? 0.0 : (line.azimuth_at_start - drawn.up).radians();
+  // A straight flight changes its true bearing where meridians converge.
+  const double convergence = near ? 0.0 : (line.azimuth_at_end - line.azimuth_at_start).radians();
+  const double turned = std::remainder((present.up - drawn.up).radians() - convergence, 2.0 * std::numbers::pi);
+  const auto units = static_cast<double>(view.units_per_range());
+  const double moved = moved_m / drawn.range_m * units;
+  return Movement{moved * std::cos(aside), moved * std::abs(std::sin(aside)) + std::abs(turned) * units};
 }
 
 namespace {
@@ -119,10 +135,12 @@ class GroundPlan {
 
 }  // namespace
 
-void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges) {
+void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges,
+                  std::uint64_t after) {
   const GroundPlan plan(view, frame);
   wedges.clear();
   for (const StoredSweep& sweep : store.by_azimuth()) {
+    if (sweep.serial <= after) continue;
     wedges.push_back({plan.at(sweep.apex_ecef), plan.direction(sweep.apex_ecef, sweep.left_ecef),
                       plan.direction(sweep.apex_ecef, sweep.right_ecef),
                       static_cast<float>(sweep.range_m * plan.units_per_metre()),

@@ -7,6 +7,7 @@
 //   distance between the two apexes, R the earth radius.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "databuffer/messages/caption.hpp"
@@ -75,6 +76,16 @@ ViewFrame frame_of(const databuffer::PatchMap& map);  // frame of a picture that
 // and a picture in frame `present`. Infinity if the ranges differ.
 double displacement_units(const PlanView& view, const ViewFrame& drawn, const ViewFrame& present);
 
+// How far ground within the selected range is displaced between a picture in frame `drawn` and one in frame `present`,
+// along the direction up of `drawn` and across it. A turn displaces the far end of the range most, and counts as
+// across.
+struct Movement {
+  double along = 0.0;   // [units] the apex has moved up
+  double across = 0.0;  // [units] 0 or greater
+};
+// nullopt: the ranges differ, or the apexes are more than the range apart.
+std::optional<Movement> movement_units(const PlanView& view, const ViewFrame& drawn, const ViewFrame& present);
+
 // Frame of the present picture: the aircraft's position, ground track up. While radar-model is frozen, the frame has
 // the apex and ground track of `newest`, the last sweep of the mode shown. nullptr: there is no such sweep, and the
 // frame has the aircraft's position and ground track.
@@ -91,8 +102,9 @@ struct Wedge {
   std::uint64_t serial = 0;  // StoredSweep::serial
 };
 
-// Replaces `wedges` by all sweeps of the store, oldest first. A sweep keeps its measured range and azimuth about
-// its own apex.
-void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges);
+// Replaces `wedges` by the sweeps of the store with a serial above `after`, oldest first; 0: all sweeps. A sweep keeps
+// its measured range and azimuth about its own apex.
+void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges,
+                  std::uint64_t after = 0);
 
 }  // namespace yars::display

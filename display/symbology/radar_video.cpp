@@ -75,6 +75,8 @@ void PolarStore::clear() {
   free_rows_.resize(kRows);
   for (int row = 0; row < kRows; ++row) free_rows_[static_cast<std::size_t>(row)] = kRows - 1 - row;
   ++version_;
+  ++erasures_;
+  ++losses_;
 }
 
 Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
@@ -96,6 +98,7 @@ Insertion PolarStore::insert(const databuffer::Sweep& sweep) {
     mode_ = sweep.mode;
   }
   const bool was_empty = sweeps_.empty();
+  newest_range_m_ = sweep.range_m;
   swept_.extend(sweep.scan, left, width_deg);
   const std::size_t covered = cover((left - reference_).degrees(), width_deg);
   erase_swept({sweep.apex_latitude_deg, sweep.apex_longitude_deg});
@@ -147,7 +150,7 @@ std::size_t PolarStore::cover_between(double first_key_deg, double last_key_deg)
   auto kept = begin;
   for (auto at = begin; at != end; ++at) {
     if (at->covered && *at->covered != swept_.scan && !narrowed) {
-      free_rows_.push_back(at->row);
+      give_back(*at);
       continue;
     }
     at->covered = swept_.scan;
@@ -157,11 +160,19 @@ std::size_t PolarStore::cover_between(double first_key_deg, double last_key_deg)
   return count;
 }
 
+// Counts an erased sweep, whose row another sweep may take.
+void PolarStore::give_back(const StoredSweep& erased) {
+  constexpr double kRounding = 1.001;  // a sweep with a number of samples that cannot be averaged evenly is shortened
+  free_rows_.push_back(erased.row);
+  ++erasures_;
+  if (!erased.covered || erased.range_m > newest_range_m_ * kRounding) ++losses_;
+}
+
 template <typename Predicate>
 void PolarStore::erase_if(Predicate gone) {
   std::erase_if(sweeps_, [&](const StoredSweep& sweep) {
     if (!gone(sweep)) return false;
-    free_rows_.push_back(sweep.row);
+    give_back(sweep);
     return true;
   });
 }
@@ -193,7 +204,7 @@ int PolarStore::take_row() {
     const auto oldest = std::min_element(sweeps_.begin(), sweeps_.end(), [](const auto& a, const auto& b) {
       return a.covered.has_value() != b.covered.has_value() ? a.covered.has_value() : a.serial < b.serial;
     });
-    free_rows_.push_back(oldest->row);
+    give_back(*oldest);
     sweeps_.erase(oldest);
   }
   const int row = free_rows_.back();

@@ -71,6 +71,9 @@ class PolarStore {
   std::optional<std::uint8_t> mode() const;            // radar::Mode of the picture
   std::span<const std::uint8_t> video(int row) const;  // kRowSamples values, near to far, `samples` of them used
   std::uint64_t version() const { return version_; }   // changes with the content
+  // Changes when sweeps are erased: any sweeps; sweeps whose ground no newer sweep covers, or not to the same range.
+  std::uint64_t erasures() const { return erasures_; }
+  std::uint64_t losses() const { return losses_; }
 
  private:
   // Sector that the current scan has swept, as angles from `first`, the left edge of its first sweep.
@@ -88,6 +91,7 @@ class PolarStore {
   void end_scan(std::uint32_t scan);
   template <typename Predicate>
   void erase_if(Predicate gone);
+  void give_back(const StoredSweep& erased);
   int take_row();
   void store_video(const databuffer::Sweep& sweep, StoredSweep& stored);
 
@@ -97,8 +101,9 @@ class PolarStore {
   geo::Bearing reference_;
   SweptSector swept_;
   std::optional<std::uint32_t> ended_;  // the last completed scan
+  double newest_range_m_ = 0.0;
   std::uint64_t serial_ = 0;
-  std::uint64_t version_ = 0;
+  std::uint64_t version_ = 0, erasures_ = 0, losses_ = 0;
   std::uint32_t epoch_ = 0;
   std::uint8_t mode_ = 0;
 };

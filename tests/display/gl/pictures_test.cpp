@@ -236,6 +236,7 @@ TEST(Pictures, EveryFormatIsDrawn) {
     for (const Picture& picture : pictures()) {
       const DisplayInput input = picture.input();
       Display radar_display(radar::RadarConfiguration(), size);
+      radar_display.keep_video(false);  // as in files
       const auto mode = static_cast<Mode>(input.state.mode);
       add_scan(radar_display, mode, mode == Mode::hrm ? 0.14 : 0.5);
       radar_display.add(input.map, ground);

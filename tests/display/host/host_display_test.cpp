@@ -77,6 +77,7 @@ class HostDisplay : public databuffer::testing::SessionTest {
   // RGB pixels of the stand-alone display of the same session.
   Bytes alone(int size) {
     gl::Display radar_display(radar::RadarConfiguration(), size);
+    radar_display.keep_video(false);  // as in lockstep
     SessionFeed feed(
         *session_, true, [&](const databuffer::Sweep& sweep) { radar_display.add(sweep); },
         [&](const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) { radar_display.add(map, pixels); });
@@ -174,6 +175,77 @@ TEST_F(HostDisplay, APanelHasThePicturePixelByPixelWithTheBezelAroundIt) {
   EXPECT_TRUE(radar_display.paint_panel({.lit = 5}, 592));
   EXPECT_FALSE(radar_display.paint_panel({.lit = 5}, 592)) << "nothing has changed";
   EXPECT_TRUE(radar_display.paint_panel({.bezel = false}, 480));
+}
+
+// A window that keeps its content is refreshed where it has changed. Its pixels are those of a window that is drawn
+// whole each time: with sweeps, symbols, maps, the bezel, a tooltip, a notice, in two sizes.
+TEST_F(HostDisplay, ARefreshedPanelHasThePixelsOfAPanelDrawnWhole) {
+  const Canvas refreshed(700, 640), whole(700, 640);
+  Display kept = radar_display(), redrawn = radar_display();
+  refreshed.bind();
+  refreshed.fill();
+  int parts = 0;
+  const auto expect_equal = [&](const PanelView& view, const Viewport& viewport, const char* what) {
+    kept.update(0);
+    redrawn.update(0);
+    refreshed.bind();
+    const Bytes before = refreshed.read();
+    const Viewport changed = kept.refresh_panel(view, viewport);
+    const Bytes after = refreshed.read();
+    parts += changed.width > 0 && changed.width < viewport.width / 2 ? 1 : 0;
+    for (int y = 0; y < 640; ++y) {
+      for (int x = 0; x < 700; ++x) {
+        const std::size_t at = 4 * (static_cast<std::size_t>(y) * 700 + static_cast<std::size_t>(x));
+        const bool inside = x >= changed.left && x < changed.left + changed.width && y >= changed.bottom &&
+                            y < changed.bottom + changed.height;
+        if (!inside && !std::equal(&before[at], &before[at] + 4, &after[at]))
+          FAIL() << what << ": a pixel outside the changed rectangle has changed, " << x << ' ' << y;
+      }
+    }
+    whole.bind();
+    whole.fill();
+    redrawn.draw_panel(view, viewport);
+    EXPECT_TRUE(after == whole.read()) << what;
+    refreshed.bind();
+    EXPECT_EQ(kept.refresh_panel(view, viewport).width, 0) << what << ": nothing has changed since";
+  };
+  for (const bool keeps : {true, false}) {
+    kept.keep_video(keeps);
+    redrawn.keep_video(keeps);
+    for (const Viewport viewport : {Viewport{20, 30, 603, 603}, Viewport{11, 5, 640, 500}}) {
+      for (Display* display : {&kept, &redrawn}) display->update(0);
+      whole.bind();
+      whole.fill();
+      refreshed.bind();
+      refreshed.fill();
+      PanelView view;
+      expect_equal(view, viewport, "first");
+      for (int i = 0; i < 12; ++i) {
+        session_->layout().sweeps.publish(display::testing::toned_sweep(kAircraftPosition, 20.0 + i, 21.0 + i, kRange_m,
+                                                                        480, static_cast<std::uint8_t>(250 - 20 * i)));
+        databuffer::ModelStatus model = kept.input().model;
+        model.antenna_azimuth_deg = -10.0 + i;
+        session_->layout().model_status.publish(model);
+        expect_equal(view, viewport, "a sweep");
+      }
+      view.lit = view.tooltip = 7;
+      expect_equal(view, viewport, "a tooltip");
+      session_->layout().sweeps.publish(
+          display::testing::toned_sweep(kAircraftPosition, 30.0, 34.0, kRange_m, 480, 200));
+      expect_equal(view, viewport, "a sweep below the tooltip");
+      view = {.notice = "ESC ENDS NOTHING HERE"};
+      expect_equal(view, viewport, "a notice");
+      session_->layout().sweeps.publish(
+          display::testing::toned_sweep(kAircraftPosition, 26.0, 33.0, kRange_m, 480, 90));
+      expect_equal(view, viewport, "a sweep below the notice");
+      put_patch(*session_);
+      expect_equal(view, viewport, "a map");
+      ASSERT_NO_FATAL_FAILURE(put_scene(*session_));
+      view = {};
+      expect_equal(view, viewport, "no notice");
+    }
+  }
+  EXPECT_GT(parts, 20) << "too much was drawn again";
 }
 
 TEST_F(HostDisplay, TheHelpCoversThePictureUntilItIsSwitchedOff) {

@@ -64,6 +64,35 @@ TEST(PlanView, DisplacementIsMeasuredAtTheOuterEdge) {
   EXPECT_GT(displacement_units(kView, drawn, frame_of(0.0, 80.0)), 1e9);
 }
 
+TEST(PlanView, MovementIsSplitAlongAndAcrossTheDirectionUp) {
+  const ViewFrame drawn = frame_of(30.0, 40.0);
+  ViewFrame moved = drawn;
+  moved.apex = geo::geodesic_direct(drawn.apex, geo::Bearing::degrees(30.0), geo::Length::nautical_miles(0.4));
+  moved.up = geo::geodesic_inverse(drawn.apex, moved.apex).azimuth_at_end;
+  ASSERT_TRUE(movement_units(kView, drawn, moved));
+  EXPECT_NEAR(movement_units(kView, drawn, moved)->along, 4.0, 1e-6);
+  EXPECT_NEAR(movement_units(kView, drawn, moved)->across, 0.0, 1e-4);
+  moved.apex = geo::geodesic_direct(drawn.apex, geo::Bearing::degrees(120.0), geo::Length::nautical_miles(0.4));
+  moved.up = drawn.up;
+  EXPECT_NEAR(movement_units(kView, drawn, moved)->along, 0.0, 1e-6);
+  EXPECT_GE(movement_units(kView, drawn, moved)->across, 4.0 - 1e-6);
+  moved.apex = geo::geodesic_direct(drawn.apex, geo::Bearing::degrees(210.0), geo::Length::nautical_miles(0.4));
+  EXPECT_NEAR(movement_units(kView, drawn, moved)->along, -4.0, 1e-6);
+  EXPECT_NEAR(movement_units(kView, drawn, frame_of(31.0, 40.0))->across, 400.0 * geo::kRadiansPerDegree, 1e-6);
+  EXPECT_FALSE(movement_units(kView, drawn, frame_of(30.0, 80.0)));
+}
+
+// Far north the bearing of a straight flight changes by 7 deg in 5 NM. The picture does not turn.
+TEST(PlanView, AStraightFlightNearThePoleIsNoTurn) {
+  const ViewFrame drawn{{89.0, 20.0}, geo::Bearing::degrees(60.0), 40.0 * geo::kMetresPerNauticalMile};
+  ViewFrame moved = drawn;
+  moved.apex = geo::geodesic_direct(drawn.apex, drawn.up, geo::Length::nautical_miles(5.0));
+  moved.up = geo::geodesic_inverse(drawn.apex, moved.apex).azimuth_at_end;
+  EXPECT_GT(std::abs((moved.up - drawn.up).degrees()), 3.0);
+  EXPECT_NEAR(movement_units(kView, drawn, moved)->along, 50.0, 1e-6);
+  EXPECT_NEAR(movement_units(kView, drawn, moved)->across, 0.0, 1e-6);
+}
+
 databuffer::Sweep sweep_at(geo::GeoPoint apex, double left_deg, double right_deg) {
   databuffer::Sweep sweep{};
   sweep.apex_latitude_deg = apex.latitude_deg;

@@ -52,6 +52,28 @@ TEST(PolarStore, ASweepBetweenTwoIsInsertedBetweenThem) {
   EXPECT_EQ(store.by_azimuth()[1].serial, 3U);
 }
 
+TEST(PolarStore, CountsErasedSweepsAndThoseThatNoNewerSweepReplaces) {
+  PolarStore store;
+  const auto add = [&](double left_deg, std::uint32_t scan, bool last) {
+    databuffer::Sweep sweep = sweep_of(left_deg);
+    sweep.scan = scan;
+    if (last) sweep.flags = databuffer::kSweepScanEnd;
+    store.insert(sweep);
+  };
+  const auto first_erasures = store.erasures(), first_losses = store.losses();
+  for (int i = 0; i < 5; ++i) add(10.0 + i, 1, i == 4);
+  EXPECT_EQ(store.erasures(), first_erasures);
+  for (int i = 0; i < 3; ++i) add(12.0 - i, 2, i == 2);  // replaces three
+  EXPECT_EQ(store.erasures(), first_erasures + 3);
+  EXPECT_EQ(store.losses(), first_losses);
+  for (int i = 0; i < 3; ++i) add(10.0 + i, 3, i == 2);  // two scans have not renewed the other two
+  EXPECT_GT(store.losses(), first_losses);
+  EXPECT_EQ(store.by_azimuth().size(), 3U);
+  const auto losses = store.losses();
+  store.clear();
+  EXPECT_GT(store.losses(), losses);
+}
+
 TEST(PolarStore, ASweepReplacesStoredSweepsWhoseMiddleItCovers) {
   PolarStore store;
   for (const double left_deg : {10.0, 11.0, 12.0, 13.0}) store.insert(sweep_of(left_deg));
