@@ -289,13 +289,19 @@ RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint mid
   return chord;
 }
 
-RainPath::RainPath(const RadarParameters& parameters) : beam_(parameters.beam) {
+std::vector<Shower> configured_showers(const RadarParameters& parameters) {
   const radar::RainConfiguration& rain = parameters.world.rain;
   const double wave_m = wavelength_m(parameters.frequency_ghz);
+  std::vector<Shower> showers;
   for (const radar::RainCell& cell : rain.cells) {
-    showers_.push_back({cell.position, cell.radius_m, cell.top_m, rain_reflectivity(rain, cell.rate_mmh, wave_m),
-                        rain_attenuation_db_per_m(rain, cell.rate_mmh)});
+    showers.push_back({cell.position, cell.radius_m, cell.top_m, rain_reflectivity(rain, cell.rate_mmh, wave_m),
+                       rain_attenuation_db_per_m(rain, cell.rate_mmh)});
   }
+  return showers;
+}
+
+RainPath::RainPath(const RadarParameters& parameters)
+    : beam_(parameters.beam), showers_(configured_showers(parameters)) {
   crossed_.reserve(showers_.size());
 }
 

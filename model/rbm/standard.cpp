@@ -21,7 +21,7 @@ Standard::Standard(const physics::RadarParameters& parameters)
       azimuth_beamwidth_deg_(parameters.azimuth_beamwidth_deg),
       receivers_(parameters),
       ground_(parameters, sample_count(parameters)),
-      rain_(parameters),
+      rain_(parameters, sample_count(parameters)),
       gas_(parameters),
       gas_samples_(parameters, sample_count(parameters)),
       movers_(parameters),
@@ -132,39 +132,14 @@ void Standard::add_movers(const physics::SweepGeometry& geometry, const physics:
   }
 }
 
-// Adds rain echo and applies rain attenuation. Both are computed in double at every (count / 512)-th sample, or at
-// every sample if there are fewer than 1024. Between these samples both are interpolated linearly.
+// Adds rain echo and applies rain attenuation.
 void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const physics::Receiver& receiver) {
-  const std::size_t step = std::max<std::size_t>(1, count_ / 512);
-  struct Rain {
-    double power = 0.0, loss = 1.0;
-  };
-  const auto rain_at = [&](std::size_t i) {
-    const auto elevation_m = static_cast<double>(elevation_.data()[i]);
-    const double height_m = std::isnan(elevation_m) ? 0.0 : elevation_m;
-    const double distance_m = distance_m_[i];
-    const double altitude_m = geometry.altitude.metres();
-    const double slant_range_m = earth.sight(altitude_m, distance_m, height_m).slant_range_m;
-    const double horizon_rad = std::atan(static_cast<double>(horizon_.data()[i]));
-    const double gas = gas_.two_way_transmission(earth, altitude_m, distance_m, height_m);
-    return Rain{gas * physics::received(receiver, rain_.power(receiver, earth, geometry, distance_m, horizon_rad),
-                                        slant_range_m),
-                rain_.two_way_transmission(earth, altitude_m, distance_m, height_m, slant_range_m)};
-  };
-  if (holes_ >= count_) return;
-  Rain near = rain_at(holes_);
-  for (std::size_t start = holes_; start < count_; start += step) {
-    const std::size_t end = std::min(start + step, count_ - 1);
-    const Rain far = rain_at(end);
-    for (std::size_t i = start; i < std::min(start + step, count_); ++i) {
-      const double fraction = end > start ? static_cast<double>(i - start) / static_cast<double>(end - start) : 0.0;
-      const double rain = near.power + fraction * (far.power - near.power);
-      const double loss = near.loss + fraction * (far.loss - near.loss);
-      power_.data()[i] = static_cast<float>((static_cast<double>(power_.data()[i]) + rain) * loss);
-    }
-    near = far;
-  }
+  rain_.measure(geometry, earth, receiver, holes_, {distance_.data(), elevation_.data(), horizon_.data()});
+  if (!gas_.none()) gas_samples_.apply(elevation_.data(), rain_.power());
+  const float* const rain = rain_.power();
+  const float* const loss = rain_.transmission();
+  for (std::size_t i = holes_; i < count_; ++i) power_.data()[i] = (power_.data()[i] + rain[i]) * loss[i];
 }
 
 const physics::Receiver& Standard::receiver_at(geo::Length range) {

@@ -17,6 +17,7 @@
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/environment.hpp"
 #include "model/physics/ground_return.hpp"
+#include "model/physics/rain_simd.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
@@ -68,7 +69,7 @@ class Standard : public Algorithm {
   double azimuth_beamwidth_deg_;
   physics::Receivers receivers_;
   physics::Ground ground_;
-  physics::RainPath rain_;
+  physics::RainSamples rain_;
   physics::GasPath gas_;
   physics::GasSamples gas_samples_;
   physics::Movers movers_;
