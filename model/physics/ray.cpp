@@ -130,27 +130,12 @@ void sample_by_vector(geo::GeoPoint apex, const float* distance_m, double scale,
                     longitude_rad / geo::kRadiansPerDegree});
   }
 }
-double value_at(const simd::Curve& curve, double x) {
-  double sum = 0.0;
-  for (std::size_t k = curve.terms; k-- > 0;) sum = sum * x + curve.coefficient[k];
-  return sum;
-}
 
 // The curves give degrees north and east of positions.corner.
-void sample_by_curves(geo::GeoPoint apex, const float* distance_m, const simd::Curves& curves,
-                      PositionArrays& positions) {
-  if (const std::size_t piece = simd::piece_samples(positions.count); piece > 0) {
-    simd::positions_on_curves(positions.count, piece, distance_m, curves,
-                              {positions.cells_north.data(), positions.cells_east.data(), positions.north_deg.data(),
-                               positions.east_deg.data()});
-    return;
-  }
-  for (std::size_t i = 0; i < positions.count; ++i) {
-    const double x = static_cast<double>(distance_m[i]) * curves.scale - curves.shift;
-    store_position(
-        positions, i, apex,
-        {value_at(curves.north, x) + positions.corner.south_deg, value_at(curves.east, x) + positions.corner.west_deg});
-  }
+void sample_by_curves(const float* distance_m, const simd::Curves& curves, PositionArrays& positions) {
+  simd::positions_on_curves(positions.count, distance_m, curves,
+                            {positions.cells_north.data(), positions.cells_east.data(), positions.north_deg.data(),
+                             positions.east_deg.data()});
 }
 
 simd::Curves curves_of(const geo::GeodesicSeries& series, terrain::CellCorner corner) {
@@ -191,7 +176,7 @@ void sample_by_knots(geo::GeoPoint apex, const geo::GeodesicRay& ray, geo::Lengt
     return;
   }
   sample_by_curves(
-      apex, distance_m,
+      distance_m,
       {scale, 1.0, curve_of(first, positions.corner.south_deg), curve_of(second, positions.corner.west_deg)},
       positions);
 }
@@ -202,8 +187,7 @@ void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length rang
   positions.corner = terrain::cell_containing(apex);
   const int order = knots >= kSeriesKnots ? geo::GeodesicSeries::order_for(apex.latitude_deg, range) : 0;
   if (order > 0) {
-    sample_by_curves(apex, distance_m, curves_of(geo::GeodesicSeries(apex, azimuth, order), positions.corner),
-                     positions);
+    sample_by_curves(distance_m, curves_of(geo::GeodesicSeries(apex, azimuth, order), positions.corner), positions);
     return;
   }
   const geo::GeodesicRay ray(apex, azimuth);
@@ -299,7 +283,7 @@ double GroundWalk::tangent_along(const Piece& piece, double fraction) const {
 
 double GroundWalk::tangent(geo::GeoPoint position, double distance_m) const {
   const double peak_m = terrain_.surface_at(position, interpolation_).peak_m;
-  return std::isnan(peak_m) ? kNoGround : earth_.sight(geometry_.altitude.metres(), distance_m, peak_m).tangent;
+  return std::isnan(peak_m) ? kNoGround : earth_.tangent(geometry_.altitude.metres(), distance_m, peak_m);
 }
 
 }  // namespace yars::model::physics

@@ -104,6 +104,29 @@ void positions_on_curves(std::size_t count, std::size_t piece_size, const float*
   }
 }
 
+HWY_INLINE void store_value(const Curve& curve, hn::Vec<DoubleTag> x, float* cells, float* degrees) {
+  const DoubleTag d;
+  const NarrowTag df;
+  auto value = hn::Set(d, curve.coefficient[curve.terms - 1]);
+  for (std::size_t k = curve.terms - 1; k-- > 0;) value = fused::mul_add(value, x, hn::Set(d, curve.coefficient[k]));
+  const auto cell = hn::Floor(value);
+  hn::StoreU(hn::DemoteTo(df, cell), df, cells);
+  hn::StoreU(hn::DemoteTo(df, hn::Sub(value, cell)), df, degrees);
+}
+
+// A ray of few samples: the polynomials are evaluated in double at each sample.
+void positions_of_few(std::size_t count, const float* distance_m, const Curves& input, const PositionSpans& positions) {
+  const DoubleTag d;
+  const NarrowTag df;
+  const Curves curves = input;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    const auto x = fused::mul_sub(hn::PromoteTo(d, hn::LoadU(df, distance_m + i)), hn::Set(d, curves.scale),
+                                  hn::Set(d, curves.shift));
+    store_value(curves.north, x, positions.cells_north + i, positions.north_deg + i);
+    store_value(curves.east, x, positions.cells_east + i, positions.east_deg + i);
+  }
+}
+
 }  // namespace yars::model::physics::simd::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -111,16 +134,21 @@ HWY_AFTER_NAMESPACE();
 namespace yars::model::physics::simd {
 
 HWY_EXPORT(positions_on_curves);
+HWY_EXPORT(positions_of_few);
 
-std::size_t piece_samples(std::size_t count) {
-  // A piece has whole vectors of samples and is at most a twelfth of the ray.
+// Samples per piece; 0: too few samples for pieces. A piece has whole vectors of samples and is at most a twelfth of
+// the ray, because a cubic in float follows a longer piece less closely.
+static std::size_t piece_samples(std::size_t count) {
   constexpr std::size_t kShort = terrain::kRunSlack, kLong = 2 * kShort, kPieces = 12;
   return count >= kPieces * kLong ? kLong : count >= kPieces * kShort ? kShort : 0;
 }
 
-void positions_on_curves(std::size_t count, std::size_t piece, const float* distance_m, const Curves& curves,
+void positions_on_curves(std::size_t count, const float* distance_m, const Curves& curves,
                          const PositionSpans& positions) {
-  HWY_DYNAMIC_DISPATCH(positions_on_curves)(count, piece, distance_m, curves, positions);
+  if (const std::size_t piece = piece_samples(count); piece > 0)
+    HWY_DYNAMIC_DISPATCH(positions_on_curves)(count, piece, distance_m, curves, positions);
+  else
+    HWY_DYNAMIC_DISPATCH(positions_of_few)(count, distance_m, curves, positions);
 }
 
 }  // namespace yars::model::physics::simd

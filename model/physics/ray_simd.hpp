@@ -1,6 +1,7 @@
 // Latitude and longitude polynomials of a ray, evaluated at the samples in Highway vectors. Results are equal bit by
 // bit on every target. The ray is divided into short pieces. For each piece the polynomials are expanded in double
-// about the piece's middle. At the piece's samples they are evaluated as cubics in float.
+// about the piece's middle. At the piece's samples they are evaluated as cubics in float. A ray of fewer than 192
+// samples has no pieces: the polynomials are evaluated in double at its samples.
 // Accuracy: 8 mm against evaluation in double for a ray of 160 NM. Rounding the fraction of a degree to float
 // contributes up to 4 mm.
 #pragma once
@@ -32,12 +33,8 @@ struct PositionSpans {
   float* east_deg;
 };
 
-// Samples per piece for a sweep of `count` samples; 0: too few samples for pieces.
-std::size_t piece_samples(std::size_t count);
-
-// Computes `count` positions. `distance_m` is ascending; terrain::kRunSlack more entries are read. `piece` is the
-// result of piece_samples(), not 0.
-void positions_on_curves(std::size_t count, std::size_t piece, const float* distance_m, const Curves& curves,
+// Computes `count` positions. `distance_m` is ascending; terrain::kRunSlack more entries are read.
+void positions_on_curves(std::size_t count, const float* distance_m, const Curves& curves,
                          const PositionSpans& positions);
 
 }  // namespace yars::model::physics::simd

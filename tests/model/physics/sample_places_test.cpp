@@ -32,7 +32,7 @@ double max_error_m(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, 
 // The numbers of samples include rays that are divided into pieces of both sizes, and undivided rays.
 TEST(SamplePositions, LieWithinHalfAMetreOfTheGeodesicAtEveryLatitude) {
   double worst_m = 0.0;
-  for (const std::size_t count : {161U, 200U, 480U, 1024U}) {
+  for (const std::size_t count : {2U, 15U, 16U, 17U, 191U, 200U, 480U, 1024U}) {
     for (const double range_nm : {4.7, 10.0, 20.0, 40.0, 80.0, 160.0}) {
       const geo::Length range = geo::Length::nautical_miles(range_nm);
       for (const double latitude : {0.0, 37.0, -60.0, 70.0, 73.9, 74.1, 80.0, 88.0, 89.0, -89.9, 90.0}) {
@@ -49,7 +49,7 @@ TEST(SamplePositions, LieWithinHalfAMetreOfTheGeodesicAtEveryLatitude) {
 }
 
 TEST(SamplePositions, LieWithinMillimetresAtMiddleLatitudes) {
-  for (const std::size_t count : {161U, 200U, 480U, 1024U})
+  for (const std::size_t count : {2U, 17U, 191U, 200U, 480U, 1024U})
     for (const double range_nm : {4.7, 40.0, 160.0})
       for (const double latitude : {0.5, 37.0, -60.0})
         for (double azimuth = 0.0; azimuth < 360.0; azimuth += 22.5)
