@@ -103,6 +103,8 @@ class EffectiveEarth {
   double drop_m(double distance_m) const;
   // Line of sight from an altitude above the apex to a point at a distance over ground (> 0) and a height.
   Sight sight(double altitude_m, double distance_m, double height_m) const;
+  // Sight::tangent alone.
+  double tangent(double altitude_m, double distance_m, double height_m) const;
   // Distance over ground at which ground of this height has this slant range; NaN if there is none.
   double distance_at_slant_range(double altitude_m, double height_m, double slant_range_m) const;
 

@@ -127,8 +127,12 @@ void Standard::add_movers(const physics::SweepGeometry& geometry, const physics:
     // A mover nearer than the first sample on the ground is added to that sample, as in Reference.
     const std::size_t index = std::max(holes_, physics::nearest_sample(distance_m_, echo.distance_m));
     if (index >= count_) continue;
-    const bool hidden = echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
-    if (!hidden) power_.data()[index] += static_cast<float>(physics::point_smear_gain(pulse_samples) * echo.power);
+    float& power = power_.data()[index];
+    const float sum = power + static_cast<float>(physics::point_smear_gain(pulse_samples) * echo.power);
+    // The ground between the samples is not walked if the samples hide the mover, or if its echo is lost in rounding.
+    const std::size_t nearer = physics::samples_nearer(distance_m_, echo.distance_m);
+    if (sum == power || (nearer > holes_ && echo.tangent <= horizon(nearer - 1))) continue;
+    if (echo.tangent > walk.horizon_before(distance_m_, echo.distance_m, horizon)) power = sum;
   }
 }
 
