@@ -13,6 +13,7 @@
 #include "lib/geo/earth.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/sampling/crests_simd.hpp"
+#include "model/terrain/sampling/cubic_simd.hpp"
 #include "model/terrain/sampling/height_simd.hpp"
 
 namespace yars::model::terrain {
@@ -242,7 +243,7 @@ CellView::Run CellView::run_at(const PositionRun& positions, std::size_t first) 
   return run;
 }
 
-// Samples one position at a time. Used for cubic interpolation, and at a pole, where positions can be beyond all cells.
+// Samples one position at a time. Used at a pole, where positions can be beyond all cells.
 void CellView::sample_singly(const Run& run, const PositionRun& positions, Interpolation interpolation,
                              const SurfaceRun& found) const {
   for (std::size_t i = run.first; i < run.first + run.count; ++i) {
@@ -258,11 +259,15 @@ void CellView::sample_run(const Run& run, const PositionRun& positions, Interpol
   const float* const north_deg = &positions.north_deg[run.first];
   const float* const east_deg = &positions.east_deg[run.first];
   const bool nearest = interpolation == Interpolation::nearest;
-  if (interpolation == Interpolation::cubic || run.beyond_pole)
+  if (run.beyond_pole) {
     sample_singly(run, positions, interpolation, found);
-  else
-    sampling::heights(grid_of(*cell.heights), north_deg, east_deg, run.count, nearest, &found.elevation_m[run.first],
-                      &found.water[run.first]);
+  } else {
+    const sampling::Grid grid = grid_of(*cell.heights);
+    float* const elevation_m = &found.elevation_m[run.first];
+    sampling::heights(grid, north_deg, east_deg, run.count, nearest, elevation_m, &found.water[run.first]);
+    if (interpolation == Interpolation::cubic)
+      sampling::cubic_heights(grid, north_deg, east_deg, run.count, elevation_m);
+  }
   if (!found.material.empty() && cell.culture)
     sampling::codes(*cell.culture, north_deg, east_deg, run.count, &found.material[run.first]);
   if (found.peak_m.empty()) return;
