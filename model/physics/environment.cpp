@@ -120,9 +120,22 @@ void Movers::add_echo(const MovingPoint& point, const SweepGeometry& geometry, c
 }
 
 std::size_t samples_nearer(std::span<const double> distance_m, double target_m) {
-  const auto first_not_nearer = std::partition_point(distance_m.begin(), distance_m.end(),
-                                                     [target_m](double centre_m) { return !(centre_m >= target_m); });
-  return static_cast<std::size_t>(first_not_nearer - distance_m.begin());
+  const auto is_nearer = [target_m](double centre_m) { return !(centre_m >= target_m); };
+  const auto count = static_cast<std::ptrdiff_t>(distance_m.size());
+  // Centres are mostly evenly spaced. So a guess is often right, or the next one is.
+  if (count > 1) {
+    const double first_m = distance_m.front(), step_m = (distance_m.back() - first_m) / static_cast<double>(count - 1);
+    const double guess = (target_m - first_m) / step_m;
+    if (guess > 0.0 && guess < static_cast<double>(count - 1)) {
+      const auto below = static_cast<std::ptrdiff_t>(guess);
+      for (std::ptrdiff_t i = std::max<std::ptrdiff_t>(below, 1); i <= std::min(below + 2, count - 1); ++i)
+        if (is_nearer(distance_m[static_cast<std::size_t>(i - 1)]) &&
+            !is_nearer(distance_m[static_cast<std::size_t>(i)]))
+          return static_cast<std::size_t>(i);
+    }
+  }
+  return static_cast<std::size_t>(std::partition_point(distance_m.begin(), distance_m.end(), is_nearer) -
+                                  distance_m.begin());
 }
 
 std::size_t nearest_sample(std::span<const double> distance_m, double target_m) {

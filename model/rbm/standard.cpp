@@ -14,6 +14,10 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
+// Ground between two samples is straight for scatterers if it rises at most kMaxCrest_m above the next sample's line of
+// sight, and the samples are at most kMaxStraight_m apart.
+constexpr float kMaxCrest_m = 0.5F;
+constexpr float kMaxStraight_m = 200.0F;
 }  // namespace
 
 Standard::Standard(const physics::RadarParameters& parameters)
@@ -61,12 +65,12 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   const double pulse_samples = fidelity_.pulse_smear ? receiver.pulse_length_m / spacing_m : 1.0;
   ground_.use_resolution(receiver.pulse_length_m, spacing_m);
   const terrain::PositionRun positions = positions_.run();
-  const bool crests =
+  has_crests_ =
       ray_crests_.find(terrain, {geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots}, positions_,
                        {geometry.altitude.metres(), earth.curvature(), distance_.first(count_)}, crest_.first(count_));
   const simd::SweepInputs inputs{distance_.data(), elevation_.data(),
                                  // Where a cell is reduced to fewer posts, the highest original posts cast the shadow.
-                                 terrain.has_peaks() ? peak_.data() : nullptr, crests ? crest_.data() : nullptr,
+                                 terrain.has_peaks() ? peak_.data() : nullptr, has_crests_ ? crest_.data() : nullptr,
                                  fidelity_.cross_track_slope ? cross_slope_.data() : nullptr, one_step_inverse_.data(),
                                  two_step_inverse_.data(),
                                  ground_.prepare(geometry, positions, water_.data(), terrain.has_materials())};
@@ -77,7 +81,7 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   attenuate(geometry);
   const physics::GroundWalk walk(geometry, earth, terrain, fidelity_.interpolation);
   if (scene_return_.enter(geometry, environment.scenes))
-    add_scenes(geometry, walk, receiver, *environment.scenes, pulse_samples);
+    add_scenes(geometry, walk, receiver, environment, pulse_samples);
   add_movers(geometry, walk, receiver, environment, pulse_samples);
   rain_.enter(geometry);
   if (!rain_.dry()) add_rain(geometry, earth, receiver);
@@ -105,7 +109,8 @@ void Standard::attenuate(const physics::SweepGeometry& geometry) {
 }
 
 void Standard::add_scenes(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
-                          const physics::Receiver& receiver, const scene::SceneView& scenes, double pulse_samples) {
+                          const physics::Receiver& receiver, const physics::Environment& environment,
+                          double pulse_samples) {
   SceneReturn::Ground& ground = scene_return_.ground();
   const bool across = fidelity_.cross_track_slope;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -115,8 +120,23 @@ void Standard::add_scenes(const physics::SweepGeometry& geometry, const physics:
     ground.horizon[i] = static_cast<double>(horizon_.data()[i]);
     ground.power[i] = static_cast<double>(power_.data()[i]);
   }
-  scene_return_.apply(geometry, receiver, walk, scenes, pulse_samples);
+  describe_steps(environment.terrain, ground);
+  scene_return_.apply(geometry, receiver, walk, *environment.scenes, pulse_samples);
   for (std::size_t i = 0; i < count_; ++i) power_.data()[i] = static_cast<float>(ground.power[i]);
+}
+
+// Finds the steps between samples without ground that stands out. There scatterers are shaded by a straight line.
+void Standard::describe_steps(const terrain::TerrainView& terrain, SceneReturn::Ground& ground) const {
+  const float* const peak_m = terrain.has_peaks() ? peak_.data() : elevation_.data();
+  ground.peak_m.assign(peak_m, peak_m + count_);
+  ground.straight.assign(count_, 0);
+  if (!has_crests_) return;
+  for (std::size_t i = holes_ + 1; i < count_; ++i) {
+    const float limit = std::max(horizon_.data()[i - 1], tangent_.data()[i] + kMaxCrest_m / distance_.data()[i]);
+    const bool known = peak_m[i - 1] == peak_m[i - 1] && peak_m[i] == peak_m[i];
+    const bool close = distance_.data()[i] - distance_.data()[i - 1] <= kMaxStraight_m;
+    ground.straight[i] = known && close && crest_.data()[i] <= limit ? 1 : 0;
+  }
 }
 
 void Standard::add_movers(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,

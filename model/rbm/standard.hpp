@@ -56,7 +56,8 @@ class Standard : public Algorithm {
   void add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                 const physics::Receiver& receiver);
   void add_scenes(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
-                  const physics::Receiver& receiver, const scene::SceneView& scenes, double pulse_samples);
+                  const physics::Receiver& receiver, const physics::Environment& environment, double pulse_samples);
+  void describe_steps(const terrain::TerrainView& terrain, SceneReturn::Ground& ground) const;
   void attenuate(const physics::SweepGeometry& geometry);
   void read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
   simd::SweepConstants sweep_constants(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
@@ -76,7 +77,8 @@ class Standard : public Algorithm {
   SceneReturn scene_return_;
   physics::Receiver receiver_;  // result of the last receiver_at()
   std::size_t count_;
-  std::size_t holes_ = 0;  // number of samples nearest the aircraft with a slant range too short to meet the ground
+  std::size_t holes_ = 0;    // number of samples nearest the aircraft with a slant range too short to meet the ground
+  bool has_crests_ = false;  // crest_ is that of the sweep
   double spaced_range_m_ = 0.0;     // [m] range for which distance_m_ was computed; 0: none
   double smeared_samples_ = 0.0;    // pulse length [samples] of smear_weights_; 0: none
   std::ptrdiff_t smear_reach_ = 0;  // [samples] smear_weights_ has offsets -smear_reach_ to smear_reach_
