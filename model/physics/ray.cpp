@@ -58,12 +58,6 @@ struct Newton {
   int knots = 0;
   Knots knot{};
   Knots difference{};  // divided differences
-
-  double at(double t) const {
-    double p = difference[static_cast<std::size_t>(knots - 1)];
-    for (auto k = static_cast<std::size_t>(knots - 1); k-- > 0;) p = p * (t - knot[k]) + difference[k];
-    return p;
-  }
 };
 
 // Chebyshev points for each number of knots. They spread the interpolation error evenly over the ray.
@@ -114,28 +108,28 @@ void store_position(PositionArrays& positions, std::size_t i, geo::GeoPoint apex
   positions.east_deg[i] = static_cast<float>(east_deg - std::floor(east_deg));
 }
 
+simd::PositionSpans spans_of(PositionArrays& positions) {
+  return {positions.cells_north.data(), positions.cells_east.data(), positions.north_deg.data(),
+          positions.east_deg.data()};
+}
+
 // Positions from the interpolated unit vector. `axis`: its three components, as functions of t = distance * scale - 1.
 void sample_by_vector(geo::GeoPoint apex, const float* distance_m, double scale, const std::array<Newton, 3>& axis,
                       PositionArrays& positions) {
-  for (std::size_t i = 0; i < positions.count; ++i) {
-    const double t = static_cast<double>(distance_m[i]) * scale - 1.0;
-    const double x = axis[0].at(t);
-    const double y = axis[1].at(t);
-    const double from_axis = std::sqrt(x * x + y * y);
-    // At the pole any longitude is correct.
-    const double longitude_rad =
-        from_axis > 0.0 ? polynomials::arctangent(y, x) : apex.longitude_deg * geo::kRadiansPerDegree;
-    store_position(positions, i, apex,
-                   {polynomials::arctangent(axis[2].at(t), from_axis) / geo::kRadiansPerDegree,
-                    longitude_rad / geo::kRadiansPerDegree});
-  }
+  simd::VectorCurves curves;
+  curves.knots = static_cast<std::size_t>(axis[0].knots);
+  curves.scale = scale;
+  curves.knot = axis[0].knot;
+  for (std::size_t k = 0; k < axis.size(); ++k) curves.difference[k] = axis[k].difference;
+  curves.apex_east_deg = apex.longitude_deg;
+  curves.south_deg = positions.corner.south_deg;
+  curves.west_deg = positions.corner.west_deg;
+  simd::positions_by_vector(positions.count, distance_m, curves, spans_of(positions));
 }
 
 // The curves give degrees north and east of positions.corner.
 void sample_by_curves(const float* distance_m, const simd::Curves& curves, PositionArrays& positions) {
-  simd::positions_on_curves(positions.count, distance_m, curves,
-                            {positions.cells_north.data(), positions.cells_east.data(), positions.north_deg.data(),
-                             positions.east_deg.data()});
+  simd::positions_on_curves(positions.count, distance_m, curves, spans_of(positions));
 }
 
 simd::Curves curves_of(const geo::GeodesicSeries& series, terrain::CellCorner corner) {
