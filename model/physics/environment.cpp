@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
+#include "lib/radar/fidelity.hpp"
 #include "lib/radar/world.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
@@ -34,7 +36,10 @@ std::vector<MovingPoint> configured_points(const RadarParameters& parameters) {
 }
 
 Movers::Movers(const RadarParameters& parameters)
-    : beam_(parameters.beam), gas_(parameters), points_(configured_points(parameters)) {
+    : exact_(parameters.fidelity.algorithm == radar::Algorithm::reference),
+      beam_(parameters.beam),
+      gas_(parameters),
+      points_(configured_points(parameters)) {
   for (const MovingPoint& point : points_) fixes_.push_back({point.start_ecef, point.since});
   echoes_.reserve(points_.size() + kMaxTraffic);
 }
@@ -52,8 +57,24 @@ class Movers::Sector {
       const double azimuth_rad = geometry.azimuth.radians() + offset_rad;
       return level.ecef_from_enu_direction({std::cos(azimuth_rad), -std::sin(azimuth_rad), 0.0});
     };
+    const double azimuth_rad = geometry.azimuth.radians();
+    ahead_ = level.ecef_from_enu_direction({std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0});
+    right_ = across(0.0);
+    curvature_m_ = geo::radius_of_curvature(geometry.apex.latitude_deg, geometry.azimuth).metres();
     right_of_left_ = across(interval.left_rad);
     right_of_right_ = across(interval.right_rad);
+  }
+
+  // Distance over ground and azimuth off the ray; empty if the point is too far for the series.
+  struct Path {
+    double distance_m, offset_rad;
+  };
+  std::optional<Path> path_to(geo::GeoPoint position) const {
+    const geo::Vector3 to_point = on_ellipsoid(position) - apex_;
+    if (dot(to_point, to_point) > kMaxPlane_m * kMaxPlane_m) return std::nullopt;
+    const double ahead_m = dot(to_point, ahead_), right_m = dot(to_point, right_);
+    const double plane2 = ahead_m * ahead_m + right_m * right_m;
+    return Path{std::sqrt(plane2) * arc_per_plane(plane2, curvature_m_), std::atan2(right_m, ahead_m)};
   }
 
   // False if no point at most `radius_m` from a position is in the sector.
@@ -73,7 +94,8 @@ class Movers::Sector {
   static constexpr double kMargin_m = 1.0;
   static constexpr double kTurn_rad = 1e-4;
   static constexpr double kMaxPlane_m = 1'852'000.0;
-  geo::Vector3 apex_, right_of_left_, right_of_right_;  // ECEF
+  geo::Vector3 apex_, ahead_, right_, right_of_left_, right_of_right_;  // ECEF
+  double curvature_m_ = 0.0;                                            // radius of the ellipsoid's curvature
   double range_m_;
   bool narrow_;
 };
@@ -84,6 +106,7 @@ std::span<const Echo> Movers::echoes(const SweepGeometry& geometry, const Receiv
   const auto traffic = environment.traffic.first(std::min(environment.traffic.size(), kMaxTraffic));
   if (points_.empty() && traffic.empty()) return echoes_;
   const Sector sector(geometry, receiver.azimuth_beamwidth_rad);
+  const Sweep sweep{geometry, receiver, earth, environment.terrain};
   const auto run_m = [&](const MovingPoint& point, geo::Duration since) {
     return point.speed_mps * std::abs((geometry.sim_time - since).seconds());
   };
@@ -91,21 +114,23 @@ std::span<const Echo> Movers::echoes(const SweepGeometry& geometry, const Receiv
     Fix& fix = fixes_[i];
     if (run_m(points_[i], fix.time) > kMaxRun_m)
       fix = {on_ellipsoid(points_[i].position(geometry.sim_time)), geometry.sim_time};
-    if (sector.may_contain(fix.ecef, run_m(points_[i], fix.time)))
-      add_echo(points_[i], geometry, receiver, earth, environment.terrain);
+    if (sector.may_contain(fix.ecef, run_m(points_[i], fix.time))) add_echo(points_[i], sector, sweep);
   }
   for (const MovingPoint& point : traffic)
-    if (sector.may_contain(point.start_ecef, run_m(point, point.since)))
-      add_echo(point, geometry, receiver, earth, environment.terrain);
+    if (sector.may_contain(point.start_ecef, run_m(point, point.since))) add_echo(point, sector, sweep);
   return echoes_;
 }
 
-void Movers::add_echo(const MovingPoint& point, const SweepGeometry& geometry, const Receiver& receiver,
-                      const EffectiveEarth& earth, const terrain::TerrainView& terrain) {
+void Movers::add_echo(const MovingPoint& point, const Sector& sector, const Sweep& sweep) {
+  const auto& [geometry, receiver, earth, terrain] = sweep;
   const geo::GeoPoint position = point.position(geometry.sim_time);
-  const geo::GeodesicInverse path = geo::geodesic_inverse(geometry.apex, position);
-  const double offset_rad = (path.azimuth_at_start - geometry.azimuth).radians();
-  const double distance_m = path.distance.metres();
+  std::optional<Sector::Path> path;
+  if (!exact_) path = sector.path_to(position);
+  if (!path) {
+    const geo::GeodesicInverse geodesic = geo::geodesic_inverse(geometry.apex, position);
+    path = {geodesic.distance.metres(), (geodesic.azimuth_at_start - geometry.azimuth).radians()};
+  }
+  const auto [distance_m, offset_rad] = *path;
   if (distance_m >= geometry.range.metres() || distance_m <= 0.0) return;
   const double gain_across = point_azimuth_gain(geometry.slice, receiver.azimuth_beamwidth_rad, offset_rad);
   if (!(gain_across > 0.0)) return;

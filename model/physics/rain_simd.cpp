@@ -268,9 +268,7 @@ static void measure_rain(const RainConstants& constants, radar::BeamPattern beam
 RainChord rain_chord_in_plane(double ahead_m, double right_m, double radius_of_curvature_m, double radius_m) {
   constexpr double kInverse = 1.0 / geo::kMeanEarthRadius_m;
   const double plane2 = ahead_m * ahead_m + right_m * right_m;
-  // Arc over ground per distance in the plane: arcsine(x) / x.
-  const double u = plane2 / (radius_of_curvature_m * radius_of_curvature_m);
-  const double arc = 1.0 + u * (1.0 / 6.0 + u * (3.0 / 40.0 + u * (15.0 / 336.0)));
+  const double arc = arc_per_plane(plane2, radius_of_curvature_m);
   const double w = plane2 * arc * arc * kInverse * kInverse;  // squared arc on the mean sphere [rad^2]
   const double sine = arc * (1.0 - w / 6.0 * (1.0 - w / 20.0 * (1.0 - w / 42.0)));
   const double cosine = 1.0 - 0.5 * w * (1.0 - w / 12.0 * (1.0 - w / 30.0));

@@ -99,6 +99,11 @@ EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoi
   return EffectiveEarth(std::numeric_limits<double>::infinity());
 }
 
+double arc_per_plane(double plane_square_m2, double radius_of_curvature_m) {
+  const double u = plane_square_m2 / (radius_of_curvature_m * radius_of_curvature_m);
+  return 1.0 + u * (1.0 / 6.0 + u * (3.0 / 40.0 + u * (15.0 / 336.0 + u * (105.0 / 3456.0))));
+}
+
 void sample_distances(const GeometryParameters& parameters, const EffectiveEarth& earth, const SweepGeometry& geometry,
                       const terrain::TerrainView& terrain, std::span<double> distance_m) {
   const double spacing_m = geometry.range.metres() / static_cast<double>(distance_m.size());

@@ -115,6 +115,10 @@ class EffectiveEarth {
 // Effective earth of a ray by the parameters. A factor k below 0.1, or NaN, is replaced by 0.1.
 EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoint apex, geo::Bearing azimuth);
 
+// Distance over ground of a point on the ellipsoid, divided by its distance in the apex's horizontal plane: arcsine(x)
+// / x, where x is the square root of `plane_square_m2` / radius of curvature. Series, within 3 m as far as 1,000 NM.
+double arc_per_plane(double plane_square_m2, double radius_of_curvature_m);
+
 // Distance over ground of each sample's centre [m], ascending: evenly spaced in ground range, or in slant range.
 // For slant range, level ground is assumed, at the ground elevation below the aircraft (0 if unknown). Samples at a
 // slant range too short to meet that ground are NaN.

@@ -118,10 +118,8 @@ EmitterSights::Path EmitterSights::path(std::size_t number) const {
   }
   const geo::Vector3 to_emitter = ecef_[number] - apex_ecef_;
   const double ahead_m = dot(to_emitter, ahead_), right_m = dot(to_emitter, right_);
-  // Arc over ground from the distance in the apex's horizontal plane: arcsine(x) / x.
   const double plane2 = ahead_m * ahead_m + right_m * right_m;
-  const double u = plane2 / (sight.radius_of_curvature_m * sight.radius_of_curvature_m);
-  const double arc = 1.0 + u * (1.0 / 6.0 + u * (3.0 / 40.0 + u * (15.0 / 336.0 + u * (105.0 / 3456.0))));
+  const double arc = physics::arc_per_plane(plane2, sight.radius_of_curvature_m);
   return {std::atan2(right_m, ahead_m), std::max(std::sqrt(plane2) * arc, kMinDistance_m)};
 }
 

@@ -125,34 +125,48 @@ void Standard::add_scenes(const physics::SweepGeometry& geometry, const physics:
   for (std::size_t i = 0; i < count_; ++i) power_.data()[i] = static_cast<float>(ground.power[i]);
 }
 
-// Finds the steps between samples without ground that stands out. There scatterers are shaded by a straight line.
+// True if no ground between the previous sample and this one stands out. There movers and scatterers are shaded by a
+// straight line between the peaks at both samples. `peak_m`: elevation of the ground that casts the shadow.
+bool Standard::is_straight(std::size_t i, const float* peak_m) const {
+  if (!has_crests_ || i <= holes_ || i >= count_) return false;
+  const float limit = std::max(horizon_.data()[i - 1], tangent_.data()[i] + kMaxCrest_m / distance_.data()[i]);
+  const bool known = peak_m[i - 1] == peak_m[i - 1] && peak_m[i] == peak_m[i];
+  return known && distance_.data()[i] - distance_.data()[i - 1] <= kMaxStraight_m && crest_.data()[i] <= limit;
+}
+
 void Standard::describe_steps(const terrain::TerrainView& terrain, SceneReturn::Ground& ground) const {
   const float* const peak_m = terrain.has_peaks() ? peak_.data() : elevation_.data();
   ground.peak_m.assign(peak_m, peak_m + count_);
   ground.straight.assign(count_, 0);
-  if (!has_crests_) return;
-  for (std::size_t i = holes_ + 1; i < count_; ++i) {
-    const float limit = std::max(horizon_.data()[i - 1], tangent_.data()[i] + kMaxCrest_m / distance_.data()[i]);
-    const bool known = peak_m[i - 1] == peak_m[i - 1] && peak_m[i] == peak_m[i];
-    const bool close = distance_.data()[i] - distance_.data()[i - 1] <= kMaxStraight_m;
-    ground.straight[i] = known && close && crest_.data()[i] <= limit ? 1 : 0;
-  }
+  for (std::size_t i = 1; i < count_; ++i) ground.straight[i] = is_straight(i, peak_m) ? 1 : 0;
+}
+
+// True if ground hides a mover. `nearer`: number of samples nearer than the mover.
+bool Standard::hides(const physics::Echo& echo, std::size_t nearer, const physics::GroundWalk& walk,
+                     const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) const {
+  const auto horizon = [&](std::size_t sample) { return static_cast<double>(horizon_.data()[sample]); };
+  // The ground between the samples is not examined if the samples hide the mover.
+  if (nearer > holes_ && echo.tangent <= horizon(nearer - 1)) return true;
+  const float* const peak_m = terrain.has_peaks() ? peak_.data() : elevation_.data();
+  if (!is_straight(nearer, peak_m)) return echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
+  const double near_m = distance_m_[nearer - 1], near_peak_m = static_cast<double>(peak_m[nearer - 1]);
+  const double fraction = (echo.distance_m - near_m) / (distance_m_[nearer] - near_m);
+  const double ground_m = near_peak_m + fraction * (static_cast<double>(peak_m[nearer]) - near_peak_m);
+  return echo.tangent <= walk.earth().tangent(geometry.altitude.metres(), echo.distance_m, ground_m);
 }
 
 void Standard::add_movers(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
                           const physics::Receiver& receiver, const physics::Environment& environment,
                           double pulse_samples) {
-  const auto horizon = [&](std::size_t sample) { return static_cast<double>(horizon_.data()[sample]); };
   for (const physics::Echo& echo : movers_.echoes(geometry, receiver, walk.earth(), environment)) {
     // A mover nearer than the first sample on the ground is added to that sample, as in Reference.
     const std::size_t index = std::max(holes_, physics::nearest_sample(distance_m_, echo.distance_m));
     if (index >= count_) continue;
     float& power = power_.data()[index];
     const float sum = power + static_cast<float>(physics::point_smear_gain(pulse_samples) * echo.power);
-    // The ground between the samples is not walked if the samples hide the mover, or if its echo is lost in rounding.
+    // A mover whose echo is lost in rounding is left out.
     const std::size_t nearer = physics::samples_nearer(distance_m_, echo.distance_m);
-    if (sum == power || (nearer > holes_ && echo.tangent <= horizon(nearer - 1))) continue;
-    if (echo.tangent > walk.horizon_before(distance_m_, echo.distance_m, horizon)) power = sum;
+    if (sum != power && !hides(echo, nearer, walk, geometry, environment.terrain)) power = sum;
   }
 }
 

@@ -57,6 +57,9 @@ class Standard : public Algorithm {
                 const physics::Receiver& receiver);
   void add_scenes(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
                   const physics::Receiver& receiver, const physics::Environment& environment, double pulse_samples);
+  bool is_straight(std::size_t i, const float* peak_m) const;
+  bool hides(const physics::Echo& echo, std::size_t nearer, const physics::GroundWalk& walk,
+             const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) const;
   void describe_steps(const terrain::TerrainView& terrain, SceneReturn::Ground& ground) const;
   void attenuate(const physics::SweepGeometry& geometry);
   void read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);

@@ -196,6 +196,31 @@ TEST(Movers, AreFoundUpToTheEdgesOfBeamAndRange) {
         }
 }
 
+TEST(Movers, OfStandardAreWithinThreeMetresOfTheGeodesic) {
+  const terrain::AnalyticTerrain sea(terrain::flat(0.0));
+  const physics::EffectiveEarth earth(8.5e6);
+  for (const geo::GeoPoint apex : {test::kMidLatitude, geo::GeoPoint{-60.0, 179.9}, {89.99, 5.0}, {90.0, 0.0}})
+    for (const double azimuth_deg : {0.0, 45.0, 130.0})
+      for (const double distance_m : {30.0, 5000.0, 300000.0, 590000.0}) {
+        physics::SweepGeometry geometry = test::geometry_north(kMoversAltitude_m, 592640.0, apex);
+        geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
+        radar::Mover ship;
+        ship.position =
+            geo::geodesic_direct(apex, geometry.azimuth + geo::Angle::degrees(1.0), geo::Length::metres(distance_m));
+        radar::RadarConfiguration configuration = with(ship);
+        const physics::Receiver receiver = physics::Receivers(configuration).at(geometry.range);
+        physics::Movers exact(configuration);
+        configuration.fidelity.algorithm = radar::Algorithm::standard;
+        physics::Movers fast(configuration);
+        const auto expected = exact.echoes(geometry, receiver, earth, sea);
+        const auto found = fast.echoes(geometry, receiver, earth, sea);
+        ASSERT_EQ(expected.size(), 1U);
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_NEAR(found[0].distance_m, expected[0].distance_m, 3.0) << apex.latitude_deg << ", " << azimuth_deg;
+        EXPECT_NEAR(decibels(found[0].power / expected[0].power), 0.0, 0.01) << distance_m;
+      }
+}
+
 TEST(Movers, AreFoundAfterAnyTime) {
   radar::Mover ship = ship_at(20020.0);
   ship.speed_mps = 150.0;
