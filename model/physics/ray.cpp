@@ -38,7 +38,8 @@ double PolarPassage::straight_at(double to_pole_m) const {
 }
 
 double PolarPassage::max_straight_m(double along_m) const {
-  return straight_at(std::hypot(along_m - nearest_m_, offset_m_));
+  const double beyond_m = along_m - nearest_m_;
+  return straight_at(std::sqrt(beyond_m * beyond_m + offset_m_ * offset_m_));
 }
 
 double PolarPassage::min_straight_m(double from_m, double to_m) const {
