@@ -56,9 +56,11 @@ std::vector<physics::MovingPoint> points_of(const databuffer::Traffic& traffic) 
   points.reserve(count);
   for (const databuffer::TrafficEntity& entity : std::span(traffic.entities).first(count)) {
     const auto heading = geo::Bearing::radians(std::atan2(entity.velocity_east_mps, entity.velocity_north_mps));
-    points.push_back({geo::GeodesicRay({entity.latitude_deg, entity.longitude_deg}, heading),
-                      std::hypot(entity.velocity_north_mps, entity.velocity_east_mps), entity.cross_section_m2,
-                      entity.height_m, start});
+    points.push_back(physics::moving_point({{entity.latitude_deg, entity.longitude_deg},
+                                            heading,
+                                            std::hypot(entity.velocity_north_mps, entity.velocity_east_mps),
+                                            start},
+                                           entity.cross_section_m2, entity.height_m));
   }
   return points;
 }

@@ -8,7 +8,6 @@
 
 #include "lib/geo/earth.hpp"
 #include "lib/radar/world.hpp"
-#include "model/physics/ray.hpp"
 #include "model/physics/reflectivity.hpp"
 
 namespace yars::model::physics {
@@ -201,7 +200,10 @@ double GasPath::one_way_transmission(const EffectiveEarth& earth, double altitud
 }
 
 GasSamples::GasSamples(const RadarParameters& parameters, std::size_t samples)
-    : earth_(round_earth(parameters.geometry)), constant_(samples + kPairSlack), slope_(constant_), bend_(constant_) {}
+    : earth_(round_earth(parameters.geometry)),
+      constant_(samples + 2 * terrain::kRunSlack),
+      slope_(constant_),
+      bend_(constant_) {}
 
 GasSamples::Parabola GasSamples::parabola_at(const GasPath& path, double altitude_m, double distance_m) const {
   const auto& h = kHeights_km;
@@ -281,13 +283,19 @@ RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint mid
   return chord;
 }
 
-RainPath::RainPath(const RadarParameters& parameters) : beam_(parameters.beam) {
+std::vector<Shower> configured_showers(const RadarParameters& parameters) {
   const radar::RainConfiguration& rain = parameters.world.rain;
   const double wave_m = wavelength_m(parameters.frequency_ghz);
+  std::vector<Shower> showers;
   for (const radar::RainCell& cell : rain.cells) {
-    showers_.push_back({cell.position, cell.radius_m, cell.top_m, rain_reflectivity(rain, cell.rate_mmh, wave_m),
-                        rain_attenuation_db_per_m(rain, cell.rate_mmh)});
+    showers.push_back({cell.position, cell.radius_m, cell.top_m, rain_reflectivity(rain, cell.rate_mmh, wave_m),
+                       rain_attenuation_db_per_m(rain, cell.rate_mmh)});
   }
+  return showers;
+}
+
+RainPath::RainPath(const RadarParameters& parameters)
+    : beam_(parameters.beam), showers_(configured_showers(parameters)) {
   crossed_.reserve(showers_.size());
 }
 

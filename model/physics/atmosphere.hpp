@@ -92,7 +92,7 @@ class GasSamples {
   void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m,
            bool same_distances);
   // Two-way loss for ground at the height h [m MSL], one entry per sample: constant + h (slope + h bend), with h
-  // clamped to [kLowest_m, kHighest_m]. The arrays have kPairSlack (ray.hpp) more entries.
+  // clamped to [kLowest_m, kHighest_m]. The arrays have twice terrain::kRunSlack more entries.
   struct Coefficients {
     const float *constant, *slope, *bend;  // constant null: no loss
   };
@@ -125,6 +125,16 @@ double rain_reflectivity(const radar::RainConfiguration& rain, double rate_mmh, 
 // One-way attenuation at a rain rate.
 double rain_attenuation_db_per_m(const radar::RainConfiguration& rain, double rate_mmh);
 
+// Shower of the configuration.
+struct Shower {
+  geo::GeoPoint position;
+  double radius_m = 0.0;
+  double top_m = 0.0;                 // MSL
+  double reflectivity = 0.0;          // [1/m] in the centre
+  double attenuation_db_per_m = 0.0;  // one way, in the centre
+};
+std::vector<Shower> configured_showers(const RadarParameters& parameters);
+
 // Chord of a ray through a shower, seen from above. Distances are over ground from the aircraft.
 // Profile at distance d within `half_m` of the middle: (depth - ((d - middle) / radius)^2)^2, 1 in the shower's centre.
 struct RainChord {
@@ -146,6 +156,7 @@ RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint mid
 // azimuth beamwidth; c tau / 2: pulse length. I is the integral of the two-way beam pattern over elevation, from the
 // horizon (ray.hpp) to the top. With 1/R^4 the power falls as R^-2.
 // Attenuation: that in each shower's centre times the profile integrated along the chord, there and back.
+// The algorithm `reference` uses this class; rain_simd.hpp has the fast path of `standard`.
 class RainPath {
  public:
   explicit RainPath(const RadarParameters& parameters);
@@ -164,13 +175,6 @@ class RainPath {
                double horizon_rad) const;
 
  private:
-  struct Shower {
-    geo::GeoPoint position;
-    double radius_m = 0.0;
-    double top_m = 0.0;                 // MSL
-    double reflectivity = 0.0;          // [1/m] in the centre
-    double attenuation_db_per_m = 0.0;  // one way, in the centre
-  };
   struct Crossing {
     RainChord chord;
     const Shower* shower = nullptr;

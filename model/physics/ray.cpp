@@ -38,7 +38,8 @@ double PolarPassage::straight_at(double to_pole_m) const {
 }
 
 double PolarPassage::max_straight_m(double along_m) const {
-  return straight_at(std::hypot(along_m - nearest_m_, offset_m_));
+  const double beyond_m = along_m - nearest_m_;
+  return straight_at(std::sqrt(beyond_m * beyond_m + offset_m_ * offset_m_));
 }
 
 double PolarPassage::min_straight_m(double from_m, double to_m) const {
@@ -58,12 +59,6 @@ struct Newton {
   int knots = 0;
   Knots knot{};
   Knots difference{};  // divided differences
-
-  double at(double t) const {
-    double p = difference[static_cast<std::size_t>(knots - 1)];
-    for (auto k = static_cast<std::size_t>(knots - 1); k-- > 0;) p = p * (t - knot[k]) + difference[k];
-    return p;
-  }
 };
 
 // Chebyshev points for each number of knots. They spread the interpolation error evenly over the ray.
@@ -114,43 +109,28 @@ void store_position(PositionArrays& positions, std::size_t i, geo::GeoPoint apex
   positions.east_deg[i] = static_cast<float>(east_deg - std::floor(east_deg));
 }
 
+simd::PositionSpans spans_of(PositionArrays& positions) {
+  return {positions.cells_north.data(), positions.cells_east.data(), positions.north_deg.data(),
+          positions.east_deg.data()};
+}
+
 // Positions from the interpolated unit vector. `axis`: its three components, as functions of t = distance * scale - 1.
 void sample_by_vector(geo::GeoPoint apex, const float* distance_m, double scale, const std::array<Newton, 3>& axis,
                       PositionArrays& positions) {
-  for (std::size_t i = 0; i < positions.count; ++i) {
-    const double t = static_cast<double>(distance_m[i]) * scale - 1.0;
-    const double x = axis[0].at(t);
-    const double y = axis[1].at(t);
-    const double from_axis = std::sqrt(x * x + y * y);
-    // At the pole any longitude is correct.
-    const double longitude_rad =
-        from_axis > 0.0 ? polynomials::arctangent(y, x) : apex.longitude_deg * geo::kRadiansPerDegree;
-    store_position(positions, i, apex,
-                   {polynomials::arctangent(axis[2].at(t), from_axis) / geo::kRadiansPerDegree,
-                    longitude_rad / geo::kRadiansPerDegree});
-  }
-}
-double value_at(const simd::Curve& curve, double x) {
-  double sum = 0.0;
-  for (std::size_t k = curve.terms; k-- > 0;) sum = sum * x + curve.coefficient[k];
-  return sum;
+  simd::VectorCurves curves;
+  curves.knots = static_cast<std::size_t>(axis[0].knots);
+  curves.scale = scale;
+  curves.knot = axis[0].knot;
+  for (std::size_t k = 0; k < axis.size(); ++k) curves.difference[k] = axis[k].difference;
+  curves.apex_east_deg = apex.longitude_deg;
+  curves.south_deg = positions.corner.south_deg;
+  curves.west_deg = positions.corner.west_deg;
+  simd::positions_by_vector(positions.count, distance_m, curves, spans_of(positions));
 }
 
 // The curves give degrees north and east of positions.corner.
-void sample_by_curves(geo::GeoPoint apex, const float* distance_m, const simd::Curves& curves,
-                      PositionArrays& positions) {
-  if (const std::size_t piece = simd::piece_samples(positions.count); piece > 0) {
-    simd::positions_on_curves(positions.count, piece, distance_m, curves,
-                              {positions.cells_north.data(), positions.cells_east.data(), positions.north_deg.data(),
-                               positions.east_deg.data()});
-    return;
-  }
-  for (std::size_t i = 0; i < positions.count; ++i) {
-    const double x = static_cast<double>(distance_m[i]) * curves.scale - curves.shift;
-    store_position(
-        positions, i, apex,
-        {value_at(curves.north, x) + positions.corner.south_deg, value_at(curves.east, x) + positions.corner.west_deg});
-  }
+void sample_by_curves(const float* distance_m, const simd::Curves& curves, PositionArrays& positions) {
+  simd::positions_on_curves(positions.count, distance_m, curves, spans_of(positions));
 }
 
 simd::Curves curves_of(const geo::GeodesicSeries& series, terrain::CellCorner corner) {
@@ -191,7 +171,7 @@ void sample_by_knots(geo::GeoPoint apex, const geo::GeodesicRay& ray, geo::Lengt
     return;
   }
   sample_by_curves(
-      apex, distance_m,
+      distance_m,
       {scale, 1.0, curve_of(first, positions.corner.south_deg), curve_of(second, positions.corner.west_deg)},
       positions);
 }
@@ -202,8 +182,7 @@ void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length rang
   positions.corner = terrain::cell_containing(apex);
   const int order = knots >= kSeriesKnots ? geo::GeodesicSeries::order_for(apex.latitude_deg, range) : 0;
   if (order > 0) {
-    sample_by_curves(apex, distance_m, curves_of(geo::GeodesicSeries(apex, azimuth, order), positions.corner),
-                     positions);
+    sample_by_curves(distance_m, curves_of(geo::GeodesicSeries(apex, azimuth, order), positions.corner), positions);
     return;
   }
   const geo::GeodesicRay ray(apex, azimuth);
@@ -299,7 +278,7 @@ double GroundWalk::tangent_along(const Piece& piece, double fraction) const {
 
 double GroundWalk::tangent(geo::GeoPoint position, double distance_m) const {
   const double peak_m = terrain_.surface_at(position, interpolation_).peak_m;
-  return std::isnan(peak_m) ? kNoGround : earth_.sight(geometry_.altitude.metres(), distance_m, peak_m).tangent;
+  return std::isnan(peak_m) ? kNoGround : earth_.tangent(geometry_.altitude.metres(), distance_m, peak_m);
 }
 
 }  // namespace yars::model::physics

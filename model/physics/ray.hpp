@@ -22,38 +22,6 @@
 #include "model/physics/sweep_geometry.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 
-namespace yars::model::physics::polynomials {
-
-// Elementary functions in double without library calls. Results are equal bit by bit on every machine.
-// Coefficients: Chebyshev interpolation on the reduced interval.
-
-// Angle [rad] in (-pi, pi] of the direction (x, y), not both zero. Error 1e-12.
-inline double arctangent(double y, double x) {
-  constexpr double kHalfPi = 1.5707963267948966;
-  constexpr double kPi = 3.141592653589793;
-  constexpr double kTanPiBy8 = 0.41421356237309503;
-  const double ay = y < 0.0 ? -y : y;
-  const double ax = x < 0.0 ? -x : x;
-  const double ratio = ay < ax ? ay / ax : ax / ay;
-  const bool folded = ratio > kTanPiBy8;
-  const double t = folded ? (ratio - 1.0) / (ratio + 1.0) : ratio;
-  const double s = t * t;
-  double p = -0.037655320648088311;
-  p = p * s + 0.069742085005920981;
-  p = p * s - 0.08992554733325249;
-  p = p * s + 0.1110345699688494;
-  p = p * s - 0.14285386547576151;
-  p = p * s + 0.19999993052852441;
-  p = p * s - 0.33333333276904076;
-  p = p * s + 0.99999999999924361;
-  const double reduced = p * t + (folded ? 0.5 * kHalfPi : 0.0);
-  const double first = ay < ax ? reduced : kHalfPi - reduced;
-  const double upper = x < 0.0 ? kPi - first : first;
-  return y < 0.0 ? -upper : upper;
-}
-
-}  // namespace yars::model::physics::polynomials
-
 namespace yars::model::physics {
 
 // Division of a ray near a pole into pieces that are straight in latitude and longitude within a bound. The ray is

@@ -106,6 +106,8 @@ class SceneSurface {
   // along and perpendicular to the direction to the radar.
   double wall_gamma(std::size_t code, double across, double towards) const;
 
+  double street_width_deg() const { return street_width_deg_; }
+  double cutoff_tangent() const { return cutoff_tangent_; }
   double cardinal(std::size_t code) const { return cardinal_[code % cardinal_.size()]; }
   // Table of the cardinal effect, 1 at angle 0, over the sine of the angle off the wall's normal. Entry i is at the
   // sine i / steps_per_sine(). The last two entries are 0.

@@ -68,6 +68,14 @@ Sight EffectiveEarth::sight(double altitude_m, double distance_m, double height_
   return sight;
 }
 
+double EffectiveEarth::tangent(double altitude_m, double distance_m, double height_m) const {
+  const bool flat = std::isinf(radius_m_);
+  const double angle_rad = flat ? 0.0 : distance_m / radius_m_;
+  const double sine = std::sin(angle_rad);
+  const double chord_m = flat ? distance_m : radius_m_ * sine;
+  return (height_m * std::cos(angle_rad) - drop_m(distance_m) - altitude_m) / (chord_m + height_m * sine);
+}
+
 double EffectiveEarth::distance_at_slant_range(double altitude_m, double height_m, double slant_range_m) const {
   const double above_m = altitude_m - height_m;
   const double square = slant_range_m * slant_range_m - above_m * above_m;
@@ -89,6 +97,11 @@ EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoi
       return EffectiveEarth(factor * geo::radius_of_curvature(apex.latitude_deg, azimuth).metres());
   }
   return EffectiveEarth(std::numeric_limits<double>::infinity());
+}
+
+double arc_per_plane(double plane_square_m2, double radius_of_curvature_m) {
+  const double u = plane_square_m2 / (radius_of_curvature_m * radius_of_curvature_m);
+  return 1.0 + u * (1.0 / 6.0 + u * (3.0 / 40.0 + u * (15.0 / 336.0 + u * (105.0 / 3456.0))));
 }
 
 void sample_distances(const GeometryParameters& parameters, const EffectiveEarth& earth, const SweepGeometry& geometry,

@@ -103,6 +103,8 @@ class EffectiveEarth {
   double drop_m(double distance_m) const;
   // Line of sight from an altitude above the apex to a point at a distance over ground (> 0) and a height.
   Sight sight(double altitude_m, double distance_m, double height_m) const;
+  // Sight::tangent alone.
+  double tangent(double altitude_m, double distance_m, double height_m) const;
   // Distance over ground at which ground of this height has this slant range; NaN if there is none.
   double distance_at_slant_range(double altitude_m, double height_m, double slant_range_m) const;
 
@@ -112,6 +114,10 @@ class EffectiveEarth {
 
 // Effective earth of a ray by the parameters. A factor k below 0.1, or NaN, is replaced by 0.1.
 EffectiveEarth effective_earth(const GeometryParameters& parameters, geo::GeoPoint apex, geo::Bearing azimuth);
+
+// Distance over ground of a point on the ellipsoid, divided by its distance in the apex's horizontal plane: arcsine(x)
+// / x, where x is the square root of `plane_square_m2` / radius of curvature. Series, within 3 m as far as 1,000 NM.
+double arc_per_plane(double plane_square_m2, double radius_of_curvature_m);
 
 // Distance over ground of each sample's centre [m], ascending: evenly spaced in ground range, or in slant range.
 // For slant range, level ground is assumed, at the ground elevation below the aircraft (0 if unknown). Samples at a

@@ -7,10 +7,14 @@
 // Source: docs/spec/physics.md#jamming, docs/spec/pilots_interface.md#rule-17.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "lib/geo/earth.hpp"
+#include "lib/geo/frames.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/receiver.hpp"
@@ -25,6 +29,62 @@ struct JammingConfiguration;
 
 namespace yars::model::rbm {
 
+// Lines of sight to emitters at fixed positions, recomputed after each 100 m flown or 5 m climbed and when the terrain
+// changes. They are those from the middle of the 100 m square of latitude and longitude that contains the aircraft, at
+// its altitude rounded up to 5 m. So they do not depend on earlier calls. The algorithm `reference` uses the position
+// itself. Gas attenuation of a line of sight is within 0.005 dB.
+class EmitterSights {
+ public:
+  struct Emitter {
+    geo::GeoPoint position;
+    double altitude_m = 0.0;  // [m MSL] kNotGiven: top of a mast of 10 m
+  };
+  struct Sight {
+    bool clear = false;                  // no ground hides the emitter
+    double altitude_m = 0.0;             // [m MSL] of the emitter
+    double transmission = 1.0;           // factor on power by gases, one way
+    double distance_m = 0.0;             // over ground, at least 10 m
+    double radius_of_curvature_m = 0.0;  // of the ellipsoid at the apex towards the emitter
+    physics::EffectiveEarth earth{geo::kMeanEarthRadius_m};
+  };
+  EmitterSights(const physics::RadarParameters& parameters, std::vector<Emitter> emitters);
+
+  // The sights of all emitters. The span is valid until the next call.
+  std::span<const Sight> from(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
+
+  // Azimuth off the sweep's ray, clockwise positive, and distance over ground (at least 10 m) of an emitter from the
+  // aircraft itself. Within 2 m and 1e-5 rad of the geodesic; `reference` uses the geodesic.
+  struct Path {
+    double offset_rad = 0.0;
+    double distance_m = 0.0;
+  };
+  // Path to the emitter `number` in the sweep of the last from().
+  Path path(std::size_t number) const;
+
+ private:
+  // Position for which sights_ are valid, and the terrain.
+  struct Origin {
+    double latitude_deg = 0.0, longitude_deg = 0.0, altitude_m = 0.0;
+    const terrain::TerrainView* terrain = nullptr;
+    std::uint64_t generation = 0;
+    bool operator==(const Origin&) const = default;
+  };
+  Origin origin_of(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) const;
+  Sight sight_of(const Emitter& emitter, const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
+
+  bool exact_;
+  physics::GeometryParameters geometry_parameters_;
+  physics::GasPath gas_;
+  SightLine sight_line_;
+  std::vector<Emitter> emitters_;
+  std::vector<geo::Vector3> ecef_;  // [m] positions of the emitters on the ellipsoid
+  std::vector<Sight> sights_;
+  Origin origin_;
+  geo::GeoPoint apex_;  // of the sweep of the last from()
+  geo::Bearing azimuth_;
+  geo::Vector3 apex_ecef_, ahead_, right_;  // ECEF
+};
+
 // Jamming strobes: noise of equal power at every range of a sweep. A jammer is received if it jams the radar's band and
 // channel and is in line of sight. The radar receives jamming in SNIFF too, when it does not transmit.
 // Received power: 4 pi (ERP_jammer / ERP_radar) G / R^2 in the unit of returned_power(). G is the one-way gain, 1 in
@@ -38,12 +98,14 @@ class Strobes {
   double level(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
 
  private:
+  double received(std::size_t number, const EmitterSights::Sight& sight, const physics::SweepGeometry& geometry,
+                  const physics::Receiver& receiver) const;
+
   std::shared_ptr<const radar::JammingConfiguration> jamming_;
   radar::BeamPattern beam_;
-  physics::GeometryParameters geometry_parameters_;
+  double sidelobe_;  // minimum one-way gain
   physics::Receivers receivers_;
-  physics::GasPath gas_;
-  SightLine sight_line_;
+  EmitterSights sights_;
 };
 
 // One reply of a beacon.
@@ -73,16 +135,15 @@ class Beacons {
   void measure(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain, std::span<float> power);
 
  private:
-  void answer(const radar::Beacon& beacon, const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
-              const terrain::TerrainView& terrain);
+  void answer(std::size_t number, const EmitterSights::Sight& beacon_sight, const physics::SweepGeometry& geometry,
+              const physics::Receiver& receiver);
 
   double radar_power_dbw_;
   radar::BeamPattern beam_;
   physics::GeometryParameters geometry_parameters_;
   physics::Receivers receivers_;
-  physics::GasPath gas_;
-  SightLine sight_line_;
   std::shared_ptr<const std::vector<radar::Beacon>> answering_;  // beacons with the radar's beacon code
+  EmitterSights sights_;
   std::vector<Reply> replies_;
   std::vector<double> distance_m_;  // distance of each sample over ground
 };

@@ -5,6 +5,7 @@
 
 #include "lib/geo/earth.hpp"
 #include "lib/geo/frames.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "model/physics/environment.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
@@ -54,7 +55,12 @@ class RayOverPlane {
 }  // namespace
 
 SceneReturn::SceneReturn(const physics::RadarParameters& parameters, std::size_t samples)
-    : beam_(parameters.beam), surface_(parameters), gas_(parameters), ground_(samples) {}
+    : beam_(parameters.beam),
+      surface_(parameters),
+      tables_(surface_),
+      fast_(parameters.fidelity.algorithm != radar::Algorithm::reference),
+      gas_(parameters),
+      ground_(samples) {}
 
 bool SceneReturn::enter(const physics::SweepGeometry& geometry, const scene::SceneView* scenes) {
   if (scenes == nullptr || scenes->scatterers().empty()) return false;
@@ -202,6 +208,11 @@ double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const s
   const double north = ray.apex.y - static_cast<double>(scatterer.north_m);
   const double plan_m = std::hypot(east, north);  // distance to the apex seen from above
   if (!(plan_m > 0.0)) return 0.0;
+  if (fast_)
+    return static_cast<double>(
+        simd::cross_section_m2(level.facings_of(scatterer), tables_,
+                               {static_cast<float>(east / plan_m), static_cast<float>(north / plan_m),
+                                static_cast<float>(sight.cos_grazing), static_cast<float>(sight.sin_grazing)}));
   double sum_m2 = 0.0;
   for (const scene::Facing& facing : level.facings_of(scatterer)) {
     const auto e = static_cast<double>(facing.east_m2), n = static_cast<double>(facing.north_m2);
@@ -215,6 +226,19 @@ double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const s
   return sum_m2;
 }
 
+// Maximum tangent of all ground nearer than a scatterer. `nearer`: number of samples nearer than the scatterer.
+double SceneReturn::horizon_before(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
+                                   double distance_m, std::size_t nearer) const {
+  if (nearer == 0 || nearer >= ground_.straight.size() || ground_.straight[nearer] == 0)
+    return sweep.walk->horizon_before(ground_.distance_m, distance_m,
+                                      [&](std::size_t sample) { return ground_.horizon[sample]; });
+  const double near_m = ground_.distance_m[nearer - 1], near_peak_m = ground_.peak_m[nearer - 1];
+  const double fraction = (distance_m - near_m) / (ground_.distance_m[nearer] - near_m);
+  const double ground_m = near_peak_m + fraction * (ground_.peak_m[nearer] - near_peak_m);
+  const double tangent = sight.tangent + (ground_m - static_cast<double>(scatterer.middle_msl_m)) / distance_m;
+  return std::max(ground_.horizon[nearer - 1], tangent);
+}
+
 // Fraction [0, 1] of a scatterer's vertical extent that is above the horizon of all nearer ground.
 double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
                                  double distance_m) const {
@@ -225,8 +249,7 @@ double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& sca
   const std::size_t nearer = physics::samples_nearer(ground_.distance_m, distance_m);
   // If ground up to the last nearer sample hides the scatterer, the path beyond that sample need not be tested.
   if (nearer > 0 && highest <= ground_.horizon[nearer - 1]) return 0.0;
-  const double horizon = sweep.walk->horizon_before(ground_.distance_m, distance_m,
-                                                    [&](std::size_t sample) { return ground_.horizon[sample]; });
+  const double horizon = horizon_before(sweep, scatterer, sight, distance_m, nearer);
   if (!(highest > lowest)) return highest > horizon ? 1.0 : 0.0;
   return std::clamp((highest - horizon) / (highest - lowest), 0.0, 1.0);
 }

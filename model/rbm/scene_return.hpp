@@ -5,11 +5,13 @@
 // they cover.
 // Inputs: sweep geometry, receiver, scenes, the sweep's ground with its horizon and power.
 // Outputs: the power of the samples before the pulse smear, changed in place.
-// Accuracy: double precision; the algorithms `reference` and `standard` both use this class.
+// Accuracy: double precision; the algorithms `reference` and `standard` both use this class. Cross sections of
+// `standard` are in float (scene_simd.hpp), and the ground between its samples is straight where nothing stands out.
 // Threads: one thread at a time may use an instance. No allocation after construction.
 // Source: docs/spec/physics.md#power, docs/radar_maths.md#scenes.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "lib/geo/frames.hpp"
@@ -19,6 +21,7 @@
 #include "model/physics/receiver.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "model/physics/sweep_geometry.hpp"
+#include "model/rbm/scene_simd.hpp"
 #include "model/scene/placement/scene_view.hpp"
 
 namespace yars::model::rbm {
@@ -30,12 +33,19 @@ class SceneReturn {
   // Samples of the sweep, near to far, before scenes are added.
   struct Ground {
     explicit Ground(std::size_t samples)
-        : distance_m(samples), height_m(samples), cross_slope(samples), horizon(samples), power(samples) {}
+        : distance_m(samples), height_m(samples), cross_slope(samples), horizon(samples), power(samples) {
+      peak_m.reserve(samples);
+      straight.reserve(samples);
+    }
     std::vector<double> distance_m;   // over ground, ascending; NaN: slant range too short to meet the ground
     std::vector<double> height_m;     // [m MSL]; NaN: void
     std::vector<double> cross_slope;  // slope across the sweep
     std::vector<double> horizon;      // maximum tangent of elevation angle up to and including this sample
     std::vector<double> power;        // before the pulse smear
+    // Algorithm `standard`: highest ground at the sample [m MSL], which casts the shadow; NaN: void.
+    std::vector<double> peak_m;
+    // 1: the ground between the previous sample and this one is taken to be straight. 0, or empty: it is walked.
+    std::vector<std::uint8_t> straight;
   };
 
   // Prepares a sweep. If a scene is within range, returns true; the caller then fills ground() and calls apply().
@@ -70,12 +80,16 @@ class SceneReturn {
                      const scene::Scatterer& scatterer);
   double cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer, const Ray& ray,
                           const physics::Sight& sight) const;
+  double horizon_before(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
+                        double distance_m, std::size_t nearer) const;
   double lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
                       double distance_m) const;
   void spread(double distance_m, double extent_m, double power);
 
   radar::BeamPattern beam_;
   physics::SceneSurface surface_;
+  simd::SceneTables tables_;
+  bool fast_;  // cross sections in vectors; `reference` uses double precision
   physics::GasPath gas_;
   Ground ground_;
   geo::Vector3 apex_, ahead_, right_;  // earth-centred, earth-fixed

@@ -14,6 +14,10 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
+// Ground between two samples is straight for scatterers if it rises at most kMaxCrest_m above the next sample's line of
+// sight, and the samples are at most kMaxStraight_m apart.
+constexpr float kMaxCrest_m = 0.5F;
+constexpr float kMaxStraight_m = 200.0F;
 }  // namespace
 
 Standard::Standard(const physics::RadarParameters& parameters)
@@ -21,7 +25,7 @@ Standard::Standard(const physics::RadarParameters& parameters)
       azimuth_beamwidth_deg_(parameters.azimuth_beamwidth_deg),
       receivers_(parameters),
       ground_(parameters, sample_count(parameters)),
-      rain_(parameters),
+      rain_(parameters, sample_count(parameters)),
       gas_(parameters),
       gas_samples_(parameters, sample_count(parameters)),
       movers_(parameters),
@@ -73,16 +77,17 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   const simd::SweepOutputs outputs{near_tangent_.data(), tangent_.data(), before_.data(), horizon_.data(),
                                    power_.data()};
   simd::profile(count_, constants, inputs, outputs);
-  if (ray_crests_.find(terrain, {geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots}, positions_,
+  has_crests_ =
+      ray_crests_.find(terrain, {geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots}, positions_,
                        {geometry.altitude.metres(), earth.curvature(), distance_.first(count_), horizon_.first(count_)},
-                       crest_.first(count_)))
-    inputs.crest = crest_.data();
+                       crest_.first(count_));
+  if (has_crests_) inputs.crest = crest_.data();
   simd::sweep(count_, constants, fidelity_.beam, inputs, outputs);
   // sweep() may have written after the last sample. The smear reads those entries, so they are set to 0.
   std::fill_n(power_.data() + count_, simd::kPad, 0.0F);
   const physics::GroundWalk walk(geometry, earth, terrain, fidelity_.interpolation);
   if (scene_return_.enter(geometry, environment.scenes))
-    add_scenes(geometry, walk, receiver, *environment.scenes, pulse_samples);
+    add_scenes(geometry, walk, receiver, environment, pulse_samples);
   add_movers(geometry, walk, receiver, environment, pulse_samples);
   rain_.enter(geometry);
   if (!rain_.dry()) add_rain(geometry, earth, receiver);
@@ -110,7 +115,8 @@ physics::GasSamples::Coefficients Standard::gas_loss(const physics::SweepGeometr
 }
 
 void Standard::add_scenes(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
-                          const physics::Receiver& receiver, const scene::SceneView& scenes, double pulse_samples) {
+                          const physics::Receiver& receiver, const physics::Environment& environment,
+                          double pulse_samples) {
   SceneReturn::Ground& ground = scene_return_.ground();
   const bool across = fidelity_.cross_track_slope;
   for (std::size_t i = 0; i < count_; ++i) {
@@ -120,56 +126,65 @@ void Standard::add_scenes(const physics::SweepGeometry& geometry, const physics:
     ground.horizon[i] = static_cast<double>(horizon_.data()[i]);
     ground.power[i] = static_cast<double>(power_.data()[i]);
   }
-  scene_return_.apply(geometry, receiver, walk, scenes, pulse_samples);
+  describe_steps(environment.terrain, ground);
+  scene_return_.apply(geometry, receiver, walk, *environment.scenes, pulse_samples);
   for (std::size_t i = 0; i < count_; ++i) power_.data()[i] = static_cast<float>(ground.power[i]);
+}
+
+// True if no ground between the previous sample and this one stands out. There movers and scatterers are shaded by a
+// straight line between the peaks at both samples. `peak_m`: elevation of the ground that casts the shadow.
+bool Standard::is_straight(std::size_t i, const float* peak_m) const {
+  if (!has_crests_ || i <= holes_ || i >= count_) return false;
+  const float limit = std::max(horizon_.data()[i - 1], tangent_.data()[i] + kMaxCrest_m / distance_.data()[i]);
+  const bool known = peak_m[i - 1] == peak_m[i - 1] && peak_m[i] == peak_m[i];
+  return known && distance_.data()[i] - distance_.data()[i - 1] <= kMaxStraight_m &&
+         std::max(crest_.data()[i], near_tangent_.data()[i]) <= limit;
+}
+
+void Standard::describe_steps(const terrain::TerrainView& terrain, SceneReturn::Ground& ground) const {
+  const float* const peak_m = terrain.has_peaks() ? peak_.data() : elevation_.data();
+  ground.peak_m.assign(peak_m, peak_m + count_);
+  ground.straight.assign(count_, 0);
+  for (std::size_t i = 1; i < count_; ++i) ground.straight[i] = is_straight(i, peak_m) ? 1 : 0;
+}
+
+// True if ground hides a mover. `nearer`: number of samples nearer than the mover.
+bool Standard::hides(const physics::Echo& echo, std::size_t nearer, const physics::GroundWalk& walk,
+                     const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) const {
+  const auto horizon = [&](std::size_t sample) { return static_cast<double>(horizon_.data()[sample]); };
+  // The ground between the samples is not examined if the samples hide the mover.
+  if (nearer > holes_ && echo.tangent <= horizon(nearer - 1)) return true;
+  const float* const peak_m = terrain.has_peaks() ? peak_.data() : elevation_.data();
+  if (!is_straight(nearer, peak_m)) return echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
+  const double near_m = distance_m_[nearer - 1], near_peak_m = static_cast<double>(peak_m[nearer - 1]);
+  const double fraction = (echo.distance_m - near_m) / (distance_m_[nearer] - near_m);
+  const double ground_m = near_peak_m + fraction * (static_cast<double>(peak_m[nearer]) - near_peak_m);
+  return echo.tangent <= walk.earth().tangent(geometry.altitude.metres(), echo.distance_m, ground_m);
 }
 
 void Standard::add_movers(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
                           const physics::Receiver& receiver, const physics::Environment& environment,
                           double pulse_samples) {
-  const auto horizon = [&](std::size_t sample) { return static_cast<double>(horizon_.data()[sample]); };
   for (const physics::Echo& echo : movers_.echoes(geometry, receiver, walk.earth(), environment)) {
     // A mover nearer than the first sample on the ground is added to that sample, as in Reference.
     const std::size_t index = std::max(holes_, physics::nearest_sample(distance_m_, echo.distance_m));
     if (index >= count_) continue;
-    const bool hidden = echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
-    if (!hidden) power_.data()[index] += static_cast<float>(physics::point_smear_gain(pulse_samples) * echo.power);
+    float& power = power_.data()[index];
+    const float sum = power + static_cast<float>(physics::point_smear_gain(pulse_samples) * echo.power);
+    // A mover whose echo is lost in rounding is left out.
+    const std::size_t nearer = physics::samples_nearer(distance_m_, echo.distance_m);
+    if (sum != power && !hides(echo, nearer, walk, geometry, environment.terrain)) power = sum;
   }
 }
 
-// Adds rain echo and applies rain attenuation. Both are computed in double at every (count / 512)-th sample, or at
-// every sample if there are fewer than 1024. Between these samples both are interpolated linearly.
+// Adds rain echo and applies rain attenuation.
 void Standard::add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const physics::Receiver& receiver) {
-  const std::size_t step = std::max<std::size_t>(1, count_ / 512);
-  struct Rain {
-    double power = 0.0, loss = 1.0;
-  };
-  const auto rain_at = [&](std::size_t i) {
-    const auto elevation_m = static_cast<double>(elevation_.data()[i]);
-    const double height_m = std::isnan(elevation_m) ? 0.0 : elevation_m;
-    const double distance_m = distance_m_[i];
-    const double altitude_m = geometry.altitude.metres();
-    const double slant_range_m = earth.sight(altitude_m, distance_m, height_m).slant_range_m;
-    const double horizon_rad = std::atan(static_cast<double>(horizon_.data()[i]));
-    const double gas = gas_.two_way_transmission(earth, altitude_m, distance_m, height_m);
-    return Rain{gas * physics::received(receiver, rain_.power(receiver, earth, geometry, distance_m, horizon_rad),
-                                        slant_range_m),
-                rain_.two_way_transmission(earth, altitude_m, distance_m, height_m, slant_range_m)};
-  };
-  if (holes_ >= count_) return;
-  Rain near = rain_at(holes_);
-  for (std::size_t start = holes_; start < count_; start += step) {
-    const std::size_t end = std::min(start + step, count_ - 1);
-    const Rain far = rain_at(end);
-    for (std::size_t i = start; i < std::min(start + step, count_); ++i) {
-      const double fraction = end > start ? static_cast<double>(i - start) / static_cast<double>(end - start) : 0.0;
-      const double rain = near.power + fraction * (far.power - near.power);
-      const double loss = near.loss + fraction * (far.loss - near.loss);
-      power_.data()[i] = static_cast<float>((static_cast<double>(power_.data()[i]) + rain) * loss);
-    }
-    near = far;
-  }
+  rain_.measure(geometry, earth, receiver, holes_, {distance_.data(), elevation_.data(), horizon_.data()});
+  if (!gas_.none()) gas_samples_.apply(elevation_.data(), rain_.power());
+  const float* const rain = rain_.power();
+  const float* const loss = rain_.transmission();
+  for (std::size_t i = holes_; i < count_; ++i) power_.data()[i] = (power_.data()[i] + rain[i]) * loss[i];
 }
 
 const physics::Receiver& Standard::receiver_at(geo::Length range) {

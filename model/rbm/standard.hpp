@@ -17,6 +17,7 @@
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/environment.hpp"
 #include "model/physics/ground_return.hpp"
+#include "model/physics/rain_simd.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
@@ -55,7 +56,11 @@ class Standard : public Algorithm {
   void add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                 const physics::Receiver& receiver);
   void add_scenes(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
-                  const physics::Receiver& receiver, const scene::SceneView& scenes, double pulse_samples);
+                  const physics::Receiver& receiver, const physics::Environment& environment, double pulse_samples);
+  bool is_straight(std::size_t i, const float* peak_m) const;
+  bool hides(const physics::Echo& echo, std::size_t nearer, const physics::GroundWalk& walk,
+             const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) const;
+  void describe_steps(const terrain::TerrainView& terrain, SceneReturn::Ground& ground) const;
   physics::GasSamples::Coefficients gas_loss(const physics::SweepGeometry& geometry);
   void read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
   simd::SweepConstants sweep_constants(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
@@ -68,14 +73,15 @@ class Standard : public Algorithm {
   double azimuth_beamwidth_deg_;
   physics::Receivers receivers_;
   physics::Ground ground_;
-  physics::RainPath rain_;
+  physics::RainSamples rain_;
   physics::GasPath gas_;
   physics::GasSamples gas_samples_;
   physics::Movers movers_;
   SceneReturn scene_return_;
   physics::Receiver receiver_;  // result of the last receiver_at()
   std::size_t count_;
-  std::size_t holes_ = 0;  // number of samples nearest the aircraft with a slant range too short to meet the ground
+  std::size_t holes_ = 0;    // number of samples nearest the aircraft with a slant range too short to meet the ground
+  bool has_crests_ = false;  // crest_ is that of the sweep
   double spaced_range_m_ = 0.0;     // [m] range for which distance_m_ was computed; 0: none
   double smeared_samples_ = 0.0;    // pulse length [samples] of smear_weights_; 0: none
   std::ptrdiff_t smear_reach_ = 0;  // [samples] smear_weights_ has offsets -smear_reach_ to smear_reach_

@@ -215,6 +215,7 @@ void ScatterBuilder::finish(const geo::AzimuthalEquidistant& plane, double side_
     const double middle2 = square.middle.x * square.middle.x + square.middle.y * square.middle.y;
     result.reach_m = std::max(result.reach_m, std::sqrt(middle2) / square.area_m2 + 2.0 * side_m);
   }
+  level.facings.insert(level.facings.end(), kFacingSlack, Facing{});
   level.facings.shrink_to_fit();
 }
 

@@ -58,11 +58,13 @@ struct Cover {
 
 inline constexpr std::array<double, 4> kScattererSides_m{32.0, 64.0, 128.0, 256.0};
 
+inline constexpr std::size_t kFacingSlack = 16;  // spare facings after the last one, which SIMD code reads
+
 struct ScattererLevel {
   std::vector<Scatterer> scatterers;  // in the order of `tree`
   SphereTree tree;
   std::unordered_map<std::uint64_t, Cover> covers;  // by square_key()
-  std::vector<Facing> facings;
+  std::vector<Facing> facings;                      // the last kFacingSlack belong to no square
 
   std::span<const Facing> facings_of(const Scatterer& of) const {
     return {facings.data() + of.first_facing, of.facings};

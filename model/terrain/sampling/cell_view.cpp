@@ -13,6 +13,7 @@
 #include "lib/geo/earth.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/sampling/crests_simd.hpp"
+#include "model/terrain/sampling/cubic_simd.hpp"
 #include "model/terrain/sampling/height_simd.hpp"
 
 namespace yars::model::terrain {
@@ -250,7 +251,7 @@ CellView::Run CellView::run_at(const PositionRun& positions, std::size_t first) 
   return run;
 }
 
-// Samples one position at a time. Used for cubic interpolation, and at a pole, where positions can be beyond all cells.
+// Samples one position at a time. Used at a pole, where positions can be beyond all cells.
 void CellView::sample_singly(const Run& run, const PositionRun& positions, Interpolation interpolation,
                              const SurfaceRun& found) const {
   for (std::size_t i = run.first; i < run.first + run.count; ++i) {
@@ -287,14 +288,17 @@ void CellView::sample_run(const Run& run, const PositionRun& positions, Interpol
   const sampling::Near near = near_ground(run, positions, found.near);
   const sampling::Grid grid = grid_of(*cell.heights, cell.culture.get());
   std::int32_t* const material = found.material.empty() || !cell.culture ? nullptr : &found.material[run.first];
-  const bool singly = interpolation == Interpolation::cubic || run.beyond_pole;
-  const bool with_heights = grid.codes != nullptr && !singly;
-  if (singly)
+  const bool with_heights = grid.codes != nullptr && !run.beyond_pole;
+  if (run.beyond_pole) {
     sample_singly(run, positions, interpolation, found);
-  else
+  } else {
+    float* const elevation_m = &found.elevation_m[run.first];
     sampling::heights(grid, north_deg, east_deg, run.count, nearest,
-                      {&found.elevation_m[run.first], &found.water[run.first], with_heights ? material : nullptr,
+                      {elevation_m, &found.water[run.first], with_heights ? material : nullptr,
                        cell.peaks ? sampling::Near{} : near});
+    if (interpolation == Interpolation::cubic)
+      sampling::cubic_heights(grid, north_deg, east_deg, run.count, elevation_m);
+  }
   if (material != nullptr && !with_heights) sampling::codes(*cell.culture, north_deg, east_deg, run.count, material);
   if (found.peak_m.empty()) return;
   if (cell.peaks)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "model/kernel/tick_inputs.hpp"
 #include "model/physics/environment.hpp"
@@ -166,6 +167,76 @@ TEST(Movers, OfTrafficReturnAsConfiguredMovers) {
   ASSERT_EQ(echoes.size(), 1U);
   EXPECT_NEAR(echoes[0].distance_m, expected.distance_m, 1e-6);
   EXPECT_NEAR(echoes[0].power, expected.power, 1e-9 * expected.power);
+}
+
+// The search for movers in the beam is only a test before the exact one: it leaves none out.
+TEST(Movers, AreFoundUpToTheEdgesOfBeamAndRange) {
+  const terrain::AnalyticTerrain sea(terrain::flat(0.0));
+  const physics::EffectiveEarth earth(8.5e6);
+  for (const geo::GeoPoint apex : {test::kMidLatitude, geo::GeoPoint{-60.0, 179.9}, {89.99, 5.0}, {90.0, 0.0}})
+    for (const double range_m : {40000.0, 590000.0})
+      for (const double azimuth_deg : {0.0, 45.0, 130.0})
+        for (const double beamwidths : {-2.0, 2.0}) {  // ends of point_interval()
+          physics::SweepGeometry geometry = test::geometry_north(kMoversAltitude_m, range_m, apex);
+          geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
+          radar::Mover ship;
+          radar::RadarConfiguration configuration = test::bare_configuration(16);
+          const double width_rad = physics::Receivers(configuration).at(geometry.range).azimuth_beamwidth_rad;
+          const auto echoes = [&](double share, double further_rad) {
+            ship.position = geo::geodesic_direct(
+                apex, geometry.azimuth + geo::Angle::radians(share * beamwidths * width_rad + further_rad),
+                geo::Length::metres(0.99999 * range_m));
+            configuration.world.movers = {ship};
+            physics::Movers movers(configuration);
+            return movers.echoes(geometry, physics::Receivers(configuration).at(geometry.range), earth, sea).size();
+          };
+          EXPECT_EQ(echoes(0.999999, 0.0), 1U) << apex.latitude_deg << ", " << range_m << ", " << azimuth_deg;
+          EXPECT_EQ(echoes(1.000001, 0.0), 0U);
+          EXPECT_EQ(echoes(1.0, std::numbers::pi), 0U);
+        }
+}
+
+TEST(Movers, OfStandardAreWithinThreeMetresOfTheGeodesic) {
+  const terrain::AnalyticTerrain sea(terrain::flat(0.0));
+  const physics::EffectiveEarth earth(8.5e6);
+  for (const geo::GeoPoint apex : {test::kMidLatitude, geo::GeoPoint{-60.0, 179.9}, {89.99, 5.0}, {90.0, 0.0}})
+    for (const double azimuth_deg : {0.0, 45.0, 130.0})
+      for (const double distance_m : {30.0, 5000.0, 300000.0, 590000.0}) {
+        physics::SweepGeometry geometry = test::geometry_north(kMoversAltitude_m, 592640.0, apex);
+        geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
+        radar::Mover ship;
+        ship.position =
+            geo::geodesic_direct(apex, geometry.azimuth + geo::Angle::degrees(1.0), geo::Length::metres(distance_m));
+        radar::RadarConfiguration configuration = with(ship);
+        const physics::Receiver receiver = physics::Receivers(configuration).at(geometry.range);
+        physics::Movers exact(configuration);
+        configuration.fidelity.algorithm = radar::Algorithm::standard;
+        physics::Movers fast(configuration);
+        const auto expected = exact.echoes(geometry, receiver, earth, sea);
+        const auto found = fast.echoes(geometry, receiver, earth, sea);
+        ASSERT_EQ(expected.size(), 1U);
+        ASSERT_EQ(found.size(), 1U);
+        EXPECT_NEAR(found[0].distance_m, expected[0].distance_m, 3.0) << apex.latitude_deg << ", " << azimuth_deg;
+        EXPECT_NEAR(decibels(found[0].power / expected[0].power), 0.0, 0.01) << distance_m;
+      }
+}
+
+TEST(Movers, AreFoundAfterAnyTime) {
+  radar::Mover ship = ship_at(20020.0);
+  ship.speed_mps = 150.0;
+  ship.heading_deg = 200.0;
+  const radar::RadarConfiguration configuration = with(ship);
+  const terrain::AnalyticTerrain sea(terrain::flat(0.0));
+  physics::Movers movers(configuration);
+  const physics::MovingPoint point = physics::configured_points(configuration).at(0);
+  for (const double time_s : {0.0, 3.0, 400.0, 2.0, 40000.0, 40000.01, -5.0}) {
+    physics::SweepGeometry geometry = test::geometry_north(kMoversAltitude_m, kMoversRange_m);
+    geometry.sim_time = geo::Duration::seconds(time_s);
+    geometry.apex = geo::geodesic_direct(point.position(geometry.sim_time), geo::Bearing::degrees(180.0),
+                                         geo::Length::metres(30000.0));
+    const physics::Receiver receiver = physics::Receivers(configuration).at(geometry.range);
+    EXPECT_EQ(movers.echoes(geometry, receiver, physics::EffectiveEarth(8.5e6), sea).size(), 1U) << time_s;
+  }
 }
 
 TEST(NearestSample, HasTheCentreNearestToTheDistance) {

@@ -7,6 +7,7 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "model/physics/ray.hpp"
+#include "tests/lib/simd/vector_targets.hpp"
 
 namespace yars::model::rbm {
 namespace {
@@ -32,7 +33,7 @@ double max_error_m(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, 
 // The numbers of samples include rays that are divided into pieces of both sizes, and undivided rays.
 TEST(SamplePositions, LieWithinHalfAMetreOfTheGeodesicAtEveryLatitude) {
   double worst_m = 0.0;
-  for (const std::size_t count : {161U, 200U, 480U, 1024U}) {
+  for (const std::size_t count : {2U, 15U, 16U, 17U, 191U, 200U, 480U, 1024U}) {
     for (const double range_nm : {4.7, 10.0, 20.0, 40.0, 80.0, 160.0}) {
       const geo::Length range = geo::Length::nautical_miles(range_nm);
       for (const double latitude : {0.0, 37.0, -60.0, 70.0, 73.9, 74.1, 80.0, 88.0, 89.0, -89.9, 90.0}) {
@@ -48,8 +49,30 @@ TEST(SamplePositions, LieWithinHalfAMetreOfTheGeodesicAtEveryLatitude) {
   RecordProperty("worst_m", std::to_string(worst_m));
 }
 
+TEST(SamplePositions, AreEqualOnEveryVectorTarget) {
+  for (const std::size_t count : {1U, 17U, 191U, 480U})
+    for (const double latitude : {37.0, 89.0, 90.0}) {
+      std::vector<float> distance_m(count + physics::kPairSlack);
+      for (std::size_t i = 0; i < distance_m.size(); ++i)
+        distance_m[i] = 300.0F * static_cast<float>(std::min(i, count));
+      const auto sampled = [&] {
+        physics::PositionArrays positions(count);
+        physics::sample_positions({latitude, 179.7}, geo::Bearing::degrees(20.0), geo::Length::metres(150'000.0), 5,
+                                  distance_m.data(), positions);
+        const terrain::PositionRun run = positions.run();
+        std::vector<float> all(run.cells_north.begin(), run.cells_north.end());
+        for (const auto& values : {run.cells_east, run.north_deg, run.east_deg})
+          all.insert(all.end(), values.begin(), values.end());
+        return all;
+      };
+      const std::vector<float> expected = sampled();
+      test::for_each_vector_target(
+          [&](const char* target) { EXPECT_EQ(sampled(), expected) << target << ", " << count << ", " << latitude; });
+    }
+}
+
 TEST(SamplePositions, LieWithinMillimetresAtMiddleLatitudes) {
-  for (const std::size_t count : {161U, 200U, 480U, 1024U})
+  for (const std::size_t count : {2U, 17U, 191U, 200U, 480U, 1024U})
     for (const double range_nm : {4.7, 40.0, 160.0})
       for (const double latitude : {0.5, 37.0, -60.0})
         for (double azimuth = 0.0; azimuth < 360.0; azimuth += 22.5)

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "model/physics/polynomials-inl.hpp"
-#include "model/physics/ray.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tests/lib/simd/vector_targets.hpp"
 #include "tests/model/physics/ground.hpp"
@@ -16,11 +15,6 @@
 
 namespace yars::model::rbm {
 namespace {
-
-TEST(Polynomials, AreWithinTheirStatedErrors) {
-  for (double x = -3.1415; x < 3.1415; x += 0.00137)
-    EXPECT_NEAR(physics::polynomials::arctangent(std::sin(x), std::cos(x)), x, 2e-12);
-}
 
 // Tests the vector target for which this file is compiled. The errors do not depend on the target.
 TEST(VectorPolynomials, AreWithinTheirStatedErrors) {

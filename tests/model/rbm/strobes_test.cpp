@@ -118,6 +118,56 @@ TEST(Strobes, AreEquallyBrightInEverySample) {
   }
 }
 
+// Sixteen jammers around a position, from 300 m to 580 km away.
+radar::RadarConfiguration jammed_from_all_sides(geo::GeoPoint middle) {
+  radar::RadarConfiguration configuration;
+  for (int i = 0; i < 16; ++i) {
+    radar::Jammer jammer;
+    jammer.position =
+        geo::geodesic_direct(middle, geo::Bearing::degrees(23.0 * i), geo::Length::metres(300.0 * std::pow(1.65, i)));
+    jammer.altitude_m = 9000.0 + 100.0 * i;
+    jammer.power_w = 0.01 * std::pow(2.7, i);
+    configuration.world.jamming.jammers.push_back(jammer);
+  }
+  return configuration;
+}
+
+TEST(Strobes, OfStandardAreThoseOfTheReferenceWithinAHundredthOfADecibel) {
+  const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(), 600.0, 12000.0));
+  for (const geo::GeoPoint middle : {test::kMidLatitude, geo::GeoPoint{-17.0, 179.999}, {88.0, 30.0}, {89.9999, 0.0}}) {
+    radar::RadarConfiguration configuration = jammed_from_all_sides(middle);
+    Strobes standard(configuration);
+    configuration.fidelity.algorithm = radar::Algorithm::reference;
+    Strobes reference(configuration);
+    for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 3.7) {
+      physics::SweepGeometry geometry = test::geometry_north(8000.0 + azimuth_deg, kStrobesRange_m, middle);
+      geometry.apex = geo::geodesic_direct(middle, geo::Bearing::degrees(50.0), geo::Length::metres(azimuth_deg));
+      geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
+      const double exact = reference.level(geometry, hills);
+      ASSERT_GT(exact, 0.0);
+      EXPECT_NEAR(decibels(standard.level(geometry, hills) / exact), 0.0, 0.01)
+          << middle.latitude_deg << ", " << azimuth_deg;
+    }
+  }
+}
+
+TEST(Strobes, DoNotDependOnWhereTheAircraftWasBefore) {
+  const terrain::AnalyticTerrain hills(terrain::sine_hills(test::axis_north(), 600.0, 12000.0));
+  radar::RadarConfiguration configuration = jammed_from_all_sides(test::kMidLatitude);
+  for (radar::Jammer& jammer : configuration.world.jamming.jammers) jammer.altitude_m = radar::kNotGiven;
+  Strobes flown(configuration);
+  for (int i = 0; i < 300; ++i) {
+    physics::SweepGeometry geometry = test::geometry_north(700.0 + 0.3 * i, kStrobesRange_m);
+    geometry.apex.latitude_deg += 2e-5 * (i % 200);
+    geometry.azimuth = geo::Bearing::degrees(7.0 * i);
+    ASSERT_EQ(flown.level(geometry, hills), Strobes(configuration).level(geometry, hills)) << i;
+  }
+  // Another terrain, at the same position.
+  const terrain::AnalyticTerrain ridge(terrain::ridge(test::axis_north(), 2000.0, 1000.0, 3000.0));
+  const physics::SweepGeometry geometry = test::geometry_north(700.0, kStrobesRange_m);
+  EXPECT_LT(flown.level(geometry, ridge), flown.level(geometry, hills));
+}
+
 double mean_video(const databuffer::Sweep& sweep) {
   return std::accumulate(sweep.video, sweep.video + sweep.samples, 0.0) / sweep.samples;
 }

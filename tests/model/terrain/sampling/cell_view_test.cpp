@@ -276,7 +276,8 @@ TEST(CellView, EveryWidthOfVectorGivesTheSameBits) {
     for (const float value : values) bits.push_back(std::isnan(value) ? 1U : std::bit_cast<std::uint32_t>(value));
     return bits;
   };
-  for (const auto interpolation : {radar::Interpolation::nearest, radar::Interpolation::bilinear}) {
+  for (const auto interpolation :
+       {radar::Interpolation::nearest, radar::Interpolation::bilinear, radar::Interpolation::cubic}) {
     const auto expected = test::fast_path(*view, at, interpolation);
     test::for_each_vector_target([&](const char* name) {
       const auto found = test::fast_path(*view, at, interpolation);
