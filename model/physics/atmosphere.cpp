@@ -238,6 +238,14 @@ void GasSamples::use(const GasPath& path, double altitude_m, double range_m, std
   }
 }
 
+void GasSamples::apply(const float* height_m, float* power) const {
+  for (std::size_t i = 0; i + 2 * terrain::kRunSlack < constant_.size(); ++i) {
+    const float known_m = height_m[i] == height_m[i] ? height_m[i] : 0.0F;
+    const float up_m = std::min(std::max(known_m, kLowest_m), kHighest_m);
+    power[i] *= constant_[i] + up_m * (slope_[i] + up_m * bend_[i]);
+  }
+}
+
 namespace {
 // Antiderivative of (depth - (x / radius)^2)^2.
 double antiderivative(double depth, double radius_m, double x_m) {

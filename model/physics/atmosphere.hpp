@@ -91,6 +91,8 @@ class GasSamples {
   // alone, as for equal steps of ground range. Then nothing is recomputed while altitude and range are unchanged.
   void use(const GasPath& path, double altitude_m, double range_m, std::span<const float> distance_m,
            bool same_distances);
+  // power[i] *= two-way loss for ground at height_m[i]. A NaN height counts as sea level.
+  void apply(const float* height_m, float* power) const;
   // Two-way loss for ground at the height h [m MSL], one entry per sample: constant + h (slope + h bend), with h
   // clamped to [kLowest_m, kHighest_m]. The arrays have twice terrain::kRunSlack more entries.
   struct Coefficients {
