@@ -241,62 +241,6 @@ HWY_INLINE void interpolate(const Grid& grid, std::size_t count, const Located& 
   }
 }
 
-// Positions of a run whose near ground lies beyond the four posts around them. Their posts are looked up in batches.
-class NearBeyond {
- public:
-  HWY_INLINE NearBeyond(const Grid& grid, const float* north_deg, const float* east_deg, const Near& near)
-      : grid_(grid), north_deg_(north_deg), east_deg_(east_deg), near_(near) {}
-
-  // Fills the entries of near.elevation_m that are NaN.
-  HWY_INLINE void fill(std::size_t count) {
-    const FloatLanes d;
-    const IntLanes di;
-    for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-      const auto height = hn::LoadU(d, near_.elevation_m + i);
-      const auto missing = hn::AndNot(hn::Eq(height, height), hn::FirstN(d, count - i));
-      const auto index = hn::Iota(di, static_cast<std::int32_t>(i));
-      const std::size_t found = found_;
-      hn::StoreU(hn::Compress(index, hn::RebindMask(di, missing)), di, index_ + found);
-      found_ = found + hn::CountTrue(d, missing);
-      if (found_ >= kBatch) look_up();
-    }
-    look_up();
-  }
-
- private:
-  HWY_INLINE void look_up() {
-    const FloatLanes d;
-    const IntLanes di;
-    const auto rows = hn::Set(d, near_.rows / static_cast<float>(grid_.rows - 1));
-    const auto columns = hn::Set(d, near_.columns / static_cast<float>(grid_.columns - 1));
-    HWY_ALIGN float north[kBatch], east[kBatch], height[kBatch];
-    while (found_ > 0) {
-      const std::size_t count = std::min(found_, kBatch);
-      const std::size_t first = found_ - count;
-      for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-        const auto valid = hn::FirstN(di, count - i);
-        const auto index = hn::IfThenElseZero(valid, hn::LoadU(di, index_ + first + i));
-        hn::Store(hn::Sub(hn::GatherIndex(d, north_deg_, index), rows), d, north + i);
-        hn::Store(hn::Sub(hn::GatherIndex(d, east_deg_, index), columns), d, east + i);
-      }
-      locate(grid_, north, east, count, hn::Lanes(d), located_);
-      interpolate(grid_, count, located_, false, {height, nullptr, nullptr, {}});
-      const auto inside = [](float degrees) { return degrees >= 0.0F && degrees <= 1.0F; };
-      for (std::size_t i = 0; i < count; ++i)
-        if (inside(north[i]) && inside(east[i])) near_.elevation_m[index_[first + i]] = height[i];
-      found_ = first;
-    }
-  }
-
-  const Grid& grid_;
-  const float* north_deg_;
-  const float* east_deg_;
-  const Near near_;
-  std::size_t found_ = 0;
-  std::int32_t index_[kBatch + kRunSlack] = {};
-  Located located_;
-};
-
 void to_metres(float unit_m, std::size_t count, float* elevation_m) {
   const FloatLanes d;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d))
@@ -315,7 +259,6 @@ void heights(const Grid& grid, const float* north_deg, const float* east_deg, st
     if (next < count) locate(grid, north_deg + next, east_deg + next, batch(next), fetch_step, located[1 - turn]);
     interpolate(grid, batch(start), located[turn], nearest, outputs_from(found, start));
   }
-  if (found.near.elevation_m != nullptr) NearBeyond(grid, north_deg, east_deg, found.near).fill(count);
   if (grid.unit_m == 1.0F) return;
   to_metres(grid.unit_m, count, found.elevation_m);
   if (found.near.elevation_m != nullptr) to_metres(grid.unit_m, count, found.near.elevation_m);

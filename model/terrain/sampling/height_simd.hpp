@@ -31,7 +31,7 @@ std::size_t same_cell_count(const float* cells_north, const float* cells_east, s
 // Ground shortly before each position (NearGround) in the same grid.
 struct Near {
   float rows = 0.0F, columns = 0.0F;  // [posts] from that ground to the position
-  float* elevation_m = nullptr;       // [m MSL]; NaN: void, or beyond the cell; null: not computed
+  float* elevation_m = nullptr;       // [m MSL]; NaN: beyond the four posts, or void; null: not computed
 };
 
 // Outputs of heights(). Each may be null except elevation_m.

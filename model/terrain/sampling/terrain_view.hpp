@@ -52,8 +52,8 @@ inline geo::GeoPoint position_of(const PositionRun& positions, std::size_t i) {
 }
 
 // Ground shortly before each position of a ray, seen from its start. It limits the error of a horizon where bilinear
-// ground bulges between the rows and columns of posts. NaN where that ground lies beyond the position's cell. Views
-// that do not compute it write nothing. Requires evenly spaced positions.
+// ground bulges between the rows and columns of posts. NaN where a row or column lies between that ground and the
+// position: crests() finds the ground on it. Views that do not compute it write nothing. Requires even spacing.
 struct NearGround {
   float step_m = 0.0F;          // [m] distance between successive positions
   std::span<float> height_m{};  // [m MSL] as peak_m; empty: not computed
