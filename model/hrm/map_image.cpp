@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "lib/radar/mapping.hpp"
 #include "lib/radar/sensor.hpp"
@@ -37,28 +38,86 @@ void draw_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const
   }
 }
 
-void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
-                      const radar::HighResolutionConfiguration& configuration, MapImage& image) {
-  const double pixel_m = geometry.window_m() / image.size;
-  const double edge_m = 0.5 * geometry.window_m();
-  const geo::Angle squint = geometry.squint(ground_track);
-  // Half the angle that the map subtends at the aircraft. No pixel is blind if the centre is farther than this
-  // angle from the blind zone.
-  const double half_view_deg =
-      std::atan2(edge_m, std::max(geometry.distance_m() - edge_m, 1.0)) / geo::kRadiansPerDegree;
-  const double off_deg = std::abs(squint.degrees());
-  const double clear_deg = std::min(off_deg, 180.0 - off_deg) - configuration.blind_zone_deg;
-  if (clear_deg > half_view_deg) return;
-  for (int row = 0; row < image.size; ++row) {
-    const double ahead_m = geometry.distance_m() + edge_m - (row + 0.5) * pixel_m;
-    for (int column = 0; column < image.size; ++column) {
-      const double right_m = (column + 0.5) * pixel_m - edge_m;
-      const geo::Angle off_centre = geo::Angle::radians(std::atan2(right_m, ahead_m));
-      if (!radar::in_blind_zone(squint + off_centre, configuration.blind_zone_deg)) continue;
-      image.power[image.at(column, row)] = -1.0F;
-      image.blind = true;
-    }
+namespace {
+constexpr float kBlindPower = -1.0F;
+// [rad] upper bound of the rounding errors of a pixel's angle and of an edge's. Both are below 1e-14 rad. With a
+// smaller bound, pixels at an edge might differ from radar::in_blind_zone().
+constexpr double kAngleError_rad = 1.0e-12;
+constexpr double kMinCosine = 1.0e-18;  // keeps the column of an edge along a row finite
+}  // namespace
+
+BlindZone::BlindZone(const PatchGeometry& geometry, geo::Bearing ground_track, double half_width_deg, int size)
+    : half_width_deg_(half_width_deg),
+      squint_(geometry.squint(ground_track)),
+      size_(size),
+      distance_m_(geometry.distance_m()),
+      edge_m_(0.5 * geometry.window_m()),
+      pixel_m_(geometry.window_m() / size) {
+  // At 90 degrees the two sectors meet.
+  const double half_width_rad = std::clamp(half_width_deg, 0.0, 90.0) * geo::kRadiansPerDegree;
+  const double doubt_columns = kAngleError_rad * (distance_m_ + 2.0 * edge_m_) / pixel_m_;
+  for (std::size_t i = 0; i < edges_.size(); ++i) {
+    const double angle_rad = squint_.radians() + (i == 0 ? -half_width_rad : half_width_rad);
+    const double sine = std::sin(angle_rad);
+    const double cosine = std::cos(angle_rad);
+    const double divisor = std::copysign(std::max(std::abs(cosine), kMinCosine), cosine);
+    edges_[i] = {sine, cosine, -sine / divisor / pixel_m_, doubt_columns / std::abs(divisor)};
   }
+}
+
+bool BlindZone::may_reach_map() const {
+  if (distance_m_ <= edge_m_) return true;
+  // Half the angle that the map subtends at the aircraft, against the angle from the map's centre to the zone.
+  const double half_view_deg = std::atan2(edge_m_, distance_m_ - edge_m_) / geo::kRadiansPerDegree;
+  const double off_deg = std::abs(squint_.degrees());
+  return std::min(off_deg, 180.0 - off_deg) - half_width_deg_ <= half_view_deg;
+}
+
+bool BlindZone::blank(int first, int last, MapImage& image) const {
+  bool any = false;
+  for (int row = first; row < last; ++row)
+    if (blank_row(ahead_m(row), &image.power[image.at(0, row)])) any = true;
+  return any;
+}
+
+bool BlindZone::blank_row(double ahead_m, float* power) const {
+  std::array<Run, 2> crossings{doubtful(edges_[0], ahead_m), doubtful(edges_[1], ahead_m)};
+  if (crossings[1].first < crossings[0].first) std::swap(crossings[0], crossings[1]);
+  bool any = false;
+  int done = 0;
+  for (const Run& crossing : crossings) {
+    if (blank_run({done, crossing.first}, ahead_m, power)) any = true;
+    if (blank_by_angle({std::max(done, crossing.first), crossing.last}, ahead_m, power)) any = true;
+    done = std::max(done, crossing.last);
+  }
+  return blank_run({done, size_}, ahead_m, power) || any;
+}
+
+// Blanks the run if its first pixel is blind. No edge crosses the run.
+bool BlindZone::blank_run(Run run, double ahead_m, float* power) const {
+  if (run.first >= run.last) return false;
+  const auto cross = [&](const Edge& edge) { return right_m(run.first) * edge.cosine + ahead_m * edge.sine; };
+  if (cross(edges_[0]) * cross(edges_[1]) >= 0.0) return false;
+  std::fill(power + run.first, power + run.last, kBlindPower);
+  return true;
+}
+
+bool BlindZone::blank_by_angle(Run run, double ahead_m, float* power) const {
+  bool any = false;
+  for (int column = run.first; column < run.last; ++column) {
+    const geo::Angle off_centre = geo::Angle::radians(std::atan2(right_m(column), ahead_m));
+    if (!radar::in_blind_zone(squint_ + off_centre, half_width_deg_)) continue;
+    power[column] = kBlindPower;
+    any = true;
+  }
+  return any;
+}
+
+// Pixels of a row within rounding of an edge.
+BlindZone::Run BlindZone::doubtful(const Edge& edge, double ahead_m) const {
+  const double crossing = edge_m_ / pixel_m_ - 0.5 + edge.columns_per_m * ahead_m;
+  const auto column = [this](double wanted) { return static_cast<int>(std::clamp(wanted, 0.0, size_ + 0.0)); };
+  return {column(std::ceil(crossing - edge.doubt_columns)), column(std::floor(crossing + edge.doubt_columns) + 1.0)};
 }
 
 namespace {
@@ -163,8 +222,9 @@ void form_video(const radar::HighResolutionConfiguration& hrm, const MapImage& i
                                             static_cast<float>(hrm.dynamic_range_db)};
     physics::simd::form_video(size, inputs, &picture[row * size]);
     if (!image.blind) continue;
-    for (std::size_t i = 0; i < size; ++i)
-      if (power[i] < 0.0F) picture[row * size + i] = 0;
+    // Without a branch, so that the compiler uses vectors.
+    std::uint8_t* video = &picture[row * size];
+    for (std::size_t i = 0; i < size; ++i) video[i] = power[i] < 0.0F ? std::uint8_t{0} : video[i];
   }
 }
 

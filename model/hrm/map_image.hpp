@@ -6,6 +6,7 @@
 // Source: docs/radar_maths.md, "Patch maps".
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -40,9 +41,47 @@ double unit_return_m2(const PatchGeometry& geometry, int pixels);
 void draw_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const float* cross_section_m2, int first,
                      int last, MapImage& image);
 
-// Sets pixels in the blind zone (about the ground track, ahead and astern) to -1. Call it after all power is added.
-void blank_blind_zone(const PatchGeometry& geometry, geo::Bearing ground_track,
-                      const radar::HighResolutionConfiguration& configuration, MapImage& image);
+// Blind zone on a patch map: two opposite sectors about the ground track, ahead and astern, with their apex at the
+// aircraft's position over ground.
+// Method: the zone's edges are two lines through the apex. A pixel is blind where the product of its cross products
+// with both lines is negative. In a row of pixels this holds for whole runs, so only pixels within rounding of an edge
+// are tested, by their angle. Accuracy: the same pixels as with radar::in_blind_zone() at every pixel.
+class BlindZone {
+ public:
+  // `half_width_deg`: [deg] either side of the ground track. `size`: number of pixels per side of the map.
+  BlindZone(const PatchGeometry& geometry, geo::Bearing ground_track, double half_width_deg, int size);
+
+  // False if no pixel of the map is blind. True says nothing.
+  bool may_reach_map() const;
+  // Sets blind pixels of rows [first, last) to -1. Returns true if there are any. Call it after all power is added.
+  bool blank(int first, int last, MapImage& image) const;
+
+ private:
+  // An edge: the line through the apex at the angle `sine`, `cosine` from the map's up direction.
+  struct Edge {
+    double sine, cosine;
+    double columns_per_m;  // columns that the edge moves per metre ahead of the apex
+    double doubt_columns;  // pixels nearer than this to the edge are tested by angle
+  };
+  // Columns [first, last) of a row.
+  struct Run {
+    int first, last;
+  };
+  double ahead_m(int row) const { return distance_m_ + edge_m_ - (row + 0.5) * pixel_m_; }
+  double right_m(int column) const { return (column + 0.5) * pixel_m_ - edge_m_; }
+  bool blank_row(double ahead_m, float* power) const;
+  bool blank_run(Run run, double ahead_m, float* power) const;
+  bool blank_by_angle(Run run, double ahead_m, float* power) const;
+  Run doubtful(const Edge& edge, double ahead_m) const;
+
+  double half_width_deg_;
+  geo::Angle squint_;  // of the map's centre
+  int size_;
+  double distance_m_;  // from the apex to the map's centre
+  double edge_m_;      // half of the window
+  double pixel_m_;
+  std::array<Edge, 2> edges_{};
+};
 
 // Speckle of one map. Each look is a field of circular complex Gaussian numbers. The intensity is the mean of the
 // squared magnitudes of all looks. It has mean 1 and variance 1 / looks at every pixel.

@@ -1,6 +1,7 @@
 #include "model/hrm/patch_formation.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 
@@ -135,7 +136,13 @@ void PatchFormation::Work::read_terrain() {
 void PatchFormation::Work::draw_map() {
   data.image.blind = false;
   algorithm->draw_map(inputs, data);
-  blank_blind_zone(*data.geometry, inputs.order.ground_track, high_resolution, data.image);
+  const BlindZone zone(*data.geometry, inputs.order.ground_track, high_resolution.blind_zone_deg, data.image.size);
+  if (!zone.may_reach_map()) return;  // starting the threads costs more than the test
+  std::atomic<bool> blind{false};
+  parallel_for_rows(inputs.executor, data.image, [&](int first, int last, std::size_t) {
+    if (zone.blank(first, last, data.image)) blind.store(true, std::memory_order_relaxed);
+  });
+  data.image.blind = blind;
 }
 
 void PatchFormation::advance() {

@@ -1,10 +1,12 @@
 // Ground without objects on a patch map: level, behind a ridge, with voids, in the blind zone.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "lib/radar/configuration.hpp"
+#include "lib/radar/mapping.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
 #include "tests/model/terrain/shapes.hpp"
 
@@ -139,6 +141,100 @@ TEST(BlindZone, IsBlankOnBothSidesOfTheGroundTrackAndNowhereElse) {
       }
     }
   }
+}
+
+// Compares every pixel of the map with radar::in_blind_zone() at the pixel's angle. Returns the number of blind pixels.
+int expect_zone_by_angle(const hrm::PatchGeometry& geometry, geo::Angle squint, double half_width_deg, int size) {
+  const hrm::BlindZone zone(geometry, geometry.up() - squint, half_width_deg, size);
+  const double pixel_m = geometry.window_m() / size;
+  const double edge_m = 0.5 * geometry.window_m();
+  hrm::MapImage image(size);
+  std::fill(image.power.begin(), image.power.end(), 1.0F);
+  // Two calls, as from two threads.
+  const bool first = zone.blank(0, size / 3, image);
+  const bool second = zone.blank(size / 3, size, image);
+  int blind = 0;
+  int wrong = 0;
+  for (int row = 0; row < size; ++row) {
+    const double ahead_m = geometry.distance_m() + edge_m - (row + 0.5) * pixel_m;
+    for (int column = 0; column < size; ++column) {
+      const geo::Angle off_centre = geo::Angle::radians(std::atan2((column + 0.5) * pixel_m - edge_m, ahead_m));
+      const bool expected = radar::in_blind_zone(geometry.squint(geometry.up() - squint) + off_centre, half_width_deg);
+      if (expected) ++blind;
+      if (image.power[image.at(column, row)] != (expected ? -1.0F : 1.0F)) ++wrong;
+    }
+  }
+  EXPECT_EQ(wrong, 0) << "squint " << squint.degrees() << " deg, half width " << half_width_deg << " deg, distance "
+                      << geometry.distance_m() << " m, " << size << " pixels";
+  EXPECT_EQ(first || second, blind > 0);
+  EXPECT_TRUE(zone.may_reach_map() || blind == 0);
+  return blind;
+}
+
+hrm::PatchGeometry geometry_at(double distance_m, double window_m) {
+  Viewpoint view;
+  view.distance_m = distance_m;
+  view.window_m = window_m;
+  return {order_from(view), bare_map(64).fidelity, kGround_m};
+}
+
+TEST(BlindZone, HasThePixelsThatLieInItByAngle) {
+  constexpr double kWindow_m = 8000.0;
+  // The aircraft in the middle of the window, elsewhere in it, on its edge, before it and far from it. From 45 degrees
+  // on the two sectors together are half a turn and more.
+  for (const double distance_m : {0.0, 1.0, 2500.0, 4000.0, 5700.0, 20000.0, 200000.0}) {
+    const hrm::PatchGeometry geometry = geometry_at(distance_m, kWindow_m);
+    int mixed = 0;
+    for (const int size : {16, 33}) {
+      for (const double half_width_deg : {0.0, 0.5, 8.0, 30.0, 45.0, 60.0, 90.0}) {
+        for (double squint_deg = -180.0; squint_deg < 180.0; squint_deg += 7.5) {
+          for (const double off_deg : {0.0, -half_width_deg, half_width_deg, 1.3}) {
+            const geo::Angle squint = geo::Angle::degrees(squint_deg + off_deg);
+            const int blind = expect_zone_by_angle(geometry, squint, half_width_deg, size);
+            if (blind > 0 && blind < size * size) ++mixed;
+          }
+        }
+      }
+    }
+    EXPECT_GT(mixed, 30) << distance_m;
+  }
+}
+
+// Aircraft at the centre of a window of whole metres: the pixels' coordinates are exact, and whole diagonals, rows and
+// columns of pixels lie on an edge.
+TEST(BlindZone, DecidesPixelsOnAnEdgeByAngle) {
+  for (const int size : {64, 65}) {
+    const hrm::PatchGeometry geometry = geometry_at(0.0, size);
+    for (double squint_deg = -180.0; squint_deg <= 180.0; squint_deg += 45.0)
+      for (const double half_width_deg : {0.0, 45.0, 90.0})
+        expect_zone_by_angle(geometry, geo::Angle::degrees(squint_deg), half_width_deg, size);
+  }
+}
+
+TEST(BlindZone, DoesNotReachMapsFarFromTheGroundTrack) {
+  const hrm::PatchGeometry geometry = geometry_at(20000.0, 8000.0);
+  const auto reaches = [&](double squint_deg) {
+    return hrm::BlindZone(geometry, geometry.up() - geo::Angle::degrees(squint_deg), 8.0, 64).may_reach_map();
+  };
+  // The map subtends 14.0 degrees either side of its centre.
+  for (const double squint_deg : {-178.0, -158.5, -21.5, 0.0, 21.5, 158.5})
+    EXPECT_TRUE(reaches(squint_deg)) << squint_deg;
+  for (const double squint_deg : {-157.5, -90.0, -22.5, 22.5, 90.0, 157.5})
+    EXPECT_FALSE(reaches(squint_deg)) << squint_deg;
+}
+
+TEST(BlindZone, IsTheSameWithAnyNumberOfThreads) {
+  radar::RadarConfiguration configuration = bare_map(240);
+  configuration.fidelity.map_response = true;
+  hrm::PatchOrder order = order_from({});
+  order.ground_track = order.ground_track + geo::Angle::degrees(90.0 - configuration.high_resolution.blind_zone_deg);
+  const auto ground = ground_of(terrain::flat(kGround_m));
+  const auto one = make_patch(configuration, order, ground);
+  const auto four = make_patch(configuration, order, ground, nullptr, 4);
+  EXPECT_TRUE(one.image().blind);
+  EXPECT_TRUE(four.image().blind);
+  EXPECT_EQ(one.image().power, four.image().power);
+  EXPECT_EQ(one.picture(), four.picture());
 }
 
 }  // namespace
