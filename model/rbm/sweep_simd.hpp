@@ -57,7 +57,7 @@ struct SweepInputs {
   const physics::simd::GroundInputs* ground;  // null: all samples are land without culture and texture
 };
 struct SweepOutputs {
-  float* near;     // tangent of the ground shortly before the sample; at most the sample's horizon: kNoHorizon
+  float* near;     // tangent of the ground near_m where it reaches the sample's horizon, else kNoHorizon
   float* tangent;  // tangent of the elevation angle of the ground that casts the shadow; kNoHorizon over a void
   float* before;   // maximum tangent of all ground nearer than the sample
   float* horizon;  // maximum tangent of all ground up to and including the sample

@@ -100,13 +100,6 @@ HWY_INLINE Ints whole(Mask valid, Floats number) {
   return hn::ConvertTo(IntLanes(), hn::IfThenElseZero(valid, number));
 }
 
-// Whole numbers from 0 to 2^23 as integers.
-HWY_INLINE Ints integer(Floats number) {
-  constexpr float kIntegerBias = 8388608.0F;  // 2^23: the sum has the integer in its lowest mantissa bits
-  const IntLanes di;
-  return hn::Sub(hn::BitCast(di, hn::Add(number, hn::Set(FloatLanes(), kIntegerBias))), hn::Set(di, 0x4b000000));
-}
-
 }  // namespace yars::model::terrain::crests::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -48,11 +48,8 @@ struct SplitPosition {
   Ints whole;
 };
 HWY_INLINE SplitPosition split(Floats position, Floats last) {
-  constexpr float kIntegerBias = 8388608.0F;  // 2^23: the sum has the integer in its lowest mantissa bits
-  const IntLanes di;
   const auto whole = hn::Min(hn::Floor(position), last);
-  const auto bits = hn::BitCast(di, hn::Add(whole, hn::Set(FloatLanes(), kIntegerBias)));
-  return {hn::Sub(position, whole), hn::Sub(bits, hn::Set(di, 0x4b000000))};  // the bits of 2^23
+  return {hn::Sub(position, whole), integer(whole)};
 }
 
 // Number of successive positions per prefetch, so that each cache line is prefetched about once.

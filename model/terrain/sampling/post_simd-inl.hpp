@@ -40,6 +40,13 @@ HWY_INLINE Ints divided(Ints number) {
 #endif
 }
 
+// Whole numbers from 0 to 2^23 as integers.
+HWY_INLINE Ints integer(Floats number) {
+  constexpr float kIntegerBias = 8388608.0F;  // 2^23: the sum has the integer in its lowest mantissa bits
+  const IntLanes di;
+  return hn::Sub(hn::BitCast(di, hn::Add(number, hn::Set(FloatLanes(), kIntegerBias))), hn::Set(di, 0x4b000000));
+}
+
 // Byte offsets of heights in the blocks of a grid; half of them are the offsets of its codes.
 class BlockLanes {
  public:

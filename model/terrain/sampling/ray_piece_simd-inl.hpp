@@ -1,5 +1,8 @@
-// Crests of a ray with evenly spaced positions. The ray is divided into long pieces. The lines of posts that a piece
-// crosses are examined in their order, a vector of lines at a time. Only ground that may reach the floor is kept.
+// Crests of a ray with evenly spaced positions (crests_simd.hpp). The ray is divided into pieces of up to 40 km. The
+// lines of posts that a piece crosses are examined in their order, a vector of lines at a time.
+// Inputs: positions of a ray [deg], their distances [m] and floors [tangents]; one grid of a cell.
+// Outputs: raised tangents of the steps. Ground below Ray::floor is left out.
+// Accuracy: crossings within 0.5 m of the ray. Every vector width gives the same bits.
 // Included once per Highway target.
 #if defined(YARS_MODEL_TERRAIN_SAMPLING_RAY_PIECE_SIMD_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef YARS_MODEL_TERRAIN_SAMPLING_RAY_PIECE_SIMD_INL
@@ -165,10 +168,10 @@ class RayPiece {
     const float end = static_cast<float>(lines.posts_of_line - 1);
     const float drift = lines.other.to - lines.other.from;
     if (std::min(lines.other.from, lines.other.to) < 0.0F || std::max(lines.other.from, lines.other.to) > end) {
-      const float south = -lines.other.from / drift, north = (end - lines.other.from) / drift;
+      const float at_first = -lines.other.from / drift, at_last = (end - lines.other.from) / drift;
       const float run = to - from;
-      to = from + std::min(1.0F, std::max(south, north)) * run;
-      from = from + std::max(0.0F, std::min(south, north)) * run;
+      to = from + std::min(1.0F, std::max(at_first, at_last)) * run;
+      from = from + std::max(0.0F, std::min(at_first, at_last)) * run;
     }
     return {std::max(std::floor(std::min(from, to)) + 1.0F, 0.0F),
             std::min(std::ceil(std::max(from, to)) - 1.0F, static_cast<float>(lines.lines_of_grid - 2))};
