@@ -24,17 +24,29 @@ Blocks<Post>::Blocks(int rows, int columns, std::span<const Post> posts)
   YARS_REQUIRE(rows, >=, 2);
   YARS_REQUIRE(columns, >=, 2);
   YARS_REQUIRE(posts.size(), ==, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
-  blocks_.resize(static_cast<std::size_t>(block_rows_) * static_cast<std::size_t>(block_columns_) + 1);
-  auto block = blocks_.begin();
-  for (int block_row = 0; block_row < block_rows_; ++block_row)
-    for (int block_column = 0; block_column < block_columns_; ++block_column, ++block)
-      for (int entry = 0; entry < static_cast<int>(kPosts); ++entry) {
-        // In the last blocks, entries beyond the grid repeat the edge of the grid. No caller reads these entries.
-        const int row = std::min(block_row * kRowStep + entry / kColumns, rows - 1);
-        const int column = std::min(block_column * kColumnStep + entry % kColumns, columns - 1);
-        block->posts[static_cast<std::size_t>(entry)] =
-            posts[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
-      }
+  blocks_.reserve(static_cast<std::size_t>(block_rows_) * static_cast<std::size_t>(block_columns_) + 1);
+  // Number of blocks of a block row that do not extend beyond the last column.
+  const int whole_columns = columns >= kColumns ? (columns - kColumns) / kColumnStep + 1 : 0;
+  for (int block_row = 0; block_row < block_rows_; ++block_row) {
+    std::array<const Post*, kRows> lines;
+    for (int line = 0; line < kRows; ++line) {
+      // In the last blocks, entries beyond the grid repeat the edge of the grid. No caller reads these entries.
+      const int row = std::min(block_row * kRowStep + line, rows - 1);
+      lines[static_cast<std::size_t>(line)] = posts.data() + static_cast<std::ptrdiff_t>(row) * columns;
+    }
+    Block block;
+    for (int block_column = 0; block_column < block_columns_; ++block_column) {
+      const int first = block_column * kColumnStep;
+      Post* entry = block.posts.data();
+      if (block_column < whole_columns)
+        for (const Post* line : lines) entry = std::copy_n(line + first, kColumns, entry);
+      else
+        for (const Post* line : lines)
+          for (int column = first; column < first + kColumns; ++column) *entry++ = line[std::min(column, columns - 1)];
+      blocks_.push_back(block);
+    }
+  }
+  blocks_.push_back(Block{});
 }
 
 template class Blocks<std::int16_t>;
@@ -88,17 +100,26 @@ Cell::Cell(CellCorner corner, int rows, int columns, const std::vector<std::int1
       blocks_(rows, columns, posts),
       ceilings_(rows, columns, posts) {
   YARS_REQUIRE(unit_m, >, 0.0);
-  bool any = false;
-  for (const std::int16_t post : posts) {
-    if (post == kVoidPost) {
-      ++voids_;
-      continue;
+  YARS_REQUIRE(columns, <=, static_cast<int>(UINT16_MAX));
+  static_assert(kVoidPost == INT16_MIN, "a void is below every height");
+  std::int16_t lowest = INT16_MAX, highest = kVoidPost;
+    for (std::span<const std::int16_t> rest = posts; !rest.empty();) {
+    const auto line = rest.first(static_cast<std::size_t>(columns));
+    rest = rest.subspan(line.size());
+    // Counts of one row fit 16 bits, so that a SIMD register counts as many posts at a time as it holds.
+    std::uint16_t voids = 0, sea_posts = 0;
+    for (const std::int16_t post : line) {
+      voids = static_cast<std::uint16_t>(voids + (post == kVoidPost ? 1 : 0));
+      sea_posts = static_cast<std::uint16_t>(sea_posts + (post == 0 ? 1 : 0));
+      lowest = std::min(lowest, post == kVoidPost ? std::int16_t{INT16_MAX} : post);
+      highest = std::max(highest, post);
     }
-    if (post == 0) ++sea_posts_;
-    lowest_ = any ? std::min(lowest_, post) : post;
-    highest_ = any ? std::max(highest_, post) : post;
-    any = true;
+    voids_ += voids;
+    sea_posts_ += sea_posts;
   }
+  if (voids_ == posts.size()) return;
+  lowest_ = lowest;
+  highest_ = highest;
 }
 
 std::vector<std::int16_t> Cell::posts() const {

@@ -29,6 +29,7 @@ std::vector<std::uint8_t> Culture::codes() const {
 }
 
 Culture Culture::reduced(int reduction) const {
+  if (reduction == 0) return *this;
   const auto step_of = [reduction](int intervals) {
     int step = 1;
     for (int halving = 0; halving < reduction && intervals % (2 * step) == 0 && intervals > 2 * step; ++halving)

@@ -163,7 +163,8 @@ bool DirectoryTerrainStore::load(Level level) {
 // Culture of the cell at the reduction of `level`; null if the culture file is missing or cannot be read.
 std::shared_ptr<const Culture> DirectoryTerrainStore::read_culture_of(Level level, const CellFile& file) {
   if (!file.culture) return nullptr;
-  const error::Expected<Culture> culture = read_culture(*file.culture, corner_of_slot(level.first));
+  error::Expected<Culture> culture = read_culture(*file.culture, corner_of_slot(level.first));
+  if (culture && level.second == 0) return std::make_shared<const Culture>(std::move(*culture));
   if (culture) return std::make_shared<const Culture>(culture->reduced(level.second));
   if (unreadable_culture_.insert(level.first).second)
     problems_.push_back(culture.error().message() + "; the cell has no materials other than land and sea");
