@@ -22,6 +22,10 @@ constexpr int kServesNoDetail = -1;  // detail of a view in which cells within t
 std::size_t bytes_of(const TerrainCell& cell) {
   return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
 }
+
+struct FreeBuffers {
+  ~FreeBuffers() { free_reading_buffers(); }
+};
 }  // namespace
 
 int reduction_for(const CellFile& file, int detail) {
@@ -45,6 +49,7 @@ DirectoryTerrainStore::DirectoryTerrainStore(std::string folder, DirectoryIndex 
     : folder_(std::move(folder)), index_(std::move(index)), options_(options), problems_(std::move(problems)) {}
 
 TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& region, const Interim& interim) {
+  const FreeBuffers after_last_cell;
   ++prepares_;
   note_outside_coverage(region);
   bool changed = view_ == nullptr || !view_->has_detail(region.detail);
