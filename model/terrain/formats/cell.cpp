@@ -102,23 +102,24 @@ Cell::Cell(CellCorner corner, int rows, int columns, const std::vector<std::int1
   YARS_REQUIRE(unit_m, >, 0.0);
   YARS_REQUIRE(columns, <=, static_cast<int>(UINT16_MAX));
   static_assert(kVoidPost == INT16_MIN, "a void is below every height");
-  std::int16_t lowest = INT16_MAX, highest = kVoidPost;
-    for (std::span<const std::int16_t> rest = posts; !rest.empty();) {
+  std::int16_t lowest_less_1 = INT16_MAX, highest = kVoidPost;
+  for (std::span<const std::int16_t> rest = posts; !rest.empty();) {
     const auto line = rest.first(static_cast<std::size_t>(columns));
     rest = rest.subspan(line.size());
     // Counts of one row fit 16 bits, so that a SIMD register counts as many posts at a time as it holds.
     std::uint16_t voids = 0, sea_posts = 0;
     for (const std::int16_t post : line) {
-      voids = static_cast<std::uint16_t>(voids + (post == kVoidPost ? 1 : 0));
-      sea_posts = static_cast<std::uint16_t>(sea_posts + (post == 0 ? 1 : 0));
-      lowest = std::min(lowest, post == kVoidPost ? std::int16_t{INT16_MAX} : post);
+      voids = static_cast<std::uint16_t>(voids + (post == kVoidPost ? 1U : 0U));
+      sea_posts = static_cast<std::uint16_t>(sea_posts + (post == 0 ? 1U : 0U));
+      // Less 1, a void wraps to above every height, without a condition that would keep the compiler from using SIMD.
+      lowest_less_1 = std::min(lowest_less_1, static_cast<std::int16_t>(static_cast<std::uint16_t>(post) - 1U));
       highest = std::max(highest, post);
     }
     voids_ += voids;
     sea_posts_ += sea_posts;
   }
   if (voids_ == posts.size()) return;
-  lowest_ = lowest;
+  lowest_ = static_cast<std::int16_t>(lowest_less_1 + 1);
   highest_ = highest;
 }
 

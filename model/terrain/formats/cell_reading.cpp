@@ -24,9 +24,12 @@ void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::
     rest = rest.subspan(piece.size());
     std::uint16_t count = 0;
     for (std::int16_t& post : piece) {
-      const bool wrong = post != kVoidPost && (post < kLowestPost_m || post > kHighestPost_m || post == kCommonVoid_m);
+      // Without branches, so that the compiler uses SIMD.
+      const int outside = static_cast<int>(post < kLowestPost_m) | static_cast<int>(post > kHighestPost_m) |
+                          static_cast<int>(post == kCommonVoid_m);
+      const bool wrong = (outside & static_cast<int>(post != kVoidPost)) != 0;
       post = wrong ? kVoidPost : post;
-      count = static_cast<std::uint16_t>(count + (wrong ? 1 : 0));
+      count = static_cast<std::uint16_t>(count + (wrong ? 1U : 0U));
     }
     impossible += count;
   }
