@@ -43,6 +43,7 @@ std::string impossible_heights_warning(std::size_t posts);
 struct ReadingBuffers {
   std::vector<std::byte> file;
   std::vector<std::int16_t> posts;
+  std::vector<std::uint8_t> codes;  // of a culture
 };
 ReadingBuffers& reading_buffers();  // of the calling thread
 

@@ -175,15 +175,14 @@ error::Expected<Columns> find_columns(std::span<const std::byte> data, const Hea
   return found;
 }
 
-// Copies the heights of records of whole columns side by side to `words`, row by row. A tile of the file and a tile of
-// `words` stay in the cache.
+// Copies the heights of records side by side, which begin at the same row, to `words`, row by row.
 void copy_tile(std::span<const ColumnRecord> records, const Header& header, std::vector<std::int16_t>& words) {
   const auto rows = static_cast<std::size_t>(header.rows), columns = static_cast<std::size_t>(header.columns);
-  const std::size_t record_bytes = dted::record_bytes(header.rows);
-  for (std::size_t row = 0; row < rows; ++row) {
-    const std::byte* from = records.front().words + 2 * row;
-    std::int16_t* to = &words[row * columns + records.front().column];
-    for (std::size_t i = 0; i < records.size(); ++i, from += record_bytes)
+  const ColumnRecord& first = records.front();
+  for (std::size_t row = first.first_row; row < rows; ++row) {
+    const std::byte* from = first.words + 2 * (row - first.first_row);
+    std::int16_t* to = &words[row * columns + first.column];
+    for (std::size_t i = 0; i < records.size(); ++i, from += dted::record_bytes(header.rows))
       to[i] = memory::big_endian<std::int16_t>(from);
   }
 }
@@ -192,22 +191,14 @@ void copy_tile(std::span<const ColumnRecord> records, const Header& header, std:
 // If two records have the same column, the heights of the later one are used.
 void copy_words(std::span<const ColumnRecord> records, const Header& header, std::vector<std::int16_t>& words) {
   constexpr std::size_t kTile = 32;  // [columns] 64 bytes of a row of `words`, one cache line
-  const auto columns = static_cast<std::size_t>(header.columns);
   const auto follows = [&](const ColumnRecord& one, const ColumnRecord& next) {
-    return next.first_row == 0 && next.column == one.column + 1 &&
+    return one.first_row == 0 && next.first_row == 0 && next.column == one.column + 1 &&
            next.words == one.words + dted::record_bytes(header.rows);
   };
   while (!records.empty()) {
-    const ColumnRecord first = records.front();
     std::size_t count = 1;
-    if (first.first_row == 0) {
-      while (count < std::min(kTile, records.size()) && follows(records[count - 1], records[count])) ++count;
-      copy_tile(records.first(count), header, words);
-    } else {
-      for (std::size_t row = first.first_row; row < static_cast<std::size_t>(header.rows); ++row)
-        words[row * columns + first.column] =
-            memory::big_endian<std::int16_t>(first.words + 2 * (row - first.first_row));
-    }
+    while (count < std::min(kTile, records.size()) && follows(records[count - 1], records[count])) ++count;
+    copy_tile(records.first(count), header, words);
     records = records.subspan(count);
   }
 }
