@@ -49,6 +49,19 @@ Blocks<Post>::Blocks(int rows, int columns, std::span<const Post> posts)
   blocks_.push_back(Block{});
 }
 
+template <class Post>
+void Blocks<Post>::copy_row(int row, std::span<Post> posts) const {
+  const int block_row = std::min(row / kRowStep, block_rows_ - 1);
+  auto block = blocks_.begin() + static_cast<std::ptrdiff_t>(block_row) * block_columns_;
+  const int first = (row - block_row * kRowStep) * kColumns;
+  for (std::span<Post> rest = posts; !rest.empty(); ++block) {
+    // The last post of a block is also the first of the next one, if there is a next one.
+    const std::size_t count = std::min<std::size_t>(rest.size() > kColumns ? kColumnStep : kColumns, rest.size());
+    std::copy_n(block->posts.begin() + first, count, rest.begin());
+    rest = rest.subspan(count);
+  }
+}
+
 template class Blocks<std::int16_t>;
 template class Blocks<std::uint8_t>;
 
@@ -124,10 +137,10 @@ Cell::Cell(CellCorner corner, int rows, int columns, const std::vector<std::int1
 }
 
 std::vector<std::int16_t> Cell::posts() const {
-  std::vector<std::int16_t> posts;
-  posts.reserve(post_count());
+  std::vector<std::int16_t> posts(post_count());
   for (int row = 0; row < rows_; ++row)
-    for (int column = 0; column < columns_; ++column) posts.push_back(blocks_.post(row, column));
+    blocks_.copy_row(row, std::span(posts).subspan(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_),
+                                                   static_cast<std::size_t>(columns_)));
   return posts;
 }
 
@@ -187,30 +200,43 @@ struct CoarseGrid {
   int row_factor, column_factor;
 };
 
-void append_mean_row(const Cell& cell, const CoarseGrid& grid, int coarse_row, std::vector<Sums>& column_sums,
+// Sums of each column over the rows of a window. A sum is at most 2 * 7200 posts, so that 32 bits hold it.
+struct ColumnSums {
+  explicit ColumnSums(int columns)
+      : posts(static_cast<std::size_t>(columns)), height(posts.size()), weight(posts.size()), sea(posts.size()) {}
+  void add(int row_weight) {
+    for (std::size_t column = 0; column < posts.size(); ++column) {
+      const std::int32_t post = posts[column];
+      const std::int32_t counted = post != kVoidPost ? row_weight : 0;
+      height[column] += counted * post;
+      weight[column] += counted;
+      sea[column] += post == 0 ? row_weight : 0;
+    }
+  }
+  void clear() {
+    for (auto* sums : {&height, &weight, &sea}) std::fill(sums->begin(), sums->end(), 0);
+  }
+  std::vector<std::int16_t> posts;  // of the row to be added
+  std::vector<std::int32_t> height, weight, sea;
+};
+
+void append_mean_row(const Cell& cell, const CoarseGrid& grid, int coarse_row, ColumnSums& sums,
                      std::vector<std::int16_t>& means) {
   const Window rows = mean_window(coarse_row, cell.rows(), grid.row_factor);
-  std::fill(column_sums.begin(), column_sums.end(), Sums{});
+  sums.clear();
   for (int row = rows.first; row <= rows.last; ++row) {
-    const int row_weight = weight(row, rows, grid.row_factor);
-    for (int column = 0; column < cell.columns(); ++column) {
-      const std::int16_t post = cell.post(row, column);
-      if (post == kVoidPost) continue;
-      Sums& sums = column_sums[static_cast<std::size_t>(column)];
-      sums.height += row_weight * post;
-      sums.weight += row_weight;
-      if (post == 0) sums.sea += row_weight;
-    }
+    cell.blocks().copy_row(row, sums.posts);
+    sums.add(weight(row, rows, grid.row_factor));
   }
   for (int coarse = 0; coarse < grid.columns; ++coarse) {
     const Window columns = mean_window(coarse, cell.columns(), grid.column_factor);
     Sums total;
     for (int column = columns.first; column <= columns.last; ++column) {
-      const int column_weight = weight(column, columns, grid.column_factor);
-      const Sums& sums = column_sums[static_cast<std::size_t>(column)];
-      total.height += column_weight * sums.height;
-      total.weight += column_weight * sums.weight;
-      total.sea += column_weight * sums.sea;
+      const std::int64_t column_weight = weight(column, columns, grid.column_factor);
+      const auto at = static_cast<std::size_t>(column);
+      total.height += column_weight * sums.height[at];
+      total.weight += column_weight * sums.weight[at];
+      total.sea += column_weight * sums.sea[at];
     }
     means.push_back(mean_of(total));
   }
@@ -221,11 +247,12 @@ void append_peak_row(const Cell& cell, const CoarseGrid& grid, int coarse_row, s
   static_assert(kVoidPost == INT16_MIN, "a void is below every height");
   const Window rows = peak_window(coarse_row, cell.rows(), grid.row_factor);
   std::fill(column_peaks.begin(), column_peaks.end(), kVoidPost);
-  for (int row = rows.first; row <= rows.last; ++row)
-    for (int column = 0; column < cell.columns(); ++column) {
-      std::int16_t& highest = column_peaks[static_cast<std::size_t>(column)];
-      highest = std::max(highest, cell.post(row, column));
-    }
+  std::vector<std::int16_t> posts(column_peaks.size());
+  for (int row = rows.first; row <= rows.last; ++row) {
+    cell.blocks().copy_row(row, posts);
+    for (std::size_t column = 0; column < posts.size(); ++column)
+      column_peaks[column] = std::max(column_peaks[column], posts[column]);
+  }
   for (int coarse = 0; coarse < grid.columns; ++coarse) {
     const Window columns = peak_window(coarse, cell.columns(), grid.column_factor);
     peaks.push_back(*std::max_element(column_peaks.begin() + columns.first, column_peaks.begin() + columns.last + 1));
@@ -257,7 +284,7 @@ ReducedCell reduce_by(const Cell& cell, int row_factor, int column_factor) {
   std::vector<std::int16_t> peaks;
   means.reserve(posts);
   peaks.reserve(posts);
-  std::vector<Sums> column_sums(static_cast<std::size_t>(cell.columns()));
+  ColumnSums column_sums(cell.columns());
   std::vector<std::int16_t> column_peaks(static_cast<std::size_t>(cell.columns()));
   for (int row = 0; row < grid.rows; ++row) {
     append_mean_row(cell, grid, row, column_sums, means);

@@ -33,10 +33,10 @@ Culture::Culture(CellCorner corner, int rows, int columns, std::span<const std::
 }
 
 std::vector<std::uint8_t> Culture::codes() const {
-  std::vector<std::uint8_t> codes;
-  codes.reserve(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_));
+  const auto columns = static_cast<std::size_t>(columns_);
+  std::vector<std::uint8_t> codes(static_cast<std::size_t>(rows_) * columns);
   for (int row = 0; row < rows_; ++row)
-    for (int column = 0; column < columns_; ++column) codes.push_back(code(row, column));
+    blocks_.copy_row(row, std::span(codes).subspan(static_cast<std::size_t>(row) * columns, columns));
   return codes;
 }
 
