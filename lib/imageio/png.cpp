@@ -151,7 +151,8 @@ std::vector<PaletteColour> palette_of(const PngReader& reader) {
 
 }  // namespace
 
-error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int max_side_pixels) {
+error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int max_side_pixels,
+                                               std::vector<std::uint8_t> memory) {
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
     return error::fail(path.string(), "a PNG file", code ? error::reason_of(code.value()) : "not a regular file");
@@ -170,6 +171,7 @@ error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path
   image.width = static_cast<int>(png_get_image_width(reader.png, reader.info));
   image.height = static_cast<int>(png_get_image_height(reader.png, reader.info));
   image.palette = palette_of(reader);
+  image.pixels = std::move(memory);
   image.pixels.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
   std::vector<png_bytep> rows;
   rows.reserve(static_cast<std::size_t>(image.height));

@@ -43,6 +43,8 @@ error::Expected<void> write_indexed_png(const std::filesystem::path& path, const
 
 // Reads a PNG of colour type 3 with 1, 2, 4 or 8 bits per pixel, interlaced or not. A file with more than
 // `max_side_pixels` columns or rows is refused before memory for its pixels is allocated.
-error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int max_side_pixels);
+// `memory`: a vector whose memory the pixels use as far as it suffices, for a caller that reads many files.
+error::Expected<IndexedImage> read_indexed_png(const std::filesystem::path& path, int max_side_pixels,
+                                               std::vector<std::uint8_t> memory = {});
 
 }  // namespace yars::imageio

@@ -8,6 +8,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -34,6 +35,14 @@ template <class T>
 T big_endian(Bytes bytes, std::size_t offset) {
   assert(offset <= bytes.size() && sizeof(T) <= bytes.size() - offset);
   return read_as<T>(bytes.data() + offset, std::endian::big);
+}
+
+// Copies big-endian numbers of 16 bits from `bytes`. Requires 2 * numbers.size() bytes.
+inline void copy_big_endian(const std::byte* bytes, std::span<std::int16_t> numbers) {
+  std::memcpy(numbers.data(), bytes, numbers.size_bytes());
+  if constexpr (std::endian::native == std::endian::little)
+    for (std::int16_t& number : numbers)
+      number = static_cast<std::int16_t>(std::rotl(static_cast<std::uint16_t>(number), 8));
 }
 
 template <class T>

@@ -13,13 +13,12 @@ constexpr std::size_t kLargePage_bytes = std::size_t{2} << 20U;  // huge page of
 }  // namespace
 
 void* allocate_lines(std::size_t bytes) {
-  const bool large = bytes >= kLargePage_bytes;
-  const std::size_t unit = large ? kLargePage_bytes : kLine_bytes;
-  const std::size_t rounded_bytes = (bytes + unit - 1) / unit * unit;
-  void* memory = rounded_bytes >= bytes ? std::aligned_alloc(unit, rounded_bytes) : nullptr;
-  if (memory == nullptr) throw std::bad_alloc();
+  const std::size_t large_bytes = bytes / kLargePage_bytes * kLargePage_bytes;
+  void* memory = nullptr;
+  if (posix_memalign(&memory, large_bytes > 0 ? kLargePage_bytes : kLine_bytes, bytes) != 0) throw std::bad_alloc();
+  // A large page for the rest would occupy 2 MiB, however short the rest is.
   // The result is not checked: the advice only changes speed, and a system without large pages ignores it.
-  if (large) madvise(memory, rounded_bytes, MADV_HUGEPAGE);
+  if (large_bytes > 0) madvise(memory, large_bytes, MADV_HUGEPAGE);
   return memory;
 }
 

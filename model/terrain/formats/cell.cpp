@@ -24,17 +24,42 @@ Blocks<Post>::Blocks(int rows, int columns, std::span<const Post> posts)
   YARS_REQUIRE(rows, >=, 2);
   YARS_REQUIRE(columns, >=, 2);
   YARS_REQUIRE(posts.size(), ==, static_cast<std::size_t>(rows) * static_cast<std::size_t>(columns));
-  blocks_.resize(static_cast<std::size_t>(block_rows_) * static_cast<std::size_t>(block_columns_) + 1);
-  auto block = blocks_.begin();
-  for (int block_row = 0; block_row < block_rows_; ++block_row)
-    for (int block_column = 0; block_column < block_columns_; ++block_column, ++block)
-      for (int entry = 0; entry < static_cast<int>(kPosts); ++entry) {
-        // In the last blocks, entries beyond the grid repeat the edge of the grid. No caller reads these entries.
-        const int row = std::min(block_row * kRowStep + entry / kColumns, rows - 1);
-        const int column = std::min(block_column * kColumnStep + entry % kColumns, columns - 1);
-        block->posts[static_cast<std::size_t>(entry)] =
-            posts[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
-      }
+  blocks_.reserve(static_cast<std::size_t>(block_rows_) * static_cast<std::size_t>(block_columns_) + 1);
+  // Number of blocks of a block row that do not extend beyond the last column.
+  const int whole_columns = columns >= kColumns ? (columns - kColumns) / kColumnStep + 1 : 0;
+  for (int block_row = 0; block_row < block_rows_; ++block_row) {
+    std::array<const Post*, kRows> lines;
+    for (int line = 0; line < kRows; ++line) {
+      // In the last blocks, entries beyond the grid repeat the edge of the grid. No caller reads these entries.
+      const int row = std::min(block_row * kRowStep + line, rows - 1);
+      lines[static_cast<std::size_t>(line)] = posts.data() + static_cast<std::ptrdiff_t>(row) * columns;
+    }
+    Block block;
+    for (int block_column = 0; block_column < block_columns_; ++block_column) {
+      const int first = block_column * kColumnStep;
+      Post* entry = block.posts.data();
+      if (block_column < whole_columns)
+        for (const Post* line : lines) entry = std::copy_n(line + first, kColumns, entry);
+      else
+        for (const Post* line : lines)
+          for (int column = first; column < first + kColumns; ++column) *entry++ = line[std::min(column, columns - 1)];
+      blocks_.push_back(block);
+    }
+  }
+  blocks_.push_back(Block{});
+}
+
+template <class Post>
+void Blocks<Post>::copy_row(int row, std::span<Post> posts) const {
+  const int block_row = std::min(row / kRowStep, block_rows_ - 1);
+  auto block = blocks_.begin() + static_cast<std::ptrdiff_t>(block_row) * block_columns_;
+  const int first = (row - block_row * kRowStep) * kColumns;
+  for (std::span<Post> rest = posts; !rest.empty(); ++block) {
+    // The last post of a block is also the first of the next one, if there is a next one.
+    const std::size_t count = std::min<std::size_t>(rest.size() > kColumns ? kColumnStep : kColumns, rest.size());
+    std::copy_n(block->posts.begin() + first, count, rest.begin());
+    rest = rest.subspan(count);
+  }
 }
 
 template class Blocks<std::int16_t>;
@@ -88,24 +113,34 @@ Cell::Cell(CellCorner corner, int rows, int columns, const std::vector<std::int1
       blocks_(rows, columns, posts),
       ceilings_(rows, columns, posts) {
   YARS_REQUIRE(unit_m, >, 0.0);
-  bool any = false;
-  for (const std::int16_t post : posts) {
-    if (post == kVoidPost) {
-      ++voids_;
-      continue;
+  YARS_REQUIRE(columns, <=, static_cast<int>(UINT16_MAX));
+  static_assert(kVoidPost == INT16_MIN, "a void is below every height");
+  std::int16_t lowest_less_1 = INT16_MAX, highest = kVoidPost;
+  for (std::span<const std::int16_t> rest = posts; !rest.empty();) {
+    const auto line = rest.first(static_cast<std::size_t>(columns));
+    rest = rest.subspan(line.size());
+    // Counts of one row fit 16 bits, so that a SIMD register counts as many posts at a time as it holds.
+    std::uint16_t voids = 0, sea_posts = 0;
+    for (const std::int16_t post : line) {
+      voids = static_cast<std::uint16_t>(voids + (post == kVoidPost ? 1U : 0U));
+      sea_posts = static_cast<std::uint16_t>(sea_posts + (post == 0 ? 1U : 0U));
+      // Less 1, a void wraps to above every height, without a condition that would keep the compiler from using SIMD.
+      lowest_less_1 = std::min(lowest_less_1, static_cast<std::int16_t>(static_cast<std::uint16_t>(post) - 1U));
+      highest = std::max(highest, post);
     }
-    if (post == 0) ++sea_posts_;
-    lowest_ = any ? std::min(lowest_, post) : post;
-    highest_ = any ? std::max(highest_, post) : post;
-    any = true;
+    voids_ += voids;
+    sea_posts_ += sea_posts;
   }
+  if (voids_ == posts.size()) return;
+  lowest_ = static_cast<std::int16_t>(lowest_less_1 + 1);
+  highest_ = highest;
 }
 
 std::vector<std::int16_t> Cell::posts() const {
-  std::vector<std::int16_t> posts;
-  posts.reserve(post_count());
+  std::vector<std::int16_t> posts(post_count());
   for (int row = 0; row < rows_; ++row)
-    for (int column = 0; column < columns_; ++column) posts.push_back(blocks_.post(row, column));
+    blocks_.copy_row(row, std::span(posts).subspan(static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_),
+                                                   static_cast<std::size_t>(columns_)));
   return posts;
 }
 
@@ -165,30 +200,43 @@ struct CoarseGrid {
   int row_factor, column_factor;
 };
 
-void append_mean_row(const Cell& cell, const CoarseGrid& grid, int coarse_row, std::vector<Sums>& column_sums,
+// Sums of each column over the rows of a window. A sum is at most 2 * 7200 posts, so that 32 bits hold it.
+struct ColumnSums {
+  explicit ColumnSums(int columns)
+      : posts(static_cast<std::size_t>(columns)), height(posts.size()), weight(posts.size()), sea(posts.size()) {}
+  void add(int row_weight) {
+    for (std::size_t column = 0; column < posts.size(); ++column) {
+      const std::int32_t post = posts[column];
+      const std::int32_t counted = post != kVoidPost ? row_weight : 0;
+      height[column] += counted * post;
+      weight[column] += counted;
+      sea[column] += post == 0 ? row_weight : 0;
+    }
+  }
+  void clear() {
+    for (auto* sums : {&height, &weight, &sea}) std::fill(sums->begin(), sums->end(), 0);
+  }
+  std::vector<std::int16_t> posts;  // of the row to be added
+  std::vector<std::int32_t> height, weight, sea;
+};
+
+void append_mean_row(const Cell& cell, const CoarseGrid& grid, int coarse_row, ColumnSums& sums,
                      std::vector<std::int16_t>& means) {
   const Window rows = mean_window(coarse_row, cell.rows(), grid.row_factor);
-  std::fill(column_sums.begin(), column_sums.end(), Sums{});
+  sums.clear();
   for (int row = rows.first; row <= rows.last; ++row) {
-    const int row_weight = weight(row, rows, grid.row_factor);
-    for (int column = 0; column < cell.columns(); ++column) {
-      const std::int16_t post = cell.post(row, column);
-      if (post == kVoidPost) continue;
-      Sums& sums = column_sums[static_cast<std::size_t>(column)];
-      sums.height += row_weight * post;
-      sums.weight += row_weight;
-      if (post == 0) sums.sea += row_weight;
-    }
+    cell.blocks().copy_row(row, sums.posts);
+    sums.add(weight(row, rows, grid.row_factor));
   }
   for (int coarse = 0; coarse < grid.columns; ++coarse) {
     const Window columns = mean_window(coarse, cell.columns(), grid.column_factor);
     Sums total;
     for (int column = columns.first; column <= columns.last; ++column) {
-      const int column_weight = weight(column, columns, grid.column_factor);
-      const Sums& sums = column_sums[static_cast<std::size_t>(column)];
-      total.height += column_weight * sums.height;
-      total.weight += column_weight * sums.weight;
-      total.sea += column_weight * sums.sea;
+      const std::int64_t column_weight = weight(column, columns, grid.column_factor);
+      const auto at = static_cast<std::size_t>(column);
+      total.height += column_weight * sums.height[at];
+      total.weight += column_weight * sums.weight[at];
+      total.sea += column_weight * sums.sea[at];
     }
     means.push_back(mean_of(total));
   }
@@ -199,11 +247,12 @@ void append_peak_row(const Cell& cell, const CoarseGrid& grid, int coarse_row, s
   static_assert(kVoidPost == INT16_MIN, "a void is below every height");
   const Window rows = peak_window(coarse_row, cell.rows(), grid.row_factor);
   std::fill(column_peaks.begin(), column_peaks.end(), kVoidPost);
-  for (int row = rows.first; row <= rows.last; ++row)
-    for (int column = 0; column < cell.columns(); ++column) {
-      std::int16_t& highest = column_peaks[static_cast<std::size_t>(column)];
-      highest = std::max(highest, cell.post(row, column));
-    }
+  std::vector<std::int16_t> posts(column_peaks.size());
+  for (int row = rows.first; row <= rows.last; ++row) {
+    cell.blocks().copy_row(row, posts);
+    for (std::size_t column = 0; column < posts.size(); ++column)
+      column_peaks[column] = std::max(column_peaks[column], posts[column]);
+  }
   for (int coarse = 0; coarse < grid.columns; ++coarse) {
     const Window columns = peak_window(coarse, cell.columns(), grid.column_factor);
     peaks.push_back(*std::max_element(column_peaks.begin() + columns.first, column_peaks.begin() + columns.last + 1));
@@ -235,7 +284,7 @@ ReducedCell reduce_by(const Cell& cell, int row_factor, int column_factor) {
   std::vector<std::int16_t> peaks;
   means.reserve(posts);
   peaks.reserve(posts);
-  std::vector<Sums> column_sums(static_cast<std::size_t>(cell.columns()));
+  ColumnSums column_sums(cell.columns());
   std::vector<std::int16_t> column_peaks(static_cast<std::size_t>(cell.columns()));
   for (int row = 0; row < grid.rows; ++row) {
     append_mean_row(cell, grid, row, column_sums, means);

@@ -64,6 +64,9 @@ class Blocks {
                        static_cast<std::size_t>(column - block_column * kColumnStep)];
   }
 
+  // Copies the posts of a row. Requires an entry for each column of the grid.
+  void copy_row(int row, std::span<Post> posts) const;
+
   // The posts of all blocks, for SIMD gathers. Post (row, column) with row < rows - 1 and column < columns - 1 is entry
   // (row / 3 * block_columns + column / 7) * 32 + row % 3 * 8 + column % 7, with integer division. Its northern
   // neighbour is entry + 8, its eastern neighbour entry + 1. A spare block follows the last one.

@@ -1,5 +1,6 @@
 #include "model/terrain/formats/cell_reading.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -15,13 +16,33 @@ constexpr std::int16_t kCommonVoid_m = -9999;  // [m] written by some producers 
 }  // namespace
 
 void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::string>& warnings) {
+  // A count of one piece fits 16 bits, so that a SIMD register counts as many posts at a time as it holds.
+  constexpr std::size_t kPiece = 32'768;
   std::size_t impossible = 0;
-  for (std::int16_t& post : posts) {
-    if (post == kVoidPost || (post >= kLowestPost_m && post <= kHighestPost_m && post != kCommonVoid_m)) continue;
-    post = kVoidPost;
-    ++impossible;
+  for (std::span<std::int16_t> rest = posts; !rest.empty();) {
+    const auto piece = rest.first(std::min(kPiece, rest.size()));
+    rest = rest.subspan(piece.size());
+    std::uint16_t count = 0;
+    for (std::int16_t& post : piece) {
+      // Without branches, so that the compiler uses SIMD.
+      const int outside = static_cast<int>(post < kLowestPost_m) | static_cast<int>(post > kHighestPost_m) |
+                          static_cast<int>(post == kCommonVoid_m);
+      const bool wrong = (outside & static_cast<int>(post != kVoidPost)) != 0;
+      post = wrong ? kVoidPost : post;
+      count = static_cast<std::uint16_t>(count + (wrong ? 1U : 0U));
+    }
+    impossible += count;
   }
   if (impossible > 0) warnings.push_back(impossible_heights_warning(impossible));
+}
+
+ReadingBuffers& reading_buffers() {
+  thread_local ReadingBuffers buffers;
+  return buffers;
+}
+
+void free_reading_buffers() {
+  reading_buffers() = {};
 }
 
 std::string impossible_heights_warning(std::size_t posts) {
@@ -39,8 +60,10 @@ error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path) {
   return size;
 }
 
-error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::path& path, std::uintmax_t offset,
-                                                       std::size_t bytes) {
+namespace {
+
+error::Expected<void> read_part(const std::filesystem::path& path, std::uintmax_t offset, std::size_t bytes,
+                                std::vector<std::byte>& part) {
   const error::Expected<std::uintmax_t> length = file_length(path);
   if (!length) return tl::unexpected(length.error());
   if (offset > *length || bytes > *length - offset)
@@ -49,22 +72,38 @@ error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::pa
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   file.seekg(static_cast<std::streamoff>(offset));
-  std::vector<std::byte> part(bytes);
+  part.resize(bytes);
   file.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(bytes));
   if (!file)
     return error::fail(path.string(), "a readable file of " + std::to_string(*length) + " bytes",
                        errno != 0 ? error::reason_of(errno) : "a failed read",
                        "check the rights of the file and the disk");
+  return {};
+}
+
+}  // namespace
+
+error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::path& path, std::uintmax_t offset,
+                                                       std::size_t bytes) {
+  std::vector<std::byte> part;
+  if (const auto read = read_part(path, offset, bytes, part); !read) return tl::unexpected(read.error());
   return part;
 }
 
-error::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes) {
+error::Expected<void> read_file(const std::filesystem::path& path, std::size_t limit_bytes,
+                                std::vector<std::byte>& bytes) {
   const error::Expected<std::uintmax_t> length = file_length(path);
   if (!length) return tl::unexpected(length.error());
   if (*length > limit_bytes)
     return error::fail(path.string(), "at most " + std::to_string(limit_bytes) + " bytes",
                        std::to_string(*length) + " bytes", "this is not a one-degree cell");
-  return read_file_part(path, 0, *length);
+  return read_part(path, 0, *length, bytes);
+}
+
+error::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes) {
+  std::vector<std::byte> bytes;
+  if (const auto read = read_file(path, limit_bytes, bytes); !read) return tl::unexpected(read.error());
+  return bytes;
 }
 
 namespace {

@@ -38,6 +38,22 @@ void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::
 // Text of the warning about impossible heights; `posts`: their number.
 std::string impossible_heights_warning(std::size_t posts);
 
+// Memory that the readers of a thread use again for each cell. Fresh memory costs the operating system more time than
+// decoding. The contents are those of the last cell, and callers overwrite them.
+struct ReadingBuffers {
+  std::vector<std::byte> file;
+  std::vector<std::int16_t> posts;
+  std::vector<std::uint8_t> codes;  // of a culture
+};
+ReadingBuffers& reading_buffers();  // of the calling thread
+
+// Frees the memory of the calling thread's buffers.
+void free_reading_buffers();
+
+// Reads a whole file into `bytes`. Errors: the file cannot be opened or is larger than `limit_bytes`.
+error::Expected<void> read_file(const std::filesystem::path& path, std::size_t limit_bytes,
+                                std::vector<std::byte>& bytes);
+
 // Reads a whole file. Errors: the file cannot be opened or is larger than `limit_bytes`.
 error::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::size_t limit_bytes);
 

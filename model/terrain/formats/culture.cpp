@@ -12,23 +12,36 @@
 #include "lib/file/file_search.hpp"
 #include "lib/file/folder.hpp"
 #include "lib/imageio/png.hpp"
+#include "model/terrain/formats/cell_reading.hpp"
 
 namespace yars::model::terrain {
 
+namespace {
+
+// The highest code, without a branch, so that the compiler uses SIMD.
+std::uint8_t highest_of(std::span<const std::uint8_t> codes) {
+  std::uint8_t highest = 0;
+  for (const std::uint8_t code : codes) highest = std::max(highest, code);
+  return highest;
+}
+
+}  // namespace
+
 Culture::Culture(CellCorner corner, int rows, int columns, std::span<const std::uint8_t> codes)
     : corner_(corner), rows_(rows), columns_(columns), blocks_(rows, columns, codes) {
-  YARS_REQUIRE(static_cast<int>(*std::max_element(codes.begin(), codes.end())), <=, static_cast<int>(kMaxMaterial));
+  YARS_REQUIRE(static_cast<int>(highest_of(codes)), <=, static_cast<int>(kMaxMaterial));
 }
 
 std::vector<std::uint8_t> Culture::codes() const {
-  std::vector<std::uint8_t> codes;
-  codes.reserve(static_cast<std::size_t>(rows_) * static_cast<std::size_t>(columns_));
+  const auto columns = static_cast<std::size_t>(columns_);
+  std::vector<std::uint8_t> codes(static_cast<std::size_t>(rows_) * columns);
   for (int row = 0; row < rows_; ++row)
-    for (int column = 0; column < columns_; ++column) codes.push_back(code(row, column));
+    blocks_.copy_row(row, std::span(codes).subspan(static_cast<std::size_t>(row) * columns, columns));
   return codes;
 }
 
 Culture Culture::reduced(int reduction) const {
+  if (reduction == 0) return *this;
   const auto step_of = [reduction](int intervals) {
     int step = 1;
     for (int halving = 0; halving < reduction && intervals % (2 * step) == 0 && intervals > 2 * step; ++halving)
@@ -77,25 +90,28 @@ error::Expected<void> remove_culture(const std::filesystem::path& elevation) {
 }
 
 error::Expected<Culture> read_culture(const std::filesystem::path& path, CellCorner corner) {
-  const error::Expected<imageio::IndexedImage> image = imageio::read_indexed_png(path, kMaxCulturePosts);
+  std::vector<std::uint8_t>& buffer = reading_buffers().codes;
+  error::Expected<imageio::IndexedImage> image = imageio::read_indexed_png(path, kMaxCulturePosts, std::move(buffer));
   if (!image) return tl::unexpected(image.error());
   if (image->width < 2 || image->height < 2)
     return error::fail(path.string(), "at least 2 x 2 posts",
                        std::to_string(image->width) + " x " + std::to_string(image->height));
   const auto width = static_cast<std::ptrdiff_t>(image->width);
-  const auto wrong =
-      std::find_if(image->pixels.begin(), image->pixels.end(), [](std::uint8_t code) { return code > kMaxMaterial; });
-  if (wrong != image->pixels.end()) {
+  if (highest_of(image->pixels) > kMaxMaterial) {
+    const auto wrong =
+        std::find_if(image->pixels.begin(), image->pixels.end(), [](std::uint8_t code) { return code > kMaxMaterial; });
     const std::ptrdiff_t at = wrong - image->pixels.begin();
     return error::fail(path.string(), "surface material codes from 0 to " + std::to_string(kMaxMaterial),
                        "code " + std::to_string(*wrong) + " at column " + std::to_string(at % width) + " of row " +
                            std::to_string(at / width) + " from the north",
                        "use the DFAD codes as palette indices");
   }
-  std::vector<std::uint8_t> codes(image->pixels.size());
-  for (std::ptrdiff_t row = 0; row < image->height; ++row)
-    std::copy_n(image->pixels.begin() + row * width, width, codes.end() - (row + 1) * width);
-  return Culture(corner, image->height, image->width, codes);
+  for (std::ptrdiff_t row = 0; row < image->height / 2; ++row)
+    std::swap_ranges(image->pixels.begin() + row * width, image->pixels.begin() + (row + 1) * width,
+                     image->pixels.end() - (row + 1) * width);
+  Culture culture(corner, image->height, image->width, image->pixels);
+  buffer = std::move(image->pixels);
+  return culture;
 }
 
 namespace {

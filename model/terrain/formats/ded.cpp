@@ -113,7 +113,8 @@ error::Expected<DedCell> cell_at(const std::vector<DedCell>& cells, CellCorner c
 }
 
 CellReading decode(const DedCell& cell, std::span<const std::byte> bytes) {
-  std::vector<std::int16_t> posts(bytes.size() / 2);
+  std::vector<std::int16_t>& posts = reading_buffers().posts;
+  posts.resize(bytes.size() / 2);
   const auto rows = static_cast<std::size_t>(cell.rows);
   const auto columns = static_cast<std::size_t>(cell.columns);
   for (std::size_t column = 0; column < columns; ++column)

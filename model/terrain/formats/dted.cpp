@@ -27,11 +27,19 @@ struct Header {
   std::size_t data_offset = 0;
 };
 
-// Number of columns that were read, and numbers of columns with defects, for the warnings.
-struct ColumnDefects {
+// A record inside the cell: its column, and its heights from row `first_row` on, in big-endian words.
+struct ColumnRecord {
+  std::size_t column = 0;
+  std::size_t first_row = 0;
+  const std::byte* words = nullptr;
+};
+
+// The records of a file in its order, number of columns that have a record, and numbers of records with defects.
+struct Columns {
+  std::vector<ColumnRecord> records;
+  std::size_t present = 0;
   std::size_t wrong_sums = 0;
-  std::size_t columns_read = 0;
-  std::size_t partial_columns = 0;
+  std::size_t partial = 0;
 };
 
 std::string_view text_of(std::span<const std::byte> bytes) {
@@ -132,73 +140,99 @@ std::optional<std::span<const std::byte>> next_record(std::span<const std::byte>
   return std::nullopt;
 }
 
-std::int16_t sign_magnitude(std::uint16_t word) {
-  const auto magnitude = static_cast<std::int16_t>(word & 0x7FFFU);
-  return (word & 0x8000U) != 0U ? static_cast<std::int16_t>(-magnitude) : magnitude;
+// Without branches, so that the compiler uses SIMD.
+std::int16_t sign_magnitude(std::int16_t word) {
+  const int sign = word >> 15;  // 0 or -1
+  return static_cast<std::int16_t>(((word & 0x7FFF) ^ sign) - sign);
+}
+
+error::Expected<Columns> find_columns(std::span<const std::byte> data, const Header& header,
+                                      const std::string& subject) {
+  Columns found;
+  std::vector<bool> seen(static_cast<std::size_t>(header.columns));
+  for (std::span<const std::byte> rest = data; !rest.empty();) {
+    const auto at = [&] { return "column record " + std::to_string(found.present + 1); };
+    const auto truncated = [&] {
+      return error::fail(subject, "a whole " + at(), std::to_string(rest.size()) + " bytes",
+                         "the file is truncated; fetch it again");
+    };
+    if (rest.size() < kRecordHeadBytes) return truncated();
+    const std::size_t column = memory::big_endian<std::uint16_t>(rest.data() + 4);
+    const int first_row = memory::big_endian<std::uint16_t>(rest.data() + 6);
+    if (std::to_integer<std::uint8_t>(rest[0]) != dted::kRecordSentinel || column >= seen.size() ||
+        first_row >= header.rows)
+      return error::fail(subject, at() + " that begins with AA and lies inside the cell",
+                         "longitude index " + std::to_string(column) + ", latitude index " + std::to_string(first_row));
+    const auto record = next_record(rest, header.rows, first_row);
+    if (!record) return truncated();
+    found.records.push_back({column, static_cast<std::size_t>(first_row), record->data() + kRecordHeadBytes});
+    if (!sum_matches(*record)) ++found.wrong_sums;
+    if (first_row > 0) ++found.partial;
+    if (!seen[column]) ++found.present;
+    seen[column] = true;
+    rest = rest.subspan(record->size());
+  }
+  return found;
+}
+
+// Copies the heights of records side by side, which begin at the same row, to `words`, row by row.
+void copy_tile(std::span<const ColumnRecord> records, const Header& header, std::vector<std::int16_t>& words) {
+  const auto rows = static_cast<std::size_t>(header.rows), columns = static_cast<std::size_t>(header.columns);
+  const ColumnRecord& first = records.front();
+  for (std::size_t row = first.first_row; row < rows; ++row) {
+    const std::byte* from = first.words + 2 * (row - first.first_row);
+    std::int16_t* to = &words[row * columns + first.column];
+    for (std::size_t i = 0; i < records.size(); ++i, from += dted::record_bytes(header.rows))
+      to[i] = memory::big_endian<std::int16_t>(from);
+  }
 }
 
 // Copies the heights of all records to `words`, row by row. Posts without a record keep their value in `words`.
-error::Expected<ColumnDefects> gather_words(std::span<const std::byte> data, const Header& header,
-                                            const std::string& subject, std::vector<std::uint16_t>& words) {
-  ColumnDefects defects;
-  std::vector<bool> seen(static_cast<std::size_t>(header.columns));
-  for (std::span<const std::byte> rest = data; !rest.empty();) {
-    const std::string at = "column record " + std::to_string(defects.columns_read + 1);
-    if (rest.size() < kRecordHeadBytes)
-      return error::fail(subject, "a whole " + at, std::to_string(rest.size()) + " bytes",
-                         "the file is truncated; fetch it again");
-    const int column = memory::big_endian<std::uint16_t>(rest.data() + 4);
-    const int first_row = memory::big_endian<std::uint16_t>(rest.data() + 6);
-    if (std::to_integer<std::uint8_t>(rest[0]) != dted::kRecordSentinel || column >= header.columns ||
-        first_row >= header.rows)
-      return error::fail(subject, at + " that begins with AA and lies inside the cell",
-                         "longitude index " + std::to_string(column) + ", latitude index " + std::to_string(first_row));
-    const auto record = next_record(rest, header.rows, first_row);
-    if (!record)
-      return error::fail(subject, "a whole " + at, std::to_string(rest.size()) + " bytes",
-                         "the file is truncated; fetch it again");
-    if (!sum_matches(*record)) ++defects.wrong_sums;
-    if (first_row > 0) ++defects.partial_columns;
-    for (int row = first_row; row < header.rows; ++row)
-      words[static_cast<std::size_t>(row) * static_cast<std::size_t>(header.columns) +
-            static_cast<std::size_t>(column)] =
-          memory::big_endian<std::uint16_t>(record->data() + kRecordHeadBytes +
-                                            2 * static_cast<std::size_t>(row - first_row));
-    if (!seen[static_cast<std::size_t>(column)]) ++defects.columns_read;
-    seen[static_cast<std::size_t>(column)] = true;
-    rest = rest.subspan(record->size());
+// If two records have the same column, the heights of the later one are used.
+void copy_words(std::span<const ColumnRecord> records, const Header& header, std::vector<std::int16_t>& words) {
+  constexpr std::size_t kTile = 32;  // [columns] 64 bytes of a row of `words`, one cache line
+  const auto follows = [&](const ColumnRecord& one, const ColumnRecord& next) {
+    return one.first_row == 0 && next.first_row == 0 && next.column == one.column + 1 &&
+           next.words == one.words + dted::record_bytes(header.rows);
+  };
+  while (!records.empty()) {
+    std::size_t count = 1;
+    while (count < std::min(kTile, records.size()) && follows(records[count - 1], records[count])) ++count;
+    copy_tile(records.first(count), header, words);
+    records = records.subspan(count);
   }
-  return defects;
 }
 
 // True if some word is too low a height in sign-magnitude. All words are then taken to be in two's complement.
-bool is_twos_complement(const std::vector<std::uint16_t>& words) {
-  // [m] below the deepest sea floor, so that real depths in sign-magnitude stay valid; docs/spec/formats.md#dted
-  constexpr std::int16_t kLowestSignMagnitude_m = -16000;
-  return std::any_of(words.begin(), words.end(), [](std::uint16_t word) {
-    return word != dted::kVoidWord && sign_magnitude(word) < kLowestSignMagnitude_m;
-  });
+bool is_twos_complement(const std::vector<std::int16_t>& words) {
+  // Depth [m] below the deepest sea floor, so that real depths in sign-magnitude stay valid; docs/spec/formats.md#dted
+  constexpr int kDeepestSignMagnitude_m = 16000;
+  std::int16_t highest = INT16_MIN;
+  for (const std::int16_t word : words) {
+    // Plus 1, a void wraps to 0. The change of the highest bit keeps the order of unsigned words in signed ones.
+    const unsigned next = (static_cast<std::uint16_t>(word) + 1U) ^ 0x8000U;
+    highest = std::max(highest, static_cast<std::int16_t>(next));
+  }
+  return highest > kDeepestSignMagnitude_m + 1;
 }
 
-std::vector<std::int16_t> decode(const std::vector<std::uint16_t>& words, bool twos_complement) {
-  std::vector<std::int16_t> posts(words.size());
-  std::transform(words.begin(), words.end(), posts.begin(), [twos_complement](std::uint16_t word) {
-    if (word == dted::kVoidWord) return kVoidPost;
-    if (!twos_complement) return sign_magnitude(word);
-    const auto height_m = static_cast<std::int16_t>(word);
-    return height_m <= -32767 ? kVoidPost : height_m;
-  });
-  return posts;
+// Replaces words by posts.
+void decode(std::vector<std::int16_t>& words, bool twos_complement) {
+  constexpr auto kVoidWord = static_cast<std::int16_t>(dted::kVoidWord);
+  for (std::int16_t& word : words) {
+    const std::int16_t height_m = twos_complement ? std::max(word, std::int16_t{-32767}) : sign_magnitude(word);
+    word = word == kVoidWord || height_m == -32767 ? kVoidPost : height_m;
+  }
 }
 
-std::vector<std::string> warnings_of(const ColumnDefects& defects, const Header& header, bool twos_complement) {
+std::vector<std::string> warnings_of(const Columns& found, const Header& header, bool twos_complement) {
   std::vector<std::string> warnings;
   const auto count = [&](const char* what, std::size_t number, const char* consequence) {
     if (number > 0) warnings.push_back(what + std::to_string(number) + consequence);
   };
-  count("columns with a wrong checksum: ", defects.wrong_sums, "; their heights are kept");
-  count("absent columns: ", static_cast<std::size_t>(header.columns) - defects.columns_read, "; they are void");
-  count("partial columns: ", defects.partial_columns, "; their missing posts are void");
+  count("columns with a wrong checksum: ", found.wrong_sums, "; their heights are kept");
+  count("absent columns: ", static_cast<std::size_t>(header.columns) - found.present, "; they are void");
+  count("partial columns: ", found.partial, "; their missing posts are void");
   if (twos_complement) warnings.emplace_back("negative heights are in two's complement, not in sign-magnitude");
   return warnings;
 }
@@ -231,25 +265,27 @@ error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const 
   if (data.empty())
     return error::fail(subject, std::to_string(header->columns) + " columns of posts", "a header alone",
                        "the file is truncated; fetch it again");
-  std::vector<std::uint16_t> words(static_cast<std::size_t>(header->rows) * static_cast<std::size_t>(header->columns),
-                                   dted::kVoidWord);
-  const error::Expected<ColumnDefects> defects = gather_words(data, *header, subject, words);
-  if (!defects) return tl::unexpected(defects.error());
-  const bool twos_complement = is_twos_complement(words);
-  std::vector<std::string> warnings = warnings_of(*defects, *header, twos_complement);
-  std::vector<std::int16_t> posts = decode(words, twos_complement);
+  const error::Expected<Columns> columns = find_columns(data, *header, subject);
+  if (!columns) return tl::unexpected(columns.error());
+  std::vector<std::int16_t>& posts = reading_buffers().posts;
+  posts.assign(static_cast<std::size_t>(header->rows) * static_cast<std::size_t>(header->columns),
+               static_cast<std::int16_t>(dted::kVoidWord));
+  copy_words(columns->records, *header, posts);
+  const bool twos_complement = is_twos_complement(posts);
+  std::vector<std::string> warnings = warnings_of(*columns, *header, twos_complement);
+  decode(posts, twos_complement);
   void_impossible_heights(posts, warnings);
   CellReading reading{Cell(corner, header->rows, header->columns, posts), std::nullopt, std::move(warnings)};
-  reading.damaged = defects->wrong_sums > 0;
+  reading.damaged = columns->wrong_sums > 0;
   return reading;
 }
 
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner) {
   // The size of a level 2 file that begins with eight labels. No file of level 0, 1 or 2 is larger.
   constexpr std::size_t kMaxFile_bytes = dted::kHeaderBytes + 3601 * dted::record_bytes(3601) + 8 * dted::kLabelBytes;
-  const auto bytes = read_file(path, kMaxFile_bytes);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return parse_dted(*bytes, path.string(), corner);
+  std::vector<std::byte>& bytes = reading_buffers().file;
+  if (const auto read = read_file(path, kMaxFile_bytes, bytes); !read) return tl::unexpected(read.error());
+  return parse_dted(bytes, path.string(), corner);
 }
 
 namespace {

@@ -42,19 +42,19 @@ error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const s
                            std::to_string(bytes_of(kPosts[1])) + " bytes",
                        std::to_string(bytes.size()) + " bytes", "the file is truncated or is not HGT; fetch it again");
   const auto side = static_cast<std::size_t>(posts);
-  std::vector<std::int16_t> heights(side * side);
+  std::vector<std::int16_t>& heights = reading_buffers().posts;
+  heights.resize(side * side);
   for (std::size_t row = 0; row < side; ++row)
-    for (std::size_t column = 0; column < side; ++column)
-      heights[(side - 1 - row) * side + column] = memory::big_endian<std::int16_t>(&bytes[2 * (row * side + column)]);
+    memory::copy_big_endian(&bytes[2 * row * side], std::span(heights).subspan((side - 1 - row) * side, side));
   std::vector<std::string> warnings;
   void_impossible_heights(heights, warnings);
   return CellReading{Cell(corner, posts, posts, heights), std::nullopt, std::move(warnings)};
 }
 
 error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellCorner corner) {
-  const auto bytes = read_file(path, kMaxHgt_bytes);
-  if (!bytes) return tl::unexpected(bytes.error());
-  return parse_hgt(*bytes, path.string(), corner);
+  std::vector<std::byte>& bytes = reading_buffers().file;
+  if (const auto read = read_file(path, kMaxHgt_bytes, bytes); !read) return tl::unexpected(read.error());
+  return parse_hgt(bytes, path.string(), corner);
 }
 
 namespace {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <future>
 #include <utility>
 
 #include "lib/geo/earth.hpp"
@@ -22,6 +23,10 @@ constexpr int kServesNoDetail = -1;  // detail of a view in which cells within t
 std::size_t bytes_of(const TerrainCell& cell) {
   return cell.heights->bytes() + (cell.peaks ? cell.peaks->bytes() : 0) + (cell.culture ? cell.culture->bytes() : 0);
 }
+
+struct FreeBuffers {
+  ~FreeBuffers() { free_reading_buffers(); }
+};
 }  // namespace
 
 int reduction_for(const CellFile& file, int detail) {
@@ -45,6 +50,7 @@ DirectoryTerrainStore::DirectoryTerrainStore(std::string folder, DirectoryIndex 
     : folder_(std::move(folder)), index_(std::move(index)), options_(options), problems_(std::move(problems)) {}
 
 TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& region, const Interim& interim) {
+  const FreeBuffers after_last_cell;
   ++prepares_;
   note_outside_coverage(region);
   bool changed = view_ == nullptr || !view_->has_detail(region.detail);
@@ -144,7 +150,13 @@ std::vector<std::string> DirectoryTerrainStore::take_problems() {
 
 bool DirectoryTerrainStore::load(Level level) {
   const CellFile& file = index_.at(level.first);
-  error::Expected<CellReading> reading = read_cell(file, corner_of_slot(level.first), level.second);
+  const CellCorner corner = corner_of_slot(level.first);
+  // Heights and culture are read at the same time. If no thread can be started, get() reads the culture.
+  std::future<error::Expected<Culture>> culture;
+  if (file.culture)
+    culture = std::async(std::launch::async | std::launch::deferred,
+                         [&path = *file.culture, corner] { return read_culture(path, corner); });
+  error::Expected<CellReading> reading = read_cell(file, corner, level.second);
   if (!reading) {
     problems_.push_back(reading.error().message() + "; the cell counts as void");
     unreadable_.insert(level.first);
@@ -153,17 +165,17 @@ bool DirectoryTerrainStore::load(Level level) {
     return false;
   }
   for (std::string& sentence : notes_.take_new(file.path, *reading)) problems_.push_back(std::move(sentence));
-  TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr, read_culture_of(level, file)};
+  TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr,
+                   culture.valid() ? usable(culture.get(), level) : nullptr};
   if (reading->peaks) cell.peaks = std::make_shared<const Cell>(std::move(*reading->peaks));
   resident_bytes_ += bytes_of(cell);
   resident_[level] = {std::move(cell), prepares_};
   return true;
 }
 
-// Culture of the cell at the reduction of `level`; null if the culture file is missing or cannot be read.
-std::shared_ptr<const Culture> DirectoryTerrainStore::read_culture_of(Level level, const CellFile& file) {
-  if (!file.culture) return nullptr;
-  const error::Expected<Culture> culture = read_culture(*file.culture, corner_of_slot(level.first));
+// The culture at the reduction of `level`; null, and a problem once for each cell, if its file cannot be read.
+std::shared_ptr<const Culture> DirectoryTerrainStore::usable(error::Expected<Culture> culture, Level level) {
+  if (culture && level.second == 0) return std::make_shared<const Culture>(std::move(*culture));
   if (culture) return std::make_shared<const Culture>(culture->reduced(level.second));
   if (unreadable_culture_.insert(level.first).second)
     problems_.push_back(culture.error().message() + "; the cell has no materials other than land and sea");

@@ -1,7 +1,8 @@
 // Terrain store of a folder of elevation files. It loads the cells of a region, and keeps cells up to a memory limit.
 // Input: a folder; regions (centre, radius [m], detail). Output: immutable views with ascending generation numbers.
 // Errors: open() has the errors of index_directory(). take_problems() returns later problems as sentences.
-// Threads: prepare() reads files and may wait. One thread at a time calls the store. Any thread may read a view.
+// Threads: prepare() reads files and may wait. While it reads heights, a second thread reads the culture of the cell.
+// One thread at a time calls the store. Any thread may read a view.
 #pragma once
 
 #include <cstdint>
@@ -69,7 +70,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   bool use_in_view(Level level);
   void use_substitute(Level level);
   bool load(Level level);
-  std::shared_ptr<const Culture> read_culture_of(Level level, const CellFile& file);
+  std::shared_ptr<const Culture> usable(error::Expected<Culture> culture, Level level);
   bool drop_least_recently_used();
   TerrainViewPointer make_view(int detail);
 

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <fstream>
 #include <limits>
 #include <new>
+#include <string>
+#include <vector>
 
 namespace yars::memory {
 namespace {
@@ -21,6 +24,23 @@ TEST(CacheAlignedVector, BeginsOnACacheLineAtAnySize) {
 TEST(CacheAlignedVector, BeginsOnALargePageWhenItIsLarge) {
   const CacheAlignedVector<float> numbers(1U << 20U);
   EXPECT_EQ(reinterpret_cast<std::uintptr_t>(numbers.data()) % (2U << 20U), 0U);
+}
+
+// [KiB] Resident memory of the process.
+long resident_kib() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with("VmRSS:")) return std::stol(line.substr(6));
+  return 0;
+}
+
+TEST(CacheAlignedVector, OccupiesNoLargePageForARest) {
+  constexpr std::size_t kBytes = (2U << 20U) + 1024U;
+  std::vector<CacheAlignedVector<char>> all;
+  all.reserve(16);
+  const long before_kib = resident_kib();
+  for (int i = 0; i < 16; ++i) all.emplace_back(kBytes, 'x');
+  EXPECT_LT(resident_kib() - before_kib, 16L * 3 * 1024) << "2 MiB each and a little, not 4 MiB";
 }
 
 TEST(CacheAlignedVector, ThrowsBadAllocIfMemoryIsTooSmall) {

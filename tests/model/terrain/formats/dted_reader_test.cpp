@@ -3,7 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <random>
+#include <vector>
 
 #include "model/terrain/formats/dted.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
@@ -108,6 +111,54 @@ TEST(DtedReader, AbsentColumnsAreVoid) {
   EXPECT_EQ(reading->cell.post(4, 2), kVoidPost);
   EXPECT_EQ(reading->cell.post(0, 3), 300);
   EXPECT_THAT(reading->warnings, ElementsAre(HasSubstr("absent columns: 2")));
+}
+
+TEST(DtedReader, ColumnsMayHaveAnyOrderAndTheLaterOfTwoIsUsed) {
+  test::DtedFile file = test::small_dted();
+  std::rotate(file.columns.begin(), file.columns.begin() + 3, file.columns.end());  // 3, 4, 0, 1, 2
+  file.columns.push_back(file.columns[1]);
+  file.columns.back().words = {9, 8, 7, 6, 5};
+  const auto reading = parse(file);
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  EXPECT_THAT(reading->warnings, IsEmpty());
+  for (int row = 0; row < 5; ++row) {
+    for (int column = 0; column < 4; ++column) EXPECT_EQ(reading->cell.post(row, column), 100 * column + row);
+    EXPECT_EQ(reading->cell.post(row, 4), 9 - row);
+  }
+}
+
+// The reader decodes in memory that it uses again for the next cell.
+TEST(DtedReader, NothingOfALargerCellIsLeftInASmallerOne) {
+  const std::vector<std::int16_t> heights(std::size_t{121} * 121, 77);
+  const std::vector<std::byte> large = dted_bytes(Cell({0, 10}, 121, 121, heights), 0);
+  ASSERT_TRUE(parse_dted(large, "large.dt0", {0, 10}).has_value());
+  test::DtedFile file = test::small_dted();
+  file.columns.pop_back();
+  const auto reading = parse(file);
+  ASSERT_TRUE(reading.has_value());
+  EXPECT_EQ(reading->cell.voids(), 5U);
+  EXPECT_EQ(reading->cell.highest_m(), 304);
+}
+
+TEST(DtedReader, EveryWordIsDecoded) {
+  const auto heights_of = [](std::uint16_t word, std::uint16_t other) {
+    test::DtedFile file = test::small_dted();
+    file.columns[1].words[2] = word;
+    file.columns[4].words[4] = other;
+    return parse(file)->cell.post(2, 1);
+  };
+  for (int word = 0; word <= 0xFFFF; word += 7) {
+    const auto code = static_cast<std::uint16_t>(word);
+    const int magnitude = word & 0x7FFF;
+    if (word <= 0x8000 + 16000) {
+      const int height_m = word < 0x8000 ? magnitude : -magnitude;
+      const bool possible = height_m >= -12000 && height_m <= 10000 && height_m != -9999;
+      EXPECT_EQ(heights_of(code, 0), possible ? height_m : kVoidPost) << word;
+    }
+    const auto height_m = static_cast<std::int16_t>(code);
+    const bool possible = height_m >= -12000 && height_m <= 10000 && height_m != -9999 && word != 0xFFFF;
+    EXPECT_EQ(heights_of(code, 0x8000 + 16001), possible ? height_m : kVoidPost) << word << " in two's complement";
+  }
 }
 
 TEST(DtedReader, APartialColumnOfFullLengthBeginsAtItsLatitudeIndex) {

@@ -2,7 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
@@ -16,6 +19,44 @@ using test::rough_cell;
 using test::same_posts;
 
 constexpr CellCorner kReducedCorner{50, 10};
+
+TEST(Cell, HasItsPostsInBlocksOfAnySizeOfGrid) {
+  for (int rows = 2; rows <= 8; ++rows)
+    for (int columns = 2; columns <= 24; ++columns) {
+      std::vector<std::int16_t> posts;
+      for (int i = 0; i < rows * columns; ++i) posts.push_back(static_cast<std::int16_t>(i - 20));
+      const Cell cell(kReducedCorner, rows, columns, posts);
+      ASSERT_EQ(cell.posts(), posts) << rows << " x " << columns;
+      const std::int16_t* entries = cell.blocks().data();
+      for (int row = 0; row + 1 < rows; ++row)
+        for (int column = 0; column + 1 < columns; ++column) {
+          const int block = row / 3 * cell.blocks().block_columns() + column / 7;
+          const std::int16_t* entry = entries + block * 32 + row % 3 * 8 + column % 7;
+          const std::array<int, 4> around = {entry[0], entry[1], entry[8], entry[9]};
+          const int post = row * columns + column - 20;
+          ASSERT_THAT(around, testing::ElementsAre(post, post + 1, post + columns, post + columns + 1));
+        }
+    }
+}
+
+TEST(Cell, CountsVoidsAndSeaAndKnowsItsExtremes) {
+  std::vector<std::int16_t> posts(std::size_t{3} * 11, 5);
+  posts[0] = posts[32] = kVoidPost;
+  posts[7] = posts[12] = posts[31] = 0;
+  const auto cell = [&] { return Cell(kReducedCorner, 3, 11, posts); };
+  EXPECT_EQ(cell().voids(), 2U);
+  EXPECT_EQ(cell().sea_posts(), 3U);
+  EXPECT_EQ(cell().lowest_m(), 0);
+  EXPECT_EQ(cell().highest_m(), 5);
+  posts[9] = -32767;
+  posts[25] = 32767;
+  EXPECT_EQ(cell().lowest_m(), -32767);
+  EXPECT_EQ(cell().highest_m(), 32767);
+  posts.assign(posts.size(), kVoidPost);
+  EXPECT_EQ(cell().voids(), posts.size());
+  EXPECT_EQ(cell().lowest_m(), 0);
+  EXPECT_EQ(cell().highest_m(), 0);
+}
 
 // Weight of a post in the mean of a coarse post, along one axis. `offset`: posts between the two. A post on the border
 // between two coarse posts has weight 0.5.

@@ -58,6 +58,14 @@ TEST(DirectoryStore, PrepareLoadsWhatTheRegionNeeds) {
   EXPECT_EQ(view->elevation_m(middle(100)), 0) << "a cell without a file is sea";
 }
 
+TEST(DirectoryStore, PrepareKeepsNoMemoryOfItsReaders) {
+  const test::TemporaryFolder folder;
+  write_cells(folder);
+  store_over(folder)->prepare({middle(20), kNear});
+  EXPECT_EQ(reading_buffers().file.capacity(), 0U);
+  EXPECT_EQ(reading_buffers().posts.capacity(), 0U);
+}
+
 TEST(DirectoryStore, AMissingCellIsVoidIfTheOptionForSeaIsOff) {
   const test::TemporaryFolder folder;
   write_cells(folder);
