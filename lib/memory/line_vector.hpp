@@ -1,8 +1,7 @@
 // std::vector whose data begin at the start of a cache line (64 bytes), so that no aligned SIMD load spans two lines.
 // An allocation of 2 MiB or more requests large memory pages (MADV_HUGEPAGE) for its whole multiples of 2 MiB; the rest
-// has small pages. With small pages, access along rows and
-// columns of an array of many MiB misses the TLB, the processor's cache of page addresses, more often than the data
-// cache.
+// has small pages. With small pages, access along rows and columns of an array of many MiB misses the TLB, the
+// processor's cache of page addresses, more often than the data cache.
 // Errors: std::bad_alloc. If large pages are not available, small pages are used.
 #pragma once
 
