@@ -277,7 +277,13 @@ std::vector<SlotSchema> map_fidelity_slots() {
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.map_noise)},
        .purpose = "random fraction of the brightness of patch maps of algorithm report-1996"},
       flag("mapSmoothGround", YARS_FIELD(radar.fidelity.map_smooth_ground),
-           "true: ground of patch maps is smooth between posts more than three pixels apart; false: facets")};
+           "true: ground of patch maps is smooth between posts more than three pixels apart; false: facets"),
+      // Of sweeps. A slot keeps its position, so a new one is the last.
+      {.name = "sweepsPerRay",
+       .lowest = 1,
+       .highest = radar::kMaxSweepsPerRay,
+       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.sweeps_per_ray)},
+       .purpose = "successive sweeps that share the power of one ray; 1 = a ray for each sweep"}};
 }
 
 std::vector<SlotSchema> receiver_slots() {

@@ -25,14 +25,14 @@ Fidelity of_1996() {
   return fidelity;
 }
 
-// Preset for a slow machine or many radars: half the samples of `standard`, no smear, spherical earth.
+// Preset for a slow machine or many radars: half the rays of `standard` with half the samples, no pulse smear,
+// spherical earth.
 Fidelity draft() {
   Fidelity fidelity;
   fidelity.earth = EarthModel::sphere;
-  fidelity.geodesic_knots = 3;
   fidelity.posts_per_sample = 20.0;
   fidelity.samples = 240;
-  fidelity.azimuth_smear = false;
+  fidelity.sweeps_per_ray = 2;
   fidelity.pulse_smear = false;
   fidelity.map_response = false;
   fidelity.map_detail = false;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "lib/radar/fidelity.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/physics/receiver.hpp"
@@ -20,6 +21,7 @@ OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanR
       seed_(parameters.seed),
       gain_(request.gain),
       samples_(rbm::sample_count(parameters)),
+      sweeps_per_ray_(static_cast<std::size_t>(parameters.fidelity.sweeps_per_ray)),
       to_measure_(workers_.threads()),
       to_form_(workers_.threads()) {
   position_sweeps(parameters, request);
@@ -31,7 +33,7 @@ OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanR
   jamming_.assign(positions_.size(), 0.0);
   power_.assign(positions_.size() * samples_, 0.0F);
   sweeps_.resize(positions_.size());
-  ready_ = std::vector<std::atomic<std::uint8_t>>(std::max(positions_.size() / kSweepsPerPiece, std::size_t{1}));
+  ready_ = std::vector<std::atomic<std::uint8_t>>(std::max(rays() * sweeps_per_ray_ / kSweepsPerPiece, std::size_t{1}));
 }
 
 void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, const ScanRequest& request) {
@@ -50,9 +52,14 @@ void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, co
 // The assignment of sweeps to threads does not change results, because each sweep is measured from the inputs alone.
 void OfflineScan::measure_piece(std::size_t piece, std::size_t thread, const physics::Environment& environment) {
   for (std::size_t sweep = first_of(piece); sweep < first_of(piece + 1); ++sweep) {
-    const physics::SweepGeometry geometry = geometry_of(positions_[sweep]);
-    const std::size_t pending = algorithms_[thread]->measure(geometry, environment, power_of(sweep));
-    jamming_[sweep] = strobes_[thread].level(geometry, environment.terrain);
+    jamming_[sweep] = strobes_[thread].level(geometry_of(positions_[sweep]), environment.terrain);
+    if (sweep % sweeps_per_ray_ > 0) {
+      std::copy_n(power_of(sweep - 1).begin(), samples_, power_of(sweep).begin());
+      flags_[sweep] = flags_[sweep - 1];
+      continue;
+    }
+    const physics::SweepGeometry ray = shared_ray(positions_, sweep, static_cast<int>(sweeps_per_ray_));
+    const std::size_t pending = algorithms_[thread]->measure(ray, environment, power_of(sweep));
     flags_[sweep] = pending > 0 || !environment.scenes_ready ? databuffer::kSweepNotReady : 0U;
   }
 }

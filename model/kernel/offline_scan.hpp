@@ -54,8 +54,12 @@ class OfflineScan {
  private:
   std::span<float> power_of(std::size_t sweep) { return {power_.data() + sweep * samples_, samples_}; }
   // A piece is a number of successive sweeps that one thread measures or forms at a time.
-  // First sweep of a piece. The first sweep of the piece `pieces()` is the number of sweeps.
-  std::size_t first_of(std::size_t piece) const { return piece * positions_.size() / pieces(); }
+  // First sweep of a piece. The first sweep of the piece `pieces()` is the number of sweeps. Sweeps that share a ray
+  // belong to one piece.
+  std::size_t first_of(std::size_t piece) const {
+    return piece == pieces() ? positions_.size() : piece * rays() / pieces() * sweeps_per_ray_;
+  }
+  std::size_t rays() const { return (positions_.size() + sweeps_per_ray_ - 1) / sweeps_per_ray_; }
   std::size_t pieces() const { return ready_.size(); }
   void measure_piece(std::size_t piece, std::size_t thread, const physics::Environment& environment);
   void form_if_ready(std::size_t piece, std::size_t thread);
@@ -66,6 +70,7 @@ class OfflineScan {
   std::uint64_t seed_;
   int gain_;
   std::size_t samples_;
+  std::size_t sweeps_per_ray_;
   std::vector<std::unique_ptr<rbm::Algorithm>> algorithms_;  // one per thread
   std::vector<rbm::Strobes> strobes_;                        // one per thread
   std::vector<SweepHeader> positions_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <span>
 
+#include "lib/radar/fidelity.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/rbm/sub_beams.hpp"
 
@@ -27,10 +28,11 @@ void write_header(const SweepHeader& header, databuffer::Sweep& sweep) {
   sweep.direction = header.direction > 0 ? 1 : 0;
 }
 
-physics::SweepGeometry geometry_of(const SweepHeader& header) {
+physics::SweepGeometry geometry_of(const SweepHeader& header, int sweeps) {
   const geo::Angle width = header.right - header.left;
+  const double from_left = 0.5 + 0.5 * (sweeps - 1) * header.direction;  // [wedges]
   physics::SweepGeometry geometry{
-      header.apex,      header.altitude, header.beam_azimuth.value_or(header.left + 0.5 * width),
+      header.apex,      header.altitude, header.beam_azimuth.value_or(header.left + from_left * width),
       header.elevation, header.range,    header.sim_time,
       header.band,      header.channel};
   geometry.bars_above = header.bars_above;
@@ -41,6 +43,10 @@ physics::SweepGeometry geometry_of(const SweepHeader& header) {
     geometry.slice.sharpened = true;
   }
   return geometry;
+}
+
+physics::SweepGeometry shared_ray(std::span<const SweepHeader> pass, std::size_t sweep, int sweeps_per_ray) {
+  return geometry_of(pass[sweep - sweep % static_cast<std::size_t>(sweeps_per_ray)], sweeps_per_ray);
 }
 
 std::uint64_t sweep_hash(const databuffer::Sweep& sweep) {
@@ -65,6 +71,7 @@ constexpr std::uint32_t kNoEchoFlags = databuffer::kSweepBlank | databuffer::kSw
 SweepChain::SweepChain(const physics::RadarParameters& parameters)
     : seed_(parameters.seed),
       samples_(rbm::sample_count(parameters)),
+      sweeps_per_ray_(static_cast<std::uint32_t>(parameters.fidelity.sweeps_per_ray)),
       algorithm_(rbm::make_algorithm(parameters)),
       strobes_(parameters),
       beacons_(parameters) {
@@ -88,16 +95,33 @@ void SweepChain::receive(Measured& measured, const physics::Environment& environ
   const Labels& labels = measured.labels;
   const physics::SweepGeometry geometry = geometry_of(measured.header);
   const bool blank = (labels.flags & databuffer::kSweepBlank) != 0U;
+  measured.echo = false;
   measured.jamming = blank ? 0.0 : strobes_.level(geometry, environment.terrain);
   if ((labels.flags & kNoEchoFlags) != 0U || labels.no_return) {
     std::fill(measured.power.begin(), measured.power.end(), 0.0F);
   } else if (labels.mode == static_cast<std::uint8_t>(radar::Mode::beacon)) {
     beacons_.measure(geometry, environment.terrain, measured.power);
   } else {
-    const std::size_t pending = algorithm_->measure(geometry, environment, measured.power);
-    posts_pending_ += pending;
-    if (pending > 0) measured.labels.flags |= databuffer::kSweepNotReady;
+    measure_ray(measured, environment);
   }
+}
+
+// The number of a sweep says which of the sweeps that share a ray it is. If the pass has no ray yet, or the range or
+// the mode is another one, the sweep begins with a ray for itself and the rest of them.
+void SweepChain::measure_ray(Measured& measured, const physics::Environment& environment) {
+  measured.echo = true;
+  const std::uint32_t place = measured.labels.number % sweeps_per_ray_;
+  const Measured& before = newest(1);
+  if (place > 0 && held_ > 0 && before.echo && before.header.range == measured.header.range &&
+      before.labels.mode == measured.labels.mode) {
+    std::copy(before.power.begin(), before.power.end(), measured.power.begin());
+    measured.labels.flags |= before.labels.flags & databuffer::kSweepNotReady;
+    return;
+  }
+  const int sweeps = static_cast<int>(sweeps_per_ray_ - place);
+  const std::size_t pending = algorithm_->measure(geometry_of(measured.header, sweeps), environment, measured.power);
+  posts_pending_ += pending;
+  if (pending > 0) measured.labels.flags |= databuffer::kSweepNotReady;
 }
 
 bool SweepChain::flush(databuffer::Sweep& sweep) {

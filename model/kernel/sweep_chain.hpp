@@ -49,8 +49,13 @@ inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
 
 void write_header(const SweepHeader& header, databuffer::Sweep& sweep);
 
-// Ray geometry of a sweep. The azimuth is `beam_azimuth`, or else the middle of the wedge.
-physics::SweepGeometry geometry_of(const SweepHeader& header);
+// Ray geometry of a sweep. The azimuth is `beam_azimuth`, or else the middle of the wedge. A ray of more than one sweep
+// (Fidelity::sweeps_per_ray) goes through the middle of the wedges from this one on in the antenna's direction. All are
+// taken to be as wide as this one.
+physics::SweepGeometry geometry_of(const SweepHeader& header, int sweeps = 1);
+
+// The ray of sweep `sweep` of a pass, which it may share with others of the pass.
+physics::SweepGeometry shared_ray(std::span<const SweepHeader> pass, std::size_t sweep, int sweeps_per_ray);
 
 // XXH3 64 over apex, altitude, edges, ground track, antenna elevation and range. The result seeds XXH3 64 over the
 // video samples in use.
@@ -95,15 +100,18 @@ class SweepChain {
   struct Measured {
     SweepHeader header;
     Labels labels;
+    bool echo = false;     // the power is that of a ray
     double jamming = 0.0;  // received jamming power, equal in all samples; full scale = 1
     memory::CacheAlignedVector<float> power;
   };
   void receive(Measured& measured, const physics::Environment& environment);
+  void measure_ray(Measured& measured, const physics::Environment& environment);
   void finish(const Measured& before, const Measured& centre, const Measured& after, databuffer::Sweep& sweep);
   Measured& newest(std::size_t age) { return measured_[(next_ + measured_.size() - 1 - age) % measured_.size()]; }
 
   std::uint64_t seed_;
   std::size_t samples_;
+  std::uint32_t sweeps_per_ray_;
   std::unique_ptr<rbm::Algorithm> algorithm_;
   rbm::Strobes strobes_;
   rbm::Beacons beacons_;

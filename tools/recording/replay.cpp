@@ -40,6 +40,13 @@ void Comparison::match(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash
 namespace {
 // Number of sweeps after a start that are not compared, because their azimuth smear needs sweeps from before the start.
 constexpr std::uint64_t kSmearMemory = 2;
+
+// Number of sweeps after a start that are not compared: those with smear from before the start, and those that share a
+// ray of before the start.
+std::uint64_t skipped_sweeps(const radar::Fidelity& fidelity) {
+  const int sharing = fidelity.automatic ? radar::kMaxSweepsPerRay : fidelity.sweeps_per_ray;
+  return kSmearMemory + static_cast<std::uint64_t>(sharing) - 1;
+}
 }  // namespace
 
 Replay::Replay(const radar::RadarConfiguration& configuration, model::terrain::TerrainStore& store,
@@ -54,7 +61,7 @@ void Replay::start(const StartingPoint& point) {
   kernel_ = model::kernel::RadarKernel(*configuration_);
   kernel_.resume(point.status);
   last_ = before_last_ = point.status;
-  skip_sweeps_ = kSmearMemory;
+  skip_sweeps_ = skipped_sweeps(configuration_->fidelity);
 }
 
 const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {

@@ -61,8 +61,8 @@ std::vector<RaySample> ray_samples(const RadarConfiguration& given,
   std::vector<std::uint8_t> lit(count);
   std::vector<RaySample> samples;
   samples.reserve(positions.size() * count);
-  for (const model::kernel::SweepHeader& header : positions) {
-    SweepGeometry geometry = model::kernel::geometry_of(header);
+  for (std::size_t sweep = 0; sweep < positions.size(); ++sweep) {
+    SweepGeometry geometry = model::kernel::shared_ray(positions, sweep, configuration.fidelity.sweeps_per_ray);
     geometry.elevation = geo::Angle();
     algorithm->measure(geometry, terrain, power);
     algorithm->lit(lit);
@@ -93,7 +93,8 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
   model::physics::PositionArrays positions(model::rbm::sample_count(configuration));
   double worst_m = 0.0;
   for (std::size_t sweep = 0; sweep < scan.headers().size(); sweep += kStep) {
-    const SweepGeometry geometry = model::kernel::geometry_of(scan.headers()[sweep]);
+    const SweepGeometry geometry =
+        model::kernel::shared_ray(scan.headers(), sweep, configuration.fidelity.sweeps_per_ray);
     std::vector<double> exact_m(positions.count);
     const auto earth = model::physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth);
     model::physics::sample_distances(configuration.fidelity, earth, geometry, terrain, exact_m);

@@ -52,6 +52,16 @@ TEST(Determinism, AnyNumberOfThreadsGivesTheSameHashes) {
   }
 }
 
+TEST(Determinism, SweepsThatShareARayHaveTheSameHashesForAnyNumberOfThreads) {
+  for (int sharing = 2; sharing <= radar::kMaxSweepsPerRay; ++sharing) {
+    auto configuration = with(radar::Algorithm::standard, 137);
+    configuration.fidelity.sweeps_per_ray = sharing;
+    const auto alone = hashes(configuration, 1);
+    ASSERT_EQ(alone.size(), 182U);
+    for (const int threads : {2, 3, 8, 200}) EXPECT_EQ(hashes(configuration, threads), alone) << sharing << threads;
+  }
+}
+
 TEST(Determinism, ThreadsThatStealPiecesGiveTheSameHashesInEveryRun) {
   const auto configuration = with(radar::Algorithm::standard, 37);
   const auto alone = hashes(configuration, 1);

@@ -21,8 +21,10 @@ model::terrain::TerrainViewPointer hills() {
 class Recorded {
  public:
   // Scene stores of the model (`live`) and of the replay (`replayed`).
-  explicit Recorded(model::scene::SceneStore* live = nullptr, model::scene::SceneStore* replayed = nullptr)
-      : cockpit_(configuration_, model::terrain::built_in_hills()),
+  explicit Recorded(model::scene::SceneStore* live = nullptr, model::scene::SceneStore* replayed = nullptr,
+                    const radar::RadarConfiguration& configuration = {})
+      : configuration_(configuration),
+        cockpit_(configuration_, model::terrain::built_in_hills()),
         store_(hills()),
         replay_(configuration_, store_, replayed) {
     // The live view has more scenes than the scan needs.
@@ -39,6 +41,14 @@ class Recorded {
       status_ = cockpit_.status();
       cockpit_.tick.flags &= ~databuffer::kTickRestart;
     }
+  }
+  // Runs the model without a recorder, which then begins with the model's status.
+  void run_before_the_recorder(int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      cockpit_.step();
+      cockpit_.tick.flags &= ~databuffer::kTickRestart;
+    }
+    replay_.start({cockpit_.status()});
   }
   // Kills the model after it has published the next tick, and before its status. `swept`: the sweep is published, too.
   void kill_inside_tick(bool swept) {
@@ -120,6 +130,23 @@ TEST(Replay, ContinuesWithTheStatusFromWhichARestartedModelResumed) {
     EXPECT_EQ(recorded.comparison().missing(), 0U);
     EXPECT_LE(recorded.comparison().extra(), 1U);  // sweep of the unfinished tick
   }
+}
+
+TEST(Replay, ComputesSweepsThatShareARayWhereverTheRecordingBegins) {
+  for (int sharing = 1; sharing <= radar::kMaxSweepsPerRay; ++sharing)
+    for (int before = 400; before < 404; ++before) {
+      SCOPED_TRACE(std::to_string(sharing) + " sweeps a ray, " + std::to_string(before) + " ticks before");
+      radar::RadarConfiguration configuration;
+      configuration.fidelity.sweeps_per_ray = sharing;
+      Recorded recorded(nullptr, nullptr, configuration);
+      recorded.run_before_the_recorder(before);
+      recorded.run(100);
+      recorded.restart();
+      recorded.run(300);
+      EXPECT_GT(recorded.comparison().equal(), 300U);
+      EXPECT_EQ(recorded.comparison().different(), 0U);
+      EXPECT_EQ(recorded.comparison().missing(), 0U);
+    }
 }
 
 TEST(Replay, ComputesTheSweepsAfterAVelocityUpdateThoughTheModelWasRestartedDuringIt) {
