@@ -82,99 +82,124 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth) {
 }
 
 namespace {
-using Coefficients = GeodesicSeries::Coefficients;
-
 constexpr double kTruncationTarget_m = 5e-4;  // [m] bound on the first omitted term: half of the permitted 1 mm
 
 // Element k is 1 / k; element 0 is unused. Multiplication by 1 / k is faster than division by k.
 constexpr std::array<double, GeodesicSeries::kMaxOrder + 1> kInverse{
     0.0, 1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 4.0, 1.0 / 5.0, 1.0 / 6.0, 1.0 / 7.0, 1.0 / 8.0};
 
-// Coefficient k of the product of the series `a` and `b`.
-double product(const Coefficients& a, const Coefficients& b, std::size_t k) {
-  double sum = 0.0;
-  for (std::size_t j = 0; j <= k; ++j) sum += a[j] * b[k - j];
+// Polynomial in the cosine n of the azimuth, with every second power: entry i belongs to n^(degree - 2 i).
+using Polynomial = std::array<double, GeodesicSeries::kMaxOrder / 2 + 1>;
+
+Polynomial operator*(double factor, Polynomial polynomial) {
+  for (double& entry : polynomial) entry *= factor;
+  return polynomial;
+}
+
+// Power series in the distance. The degree of coefficient k is k + extra_degree.
+struct PowerSeries {
+  std::size_t extra_degree = 0;
+  std::array<Polynomial, GeodesicSeries::kMaxOrder + 1> at{};
+
+  Polynomial& operator[](std::size_t k) { return at[k]; }
+  const Polynomial& operator[](std::size_t k) const { return at[k]; }
+  std::size_t last_entry(std::size_t k) const { return (k + extra_degree) / 2; }
+};
+
+// Adds `factor` times the product of coefficient j of `a` and coefficient k of `b`.
+void add_product(double factor, const PowerSeries& a, std::size_t j, const PowerSeries& b, std::size_t k,
+                 Polynomial& sum) {
+  for (std::size_t i = 0; i <= a.last_entry(j); ++i)
+    for (std::size_t l = 0; l <= b.last_entry(k); ++l) sum[i + l] += factor * a[j][i] * b[k][l];
+}
+
+// Coefficient k of the product of two series, without the terms of the first `skipped` coefficients of `a`.
+Polynomial product(const PowerSeries& a, const PowerSeries& b, std::size_t k, std::size_t skipped = 0) {
+  Polynomial sum{};
+  for (std::size_t j = skipped; j <= k; ++j) add_product(1.0, a, j, b, k - j, sum);
   return sum;
 }
 
-// Like product(), but without the term a[0] * b[k].
-double product_after_first(const Coefficients& a, const Coefficients& b, std::size_t k) {
-  double sum = 0.0;
-  for (std::size_t j = 1; j <= k; ++j) sum += a[j] * b[k - j];
-  return sum;
-}
-
-// Initial values of a geodesic on the auxiliary sphere of Karney 2013. beta: reduced latitude.
+// Initial values of the geodesics on the auxiliary sphere of Karney 2013. beta: reduced latitude.
 struct Start {
-  double squared_axes;           // (b / a)^2, with semi-axes a and b of the ellipsoid
-  double sin_beta, north, east;  // north, east: cos(beta) times cosine and sine of the azimuth
+  double squared_axes;  // (b / a)^2, with semi-axes a and b of the ellipsoid
+  double sin_beta, cos_beta;
   double cos_latitude;
 };
 
-Start start_of(double latitude_deg, Bearing azimuth) {
+Start start_of(double latitude_deg) {
   const double axis_ratio = 1.0 - GeographicLib::Constants::WGS84_f();
   const double latitude_rad = latitude_deg * kRadiansPerDegree;
   const double scaled_sine = axis_ratio * std::sin(latitude_rad);
   const double scaled_cosine = std::cos(latitude_rad);
   const double inverse = 1.0 / std::sqrt(scaled_sine * scaled_sine + scaled_cosine * scaled_cosine);
-  const double azimuth_rad = azimuth.radians();
-  return {axis_ratio * axis_ratio, scaled_sine * inverse, scaled_cosine * inverse * std::cos(azimuth_rad),
-          scaled_cosine * inverse * std::sin(azimuth_rad), scaled_cosine};
+  return {axis_ratio * axis_ratio, scaled_sine * inverse, scaled_cosine * inverse, scaled_cosine};
 }
 
-// Power series in the distance s [equatorial radii]: longitude [rad], and sine of the geodetic latitude.
+// Power series in the distance s [equatorial radii]: longitude [rad] over the sine of the azimuth, and sine of the
+// geodetic latitude. The degree of the longitude's coefficient k is k - 1.
 // Definitions: z = sin(beta), p = cos(beta) cos(azimuth), W^2 = 1 - e^2 cos^2(beta), ds = W dsigma. e: eccentricity;
 // sigma: arc on the auxiliary sphere. `inverse_w` is 1 / W.
 // Derivatives by s: z' = p / W, p' = -z / W, longitude' = east / cos^2(beta), because east = cos(beta) sin(azimuth) is
 // constant (Clairaut). Output: sin(latitude) = z / W.
 // Source: Karney 2013, eqs. 5-10.
 struct Path {
-  Coefficients sin_latitude{}, longitude{};
+  PowerSeries sin_latitude;
+  std::array<Polynomial, GeodesicSeries::kMaxOrder + 1> longitude{};
 };
 
 Path path_from(const Start& start, std::size_t order) {
   const double e_squared = 1.0 - start.squared_axes;
   Path path;
-  Coefficients z{}, p{}, w_squared{}, inverse_w{}, cosine_squared{}, inverse_cosine{};
-  z[0] = start.sin_beta;
-  p[0] = start.north;
+  PowerSeries z, p{1, {}}, w_squared, inverse_w, cosine_squared, inverse_cosine;
+  z[0][0] = start.sin_beta;
+  p[0][0] = start.cos_beta;
+  w_squared[0][0] = start.squared_axes + e_squared * start.sin_beta * start.sin_beta;
+  cosine_squared[0][0] = start.cos_beta * start.cos_beta;
+  inverse_w[0][0] = 1.0 / std::sqrt(w_squared[0][0]);
+  inverse_cosine[0][0] = 1.0 / cosine_squared[0][0];
   for (std::size_t k = 0; k <= order; ++k) {
-    const double square = product(z, z, k);
-    if (k == 0) {
-      w_squared[0] = start.squared_axes + e_squared * square;
-      cosine_squared[0] = start.north * start.north + start.east * start.east;
-      inverse_w[0] = 1.0 / std::sqrt(w_squared[0]);
-      inverse_cosine[0] = 1.0 / cosine_squared[0];
-    } else {
+    if (k > 0) {
+      const Polynomial square = product(z, z, k);
       w_squared[k] = e_squared * square;
-      cosine_squared[k] = -square;
+      cosine_squared[k] = -1.0 * square;
       // Recurrence from the identity 2 W^2 (1/W)' = -(W^2)' (1/W).
-      double sum = 0.0;
-      for (std::size_t j = 1; j <= k; ++j) sum += static_cast<double>(2 * k - j) * w_squared[j] * inverse_w[k - j];
-      inverse_w[k] = -0.5 * kInverse[k] * inverse_w[0] * inverse_w[0] * sum;
-      inverse_cosine[k] = -inverse_cosine[0] * product_after_first(cosine_squared, inverse_cosine, k);
+      Polynomial sum{};
+      for (std::size_t j = 1; j <= k; ++j)
+        add_product(static_cast<double>(2 * k - j), w_squared, j, inverse_w, k - j, sum);
+      inverse_w[k] = -0.5 * kInverse[k] * inverse_w[0][0] * inverse_w[0][0] * sum;
+      inverse_cosine[k] = -inverse_cosine[0][0] * product(cosine_squared, inverse_cosine, k, 1);
     }
     path.sin_latitude[k] = product(z, inverse_w, k);
     if (k == order) break;
     z[k + 1] = kInverse[k + 1] * product(p, inverse_w, k);
-    p[k + 1] = -kInverse[k + 1] * path.sin_latitude[k];
-    path.longitude[k + 1] = kInverse[k + 1] * start.east * inverse_cosine[k];
+    // The degree of p's coefficient is greater by 2, so the entries move by one.
+    for (std::size_t i = 0; i <= k / 2; ++i) p[k + 1][i + 1] = -kInverse[k + 1] * path.sin_latitude[k][i];
+    path.longitude[k + 1] = kInverse[k + 1] * start.cos_beta * inverse_cosine[k];
   }
   return path;
 }
 
 // Power series of the arcsine of the power series `sine`, without the constant term. `first_cosine`: cosine at s = 0.
 // Recurrence: sine' = cosine * angle', cosine' = -sine * angle'; `slope` is angle'.
-Coefficients arcsine(const Coefficients& sine, double first_cosine, std::size_t order) {
-  Coefficients angle{}, slope{}, cosine{};
-  cosine[0] = first_cosine;
+PowerSeries arcsine(const PowerSeries& sine, double first_cosine, std::size_t order) {
+  PowerSeries angle, slope{1, {}}, cosine;
+  cosine[0][0] = first_cosine;
   const double inverse = 1.0 / first_cosine;
   for (std::size_t k = 0; k < order; ++k) {
-    slope[k] = inverse * (static_cast<double>(k + 1) * sine[k + 1] - product_after_first(cosine, slope, k));
+    slope[k] = inverse * static_cast<double>(k + 1) * sine[k + 1];
+    for (std::size_t j = 1; j <= k; ++j) add_product(-inverse, cosine, j, slope, k - j, slope[k]);
     cosine[k + 1] = -kInverse[k + 1] * product(sine, slope, k);
     angle[k + 1] = kInverse[k + 1] * slope[k];
   }
   return angle;
+}
+
+// Value of a polynomial of `degree`. `square`: of the cosine.
+double value_of(const Polynomial& polynomial, std::size_t degree, double cosine, double square) {
+  double value = polynomial[0];
+  for (std::size_t i = 1; i <= degree / 2; ++i) value = value * square + polynomial[i];
+  return degree % 2 == 1 ? value * cosine : value;
 }
 }  // namespace
 
@@ -191,20 +216,29 @@ int GeodesicSeries::order_for(double latitude_deg, Length range) {
   return 0;
 }
 
-GeodesicSeries::GeodesicSeries(GeoPoint start, Bearing azimuth, int given_order) : order(given_order) {
+GeodesicFan::GeodesicFan(GeoPoint start, int order) : start_(start), order_(order) {
   const auto terms = static_cast<std::size_t>(order);
-  const Start begin = start_of(start.latitude_deg, azimuth);
+  const Start begin = start_of(start.latitude_deg);
   const Path path = path_from(begin, terms);
-  const Coefficients latitude = arcsine(path.sin_latitude, begin.cos_latitude, terms);
-  latitude_deg[0] = start.latitude_deg;
-  longitude_deg[0] = start.longitude_deg;
+  const PowerSeries latitude = arcsine(path.sin_latitude, begin.cos_latitude, terms);
   const double per_metre = 1.0 / GeographicLib::Constants::WGS84_a();
   double unit = 1.0 / kRadiansPerDegree;
   for (std::size_t k = 1; k <= terms; ++k) {
     unit *= per_metre;
-    latitude_deg[k] = latitude[k] * unit;
-    longitude_deg[k] = path.longitude[k] * unit;
+    latitude_deg_[k] = unit * latitude[k];
+    longitude_deg_[k] = unit * path.longitude[k];
   }
+}
+
+GeodesicSeries GeodesicFan::series(Bearing azimuth) const {
+  const double cosine = std::cos(azimuth.radians()), sine = std::sin(azimuth.radians());
+  const double square = cosine * cosine;
+  GeodesicSeries series{order_, {start_.latitude_deg}, {start_.longitude_deg}};
+  for (std::size_t k = 1; k <= static_cast<std::size_t>(order_); ++k) {
+    series.latitude_deg[k] = value_of(latitude_deg_[k], k, cosine, square);
+    series.longitude_deg[k] = sine * value_of(longitude_deg_[k], k - 1, cosine, square);
+  }
+  return series;
 }
 
 PlanePoint AzimuthalEquidistant::plane_from_geodetic(GeoPoint point) const {

@@ -20,6 +20,8 @@ namespace yars::geo {
 struct GeoPoint {
   double latitude_deg = 0.0;
   double longitude_deg = 0.0;
+
+  friend bool operator==(const GeoPoint&, const GeoPoint&) = default;
 };
 
 // Distance between two positions, and the azimuth of the geodesic at each. Both azimuths are those of travel
@@ -62,7 +64,6 @@ Length radius_of_curvature(double latitude_deg, Bearing azimuth);
 
 // Short geodesic: latitude and longitude as Taylor polynomials in the distance from the start.
 // Accuracy: within 1 mm of GeodesicRay up to the range given to order_for() (tests/lib/geo/geodesic_series_test.cpp).
-// Cost: tens of nanoseconds for a position; GeodesicRay takes hundreds.
 // Limit: the series diverges at ranges beyond the distance to the nearer pole. Ranges must be much shorter than this
 // distance.
 struct GeodesicSeries {
@@ -71,15 +72,32 @@ struct GeodesicSeries {
   // The lowest order with an error of at most 1 mm up to `range`, for every azimuth. 0 if kMaxOrder does not suffice.
   static int order_for(double latitude_deg, Length range);
 
-  // `order` is in [1, kMaxOrder]. `start` must not be a pole.
-  GeodesicSeries(GeoPoint start, Bearing azimuth, int order);
-
   // Coefficient k [deg/m^k] belongs to power k of the distance [m], k from 0 to `order`. The longitude is not wrapped
   // at the antimeridian.
   using Coefficients = std::array<double, kMaxOrder + 1>;
   int order;
   Coefficients latitude_deg{};
   Coefficients longitude_deg{};
+};
+
+// The short geodesics from one start in all directions. Their Taylor coefficients are polynomials in the cosine of the
+// azimuth, those of longitude times its sine.
+// Cost: up to half a microsecond for a start, tens of nanoseconds for a direction. GeodesicRay takes hundreds for each.
+class GeodesicFan {
+ public:
+  // `order` is in [1, GeodesicSeries::kMaxOrder]. `start` must not be a pole.
+  GeodesicFan(GeoPoint start, int order);
+
+  GeoPoint start() const { return start_; }
+  int order() const { return order_; }
+  GeodesicSeries series(Bearing azimuth) const;
+
+ private:
+  // Entry i belongs to power (degree - 2 i) of the cosine. The degree is k in latitude and k - 1 in longitude.
+  using Coefficient = std::array<double, GeodesicSeries::kMaxOrder / 2 + 1>;
+  GeoPoint start_;
+  int order_;
+  std::array<Coefficient, GeodesicSeries::kMaxOrder + 1> latitude_deg_{}, longitude_deg_{};
 };
 
 // Point of a plane, in metres along its x and y axis.

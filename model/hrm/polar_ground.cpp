@@ -173,8 +173,7 @@ std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometr
   float* height_m = &strip_height_[lane * pitch_];
   float* gamma = &strip_gamma_[lane * pitch_];
   const geo::Length range = geo::Length::metres(static_cast<double>(column.distance_m[rows - 1]));
-  physics::sample_positions(geometry.apex(), azimuth, range, geodesic_knots_, column.distance_m.data(),
-                            column.positions);
+  column.sampler.sample(geometry.apex(), azimuth, range, geodesic_knots_, column.distance_m.data(), column.positions);
   const terrain::SurfaceRun found{
       {height_m, rows},
       {column.water.data(), rows},
@@ -201,8 +200,8 @@ std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGri
                                    const terrain::TerrainView& view, float& horizon) {
   Column& column = *path_;
   const std::size_t samples = column.positions.count;
-  physics::sample_positions(geometry.apex(), azimuth, geo::Length::metres(grid.first_distance_m), geodesic_knots_,
-                            column.distance_m.data(), column.positions);
+  column.sampler.sample(geometry.apex(), azimuth, geo::Length::metres(grid.first_distance_m), geodesic_knots_,
+                        column.distance_m.data(), column.positions);
   const bool peaks = view.has_peaks();
   const terrain::SurfaceRun found{{column.elevation_m.data(), samples},
                                   {column.water.data(), samples},

@@ -67,6 +67,7 @@ class PolarGround {
   // Buffers for one column of the grid or of the path, with `samples` samples.
   struct Column {
     explicit Column(std::size_t samples);
+    physics::PositionSampler sampler;
     physics::PositionArrays positions;
     std::vector<float> distance_m, elevation_m, water, peak_m, crest;
   };

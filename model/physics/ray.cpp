@@ -177,12 +177,13 @@ void sample_by_knots(geo::GeoPoint apex, const geo::GeodesicRay& ray, geo::Lengt
 }
 }  // namespace
 
-void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
-                      PositionArrays& positions) {
+void PositionSampler::sample(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots,
+                             const float* distance_m, PositionArrays& positions) {
   positions.corner = terrain::cell_containing(apex);
   const int order = knots >= kSeriesKnots ? geo::GeodesicSeries::order_for(apex.latitude_deg, range) : 0;
   if (order > 0) {
-    sample_by_curves(distance_m, curves_of(geo::GeodesicSeries(apex, azimuth, order), positions.corner), positions);
+    if (!fan_ || fan_->start() != apex || fan_->order() != order) fan_.emplace(apex, order);
+    sample_by_curves(distance_m, curves_of(fan_->series(azimuth), positions.corner), positions);
     return;
   }
   const geo::GeodesicRay ray(apex, azimuth);
@@ -192,6 +193,11 @@ void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length rang
   }
   for (std::size_t i = 0; i < positions.count; ++i)
     store_position(positions, i, apex, ray.position(geo::Length::metres(static_cast<double>(distance_m[i]))));
+}
+
+void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
+                      PositionArrays& positions) {
+  PositionSampler().sample(apex, azimuth, range, knots, distance_m, positions);
 }
 
 namespace {

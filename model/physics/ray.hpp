@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <span>
 
 #include "lib/geo/geodesy.hpp"
@@ -84,8 +85,19 @@ struct PositionArrays {
   memory::CacheAlignedVector<float> cells_north, cells_east, north_deg, east_deg;
 };
 
-// Computes the positions of all samples. `distance_m` has one finite value in [0, range] per sample, in ascending
-// order. terrain::kRunSlack entries after the last sample are read.
+// Positions of samples, ray after ray. What depends on the apex alone is kept for the next ray. One thread at a time.
+class PositionSampler {
+ public:
+  // Computes the positions of all samples. `distance_m` has one finite value in [0, range] per sample, in ascending
+  // order. terrain::kRunSlack entries after the last sample are read.
+  void sample(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
+              PositionArrays& positions);
+
+ private:
+  std::optional<geo::GeodesicFan> fan_;  // of the last apex
+};
+
+// Like PositionSampler::sample(), for a single ray.
 void sample_positions(geo::GeoPoint apex, geo::Bearing azimuth, geo::Length range, int knots, const float* distance_m,
                       PositionArrays& positions);
 

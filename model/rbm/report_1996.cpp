@@ -46,7 +46,7 @@ std::size_t Report1996::measure(const physics::SweepGeometry& geometry, const ph
   const double spacing_m = geometry.range.metres() / static_cast<double>(count);
   for (std::size_t i = 0; i < count; ++i)
     distance_m_[i] = static_cast<float>((static_cast<double>(i) + 0.5) * spacing_m);
-  physics::sample_positions(geometry.apex, geometry.azimuth, geometry.range, knots_, distance_m_.data(), positions_);
+  sampler_.sample(geometry.apex, geometry.azimuth, geometry.range, knots_, distance_m_.data(), positions_);
   const std::size_t pending = environment.terrain.surfaces(
       positions_.run(), interpolation_, {{elevation_m_.data(), count}, {water_.data(), count}, {}, {}});
 

@@ -36,6 +36,7 @@ class Report1996 : public Algorithm {
   radar::Interpolation interpolation_;
   std::size_t count_;
   std::vector<float> distance_m_;
+  physics::PositionSampler sampler_;
   physics::PositionArrays positions_;
   std::vector<float> elevation_m_, water_;  // terrain::kRunSlack entries more than samples
   std::vector<float> intensity_;

@@ -213,8 +213,8 @@ void Standard::update_distances(const physics::SweepGeometry& geometry, const ph
 }
 
 std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
-  physics::sample_positions(geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots, distance_.data(),
-                            positions_);
+  sampler_.sample(geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots, distance_.data(),
+                  positions_);
   const bool peaks = terrain.has_peaks();
   const auto step_m = static_cast<float>(geometry.range.metres() / static_cast<double>(count_));
   std::fill_n(near_.data(), count_, kVoid);
@@ -234,8 +234,8 @@ std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const
 void Standard::read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   const double side_rad = kSideRayBeamwidths * azimuth_beamwidth_deg_ * geo::kRadiansPerDegree;
   const auto read = [&](double offset_rad, Padded& out) {
-    physics::sample_positions(geometry.apex, geometry.azimuth + geo::Angle::radians(offset_rad), geometry.range,
-                              fidelity_.geodesic_knots, distance_.data(), positions_);
+    sampler_.sample(geometry.apex, geometry.azimuth + geo::Angle::radians(offset_rad), geometry.range,
+                    fidelity_.geodesic_knots, distance_.data(), positions_);
     terrain.surfaces(positions_.run(), fidelity_.interpolation, {out.first(count_), water_.first(count_), {}, {}});
   };
   read(-side_rad, side_);

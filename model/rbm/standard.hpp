@@ -89,6 +89,7 @@ class Standard : public Algorithm {
   std::array<float, 2 * physics::PulseSmear::kMaxRadius + 1> smear_weights_{};
   std::vector<double> distance_m_;
   Padded distance_, one_step_inverse_, two_step_inverse_;
+  physics::PositionSampler sampler_;
   physics::PositionArrays positions_;
   RayCrests ray_crests_;
   Padded elevation_, water_, peak_, near_, near_back_, side_, crest_, cross_slope_;

@@ -46,7 +46,7 @@ TEST(GeodesicSeries, IsWithinAMillimetreWhereverAnOrderSuffices) {
     const int order = GeodesicSeries::order_for(start.latitude_deg, range);
     if (order == 0) continue;
     ++trials_with_order;
-    const double found_m = error_m({start, azimuth, order}, start, azimuth, range);
+    const double found_m = error_m(GeodesicFan(start, order).series(azimuth), start, azimuth, range);
     worst_m = std::max(worst_m, found_m);
     ASSERT_LT(found_m, 1e-3) << "latitude " << start.latitude_deg << ", azimuth " << azimuth.degrees() << ", "
                              << range.nautical_miles() << " NM, order " << order;

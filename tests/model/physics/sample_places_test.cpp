@@ -71,6 +71,27 @@ TEST(SamplePositions, AreEqualOnEveryVectorTarget) {
     }
 }
 
+// What a sampler keeps of the last apex is not used for another apex or range.
+TEST(SamplePositions, DoNotDependOnTheRaysBefore) {
+  std::vector<float> distance_m(200 + physics::kPairSlack);
+  for (std::size_t i = 0; i < distance_m.size(); ++i)
+    distance_m[i] = 90.0F * static_cast<float>(std::min<std::size_t>(i, 200));
+  physics::PositionSampler sampler;
+  physics::PositionArrays found(200), expected(200);
+  for (const geo::GeoPoint apex : {geo::GeoPoint{37.0, 20.0}, {37.0, 20.5}, {37.5, 20.5}, {89.9, 20.5}, {37.5, 20.5}})
+    for (const double range_m : {18e3, 300e3, 18e3})
+      for (const double azimuth_deg : {10.0, 200.0}) {
+        const geo::Bearing azimuth = geo::Bearing::degrees(azimuth_deg);
+        const geo::Length range = geo::Length::metres(range_m);
+        sampler.sample(apex, azimuth, range, 5, distance_m.data(), found);
+        physics::sample_positions(apex, azimuth, range, 5, distance_m.data(), expected);
+        ASSERT_EQ(found.north_deg, expected.north_deg) << apex.latitude_deg << ' ' << azimuth_deg << ' ' << range_m;
+        ASSERT_EQ(found.east_deg, expected.east_deg) << apex.latitude_deg << ' ' << azimuth_deg << ' ' << range_m;
+        ASSERT_EQ(found.cells_north, expected.cells_north);
+        ASSERT_EQ(found.cells_east, expected.cells_east);
+      }
+}
+
 TEST(SamplePositions, LieWithinMillimetresAtMiddleLatitudes) {
   for (const std::size_t count : {2U, 17U, 191U, 200U, 480U, 1024U})
     for (const double range_nm : {4.7, 40.0, 160.0})
