@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "lib/geo/earth.hpp"
 #include "lib/geo/frames.hpp"
@@ -13,6 +14,10 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr double kMargin_m = 1000.0;  // covers the deviation of a geodesic from the vertical plane through its start
+// Echoes that are kept, a power of 2. A dense town has some hundreds in the beam.
+constexpr std::size_t kEchoes = 8192;
+// [noise] Weaker echoes are left out by `standard`: a thousand of them raise the noise by less than 0.005 dB.
+constexpr double kNegligible = 1e-6;
 
 // Slope along the sweep: central difference; beside a void and at the ends of the sweep, the one-sided difference.
 double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
@@ -21,6 +26,12 @@ double along_slope(const SceneReturn::Ground& ground, std::size_t index) {
   const std::size_t far = index + 1 < ground.height_m.size() && known(index + 1) ? index + 1 : index;
   const double run_m = ground.distance_m[far] - ground.distance_m[near];
   return run_m > 0.0 ? (ground.height_m[far] - ground.height_m[near]) / run_m : 0.0;
+}
+
+// An angle in [-2 pi, 2 pi], wrapped to [-pi, pi].
+double wrapped_rad(double angle_rad) {
+  constexpr double kPi = std::numbers::pi;
+  return angle_rad > kPi ? angle_rad - 2.0 * kPi : angle_rad < -kPi ? angle_rad + 2.0 * kPi : angle_rad;
 }
 
 // Positions along a ray, in metres east and north of a scene's origin. They are computed on a sphere. The error is some
@@ -55,12 +66,14 @@ class RayOverPlane {
 }  // namespace
 
 SceneReturn::SceneReturn(const physics::RadarParameters& parameters, std::size_t samples)
-    : beam_(parameters.beam),
+    : parameters_(parameters.geometry),
+      beam_(parameters.beam),
       surface_(parameters),
       tables_(surface_),
       fast_(parameters.fidelity.algorithm != radar::Algorithm::reference),
       gas_(parameters),
-      ground_(samples) {}
+      ground_(samples),
+      echoes_(kEchoes) {}
 
 bool SceneReturn::enter(const physics::SweepGeometry& geometry, const scene::SceneView* scenes) {
   if (scenes == nullptr || scenes->scatterers().empty()) return false;
@@ -70,6 +83,11 @@ bool SceneReturn::enter(const physics::SweepGeometry& geometry, const scene::Sce
   apex_ = geo::ecef_from_geodetic(geometry.apex, sea_level);
   ahead_ = level.ecef_from_enu_direction({std::sin(azimuth_rad), std::cos(azimuth_rad), 0.0});
   right_ = level.ecef_from_enu_direction({std::cos(azimuth_rad), -std::sin(azimuth_rad), 0.0});
+  north_ = level.ecef_from_enu_direction({0.0, 1.0, 0.0});
+  east_ = level.ecef_from_enu_direction({1.0, 0.0, 0.0});
+  const View view{geometry.apex, geometry.altitude, geometry.range, geometry.elevation, scenes, scenes->generation()};
+  if (!(view == view_)) ++view_number_;
+  view_ = view;
   const auto all = scenes->scatterers();
   return std::any_of(all.begin(), all.end(),
                      [&](const scene::Scatterers* scene) { return in_range(*scene, geometry); });
@@ -89,20 +107,27 @@ bool SceneReturn::under_ray(const scene::Scatterers& scene) const {
 
 SceneReturn::Ray SceneReturn::ray_in(const scene::Scatterers& scene) const {
   return {scene.frame.enu_from_ecef(apex_), scene.frame.enu_from_ecef_direction(ahead_),
-          scene.frame.enu_from_ecef_direction(right_)};
+          scene.frame.enu_from_ecef_direction(right_), scene.frame.enu_from_ecef_direction(north_),
+          scene.frame.enu_from_ecef_direction(east_)};
 }
 
 void SceneReturn::apply(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
                         const physics::GroundWalk& walk, const scene::SceneView& scenes, double pulse_samples) {
-  const double radius_m = geo::radius_of_curvature(geometry.apex.latitude_deg, geometry.azimuth).metres();
   const double spacing_m = geometry.range.metres() / static_cast<double>(ground_.power.size());
-  const Sweep sweep{
-      &geometry, &receiver, &walk.earth(), &walk, physics::point_smear_gain(pulse_samples), 1.0 / (radius_m * radius_m),
-      spacing_m};
+  const Sweep sweep{&geometry,
+                    &receiver,
+                    &walk.earth(),
+                    &walk,
+                    physics::point_smear_gain(pulse_samples),
+                    spacing_m,
+                    wrapped_rad(geometry.azimuth.radians())};
   for (const scene::Scatterers* scene : scenes.scatterers())
     if (in_range(*scene, geometry)) cover_ground(sweep, *scene);
-  for (const scene::Scatterers* scene : scenes.scatterers())
+  scatterers_before_ = 0;
+  for (const scene::Scatterers* scene : scenes.scatterers()) {
     if (in_range(*scene, geometry)) add_standing(sweep, *scene);
+    scatterers_before_ += scene->levels[scene->level_for(spacing_m)].scatterers.size();
+  }
 }
 
 // Mixes the return of covers (flat faces on the ground, summed over squares of a grid) into the power of lit samples.
@@ -168,38 +193,66 @@ void SceneReturn::add_standing(const Sweep& sweep, const scene::Scatterers& scen
            ahead_m * sin_right - right_m * cos_right >= -ball.radius_m;
   };
   level.tree.search(meets, [&](std::uint32_t first, std::uint32_t end) {
-    for (std::uint32_t i = first; i < end; ++i) add_scatterer(sweep, ray, level, level.scatterers[i]);
+    for (std::uint32_t i = first; i < end; ++i) add_scatterer(sweep, ray, level, i);
   });
 }
 
 void SceneReturn::add_scatterer(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level,
-                                const scene::Scatterer& scatterer) {
+                                std::uint32_t index) {
+  const scene::Scatterer& scatterer = level.scatterers[index];
+  const std::uint64_t number = scatterers_before_ + index;
+  const std::uint64_t key = (view_number_ << 32U) | (number + 1);
+  Echo& echo = echoes_[number % kEchoes];
+  if (echo.key != key) echo = find(sweep, ray, scatterer, key);
+  if (!(echo.distance_m < sweep.geometry->range.metres())) return;
+  const auto extent_m = static_cast<double>(scatterer.extent_m);
+  const double gain =
+      physics::point_azimuth_gain(sweep.geometry->slice, sweep.receiver->azimuth_beamwidth_rad,
+                                  wrapped_rad(echo.azimuth_rad - sweep.azimuth_rad), extent_m / echo.distance_m);
+  const double negligible = fast_ ? kNegligible * sweep.receiver->noise : 0.0;
+  const bool known = echo.power >= 0.0;
+  if (!(gain > 0.0) || (known && gain * echo.power <= negligible)) return;
+  if (physics::nearest_sample(ground_.distance_m, echo.distance_m) >= ground_.power.size()) return;
+  const double lit = lit_fraction(sweep, scatterer, echo);
+  if (!(lit > 0.0)) return;
+  if (!known) echo.power = power_of(sweep, ray, level, scatterer, echo);
+  spread(echo.distance_m, extent_m, sweep.point_smear_gain * lit * gain * echo.power);
+}
+
+// Earth and sight are those in the scatterer's own azimuth, so that they are the same in each sweep.
+SceneReturn::Echo SceneReturn::find(const Sweep& sweep, const Ray& ray, const scene::Scatterer& scatterer,
+                                    std::uint64_t key) const {
   const geo::Vector3 at{static_cast<double>(scatterer.east_m), static_cast<double>(scatterer.north_m),
                         static_cast<double>(scatterer.up_m)};
   const geo::Vector3 to_point = at - ray.apex;
-  const double ahead_m = dot(to_point, ray.ahead);
   const double chord2 = dot(to_point, to_point);
-  if (!(ahead_m > 0.0)) return;
-  // Distance over ground: length of the arc over the chord, to the third order.
-  const double distance_m = std::sqrt(chord2) * (1.0 + chord2 * sweep.curvature2 / 24.0);
-  if (distance_m >= sweep.geometry->range.metres()) return;
-  const auto extent_m = static_cast<double>(scatterer.extent_m);
-  const double gain_across =
-      physics::point_azimuth_gain(sweep.geometry->slice, sweep.receiver->azimuth_beamwidth_rad,
-                                  std::atan2(dot(to_point, ray.right), ahead_m), extent_m / distance_m);
-  if (!(gain_across > 0.0)) return;
-  if (physics::nearest_sample(ground_.distance_m, distance_m) >= ground_.power.size()) return;
-  const physics::Sight sight =
-      sweep.earth->sight(sweep.geometry->altitude.metres(), distance_m, static_cast<double>(scatterer.middle_msl_m));
-  const double lit = lit_fraction(sweep, scatterer, sight, distance_m);
-  if (!(lit > 0.0)) return;
-  const double gain = gain_across * physics::two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
-                                                          sweep.geometry->elevation.radians(), sight.elevation_rad);
-  const double loss = gas_.two_way_transmission(*sweep.earth, sweep.geometry->altitude.metres(), distance_m,
-                                                static_cast<double>(scatterer.middle_msl_m));
-  const double power =
-      physics::returned_power(lit * cross_section_m2(level, scatterer, ray, sight), loss * gain, sight.slant_range_m);
-  spread(distance_m, extent_m, sweep.point_smear_gain * physics::received(*sweep.receiver, power, sight.slant_range_m));
+  Echo echo{key};
+  echo.azimuth_rad = std::atan2(dot(to_point, ray.east), dot(to_point, ray.north));
+  const geo::Bearing azimuth = geo::Bearing::radians(echo.azimuth_rad);
+  const double radius_m = geo::radius_of_curvature(sweep.geometry->apex.latitude_deg, azimuth).metres();
+  // Length of the arc over the chord, to the third order.
+  echo.distance_m = std::sqrt(chord2) * (1.0 + chord2 / (24.0 * radius_m * radius_m));
+  echo.tangent =
+      physics::effective_earth(parameters_, sweep.geometry->apex, azimuth)
+          .tangent(sweep.geometry->altitude.metres(), echo.distance_m, static_cast<double>(scatterer.middle_msl_m));
+  echo.power = -1.0;
+  return echo;
+}
+
+double SceneReturn::power_of(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level,
+                             const scene::Scatterer& scatterer, const Echo& echo) const {
+  const double altitude_m = sweep.geometry->altitude.metres();
+  const auto middle_m = static_cast<double>(scatterer.middle_msl_m);
+  const physics::EffectiveEarth earth =
+      physics::effective_earth(parameters_, sweep.geometry->apex, geo::Bearing::radians(echo.azimuth_rad));
+  const physics::Sight sight = earth.sight(altitude_m, echo.distance_m, middle_m);
+  const double gain = physics::two_way_gain(beam_, sweep.receiver->elevation_beamwidth_rad,
+                                            sweep.geometry->elevation.radians(), sight.elevation_rad);
+  const double loss = gas_.two_way_transmission(earth, altitude_m, echo.distance_m, middle_m);
+  return physics::received(
+      *sweep.receiver,
+      physics::returned_power(cross_section_m2(level, scatterer, ray, sight), loss * gain, sight.slant_range_m),
+      sight.slant_range_m);
 }
 
 double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer,
@@ -227,29 +280,29 @@ double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const s
 }
 
 // Maximum tangent of all ground nearer than a scatterer. `nearer`: number of samples nearer than the scatterer.
-double SceneReturn::horizon_before(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
-                                   double distance_m, std::size_t nearer) const {
+double SceneReturn::horizon_before(const Sweep& sweep, const scene::Scatterer& scatterer, const Echo& echo,
+                                   std::size_t nearer) const {
+  const double distance_m = echo.distance_m;
   if (nearer == 0 || nearer >= ground_.straight.size() || ground_.straight[nearer] == 0)
     return sweep.walk->horizon_before(ground_.distance_m, distance_m,
                                       [&](std::size_t sample) { return ground_.horizon[sample]; });
   const double near_m = ground_.distance_m[nearer - 1], near_peak_m = ground_.peak_m[nearer - 1];
   const double fraction = (distance_m - near_m) / (ground_.distance_m[nearer] - near_m);
   const double ground_m = near_peak_m + fraction * (ground_.peak_m[nearer] - near_peak_m);
-  const double tangent = sight.tangent + (ground_m - static_cast<double>(scatterer.middle_msl_m)) / distance_m;
+  const double tangent = echo.tangent + (ground_m - static_cast<double>(scatterer.middle_msl_m)) / distance_m;
   return std::max(ground_.horizon[nearer - 1], tangent);
 }
 
 // Fraction [0, 1] of a scatterer's vertical extent that is above the horizon of all nearer ground.
-double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
-                                 double distance_m) const {
+double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const Echo& echo) const {
   const auto tangent = [&](float height_m) {
-    return sight.tangent + static_cast<double>(height_m - scatterer.middle_msl_m) / distance_m;
+    return echo.tangent + static_cast<double>(height_m - scatterer.middle_msl_m) / echo.distance_m;
   };
   const double lowest = tangent(scatterer.min_msl_m), highest = tangent(scatterer.max_msl_m);
-  const std::size_t nearer = physics::samples_nearer(ground_.distance_m, distance_m);
+  const std::size_t nearer = physics::samples_nearer(ground_.distance_m, echo.distance_m);
   // If ground up to the last nearer sample hides the scatterer, the path beyond that sample need not be tested.
   if (nearer > 0 && highest <= ground_.horizon[nearer - 1]) return 0.0;
-  const double horizon = horizon_before(sweep, scatterer, sight, distance_m, nearer);
+  const double horizon = horizon_before(sweep, scatterer, echo, nearer);
   if (!(highest > lowest)) return highest > horizon ? 1.0 : 0.0;
   return std::clamp((highest - horizon) / (highest - lowest), 0.0, 1.0);
 }

@@ -58,7 +58,26 @@ class SceneReturn {
  private:
   // Ray in a scene's east-north-up frame [m]: the apex on the ellipsoid, and horizontal unit vectors at the apex.
   struct Ray {
-    geo::Vector3 apex, ahead, right;
+    geo::Vector3 apex, ahead, right, north, east;
+  };
+  // A scatterer as seen from one apex. It does not depend on the beam's azimuth, so the sweeps of a scan share it.
+  struct Echo {
+    std::uint64_t key = 0;     // number of the view (view_) and of the scatterer; 0: none
+    double azimuth_rad = 0.0;  // true azimuth at the apex, in (-pi, pi]
+    double distance_m = 0.0;   // over ground
+    double tangent = 0.0;      // of the elevation angle of the scatterer's middle
+    double power = 0.0;        // received in the middle of the beam's azimuth, without shadow; below 0: not yet known
+  };
+  // What the echoes of a view have in common.
+  struct View {
+    geo::GeoPoint apex;
+    geo::AltitudeMsl altitude;
+    geo::Length range;
+    geo::Angle elevation;
+    const scene::SceneView* scenes = nullptr;
+    std::uint64_t generation = 0;  // of `scenes`
+
+    bool operator==(const View&) const = default;
   };
   // Quantities of one sweep that all scenes share.
   struct Sweep {
@@ -67,8 +86,8 @@ class SceneReturn {
     const physics::EffectiveEarth* earth = nullptr;
     const physics::GroundWalk* walk = nullptr;
     double point_smear_gain = 1.0;  // physics::point_smear_gain() of the pulse
-    double curvature2 = 0.0;        // [1/m^2] squared curvature of the ellipsoid along the ray
     double spacing_m = 0.0;         // range between samples
+    double azimuth_rad = 0.0;       // of the beam, in [-pi, pi]
   };
   Ray ray_in(const scene::Scatterers& scene) const;
   bool in_range(const scene::Scatterers& scene, const physics::SweepGeometry& geometry) const;
@@ -76,23 +95,29 @@ class SceneReturn {
   void cover_ground(const Sweep& sweep, const scene::Scatterers& scene);
   double covered_power(const Sweep& sweep, std::size_t sample, double gamma) const;
   void add_standing(const Sweep& sweep, const scene::Scatterers& scene);
-  void add_scatterer(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level,
-                     const scene::Scatterer& scatterer);
+  void add_scatterer(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level, std::uint32_t index);
+  Echo find(const Sweep& sweep, const Ray& ray, const scene::Scatterer& scatterer, std::uint64_t key) const;
+  double power_of(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level,
+                  const scene::Scatterer& scatterer, const Echo& echo) const;
   double cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer, const Ray& ray,
                           const physics::Sight& sight) const;
-  double horizon_before(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
-                        double distance_m, std::size_t nearer) const;
-  double lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const physics::Sight& sight,
-                      double distance_m) const;
+  double horizon_before(const Sweep& sweep, const scene::Scatterer& scatterer, const Echo& echo,
+                        std::size_t nearer) const;
+  double lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const Echo& echo) const;
   void spread(double distance_m, double extent_m, double power);
 
+  physics::GeometryParameters parameters_;
   radar::BeamPattern beam_;
   physics::SceneSurface surface_;
   simd::SceneTables tables_;
   bool fast_;  // cross sections in vectors; `reference` uses double precision
   physics::GasPath gas_;
   Ground ground_;
-  geo::Vector3 apex_, ahead_, right_;  // earth-centred, earth-fixed
+  geo::Vector3 apex_, ahead_, right_, north_, east_;  // earth-centred, earth-fixed
+  View view_;
+  std::uint64_t view_number_ = 0;
+  std::uint64_t scatterers_before_ = 0;  // in the scenes before the present one
+  std::vector<Echo> echoes_;             // by number of the scatterer, modulo their size
 };
 
 }  // namespace yars::model::rbm
