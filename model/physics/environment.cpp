@@ -144,6 +144,24 @@ void Movers::add_echo(const MovingPoint& point, const Sector& sector, const Swee
   echoes_.push_back({distance_m, sight.tangent, received(receiver, power, sight.slant_range_m)});
 }
 
+namespace {
+// Of the samples beside a target, the nearest one. `index`: number of nearer samples.
+std::size_t nearest_of(std::span<const double> distance_m, double target_m, std::size_t index) {
+  if (index > 0 && !std::isnan(distance_m[index - 1])) {
+    const bool nearer = index == distance_m.size() || target_m - distance_m[index - 1] < distance_m[index] - target_m;
+    if (nearer) --index;
+  }
+  return index;
+}
+}  // namespace
+
+std::size_t samples_nearer(std::span<const double> distance_m, double target_m, std::size_t guess) {
+  std::size_t count = std::min(guess, distance_m.size());
+  while (count > 0 && distance_m[count - 1] >= target_m) --count;
+  while (count < distance_m.size() && !(distance_m[count] >= target_m)) ++count;
+  return count;
+}
+
 std::size_t samples_nearer(std::span<const double> distance_m, double target_m) {
   const auto is_nearer = [target_m](double centre_m) { return !(centre_m >= target_m); };
   const auto count = static_cast<std::ptrdiff_t>(distance_m.size());
@@ -164,12 +182,11 @@ std::size_t samples_nearer(std::span<const double> distance_m, double target_m) 
 }
 
 std::size_t nearest_sample(std::span<const double> distance_m, double target_m) {
-  std::size_t index = samples_nearer(distance_m, target_m);
-  if (index > 0 && !std::isnan(distance_m[index - 1])) {
-    const bool nearer = index == distance_m.size() || target_m - distance_m[index - 1] < distance_m[index] - target_m;
-    if (nearer) --index;
-  }
-  return index;
+  return nearest_of(distance_m, target_m, samples_nearer(distance_m, target_m));
+}
+
+std::size_t nearest_sample(std::span<const double> distance_m, double target_m, std::size_t guess) {
+  return nearest_of(distance_m, target_m, samples_nearer(distance_m, target_m, guess));
 }
 
 }  // namespace yars::model::physics

@@ -114,4 +114,8 @@ std::size_t nearest_sample(std::span<const double> distance_m, double target_m);
 // Number of samples with a centre that is NaN or nearer than `target_m`.
 std::size_t samples_nearer(std::span<const double> distance_m, double target_m);
 
+// The same, faster if the number of nearer samples is about `guess`.
+std::size_t nearest_sample(std::span<const double> distance_m, double target_m, std::size_t guess);
+std::size_t samples_nearer(std::span<const double> distance_m, double target_m, std::size_t guess);
+
 }  // namespace yars::model::physics

@@ -212,11 +212,11 @@ void SceneReturn::add_scatterer(const Sweep& sweep, const Ray& ray, const scene:
   const double negligible = fast_ ? kNegligible * sweep.receiver->noise : 0.0;
   const bool known = echo.power >= 0.0;
   if (!(gain > 0.0) || (known && gain * echo.power <= negligible)) return;
-  if (physics::nearest_sample(ground_.distance_m, echo.distance_m) >= ground_.power.size()) return;
+  echo.nearer = physics::samples_nearer(ground_.distance_m, echo.distance_m, echo.nearer);
   const double lit = lit_fraction(sweep, scatterer, echo);
   if (!(lit > 0.0)) return;
   if (!known) echo.power = power_of(sweep, ray, level, scatterer, echo);
-  spread(echo.distance_m, extent_m, sweep.point_smear_gain * lit * gain * echo.power);
+  spread(echo, extent_m, sweep.point_smear_gain * lit * gain * echo.power);
 }
 
 // Earth and sight are those in the scatterer's own azimuth, so that they are the same in each sweep.
@@ -235,6 +235,7 @@ SceneReturn::Echo SceneReturn::find(const Sweep& sweep, const Ray& ray, const sc
   echo.tangent =
       physics::effective_earth(parameters_, sweep.geometry->apex, azimuth)
           .tangent(sweep.geometry->altitude.metres(), echo.distance_m, static_cast<double>(scatterer.middle_msl_m));
+  echo.nearer = physics::samples_nearer(ground_.distance_m, echo.distance_m);
   echo.power = -1.0;
   return echo;
 }
@@ -279,17 +280,16 @@ double SceneReturn::cross_section_m2(const scene::ScattererLevel& level, const s
   return sum_m2;
 }
 
-// Maximum tangent of all ground nearer than a scatterer. `nearer`: number of samples nearer than the scatterer.
-double SceneReturn::horizon_before(const Sweep& sweep, const scene::Scatterer& scatterer, const Echo& echo,
-                                   std::size_t nearer) const {
-  const double distance_m = echo.distance_m;
+// Maximum tangent of all ground nearer than a scatterer.
+double SceneReturn::horizon_before(const Sweep& sweep, const scene::Scatterer& scatterer, const Echo& echo) const {
+  const std::size_t nearer = echo.nearer;
   if (nearer == 0 || nearer >= ground_.straight.size() || ground_.straight[nearer] == 0)
-    return sweep.walk->horizon_before(ground_.distance_m, distance_m,
+    return sweep.walk->horizon_before(ground_.distance_m, echo.distance_m,
                                       [&](std::size_t sample) { return ground_.horizon[sample]; });
   const double near_m = ground_.distance_m[nearer - 1], near_peak_m = ground_.peak_m[nearer - 1];
-  const double fraction = (distance_m - near_m) / (ground_.distance_m[nearer] - near_m);
+  const double fraction = (echo.distance_m - near_m) / (ground_.distance_m[nearer] - near_m);
   const double ground_m = near_peak_m + fraction * (ground_.peak_m[nearer] - near_peak_m);
-  const double tangent = echo.tangent + (ground_m - static_cast<double>(scatterer.middle_msl_m)) / distance_m;
+  const double tangent = echo.tangent + (ground_m - static_cast<double>(scatterer.middle_msl_m)) / echo.distance_m;
   return std::max(ground_.horizon[nearer - 1], tangent);
 }
 
@@ -299,21 +299,21 @@ double SceneReturn::lit_fraction(const Sweep& sweep, const scene::Scatterer& sca
     return echo.tangent + static_cast<double>(height_m - scatterer.middle_msl_m) / echo.distance_m;
   };
   const double lowest = tangent(scatterer.min_msl_m), highest = tangent(scatterer.max_msl_m);
-  const std::size_t nearer = physics::samples_nearer(ground_.distance_m, echo.distance_m);
+  const std::size_t nearer = echo.nearer;
   // If ground up to the last nearer sample hides the scatterer, the path beyond that sample need not be tested.
   if (nearer > 0 && highest <= ground_.horizon[nearer - 1]) return 0.0;
-  const double horizon = horizon_before(sweep, scatterer, echo, nearer);
+  const double horizon = horizon_before(sweep, scatterer, echo);
   if (!(highest > lowest)) return highest > horizon ? 1.0 : 0.0;
   return std::clamp((highest - horizon) / (highest - lowest), 0.0, 1.0);
 }
 
-// Distributes power evenly over the interval of length `extent_m` about `distance_m`. Each sample gets the part of the
-// interval that is nearer to its centre than to the centre of any other sample.
-void SceneReturn::spread(double distance_m, double extent_m, double power) {
+// Distributes power evenly over the interval of length `extent_m` about the echo's distance. Each sample gets the part
+// of the interval that is nearer to its centre than to the centre of any other sample.
+void SceneReturn::spread(const Echo& echo, double extent_m, double power) {
   const std::vector<double>& centre_m = ground_.distance_m;
-  const double from_m = distance_m - 0.5 * extent_m, to_m = distance_m + 0.5 * extent_m;
-  const std::size_t first = physics::nearest_sample(centre_m, from_m);
-  const std::size_t last = std::min(physics::nearest_sample(centre_m, to_m), centre_m.size() - 1);
+  const double from_m = echo.distance_m - 0.5 * extent_m, to_m = echo.distance_m + 0.5 * extent_m;
+  const std::size_t first = physics::nearest_sample(centre_m, from_m, echo.nearer);
+  const std::size_t last = std::min(physics::nearest_sample(centre_m, to_m, echo.nearer), centre_m.size() - 1);
   double begin_m = from_m;
   for (std::size_t i = first; i <= last; ++i) {
     const double end_m = i == last ? to_m : 0.5 * (centre_m[i] + centre_m[i + 1]);

@@ -66,6 +66,7 @@ class SceneReturn {
     double azimuth_rad = 0.0;  // true azimuth at the apex, in (-pi, pi]
     double distance_m = 0.0;   // over ground
     double tangent = 0.0;      // of the elevation angle of the scatterer's middle
+    std::size_t nearer = 0;    // about how many samples are nearer
     double power = 0.0;        // received in the middle of the beam's azimuth, without shadow; below 0: not yet known
   };
   // What the echoes of a view have in common.
@@ -101,10 +102,9 @@ class SceneReturn {
                   const scene::Scatterer& scatterer, const Echo& echo) const;
   double cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer, const Ray& ray,
                           const physics::Sight& sight) const;
-  double horizon_before(const Sweep& sweep, const scene::Scatterer& scatterer, const Echo& echo,
-                        std::size_t nearer) const;
+  double horizon_before(const Sweep& sweep, const scene::Scatterer& scatterer, const Echo& echo) const;
   double lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const Echo& echo) const;
-  void spread(double distance_m, double extent_m, double power);
+  void spread(const Echo& echo, double extent_m, double power);
 
   physics::GeometryParameters parameters_;
   radar::BeamPattern beam_;
