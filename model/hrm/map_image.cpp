@@ -23,17 +23,36 @@ double unit_return_m2(const PatchGeometry& geometry, int pixels) {
   return pixel_m * pixel_m * std::max(geometry.sin_grazing(), kMinGrazingSine);
 }
 
+namespace {
+// Pixels of a row between which the sector draws. Up to 16 more at each end serve rounding and vectors.
+void set_pixels(const PolarGrid& grid, int size, simd::MapRow& row) {
+  constexpr double kReserve = 2.0;  // [pixels] above the rounding errors of float positions
+  constexpr int kStep = 16;
+  row.begin = 0;
+  row.end = size;
+  const auto pixel_at = [&](int column) {
+    const double right_m = grid.tangent(column) * static_cast<double>(row.ahead_m);
+    return (right_m - static_cast<double>(row.first_right_m)) / static_cast<double>(row.pixel_m);
+  };
+  const auto limited = [&](double pixel) { return static_cast<int>(std::clamp(pixel, 0.0, size + 0.0)); };
+  if (grid.first_drawn_column() > 0)
+    row.begin = limited(std::floor(pixel_at(grid.first_drawn_column()) - kReserve)) / kStep * kStep;
+  if (grid.end_drawn_column() < grid.columns)
+    row.end = limited(std::ceil(pixel_at(grid.end_drawn_column()) + kReserve));
+}
+}  // namespace
+
 void draw_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const float* cross_section_m2, int first,
                      int last, MapImage& image) {
   const double pixel_m = geometry.window_m() / image.size;
   const double edge_m = 0.5 * geometry.window_m();
   simd::MapRow row;
-  row.columns = image.size;
   row.first_right_m = static_cast<float>(0.5 * pixel_m - edge_m);
   row.pixel_m = static_cast<float>(pixel_m);
   row.scale = static_cast<float>(pixel_m * pixel_m / unit_return_m2(geometry, image.size));
   for (int line = first; line < last; ++line) {
     row.ahead_m = static_cast<float>(geometry.distance_m() + edge_m - (line + 0.5) * pixel_m);
+    set_pixels(grid, image.size, row);
     simd::draw_row(grid, cross_section_m2, row, &image.power[image.at(0, line)]);
   }
 }

@@ -24,7 +24,7 @@ using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
 constexpr std::ptrdiff_t kPrefetchRows = 4;  // distance of the prefetch [rows of the polar grid]
 
-// Index of row 0 of a column in the polar grid.
+// Index of row 0 of a column, counted from the sector's first column.
 HWY_INLINE hn::Vec<SignedTag> start_of(hn::Vec<SignedTag> column, std::int32_t strip_size) {
   const SignedTag di;
   const auto strip = hn::ShiftRight<4>(column);
@@ -43,12 +43,17 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
   const auto last_row = hn::Set(di, grid.rows - 2);
   const auto zero = hn::Zero(di);
   const auto strip_size = static_cast<std::int32_t>(grid.strip_size());
+  const bool whole = grid.first_drawn_column() == 0 && grid.end_drawn_column() == grid.columns;
+  const auto before_drawn = hn::Set(di, grid.first_drawn_column() - 1);
+  const auto end_drawn = hn::Set(di, grid.end_drawn_column());
+  const auto first_held = hn::Set(di, grid.first_strip * kStripColumns);
+  const auto last_held = hn::Set(di, (grid.end_strip - grid.first_strip) * kStripColumns - 2);
   // Width of a column: distance * tangent_step / (1 + tangent^2) = tangent_step * ahead^2 / distance.
   const double ahead_m = static_cast<double>(row.ahead_m);
   const auto scale_per_metre = hn::Set(
       d, static_cast<float>(static_cast<double>(row.scale) / (grid.tangent_step * grid.spacing_m * ahead_m * ahead_m)));
   const auto lanes = hn::ConvertTo(d, hn::Iota(di, 0));
-  for (int i = 0; i < row.columns; i += static_cast<int>(hn::Lanes(d))) {
+  for (int i = row.begin; i < row.end; i += static_cast<int>(hn::Lanes(d))) {
     const auto number = hn::Add(lanes, hn::Set(d, static_cast<float>(i)));
     const auto right = hn::Add(hn::Set(d, row.first_right_m), hn::Mul(number, hn::Set(d, row.pixel_m)));
     const auto distance = hn::Sqrt(hn::Add(hn::Mul(right, right), ahead2));
@@ -59,11 +64,13 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
     const auto across = hn::Sub(x, hn::ConvertTo(d, column));
     const auto along = hn::Sub(y, hn::ConvertTo(d, line));
     const auto offset = hn::ShiftLeft<4>(line);
-    const auto left_at = hn::Add(start_of(column, strip_size), offset);
+    // Lanes that are not drawn get any column of the sector.
+    const auto held = hn::Min(hn::Max(hn::Sub(column, first_held), zero), last_held);
+    const auto left_at = hn::Add(start_of(held, strip_size), offset);
     // Prefetches (loads into the cache) the grid rows of the next map rows, which are nearer to the aircraft. The
     // hardware prefetcher cannot follow as many streams as there are strips.
     hwy::Prefetch(cross_section_m2 + hn::GetLane(left_at) - kPrefetchRows * kStripColumns);
-    const auto right_at = hn::Add(start_of(hn::Add(column, hn::Set(di, 1)), strip_size), offset);
+    const auto right_at = hn::Add(start_of(hn::Add(held, hn::Set(di, 1)), strip_size), offset);
     const auto near_left = hn::GatherIndex(d, cross_section_m2, left_at);
     const auto near_right = hn::GatherIndex(d, cross_section_m2, right_at);
     const auto far_left = hn::GatherIndex(d, cross_section_m2 + kStripColumns, left_at);
@@ -72,13 +79,12 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
     const auto far = hn::Add(far_left, hn::Mul(across, hn::Sub(far_right, far_left)));
     const auto value = hn::Add(near, hn::Mul(along, hn::Sub(far, near)));
     const auto drawn = hn::Mul(value, hn::Mul(scale_per_metre, distance));
-    const auto remaining = static_cast<std::size_t>(row.columns - i);
-    if (remaining >= hn::Lanes(d)) {
+    const auto remaining = static_cast<std::size_t>(row.end - i);
+    if (whole && remaining >= hn::Lanes(d)) {
       hn::StoreU(drawn, d, pixel + i);
     } else {
-      HWY_ALIGN float last[kMaxLanes];
-      hn::StoreU(drawn, d, last);
-      std::copy_n(last, remaining, pixel + i);
+      const auto wanted = hn::RebindMask(d, hn::And(hn::Gt(column, before_drawn), hn::Lt(column, end_drawn)));
+      hn::BlendedStore(drawn, hn::And(wanted, hn::FirstN(d, remaining)), d, pixel + i);
     }
   }
 }

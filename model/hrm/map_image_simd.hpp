@@ -13,7 +13,7 @@ namespace yars::model::hrm::simd {
 
 // One row of the map and its position relative to the aircraft.
 struct MapRow {
-  int columns = 0;             // pixels
+  int begin = 0, end = 0;      // pixels [begin, end) of the row are drawn; `begin` is a multiple of 16
   float first_right_m = 0.0F;  // centre of pixel 0, to the right of the line of sight to the map's centre
   float pixel_m = 0.0F;
   float ahead_m = 0.0F;  // from the aircraft to the row, along that line of sight
@@ -21,6 +21,7 @@ struct MapRow {
 };
 
 // pixel[i] = `scale` times the cross section per m^2 at the pixel, interpolated bilinearly on the polar grid.
+// Pixels [begin, end) whose left column the sector does not draw keep their values.
 // Precondition: pixels lie within the grid.
 void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow& row, float* pixel);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 
 #include "lib/geo/earth.hpp"
@@ -105,23 +106,22 @@ std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> t
   const auto strip_of = [&](float column) {
     return std::clamp(static_cast<int>(column) / kStripColumns, 0, grid.strips() - 1);
   };
-  double sum = grid.strips();
   for (const PlacedTile& tile : tiles) {
     const int first = strip_of(std::max(tile.min_column, 0.0F));
     const int last = strip_of(std::min(tile.max_column, static_cast<float>(grid.columns)));
     const auto triangles = static_cast<double>(tile.tile->triangles());
     for (int strip = first; strip <= last; ++strip)
       work[static_cast<std::size_t>(strip)] += triangles / (last - first + 1);
-    sum += triangles;
   }
-  std::vector<int> begin{0};
+  const double sum = std::accumulate(work.begin() + grid.first_strip, work.begin() + grid.end_strip, 0.0);
+  std::vector<int> begin{grid.first_strip};
   double done = 0.0;
-  for (int strip = 0; strip < grid.strips(); ++strip) {
+  for (int strip = grid.first_strip; strip < grid.end_strip; ++strip) {
     const auto next = static_cast<double>(begin.size());
     if (done >= next * sum / bands && begin.size() < static_cast<std::size_t>(bands)) begin.push_back(strip);
     done += work[static_cast<std::size_t>(strip)];
   }
-  begin.resize(static_cast<std::size_t>(bands) + 1, grid.strips());
+  begin.resize(static_cast<std::size_t>(bands) + 1, grid.end_strip);
   return begin;
 }
 
@@ -201,10 +201,11 @@ void SceneRaster::draw_tile(const scene::Tile& tile, const simd::Canvas& canvas)
 }
 
 void PolarScene::begin(const PatchData& data) {
+  placed_.clear();
   drawn_ = !data.tiles.empty();
   if (!drawn_) return;
   const std::size_t before = walls_.size();
-  walls_.resize(data.grid.size());
+  walls_.resize(data.points);
   if (!dirty_ && walls_.size() == before) return;
   std::fill_n(walls_.data(), walls_.size(), WallPoint());
   dirty_ = false;
@@ -218,11 +219,11 @@ void PolarScene::draw(const PatchInputs& inputs, PatchData& data) {
   // A tile that crosses bands is drawn once for each band, so few bands save work. Two bands per thread balance the
   // load.
   const auto bands = static_cast<int>(executor.threads == 1 ? 1 : 2 * executor.threads);
-  const std::vector<PlacedTile> placed = place_tiles(*data.geometry, data.grid, data.tiles, executor);
-  const std::vector<int> begin = even_bands(data.grid, placed, bands);
+  if (placed_.empty()) placed_ = place_tiles(*data.geometry, data.grid, data.tiles, executor);
+  const std::vector<int> begin = even_bands(data.grid, placed_, bands);
   parallel::parallel_for(executor, bands, 1, [&](int first, int last, std::size_t thread) {
     for (auto band = static_cast<std::size_t>(first); band < static_cast<std::size_t>(last); ++band)
-      rasters_[thread].draw(*data.geometry, data.grid, *inputs.environment.scene, placed, begin[band] * kStripColumns,
+      rasters_[thread].draw(*data.geometry, data.grid, *inputs.environment.scene, placed_, begin[band] * kStripColumns,
                             begin[band + 1] * kStripColumns, {data.surface.data(), walls_.data()});
   });
 }

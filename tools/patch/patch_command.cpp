@@ -138,6 +138,10 @@ struct Timing {
 radar::RadarConfiguration configure(const CommonOptions& common, const PatchOptions& options) {
   radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
   if (options.size) configuration.fidelity.map_size = *options.size;
+  if (const int most = hrm::max_map_size(configuration.fidelity.algorithm); configuration.fidelity.map_size > most)
+    throw_failure(error::usage_error("--size", "at most " + std::to_string(most) + " with the algorithm reference",
+                                     std::to_string(configuration.fidelity.map_size),
+                                     "give a smaller --size, or --fidelity fine"));
   return configuration;
 }
 
@@ -166,7 +170,7 @@ Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
     const auto stage = static_cast<std::size_t>(patch_formation.stages_done());
     const double stage_begin_ms = wall_ms();
     patch_formation.advance();
-    timing.stages_ms[stage] = wall_ms() - stage_begin_ms;
+    timing.stages_ms[stage] += wall_ms() - stage_begin_ms;  // large maps come by sectors
   }
   timing.whole_ms = wall_ms() - begin_ms;
   timing.cpu_ms = processor_ms() - cpu_begin_ms;
@@ -278,7 +282,9 @@ void add_patch_command(databuffer::Command app, const CommonOptions& common) {
   command.flag("--force", options->force, "ignore the radar's limits; the blind zone stays blank");
   command.option("--looks", options->looks, "number of looks to average").range(1, 16).otherwise("that of ML1");
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset").otherwise("the configuration's");
-  command.option("--size", options->size, "[pixels] per side").range(16, 1024).otherwise("the configuration's");
+  command.option("--size", options->size, "[pixels] per side; up to 1024 with the preset reference")
+      .range(16, hrm::max_map_size(radar::Algorithm::standard))
+      .otherwise("the configuration's");
   command.option("--time-s", options->time_s, "[s] sim time at the start, for moving targets").range(0.0, 1e8);
   command.option("--threads", options->threads, "number of threads").range(1, 256);
   command.option("--seed", options->configuration.seed, "seed of the noise").otherwise("the configuration's");
