@@ -169,7 +169,8 @@ Speckle::Speckle(int size, int looks, std::uint64_t seed, std::uint32_t map)
     first_[i] = weights.first;
     second_[i] = weights.second;
   }
-  cells_.assign(2 * padded(kCellsPerRow), 0.0F);
+  std::fill(cell_.begin() + size_, cell_.end(), cell_[static_cast<std::size_t>(size_) - 1]);
+  cells_.assign(2 * padded(kCellsPerRow) + 2 * kSlack, 0.0F);
   near_.assign(2 * static_cast<std::size_t>(looks_) * pitch_, 0.0F);
   far_ = near_;
 }
@@ -184,7 +185,7 @@ Speckle::CellWeights Speckle::cell_weights(int pixel) const {
 }
 
 void Speckle::draw_cells(int cell_row, std::vector<float>& field) {
-  const std::size_t half = cells_.size() / 2;
+  const std::size_t half = padded(kCellsPerRow);
   for (int look = 0; look < looks_; ++look) {
     const auto name = static_cast<std::uint32_t>(cell_row * looks_ + look);
     simd::draw_gaussian(half, physics::make_noise_state({seed_, map_, name}), cells_.data(), &cells_[half]);

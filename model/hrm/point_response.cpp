@@ -180,10 +180,21 @@ void Response::begin_slab(int first, int last, const parallel::Executor& executo
 
 void Response::smooth_along(int first, int last, WorkerBuffers& buffers, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
-  float* from = &buffers.source[margin_];
+  const std::size_t radius = main_radius();
+  float* const padded = &buffers.source[margin_];
+  // Blocks at the ends of a row reach beyond it, and are computed from a padded copy.
+  const std::size_t head = std::min((radius + simd::kBlock - 1) / simd::kBlock * simd::kBlock, columns_);
+  const std::size_t tail = std::max(size > radius ? (size - radius) / simd::kBlock * simd::kBlock : 0, head);
+  const std::size_t head_end = std::min(head + radius, size);
+  const std::size_t tail_begin = std::min(tail - std::min(radius, tail), size);
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
-    std::copy_n(&image.power[row * size], size, from);
-    simd::smooth(columns_, from, 1, main_lobe_, &across_[across_at(row)]);
+    const float* const from = &image.power[row * size];
+    float* const to = &across_[across_at(row)];
+    std::copy_n(from, head_end, padded);
+    simd::smooth(head, padded, 1, main_lobe_, to);
+    simd::smooth(tail - head, from + head, 1, main_lobe_, to + head);
+    std::copy(from + tail_begin, from + size, padded + tail_begin);
+    simd::smooth(columns_ - tail, padded + tail, 1, main_lobe_, to + tail);
   }
 }
 

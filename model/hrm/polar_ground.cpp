@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "model/hrm/polar_ground_simd.hpp"
+#include "model/physics/clutter_simd.hpp"
 #include "model/physics/reflectivity.hpp"
 
 namespace yars::model::hrm {
@@ -90,6 +91,7 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
     window_ = std::make_unique<Column>(rows);
     ground_->resize(rows);
     sin_grazing_.assign(rows + terrain::kRunSlack, 0.0F);
+    sea_divisor_.assign(sin_grazing_.size(), 0.0F);
     // The pitch is an odd multiple of kRunSlack, so that a row of sixteen columns is spread over different cache sets.
     pitch_ = (rows / terrain::kRunSlack + 1) * terrain::kRunSlack;
     if (pitch_ / terrain::kRunSlack % 2 == 0) pitch_ += terrain::kRunSlack;
@@ -104,6 +106,7 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
     row_sight_.emplace_back(geometry, distance_m);
     const double above_m = geometry.altitude_m() - geometry.plane_msl_m();
     sin_grazing_[row] = static_cast<float>(std::max(0.0, geometry.earth().sight(above_m, distance_m, 0.0).sin_grazing));
+    sea_divisor_[row] = sin_grazing_[row] > 0.0F ? sin_grazing_[row] : std::numeric_limits<float>::infinity();
   }
   const double path_m = grid.first_distance_m;
   const double spacing_m = path.post_spacing_m() > 0.0 ? kPathSpacingWithPosts_m : kPathSpacingWithoutPosts_m;
@@ -189,10 +192,10 @@ std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometr
     std::copy_n(reflects.land, rows, gamma);
   else
     std::fill_n(gamma, rows, plain_gamma_);
-  // The sea's sigma0 refers to level area. Division by the sine of the grazing angle converts it to gamma.
-  if (reflects.sea != nullptr)
-    for (std::size_t row = 0; row < rows; ++row)
-      if (sin_grazing_[row] > 0.0F) gamma[row] += reflects.sea[row] / sin_grazing_[row];
+  // The sea's sigma0 refers to level area. Division by the sine of the grazing angle converts it to gamma. The divisor
+  // is infinite where sea has no return, so that the compiler uses vectors.
+  if (reflects.sea != nullptr && physics::simd::any_positive(rows, reflects.sea))
+    for (std::size_t row = 0; row < rows; ++row) gamma[row] += reflects.sea[row] / sea_divisor_[row];
   if (detail != nullptr) detail->modulate(column.positions.run(), gamma);
   return pending;
 }

@@ -98,6 +98,7 @@ class PolarGround {
   std::unique_ptr<Column> window_, path_;
   std::unique_ptr<physics::Ground> ground_;
   std::vector<float> sin_grazing_;                                // sine of the grazing angle on the map plane, by row
+  std::vector<float> sea_divisor_;                                // sin_grazing_, infinite in place of 0
   std::vector<Sight> path_sight_, row_sight_;                     // by sample of the path; by row
   std::size_t pitch_ = 0;                                         // entries per column in the three arrays below
   memory::CacheAlignedVector<float> strip_height_, strip_gamma_;  // sixteen columns, one after the other

@@ -19,7 +19,7 @@ Standard::Standard(const physics::RadarParameters& parameters)
 void Standard::begin(const PatchData& data) {
   const PolarGrid& grid = data.grid;
   scene_.begin(data);
-  cross_section_m2_.resize(data.points);
+  cross_section_m2_.resize(data.points + grid.strip_size());  // simd::draw_row() may read one strip more
   distance_m_.clear();
   inverse_m_.clear();
   above_plane_m_.clear();
