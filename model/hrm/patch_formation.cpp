@@ -66,6 +66,7 @@ struct PatchFormation::Work {
   std::size_t sector_points;
   std::size_t sector = 0;  // number of the sector that is being computed
   PatchData data;
+  terrain::TerrainViewPointer posts;  // PatchTerrain::posts
   std::unique_ptr<GroundTexture> detail;
   std::vector<PolarGround> grounds;        // by thread
   std::vector<std::size_t> pending;        // by thread: samples over terrain that was not loaded
@@ -124,7 +125,7 @@ void PatchFormation::Work::begin_sector(std::size_t number) {
 // ground below the grid and makes its texture.
 void PatchFormation::Work::lay_grid() {
   const PolarGrid& grid = data.grid;
-  const terrain::TerrainViewPointer posts = inputs.environment.window;
+  posts = inputs.environment.window;
   terrain::TerrainViewPointer& ground = inputs.environment.window;
   const PolarMargins margins = polar_margins(*data.geometry, *posts, data.tiles, inputs.executor);
   data.grid = make_polar_grid(*data.geometry, data.image.size, algorithm->cells_per_pixel(), margins);
@@ -145,7 +146,7 @@ void PatchFormation::Work::lay_grid() {
 }
 
 void PatchFormation::Work::read_terrain() {
-  const PatchTerrain terrain{inputs.environment.window.get(), inputs.environment.path.get(), data.crests};
+  const PatchTerrain terrain{inputs.environment.window.get(), inputs.environment.path.get(), data.crests, posts.get()};
   const GroundArrays arrays{data.surface.data(), data.horizon.data(),
                             data.crests.any() ? data.crest_m.data() : nullptr};
   parallel_for_strips(inputs.executor, data.grid, [&](int first, int last, std::size_t thread) {
