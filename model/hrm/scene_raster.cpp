@@ -85,14 +85,48 @@ bool find_columns(const PatchGeometry& geometry, const PolarGrid& grid, PlacedTi
          min_row < static_cast<float>(grid.rows) + 1.0F;
 }
 
+// Finds tiles far from the polar grid without a geodesic, which takes most of the time of placing a tile.
+class FarTiles {
+ public:
+  FarTiles(const PatchGeometry& geometry, const PolarGrid& grid) : centre_(geometry.position_of({})) {
+    for (const int column : {0, grid.columns - 1})
+      for (const int row : {0, grid.rows - 1}) {
+        const double tangent = grid.tangent(column);
+        const double ahead_m = grid.distance_m(row) / std::sqrt(1.0 + tangent * tangent);
+        reach_m_ = std::max(reach_m_, std::hypot(tangent * ahead_m, ahead_m - geometry.distance_m()));
+      }
+    // The row in the middle of the far edge is the farthest from the aircraft.
+    reach_m_ = std::max(reach_m_, grid.distance_m(grid.rows - 1) - geometry.distance_m());
+  }
+  bool has(const scene::Tile& tile) const {
+    constexpr double kReserve = 1.1;  // above the error of this distance. The length of a degree of longitude is the
+                                      // lesser of both latitudes, so the distance is too small rather than too large.
+    const double latitude_deg = std::max(std::abs(tile.origin.latitude_deg), std::abs(centre_.latitude_deg));
+    const double east_deg = geo::wrapped_degrees(tile.origin.longitude_deg - centre_.longitude_deg) *
+                            std::cos(latitude_deg * geo::kRadiansPerDegree);
+    const double distance_m =
+        geo::kMetresPerDegree * std::hypot(east_deg, tile.origin.latitude_deg - centre_.latitude_deg);
+    const scene::Bounds& bounds = tile.bounds;
+    const double extent_m = std::hypot(static_cast<double>(std::max(-bounds.east_min_m, bounds.east_max_m)),
+                                       static_cast<double>(std::max(-bounds.north_min_m, bounds.north_max_m)));
+    return distance_m > kReserve * (reach_m_ + extent_m);
+  }
+
+ private:
+  geo::GeoPoint centre_;
+  double reach_m_ = 0.0;  // of the grid from the map's centre
+};
+
 }  // namespace
 
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
                                     const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor) {
   std::vector<PlacedTile> all(tiles.size());
+  const FarTiles far(geometry, grid);
   parallel::parallel_for(executor, static_cast<int>(tiles.size()), kTilesPerTask,
                          [&](int first, int last, std::size_t) {
                            for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
+                             if (far.has(*tiles[i])) continue;
                              all[i] = placed_tile(geometry, *tiles[i]);
                              if (!find_columns(geometry, grid, all[i])) all[i].tile = nullptr;
                            }
