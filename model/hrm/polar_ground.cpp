@@ -25,6 +25,7 @@ constexpr float kNoHorizon = -1.0e6F;       // [m] or tangent: below every line 
 // first and the last column of a strip are always sampled. kMaxPathStep is larger, because the path affects only the
 // horizon.
 constexpr double kMaxWindowStep = 0.25;
+constexpr double kMaxHeightStep = 0.125;  // for heights alone, over surface materials
 constexpr double kMaxPathStep = 0.5;
 // Row spacings, as fractions of the post spacing, above which crests between rows are computed. Closer rows sample
 // every crest themselves. In a smoothed view, one-degree cells with close posts stay bilinear, so crests lie on their
@@ -161,7 +162,7 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
 int PolarGround::column_step(const PolarGrid& grid, const terrain::TerrainView& view,
                              const GroundTexture* detail) const {
   if (algorithm_ != radar::Algorithm::standard || interpolation_ == radar::Interpolation::nearest) return 1;
-  double farthest_m = kMaxWindowStep * view.post_spacing_m();
+  double farthest_m = (view.has_materials() ? kMaxHeightStep : kMaxWindowStep) * view.post_spacing_m();
   if (detail != nullptr && !view.has_materials()) farthest_m = std::min(farthest_m, detail->texel_m());
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.distance_m(grid.rows - 1)));
 }

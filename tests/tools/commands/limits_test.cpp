@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "lib/geo/geodesy.hpp"
@@ -105,7 +106,10 @@ TEST(PatchLimits, TheHeadingThatTheErrorProposesIsWithinTheLimits) {
 }
 
 TEST(PatchLimits, TheDefaultMapIsWithinTheLimits) {
-  EXPECT_EQ(endtoend::run_program({"yars", "patch"}).code, 0);
+  const auto run = endtoend::run_program({"yars", "patch"});
+  EXPECT_EQ(run.code, 0);
+  const unsigned processors = std::max(std::thread::hardware_concurrency(), 1U);
+  EXPECT_THAT(run.output, HasSubstr("\"threads\":" + std::to_string(processors)));
 }
 
 // A map of 4096 pixels is made in sectors. `reference` holds the whole grid, so it makes smaller maps only.
