@@ -1,17 +1,23 @@
 """Python client of a running YARS session, the counterpart of yars.h. Needs Python 3.9+, no compiler.
+Without a session: patch_map() makes a patch map by the command `yars patch`.
 Inputs to the session: ownship, navigators, events. Outputs: radar state, outputs, sweeps, frames of the display.
 Errors: YarsError. No error means only that a record was sent; `yars status` shows the refused ones.
 Platform: Linux on x86-64, where a store of an aligned 64-bit word is atomic and stores stay in order.
 Usage: docs/attach.md. Segment: docs/shared_memory.md. A test compares all offsets here with `yars status --layout`."""
+import array
 import difflib
 import enum
 import fcntl
+import json
 import math
 import mmap
 import os
+import pathlib
 import re
 import stat
 import struct
+import subprocess
+import tempfile
 import time
 
 MAGIC, LINE, SLOTS = 0x314D485353524159, 64, 4
@@ -309,6 +315,29 @@ def pack(what, fields, values):
 def unpack(fields, record):
     return Record({name: value for (name, _), value in zip(fields, struct.unpack(code_of(fields), record))
                    if not name.startswith("_")})
+
+
+def patch_map(yars="yars", **options):
+    """facts, power = patch_map(lat=37.45, lon=-122.65, target_lat=37.51, target_lon=-122.45, size=4096): a patch map
+    without a session. `options` are those of `yars patch` with _ for -; True for a flag, a list for a repeated option.
+    `facts` is the command's JSON. `power` has facts["size"] rows of as many floats, the far edge first: gamma of level
+    ground before speckle and noise, -1 in the blind zone. `yars`: the program."""
+    for name in set(options) & {"out", "pixels", "json"}:
+        raise YarsError(f"patch_map: expected an option of `yars patch` other than {name!r}; the map is returned")
+    words = [f"--{name.replace('_', '-')}" + ("" if value is True else f"={value}") for name, values in options.items()
+             for value in (values if isinstance(values, (list, tuple)) else [values])]
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "map.f32"
+        try:
+            done = subprocess.run([yars, "patch", *words, "--out", str(path)], capture_output=True, text=True,
+                                  stdin=subprocess.DEVNULL)
+        except OSError as problem:
+            raise YarsError(f"{yars}: expected the program yars, found: {problem.strerror}; give yars=PATH") from None
+        if done.returncode != 0:
+            raise YarsError(done.stderr.strip() or f"yars patch: ended with code {done.returncode}")
+        power = array.array("f")
+        power.frombytes(path.read_bytes())
+    return Record(json.loads(done.stdout)), power
 
 
 class Session:

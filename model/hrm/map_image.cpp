@@ -23,17 +23,36 @@ double unit_return_m2(const PatchGeometry& geometry, int pixels) {
   return pixel_m * pixel_m * std::max(geometry.sin_grazing(), kMinGrazingSine);
 }
 
+namespace {
+// Pixels of a row between which the sector draws. Up to 16 more at each end serve rounding and vectors.
+void set_pixels(const PolarGrid& grid, int size, simd::MapRow& row) {
+  constexpr double kReserve = 2.0;  // [pixels] above the rounding errors of float positions
+  constexpr int kStep = 16;
+  row.begin = 0;
+  row.end = size;
+  const auto pixel_at = [&](int column) {
+    const double right_m = grid.tangent(column) * static_cast<double>(row.ahead_m);
+    return (right_m - static_cast<double>(row.first_right_m)) / static_cast<double>(row.pixel_m);
+  };
+  const auto limited = [&](double pixel) { return static_cast<int>(std::clamp(pixel, 0.0, size + 0.0)); };
+  if (grid.first_drawn_column() > 0)
+    row.begin = limited(std::floor(pixel_at(grid.first_drawn_column()) - kReserve)) / kStep * kStep;
+  if (grid.end_drawn_column() < grid.columns)
+    row.end = limited(std::ceil(pixel_at(grid.end_drawn_column()) + kReserve));
+}
+}  // namespace
+
 void draw_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const float* cross_section_m2, int first,
                      int last, MapImage& image) {
   const double pixel_m = geometry.window_m() / image.size;
   const double edge_m = 0.5 * geometry.window_m();
   simd::MapRow row;
-  row.columns = image.size;
   row.first_right_m = static_cast<float>(0.5 * pixel_m - edge_m);
   row.pixel_m = static_cast<float>(pixel_m);
   row.scale = static_cast<float>(pixel_m * pixel_m / unit_return_m2(geometry, image.size));
   for (int line = first; line < last; ++line) {
     row.ahead_m = static_cast<float>(geometry.distance_m() + edge_m - (line + 0.5) * pixel_m);
+    set_pixels(grid, image.size, row);
     simd::draw_row(grid, cross_section_m2, row, &image.power[image.at(0, line)]);
   }
 }
@@ -150,7 +169,8 @@ Speckle::Speckle(int size, int looks, std::uint64_t seed, std::uint32_t map)
     first_[i] = weights.first;
     second_[i] = weights.second;
   }
-  cells_.assign(2 * padded(kCellsPerRow), 0.0F);
+  std::fill(cell_.begin() + size_, cell_.end(), cell_[static_cast<std::size_t>(size_) - 1]);
+  cells_.assign(2 * padded(kCellsPerRow) + 2 * kSlack, 0.0F);
   near_.assign(2 * static_cast<std::size_t>(looks_) * pitch_, 0.0F);
   far_ = near_;
 }
@@ -165,7 +185,7 @@ Speckle::CellWeights Speckle::cell_weights(int pixel) const {
 }
 
 void Speckle::draw_cells(int cell_row, std::vector<float>& field) {
-  const std::size_t half = cells_.size() / 2;
+  const std::size_t half = padded(kCellsPerRow);
   for (int look = 0; look < looks_; ++look) {
     const auto name = static_cast<std::uint32_t>(cell_row * looks_ + look);
     simd::draw_gaussian(half, physics::make_noise_state({seed_, map_, name}), cells_.data(), &cells_[half]);

@@ -37,7 +37,8 @@ struct MapImage {
 // of a pixel divided by this value. `pixels`: number of pixels per side.
 double unit_return_m2(const PatchGeometry& geometry, int pixels);
 
-// Interpolates rows [first, last) of the map bilinearly from cross sections on the polar grid.
+// Interpolates rows [first, last) of the map bilinearly from cross sections on the polar grid, in the pixels that the
+// sector draws.
 void draw_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, const float* cross_section_m2, int first,
                      int last, MapImage& image);
 

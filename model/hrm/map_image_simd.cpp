@@ -24,11 +24,58 @@ using BitsTag = hn::RebindToUnsigned<Tag>;
 using Floats = hn::Vec<Tag>;
 constexpr std::ptrdiff_t kPrefetchRows = 4;  // distance of the prefetch [rows of the polar grid]
 
-// Index of row 0 of a column in the polar grid.
+// Index of row 0 of a column, counted from the sector's first column.
 HWY_INLINE hn::Vec<SignedTag> start_of(hn::Vec<SignedTag> column, std::int32_t strip_size) {
   const SignedTag di;
   const auto strip = hn::ShiftRight<4>(column);
   return hn::Add(hn::Mul(strip, hn::Set(di, strip_size)), hn::And(column, hn::Set(di, kStripColumns - 1)));
+}
+
+// Cross sections at the corners of the grid cells of one vector of pixels.
+struct Corners {
+  Floats near_left, near_right, far_left, far_right;
+};
+
+// `column` and `line`: of the corners near_left. Neighbouring pixels mostly lie in one row of at most two strips, whose
+// columns are faster to permute than to gather.
+HWY_INLINE Corners corners_at(hn::Vec<SignedTag> column, hn::Vec<SignedTag> line, std::int32_t strip_size,
+                              const float* cross_section_m2) {
+  const Tag d;
+  const SignedTag di;
+  const auto first = hn::GetLane(column) / kStripColumns;
+  const auto row = hn::GetLane(line);
+  const float* const strip = cross_section_m2 + static_cast<std::ptrdiff_t>(first) * strip_size +
+                             static_cast<std::ptrdiff_t>(row) * kStripColumns;
+  // Prefetches (loads into the cache) the grid rows of the next map rows, which are nearer to the aircraft. The
+  // hardware prefetcher cannot follow as many streams as there are strips.
+  hwy::Prefetch(strip - kPrefetchRows * kStripColumns);
+#if HWY_TARGET <= HWY_AVX3
+  const auto lane = hn::Sub(column, hn::Set(di, first * kStripColumns));
+  const auto ends = hn::Set(di, 2 * kStripColumns - 1);
+  const auto elsewhere = hn::Or(hn::Ne(line, hn::Set(di, row)),
+                                hn::Or(hn::Gt(lane, hn::Sub(ends, hn::Set(di, 1))), hn::Lt(lane, hn::Zero(di))));
+  if (hn::AllFalse(di, elsewhere)) {
+    const float* const next = strip + strip_size;
+    const auto in_strip = hn::Set(di, kStripColumns - 1);
+    const auto lane_right = hn::Add(lane, hn::Set(di, 1));
+    const auto left = hn::IndicesFromVec(d, hn::And(lane, in_strip));
+    const auto right = hn::IndicesFromVec(d, hn::And(lane_right, in_strip));
+    const auto left_next = hn::RebindMask(d, hn::Gt(lane, in_strip));
+    const auto right_next = hn::RebindMask(d, hn::Gt(lane_right, in_strip));
+    const auto at = [&](std::ptrdiff_t offset, auto indices, auto in_next) HWY_ATTR {
+      return hn::IfThenElse(in_next, hn::TableLookupLanes(hn::Load(d, next + offset), indices),
+                            hn::TableLookupLanes(hn::Load(d, strip + offset), indices));
+    };
+    return {at(0, left, left_next), at(0, right, right_next), at(kStripColumns, left, left_next),
+            at(kStripColumns, right, right_next)};
+  }
+#endif
+  const auto offset = hn::ShiftLeft<4>(line);
+  const auto left_at = hn::Add(start_of(column, strip_size), offset);
+  const auto right_at = hn::Add(start_of(hn::Add(column, hn::Set(di, 1)), strip_size), offset);
+  return {hn::GatherIndex(d, cross_section_m2, left_at), hn::GatherIndex(d, cross_section_m2, right_at),
+          hn::GatherIndex(d, cross_section_m2 + kStripColumns, left_at),
+          hn::GatherIndex(d, cross_section_m2 + kStripColumns, right_at)};
 }
 
 void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow& row, float* pixel) {
@@ -43,12 +90,17 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
   const auto last_row = hn::Set(di, grid.rows - 2);
   const auto zero = hn::Zero(di);
   const auto strip_size = static_cast<std::int32_t>(grid.strip_size());
+  const bool whole = grid.first_drawn_column() == 0 && grid.end_drawn_column() == grid.columns;
+  const auto before_drawn = hn::Set(di, grid.first_drawn_column() - 1);
+  const auto end_drawn = hn::Set(di, grid.end_drawn_column());
+  const auto first_held = hn::Set(di, grid.first_strip * kStripColumns);
+  const auto last_held = hn::Set(di, (grid.end_strip - grid.first_strip) * kStripColumns - 2);
   // Width of a column: distance * tangent_step / (1 + tangent^2) = tangent_step * ahead^2 / distance.
   const double ahead_m = static_cast<double>(row.ahead_m);
   const auto scale_per_metre = hn::Set(
       d, static_cast<float>(static_cast<double>(row.scale) / (grid.tangent_step * grid.spacing_m * ahead_m * ahead_m)));
   const auto lanes = hn::ConvertTo(d, hn::Iota(di, 0));
-  for (int i = 0; i < row.columns; i += static_cast<int>(hn::Lanes(d))) {
+  for (int i = row.begin; i < row.end; i += static_cast<int>(hn::Lanes(d))) {
     const auto number = hn::Add(lanes, hn::Set(d, static_cast<float>(i)));
     const auto right = hn::Add(hn::Set(d, row.first_right_m), hn::Mul(number, hn::Set(d, row.pixel_m)));
     const auto distance = hn::Sqrt(hn::Add(hn::Mul(right, right), ahead2));
@@ -58,27 +110,19 @@ void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow
     const auto line = hn::Min(hn::Max(hn::ConvertTo(di, y), zero), last_row);
     const auto across = hn::Sub(x, hn::ConvertTo(d, column));
     const auto along = hn::Sub(y, hn::ConvertTo(d, line));
-    const auto offset = hn::ShiftLeft<4>(line);
-    const auto left_at = hn::Add(start_of(column, strip_size), offset);
-    // Prefetches (loads into the cache) the grid rows of the next map rows, which are nearer to the aircraft. The
-    // hardware prefetcher cannot follow as many streams as there are strips.
-    hwy::Prefetch(cross_section_m2 + hn::GetLane(left_at) - kPrefetchRows * kStripColumns);
-    const auto right_at = hn::Add(start_of(hn::Add(column, hn::Set(di, 1)), strip_size), offset);
-    const auto near_left = hn::GatherIndex(d, cross_section_m2, left_at);
-    const auto near_right = hn::GatherIndex(d, cross_section_m2, right_at);
-    const auto far_left = hn::GatherIndex(d, cross_section_m2 + kStripColumns, left_at);
-    const auto far_right = hn::GatherIndex(d, cross_section_m2 + kStripColumns, right_at);
-    const auto near = hn::Add(near_left, hn::Mul(across, hn::Sub(near_right, near_left)));
-    const auto far = hn::Add(far_left, hn::Mul(across, hn::Sub(far_right, far_left)));
+    // Lanes that are not drawn get any column of the sector.
+    const auto held = hn::Min(hn::Max(hn::Sub(column, first_held), zero), last_held);
+    const Corners corners = corners_at(held, line, strip_size, cross_section_m2);
+    const auto near = hn::Add(corners.near_left, hn::Mul(across, hn::Sub(corners.near_right, corners.near_left)));
+    const auto far = hn::Add(corners.far_left, hn::Mul(across, hn::Sub(corners.far_right, corners.far_left)));
     const auto value = hn::Add(near, hn::Mul(along, hn::Sub(far, near)));
     const auto drawn = hn::Mul(value, hn::Mul(scale_per_metre, distance));
-    const auto remaining = static_cast<std::size_t>(row.columns - i);
-    if (remaining >= hn::Lanes(d)) {
+    const auto remaining = static_cast<std::size_t>(row.end - i);
+    if (whole && remaining >= hn::Lanes(d)) {
       hn::StoreU(drawn, d, pixel + i);
     } else {
-      HWY_ALIGN float last[kMaxLanes];
-      hn::StoreU(drawn, d, last);
-      std::copy_n(last, remaining, pixel + i);
+      const auto wanted = hn::RebindMask(d, hn::And(hn::Gt(column, before_drawn), hn::Lt(column, end_drawn)));
+      hn::BlendedStore(drawn, hn::And(wanted, hn::FirstN(d, remaining)), d, pixel + i);
     }
   }
 }
@@ -180,13 +224,17 @@ void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, fl
   }
 }
 
+// Pixels are finer than cells, so the cells of one vector lie within one vector of cells, which is faster to permute
+// than to gather.
 void interpolate(std::size_t count, const Neighbours& where, const float* cells, float* field) {
   const Tag d;
   const SignedTag di;
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
-    const auto cell = hn::LoadU(di, where.cell + i);
-    const auto first = hn::Mul(hn::LoadU(d, where.first + i), hn::GatherIndex(d, cells, cell));
-    const auto second = hn::Mul(hn::LoadU(d, where.second + i), hn::GatherIndex(d, cells + 1, cell));
+    const float* const from = cells + where.cell[i];
+    const auto lane = hn::Sub(hn::LoadU(di, where.cell + i), hn::Set(di, where.cell[i]));
+    const auto indices = hn::IndicesFromVec(d, lane);
+    const auto first = hn::Mul(hn::LoadU(d, where.first + i), hn::TableLookupLanes(hn::LoadU(d, from), indices));
+    const auto second = hn::Mul(hn::LoadU(d, where.second + i), hn::TableLookupLanes(hn::LoadU(d, from + 1), indices));
     hn::StoreU(hn::Add(first, second), d, field + i);
   }
 }

@@ -13,7 +13,7 @@ namespace yars::model::hrm::simd {
 
 // One row of the map and its position relative to the aircraft.
 struct MapRow {
-  int columns = 0;             // pixels
+  int begin = 0, end = 0;      // pixels [begin, end) of the row are drawn; `begin` is a multiple of 16
   float first_right_m = 0.0F;  // centre of pixel 0, to the right of the line of sight to the map's centre
   float pixel_m = 0.0F;
   float ahead_m = 0.0F;  // from the aircraft to the row, along that line of sight
@@ -21,7 +21,8 @@ struct MapRow {
 };
 
 // pixel[i] = `scale` times the cross section per m^2 at the pixel, interpolated bilinearly on the polar grid.
-// Precondition: pixels lie within the grid.
+// Pixels [begin, end) whose left column the sector does not draw keep their values.
+// Precondition: pixels lie within the grid. `cross_section_m2` has one strip more, which may be read.
 void draw_row(const PolarGrid& grid, const float* cross_section_m2, const MapRow& row, float* pixel);
 
 // Pixels of a block: adjacent pixels of a row that the impulse response computes together.
@@ -49,6 +50,7 @@ void draw_gaussian(std::size_t count, physics::NoiseState state, float* real, fl
 
 // Interpolation between two neighbouring cells of a row:
 // field[i] = first[i] * cells[cell[i]] + second[i] * cells[cell[i] + 1].
+// Requirement: `cell` rises by 0 or 1 from entry to entry. 17 entries of `cells` from each cell[i] on may be read.
 struct Neighbours {
   const std::int32_t* cell;
   const float* first;

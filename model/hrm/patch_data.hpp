@@ -55,7 +55,7 @@ class PolarArray {
   memory::CacheAlignedVector<Number> numbers_;
 };
 
-// Grid, ground and images of one map. The arrays are reused for the next map.
+// Grid, ground and images of one map. The arrays are reused for the next sector and the next map.
 struct PatchData {
   explicit PatchData(int pixels) : image(pixels) {}
 
@@ -64,7 +64,9 @@ struct PatchData {
 
   std::optional<PatchGeometry> geometry;  // nullopt until the first map has its inputs
   geo::Duration formation{};              // time in which the synthetic array is formed
-  PolarGrid grid;
+  PolarGrid grid;                         // with the sector that is being computed
+  std::vector<int> sectors;               // as from sectors_of()
+  std::size_t points = 0;                 // entries of the arrays of the largest sector
   std::vector<const scene::Tile*> tiles;  // scene tiles near the window
   PolarArray<SurfacePoint> surface;       // by PolarGrid::at()
   CrestsBetweenRows crests;               // kinds of crests to compute
@@ -74,11 +76,13 @@ struct PatchData {
   std::vector<std::uint8_t> picture;  // 8-bit video, row 0 at the far edge
 };
 
-// Divides the strips of the grid into ranges and calls job(first, last, thread) for each range [first, last).
+// Divides the strips of the sector into ranges and calls job(first, last, thread) for each range [first, last).
 template <class Job>
 void parallel_for_strips(const parallel::Executor& executor, const PolarGrid& grid, const Job& job) {
   constexpr int kStripsPerTask = 2;
-  parallel::parallel_for(executor, grid.strips(), kStripsPerTask, job);
+  parallel::parallel_for(
+      executor, grid.end_strip - grid.first_strip, kStripsPerTask,
+      [&](int first, int last, std::size_t thread) { job(grid.first_strip + first, grid.first_strip + last, thread); });
 }
 
 // Divides the rows of the image into ranges and calls job(first, last, thread) for each range [first, last).

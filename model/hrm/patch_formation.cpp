@@ -30,12 +30,17 @@ std::unique_ptr<Algorithm> make_algorithm(const physics::RadarParameters& parame
 }
 }  // namespace
 
+int max_map_size(radar::Algorithm algorithm) {
+  return algorithm == radar::Algorithm::reference ? 1024 : 4096;
+}
+
 struct PatchFormation::Work {
-  Work(const physics::RadarParameters& parameters, parallel::Executor executor)
+  Work(const physics::RadarParameters& parameters, parallel::Executor executor, std::size_t points)
       : fidelity(parameters.fidelity),
         high_resolution(parameters.high_resolution),
         array(parameters),
         algorithm(make_algorithm(parameters)),
+        sector_points(points),
         data(parameters.fidelity.map_size) {
     inputs.executor = std::move(executor);
     for (std::size_t thread = 0; thread < inputs.executor.threads; ++thread) grounds.emplace_back(parameters);
@@ -43,6 +48,8 @@ struct PatchFormation::Work {
 
   void begin_map();
   void lay_grid();
+  void begin_sector(std::size_t number);
+  bool in_last_sector() const { return sector + 2 == data.sectors.size(); }
   void read_terrain();
   void draw_scene() { algorithm->draw_scene(inputs, data); }
   void cast_profiles() { algorithm->cast_profiles(inputs, data); }
@@ -56,15 +63,19 @@ struct PatchFormation::Work {
   PatchInputs inputs;
   PatchState state = PatchState::reset;
   int completed_stages = 0;
+  std::size_t sector_points;
+  std::size_t sector = 0;  // number of the sector that is being computed
   PatchData data;
+  terrain::TerrainViewPointer posts;  // PatchTerrain::posts
   std::unique_ptr<GroundTexture> detail;
   std::vector<PolarGround> grounds;        // by thread
   std::vector<std::size_t> pending;        // by thread: samples over terrain that was not loaded
   std::vector<std::uint8_t> ground_begun;  // by thread: PolarGround::begin() has been called for this map
 };
 
-PatchFormation::PatchFormation(const physics::RadarParameters& parameters, parallel::Executor executor)
-    : work_(std::make_unique<Work>(parameters, std::move(executor))) {}
+PatchFormation::PatchFormation(const physics::RadarParameters& parameters, parallel::Executor executor,
+                               std::size_t sector_points)
+    : work_(std::make_unique<Work>(parameters, std::move(executor), sector_points)) {}
 PatchFormation::~PatchFormation() = default;
 PatchFormation::PatchFormation(PatchFormation&&) noexcept = default;
 PatchFormation& PatchFormation::operator=(PatchFormation&&) noexcept = default;
@@ -100,13 +111,21 @@ void PatchFormation::Work::begin_map() {
   pending.assign(inputs.executor.threads, 0);
   ground_begun.assign(inputs.executor.threads, 0);
   algorithm->begin(data);
+  begin_sector(0);
 }
 
-// Sets the polar grid of the window and resizes the arrays. If the fidelity says so, also smooths the ground below the
-// grid and makes its texture.
+void PatchFormation::Work::begin_sector(std::size_t number) {
+  constexpr int kOverlap = 1;  // strips on each side that a neighbour draws
+  sector = number;
+  data.grid.first_strip = std::max(data.sectors[number] - kOverlap, 0);
+  data.grid.end_strip = std::min(data.sectors[number + 1] + kOverlap, data.grid.strips());
+}
+
+// Sets the polar grid of the window and its sectors, and resizes the arrays. If the fidelity says so, also smooths the
+// ground below the grid and makes its texture.
 void PatchFormation::Work::lay_grid() {
   const PolarGrid& grid = data.grid;
-  const terrain::TerrainViewPointer posts = inputs.environment.window;
+  posts = inputs.environment.window;
   terrain::TerrainViewPointer& ground = inputs.environment.window;
   const PolarMargins margins = polar_margins(*data.geometry, *posts, data.tiles, inputs.executor);
   data.grid = make_polar_grid(*data.geometry, data.image.size, algorithm->cells_per_pixel(), margins);
@@ -114,14 +133,20 @@ void PatchFormation::Work::lay_grid() {
     ground = terrain::smooth_between_posts(posts, smoothing_parameters(*data.geometry, grid, fidelity, data.tiles));
   if (fidelity.map_detail && (!detail || detail->pixel_m() != grid.spacing_m))
     detail = std::make_unique<GroundTexture>(high_resolution.detail_contrast, grid.spacing_m);
-  data.surface.resize(grid.size());
+  data.sectors = algorithm->uses_sectors() ? sectors_of(grid, sector_points) : std::vector<int>{0, data.grid.strips()};
+  data.points = 0;
+  for (std::size_t number = 0; number + 1 < data.sectors.size(); ++number) {
+    begin_sector(number);
+    data.points = std::max(data.points, grid.size());
+  }
+  data.surface.resize(data.points);
   data.crests = algorithm->uses_crests() ? crests_between_rows(grid, *posts, ground != posts) : CrestsBetweenRows{};
-  if (data.crests.any()) data.crest_m.resize(grid.size());
+  if (data.crests.any()) data.crest_m.resize(data.points);
   data.horizon.resize(static_cast<std::size_t>(grid.columns));
 }
 
 void PatchFormation::Work::read_terrain() {
-  const PatchTerrain terrain{inputs.environment.window.get(), inputs.environment.path.get(), data.crests};
+  const PatchTerrain terrain{inputs.environment.window.get(), inputs.environment.path.get(), data.crests, posts.get()};
   const GroundArrays arrays{data.surface.data(), data.horizon.data(),
                             data.crests.any() ? data.crest_m.data() : nullptr};
   parallel_for_strips(inputs.executor, data.grid, [&](int first, int last, std::size_t thread) {
@@ -134,8 +159,10 @@ void PatchFormation::Work::read_terrain() {
 }
 
 void PatchFormation::Work::draw_map() {
+  algorithm->draw_pixels(inputs, data);
+  if (!in_last_sector()) return;
   data.image.blind = false;
-  algorithm->draw_map(inputs, data);
+  algorithm->complete_map(inputs, data);
   const BlindZone zone(*data.geometry, inputs.order.ground_track, high_resolution.blind_zone_deg, data.image.size);
   if (!zone.may_reach_map()) return;  // starting the threads costs more than the test
   std::atomic<bool> blind{false};
@@ -153,7 +180,13 @@ void PatchFormation::advance() {
   if (work.state != PatchState::processing && work.state != PatchState::output) return;
   (work.*kStages[static_cast<std::size_t>(work.completed_stages)])();
   ++work.completed_stages;
-  if (work.completed_stages == static_cast<int>(kStages.size()) - 1) work.state = PatchState::output;
+  const bool drawn = work.completed_stages == static_cast<int>(kStages.size()) - 1;
+  if (drawn && !work.in_last_sector()) {
+    work.begin_sector(work.sector + 1);
+    work.completed_stages = 0;
+    return;
+  }
+  if (drawn) work.state = PatchState::output;
   if (work.completed_stages == static_cast<int>(kStages.size())) work.state = PatchState::done;
 }
 

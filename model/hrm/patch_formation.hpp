@@ -6,15 +6,20 @@
 // again. Determinism: equal inputs give equal bits, for any number of threads. Threads: one caller at a time; stages
 // run on the executor's threads. The stages that differ between algorithms are functions of hrm::Algorithm
 // (algorithm.hpp). Source: docs/spec/physics.md#hrm. The states are from the 1996 report.
+// Memory: image and picture, and the arrays of one sector of the polar grid (PolarGrid). A map whose grid has more
+// points than a sector may have is computed sector by sector, with the same bits. The algorithm `reference` always
+// holds the whole grid.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string_view>
 #include <vector>
 
 #include "lib/parallel/thread_pool.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/hrm/patch_data.hpp"
 #include "model/hrm/patch_geometry.hpp"
@@ -29,9 +34,17 @@ enum class PatchState : std::uint8_t { reset, database, processing, output, done
 // Names of the stages, in order.
 inline constexpr std::array<std::string_view, 5> kPatchStages{"terrain", "scene", "profile", "map", "video"};
 
+// Maximum number of points of a sector, of up to 28 bytes each. With fewer points, more strips at the borders of
+// sectors are computed twice.
+inline constexpr std::size_t kMaxSectorPoints = std::size_t{3} << 20U;
+
+// Maximum size [pixels] of a map of one algorithm: a greater map would take more memory than a workstation has.
+int max_map_size(radar::Algorithm algorithm);
+
 class PatchFormation {
  public:
-  PatchFormation(const physics::RadarParameters& parameters, parallel::Executor executor);
+  PatchFormation(const physics::RadarParameters& parameters, parallel::Executor executor,
+                 std::size_t sector_points = kMaxSectorPoints);
   ~PatchFormation();
   PatchFormation(PatchFormation&&) noexcept;
   PatchFormation& operator=(PatchFormation&&) noexcept;
@@ -39,10 +52,11 @@ class PatchFormation {
   PatchNeed begin(const PatchOrder& order);  // returns the terrain to load; any state -> database
   void set_environment(
       const PatchEnvironment& environment);  // sets the inputs; database -> processing; another state: ends the program
-  // Runs one stage; after `map`: -> output; after `video`: -> done. Other states than processing and output: no effect.
+  // Runs one stage; after `map` of the last sector: -> output; after `video`: -> done. After `map` of another sector
+  // the stage `terrain` of the next one follows. Other states than processing and output: no effect.
   void advance();
   PatchState state() const;
-  int stages_done() const;  // number of kPatchStages that are complete
+  int stages_done() const;  // number of kPatchStages that are complete, for the current sector
 
   // Valid in state `done`: 8-bit video, row 0 at the far edge, 0 black to 255 white.
   const std::vector<std::uint8_t>& picture() const;

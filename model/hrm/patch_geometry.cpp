@@ -82,7 +82,20 @@ PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, 
   const double before = std::floor((centre_m - near_m) / grid.spacing_m - offset) + offset;
   grid.first_distance_m = centre_m - before * grid.spacing_m;
   grid.rows = static_cast<int>(std::ceil((far_m - grid.first_distance_m) / grid.spacing_m)) + 1;
+  grid.end_strip = grid.strips();
   return grid;
+}
+
+std::vector<int> sectors_of(const PolarGrid& grid, std::size_t points) {
+  constexpr int kOverlap = 2;  // strips of a sector that its neighbours draw
+  const int strips = grid.strips();
+  const auto held = static_cast<int>(std::min(points / grid.strip_size(), static_cast<std::size_t>(strips)));
+  if (held >= strips) return {0, strips};
+  const int most = std::max(held - kOverlap, 1);
+  const int sectors = (strips + most - 1) / most;
+  std::vector<int> first;
+  for (int sector = 0; sector <= sectors; ++sector) first.push_back(sector * strips / sectors);
+  return first;
 }
 
 namespace {

@@ -106,6 +106,8 @@ inline constexpr int kStripColumns = 16;
 // Grid on which a patch map is computed. Columns are evenly spaced in the tangent of their bearing relative to that of
 // the map's centre. Rows are evenly spaced in distance over ground, row 0 nearest to the aircraft. Shadow and layover
 // act within one column.
+// Sector: the strips [first_strip, end_strip), which the arrays of the map hold. A large map is computed sector by
+// sector; else the sector is the whole grid. Neighbouring sectors overlap by two strips, for the interpolation.
 struct PolarGrid {
   int columns = 0;  // a multiple of kStripColumns
   int rows = 0;
@@ -114,13 +116,20 @@ struct PolarGrid {
   double first_distance_m = 0.0;  // distance of row 0, over ground from the aircraft
   double spacing_m = 0.0;         // between rows
   double centre_distance_m = 0.0;
+  int first_strip = 0;
+  int end_strip = 0;
 
   int strips() const { return columns / kStripColumns; }
+  // Columns [first_drawn_column(), end_drawn_column()): those whose pixels the sector draws. The strip at the border to
+  // another sector is not drawn.
+  int first_drawn_column() const { return first_strip == 0 ? 0 : (first_strip + 1) * kStripColumns; }
+  int end_drawn_column() const { return end_strip == strips() ? columns : (end_strip - 1) * kStripColumns; }
   // The number of rows is made odd, so that rows of equal number in neighbouring strips lie in different cache sets.
   std::size_t strip_size() const { return static_cast<std::size_t>(rows | 1) * kStripColumns; }
-  std::size_t size() const { return strip_size() * static_cast<std::size_t>(strips()); }
+  // Number of entries of an array, and the entry of a point of the sector.
+  std::size_t size() const { return strip_size() * static_cast<std::size_t>(end_strip - first_strip); }
   std::size_t at(int column, int row) const {
-    return static_cast<std::size_t>(column / kStripColumns) * strip_size() +
+    return static_cast<std::size_t>(column / kStripColumns - first_strip) * strip_size() +
            static_cast<std::size_t>(row) * kStripColumns + static_cast<std::size_t>(column % kStripColumns);
   }
   double tangent(double column) const { return first_tangent + column * tangent_step; }
@@ -141,8 +150,12 @@ struct PolarMargins {
 
 // Returns the polar grid of a map with `pixels` pixels per side and `cells` grid cells per side of a pixel. The grid
 // covers the window in azimuth. In range it covers window and margins, at most up to the aircraft. A margin is limited
-// to 4 windows.
+// to 4 windows. The sector is the whole grid.
 PolarGrid make_polar_grid(const PatchGeometry& geometry, int pixels, int cells, const PolarMargins& margins);
+
+// Returns the first strip of each of the fewest sectors whose arrays have at most `points` entries, followed by the
+// number of strips. A sector has at least one strip beside its overlap, even if its arrays then have more entries.
+std::vector<int> sectors_of(const PolarGrid& grid, std::size_t points);
 
 // Surface at one grid point, the input of the stage `profile`. Arrays are indexed by PolarGrid::at(). Gamma and height
 // share a cache line because the scene raster updates both.

@@ -5,10 +5,6 @@
 #include <numbers>
 #include <span>
 
-#include "lib/radar/fidelity.hpp"
-#include "lib/radar/mapping.hpp"
-#include "model/physics/reflectivity.hpp"
-
 namespace yars::model::hrm {
 
 namespace {
@@ -115,48 +111,90 @@ std::vector<float> Response::weights(double pixel, int& first) const {
   return weights;
 }
 
-// Resizes the padded buffers. Zero margins about the image make bounds checks of the sums unnecessary.
-void Response::resize_buffers(const parallel::Executor& executor, const MapImage& image) {
+// Sets the size of a slab and of the buffers. Zero margins about the rows make bounds checks of the sums unnecessary.
+void Response::resize_buffers(const parallel::Executor& executor, const MapImage& image, std::size_t slab_bytes) {
   const auto size = static_cast<std::size_t>(image.size);
+  const std::size_t taps = main_lobe_.size() + sidelobes_.size();
   margin_ = along_radius_ * simd::kBlock;
   columns_ = (size + simd::kBlock - 1) / simd::kBlock * simd::kBlock;
   pitch_ = columns_ + 2 * margin_;
-  const std::size_t padded_size = pitch_ * (size + 2 * margin_);
+  const std::size_t runs = (size + kRowsPerTask - 1) / kRowsPerTask;
+  const std::size_t runs_of_slab =
+      std::clamp(slab_bytes / (pitch_ * sizeof(float)) / kRowsPerTask, std::size_t{1}, runs);
+  slab_rows_ = runs_of_slab * kRowsPerTask;
+  // The sidelobes of a run end `taps` rows beyond it, before and behind.
+  strong_.resize(runs_of_slab + 2 * (taps / kRowsPerTask + 2));
+  const std::size_t padded_size = pitch_ * (slab_rows_ + 2 * main_radius());
   if (across_.size() == padded_size && buffers_.size() == executor.threads) return;
   across_.assign(padded_size, 0.0F);
-  added_.assign(padded_size, 0.0F);
   buffers_.resize(executor.threads);
   for (WorkerBuffers& buffers : buffers_) {
     buffers.source.assign(pitch_, 0.0F);
     buffers.row.assign(columns_, 0.0F);
+    buffers.added.assign(kRowsPerTask * pitch_, 0.0F);
   }
 }
 
-void Response::apply(float floor, const parallel::Executor& executor, MapImage& image) {
-  resize_buffers(executor, image);
-  if (main_lobe_.size() > 1)
-    parallel::parallel_for(executor, image.size, kRowsPerTask, [&](int first, int last, std::size_t thread) {
-      smooth_along(first, last, buffers_[thread], image);
-    });
+// Sidelobes are added behind the slab by as many rows as they reach, because they need the strong blocks of all rows
+// that they reach. They are not added to rows of which across_ is still to be computed.
+void Response::apply(float floor, const parallel::Executor& executor, MapImage& image, std::size_t slab_bytes) {
+  resize_buffers(executor, image, slab_bytes);
   const float limit = sidelobes_.empty() ? 0.0F : floor / *std::max_element(sidelobes_.begin(), sidelobes_.end());
-  strong_.resize(static_cast<std::size_t>((image.size + kRowsPerTask - 1) / kRowsPerTask));
-  parallel::parallel_for(executor, image.size, kRowsPerTask, [&](int first, int last, std::size_t thread) {
-    if (main_lobe_.size() > 1) smooth_down(first, last, buffers_[thread], image);
-    if (!sidelobes_.empty()) find_strong(limit, first, last, buffers_[thread], image);
+  const auto taps = static_cast<int>(main_lobe_.size() + sidelobes_.size());
+  int added = 0;  // rows whose sidelobes are added
+  for (int first = 0; first < image.size; first += static_cast<int>(slab_rows_)) {
+    const int last = std::min(first + static_cast<int>(slab_rows_), image.size);
+    if (main_lobe_.size() > 1) begin_slab(first, last, executor, image);
+    parallel::parallel_for(executor, last - first, kRowsPerTask, [&](int begin, int end, std::size_t thread) {
+      if (main_lobe_.size() > 1) smooth_down(first + begin, first + end, buffers_[thread], image);
+      if (!sidelobes_.empty()) find_strong(limit, first + begin, first + end, buffers_[thread], image);
+    });
+    if (sidelobes_.empty()) continue;
+    const int known = last == image.size ? last : std::max((last - taps) / kRowsPerTask * kRowsPerTask, added);
+    parallel::parallel_for(executor, known - added, kRowsPerTask, [&](int begin, int end, std::size_t thread) {
+      for (int row = added + begin; row < added + end; row += kRowsPerTask)
+        add_sidelobes(row, std::min(row + kRowsPerTask, added + end), buffers_[thread], image);
+    });
+    added = known;
+  }
+}
+
+// Fills across_ for the rows [first, last) and main_radius() rows before and behind. The rows before have been
+// overwritten in the image, so they are kept from the slab before.
+void Response::begin_slab(int first, int last, const parallel::Executor& executor, const MapImage& image) {
+  const auto radius = static_cast<int>(main_radius());
+  const std::size_t rows = 2 * main_radius() * pitch_;
+  if (first == 0)
+    std::fill_n(across_.begin(), main_radius() * pitch_, 0.0F);
+  else
+    std::copy_n(across_.begin() + static_cast<std::ptrdiff_t>(slab_rows_ * pitch_), rows, across_.begin());
+  slab_first_ = static_cast<std::size_t>(first);
+  const int begin = first == 0 ? 0 : std::min(first + radius, image.size);
+  const int end = std::min(last + radius, image.size);
+  parallel::parallel_for(executor, end - begin, kRowsPerTask, [&](int from, int to, std::size_t thread) {
+    smooth_along(begin + from, begin + to, buffers_[thread], image);
   });
-  if (sidelobes_.empty()) return;
-  if (std::all_of(strong_.begin(), strong_.end(), [](const std::vector<StrongBlock>& run) { return run.empty(); }))
-    return;
-  parallel::parallel_for(executor, image.size, kRowsPerTask,
-                         [&](int first, int last, std::size_t) { add_sidelobes(first, last, image); });
+  for (int row = end; row < last + radius; ++row)
+    std::fill_n(&across_[across_at(static_cast<std::size_t>(row))] - margin_, pitch_, 0.0F);
 }
 
 void Response::smooth_along(int first, int last, WorkerBuffers& buffers, const MapImage& image) {
   const auto size = static_cast<std::size_t>(image.size);
-  float* from = &buffers.source[margin_];
+  const std::size_t radius = main_radius();
+  float* const padded = &buffers.source[margin_];
+  // Blocks at the ends of a row reach beyond it, and are computed from a padded copy.
+  const std::size_t head = std::min((radius + simd::kBlock - 1) / simd::kBlock * simd::kBlock, columns_);
+  const std::size_t tail = std::max(size > radius ? (size - radius) / simd::kBlock * simd::kBlock : 0, head);
+  const std::size_t head_end = std::min(head + radius, size);
+  const std::size_t tail_begin = std::min(tail - std::min(radius, tail), size);
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
-    std::copy_n(&image.power[row * size], size, from);
-    simd::smooth(columns_, from, 1, main_lobe_, &across_[padded(row)]);
+    const float* const from = &image.power[row * size];
+    float* const to = &across_[across_at(row)];
+    std::copy_n(from, head_end, padded);
+    simd::smooth(head, padded, 1, main_lobe_, to);
+    simd::smooth(tail - head, from + head, 1, main_lobe_, to + head);
+    std::copy(from + tail_begin, from + size, padded + tail_begin);
+    simd::smooth(columns_ - tail, padded + tail, 1, main_lobe_, to + tail);
   }
 }
 
@@ -165,7 +203,7 @@ void Response::smooth_down(int first, int last, WorkerBuffers& buffers, MapImage
   for (auto row = static_cast<std::size_t>(first); row < static_cast<std::size_t>(last); ++row) {
     // Writes to the image directly if rows are whole blocks.
     float* to = columns_ == size ? &image.power[row * size] : buffers.row.data();
-    simd::smooth(columns_, &across_[padded(row)], static_cast<std::ptrdiff_t>(pitch_), main_lobe_, to);
+    simd::smooth(columns_, &across_[across_at(row)], static_cast<std::ptrdiff_t>(pitch_), main_lobe_, to);
     if (columns_ != size) std::copy_n(to, size, &image.power[row * size]);
   }
 }
@@ -179,7 +217,7 @@ void Response::find_strong(float limit, int first, int last, WorkerBuffers& buff
       std::copy_n(from, size, buffers.row.data());
       from = buffers.row.data();
     }
-    std::vector<StrongBlock>& strong = strong_[row / kRowsPerTask];
+    std::vector<StrongBlock>& strong = run(row / kRowsPerTask);
     if (row % kRowsPerTask == 0) strong.clear();
     StrongBlock found{row, 0, {}};
     for (found.column = 0; found.column < columns_; found.column += simd::kBlock)
@@ -187,189 +225,47 @@ void Response::find_strong(float limit, int first, int last, WorkerBuffers& buff
   }
 }
 
-// Adds the sidelobes of a block to the rows [first, last).
-void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t last) {
+// Adds the sidelobes of a block to the rows [first, last), which are the rows of `added`.
+void Response::spread(const StrongBlock& strong, std::size_t first, std::size_t last, float* added) const {
   const std::size_t lobe = main_lobe_.size();
   const std::size_t taps = lobe + sidelobes_.size();
   const std::span<const float> weights(sidelobes_);
-  float* at = &added_[padded(strong.row) + strong.column];
+  const auto at = [&](std::size_t row) { return added + (row - first) * pitch_ + margin_ + strong.column; };
   const auto pitch = static_cast<std::ptrdiff_t>(pitch_);
   if (strong.row >= first && strong.row < last)
-    simd::spread_along(strong.power.data(), along_radius_, &along_[along_middle_], at);
+    simd::spread_along(strong.power.data(), along_radius_, &along_[along_middle_], at(strong.row));
   // The sidelobes above the block lie in the rows strong.row - taps + 1 to strong.row - lobe. The sidelobes below
   // are mirrored.
   const std::size_t nearest = strong.row >= last ? std::max(lobe, strong.row - last + 1) : lobe;
   const std::size_t farthest = strong.row >= first ? std::min(taps, strong.row - first + 1) : 0;
   if (nearest < farthest)
     simd::spread(strong.power.data(), -pitch, weights.subspan(nearest - lobe, farthest - nearest),
-                 at - static_cast<std::ptrdiff_t>(nearest) * pitch);
+                 at(strong.row - nearest));
   const std::size_t next = strong.row < first ? std::max(lobe, first - strong.row) : lobe;
   const std::size_t end = strong.row < last ? std::min(taps, last - strong.row) : 0;
   if (next < end)
-    simd::spread(strong.power.data(), pitch, weights.subspan(next - lobe, end - next),
-                 at + static_cast<std::ptrdiff_t>(next) * pitch);
+    simd::spread(strong.power.data(), pitch, weights.subspan(next - lobe, end - next), at(strong.row + next));
 }
 
-// All strong pixels are found before sidelobes are added, so that a sidelobe cannot make a pixel strong. Strong pixels
-// are few, so each strong pixel adds to its neighbours (scatter); no pixel sums over its neighbours (gather).
-void Response::add_sidelobes(int first, int last, MapImage& image) {
+// Adds the sidelobes of at most kRowsPerTask rows. All strong pixels that reach these rows are found before, so that a
+// sidelobe cannot make a pixel strong. Strong pixels are few, so each strong pixel adds to its neighbours (scatter); no
+// pixel sums over its neighbours (gather).
+void Response::add_sidelobes(int first, int last, WorkerBuffers& buffers, MapImage& image) const {
   const auto size = static_cast<std::size_t>(image.size);
   const auto begin = static_cast<std::size_t>(first);
   const auto end = static_cast<std::size_t>(last);
-  for (std::size_t row = begin; row < end; ++row) std::fill_n(&added_[padded(row)] - margin_, pitch_, 0.0F);
   const std::size_t radius = main_lobe_.size() + sidelobes_.size();
   const std::size_t first_run = (begin > radius ? begin - radius : 0) / kRowsPerTask;
-  const std::size_t last_run = std::min((end + radius) / kRowsPerTask, strong_.size() - 1);
-  for (std::size_t run = first_run; run <= last_run; ++run)
-    for (const StrongBlock& strong : strong_[run]) spread(strong, begin, end);
+  const std::size_t last_run = (std::min(end + radius, size) - 1) / kRowsPerTask;
+  bool any = false;
+  for (std::size_t number = first_run; number <= last_run; ++number) any = any || !run(number).empty();
+  if (!any) return;
+  std::fill(buffers.added.begin(), buffers.added.end(), 0.0F);
+  for (std::size_t number = first_run; number <= last_run; ++number)
+    for (const StrongBlock& strong : run(number)) spread(strong, begin, end, buffers.added.data());
   for (std::size_t row = begin; row < end; ++row)
-    for (std::size_t i = 0; i < size; ++i) image.power[row * size + i] += added_[padded(row) + i];
-}
-
-namespace {
-constexpr double kMinDoppler_mps = 1.0;  // [m/s] lower bound of V |sin(squint)|, which is a divisor
-
-// Adds the response of a point at a fractional position [pixels].
-void splat(const Response& response, double column, double row, double power, MapImage& image) {
-  int first_column = 0;
-  int first_row = 0;
-  const std::vector<float> across = response.weights(column, first_column);
-  const std::vector<float> down = response.weights(row, first_row);
-  for (std::size_t j = 0; j < down.size(); ++j) {
-    const int y = first_row + static_cast<int>(j);
-    if (y < 0 || y >= image.size) continue;
-    for (std::size_t i = 0; i < across.size(); ++i) {
-      const int x = first_column + static_cast<int>(i);
-      if (x < 0 || x >= image.size) continue;
-      image.power[image.at(x, y)] += static_cast<float>(power) * across[i] * down[j];
-    }
-  }
-}
-}  // namespace
-
-MapMovers::MapMovers(const physics::RadarParameters& parameters)
-    : gas_(parameters), points_(physics::configured_points(parameters)) {}
-
-MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const PatchOrder& order,
-                                     const PatchGeometry& geometry, geo::Duration formation, double height_m) const {
-  const double time_s = formation.seconds();
-  const MapPoint start = geometry.point_of(mover.position(order.sim_time));
-  const MapPoint end = geometry.point_of(mover.position(order.sim_time + formation));
-  const MapPoint middle{0.5 * (start.right_m + end.right_m), 0.5 * (start.up_m + end.up_m)};
-  const double ahead_m = middle.up_m + geometry.distance_m();
-  const double distance_m = std::hypot(middle.right_m, ahead_m);
-  // Unit vector along the line of sight, then radial and cross-range speeds of the target.
-  const double out_right = middle.right_m / distance_m;
-  const double out_up = ahead_m / distance_m;
-  const double speed_right = time_s > 0.0 ? (end.right_m - start.right_m) / time_s : 0.0;
-  const double speed_up = time_s > 0.0 ? (end.up_m - start.up_m) / time_s : 0.0;
-  const double receding_mps = speed_right * out_right + speed_up * out_up;
-  const double crossing_mps = speed_right * out_up - speed_up * out_right;
-
-  const double squint_rad = geometry.squint(order.ground_track).radians() + std::atan2(middle.right_m, ahead_m);
-  const double doppler_mps = order.ground_speed.metres_per_second() * std::sin(squint_rad);
-  const double clamped_doppler_mps = std::copysign(std::max(std::abs(doppler_mps), kMinDoppler_mps), doppler_mps);
-  // With positive squint the map is right of the track, and the aircraft flies to the left on the map. A receding
-  // target is shifted aft, to the right.
-  const double shift_m = receding_mps / clamped_doppler_mps * distance_m;
-  const double layover_m = laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) - distance_m;
-  const MapPoint shown{middle.right_m + out_right * layover_m + out_up * shift_m,
-                       middle.up_m + out_up * layover_m - out_right * shift_m};
-  // Radial motion smears in range (range walk). Cross-range motion smears in azimuth by twice the distance moved.
-  const double walk_m = receding_mps * time_s;
-  const double blur_m = 2.0 * std::abs(crossing_mps) * time_s;
-  const MapPoint half{0.5 * (out_right * walk_m + out_up * blur_m), 0.5 * (out_up * walk_m - out_right * blur_m)};
-  return {{shown.right_m - half.right_m, shown.up_m - half.up_m},
-          {shown.right_m + half.right_m, shown.up_m + half.up_m}};
-}
-
-bool MapMovers::hidden(const PatchGeometry& geometry, const Horizons& horizons, MapPoint point, double height_m) const {
-  const PolarGrid& grid = *horizons.grid;
-  const double ahead_m = point.up_m + geometry.distance_m();
-  if (!(ahead_m > 0.0)) return false;
-  const double distance_m = std::hypot(point.right_m, ahead_m);
-  const int column = static_cast<int>(std::lround((point.right_m / ahead_m - grid.first_tangent) / grid.tangent_step));
-  const int row = static_cast<int>(std::floor((distance_m - grid.first_distance_m) / grid.spacing_m));
-  if (column < 0 || column >= grid.columns || row < 0) return false;
-  const double tangent = (height_m - geometry.above_plane_m(distance_m)) / distance_m;
-  double horizon = static_cast<double>(horizons.horizon[column]);
-  for (int i = 0; i < std::min(row, grid.rows); ++i) {
-    const double row_distance_m = grid.distance_m(i);
-    const std::size_t at = grid.at(column, i);
-    float top_m = horizons.surface[at].height_m;
-    if (horizons.crest_m != nullptr) top_m = std::max(top_m, horizons.crest_m[at]);
-    const double raised = (static_cast<double>(top_m) - geometry.above_plane_m(row_distance_m)) / row_distance_m;
-    horizon = std::max(horizon, raised);
-  }
-  return tangent < horizon;
-}
-
-void MapMovers::draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
-                     const physics::Environment& environment, const Horizons& horizons, const Response& response,
-                     MapImage& image) const {
-  for (const std::span<const physics::MovingPoint> points : {std::span(points_), environment.traffic})
-    for (const physics::MovingPoint& mover : points)
-      draw_point(mover, order, geometry, formation, environment.terrain, horizons, response, image);
-}
-
-void MapMovers::draw_point(const physics::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
-                           geo::Duration formation, const terrain::TerrainView& terrain, const Horizons& horizons,
-                           const Response& response, MapImage& image) const {
-  const double pixel_m = geometry.window_m() / image.size;
-  const geo::GeoPoint position = mover.position(order.sim_time);
-  const MapPoint point = geometry.point_of(position);
-  // Displacement can move a point into the picture from about one window away. Points more than two windows from the
-  // centre are skipped.
-  if (std::hypot(point.right_m, point.up_m) > 2.0 * geometry.window_m()) return;
-  const double ground_m = terrain.elevation_m(position);
-  if (std::isnan(ground_m)) return;
-  const double height_m = ground_m + mover.height_m - geometry.plane_msl_m();
-  if (hidden(geometry, horizons, point, height_m)) return;
-  const Trace trace = trace_of(mover, order, geometry, formation, height_m);
-  const double length_m = std::hypot(trace.to.right_m - trace.from.right_m, trace.to.up_m - trace.from.up_m);
-  const int steps = 1 + static_cast<int>(std::min(std::ceil(length_m / pixel_m), 4.0 * image.size));
-  const double distance_m = std::hypot(point.right_m, point.up_m + geometry.distance_m());
-  const double loss = gas_.two_way_transmission(geometry.earth(), geometry.altitude_m(), distance_m, ground_m);
-  const double power = loss * mover.cross_section_m2 / (unit_return_m2(geometry, image.size) * steps);
-  for (int step = 0; step < steps; ++step) {
-    const double fraction = (step + 0.5) / steps;
-    const double right_m = trace.from.right_m + fraction * (trace.to.right_m - trace.from.right_m);
-    const double up_m = trace.from.up_m + fraction * (trace.to.up_m - trace.from.up_m);
-    splat(response, right_m / pixel_m + 0.5 * image.size - 0.5, 0.5 * image.size - 0.5 - up_m / pixel_m, power, image);
-  }
-}
-
-PowerPicture::PowerPicture(const physics::RadarParameters& parameters)
-    : high_resolution_(parameters.high_resolution),
-      seed_(parameters.seed),
-      with_speckle_(parameters.fidelity.noise),
-      with_response_(parameters.fidelity.map_response),
-      movers_(parameters),
-      response_(parameters.high_resolution.sidelobe_db,
-                static_cast<double>(radar::kMapCells) / std::max(parameters.fidelity.map_size, 1)) {}
-
-double PowerPicture::thermal_noise(const PatchInputs& inputs, const PatchData& data) const {
-  return noise_gamma(high_resolution_, geo::Length::metres(data.geometry->slant_range_m()), inputs.order.window);
-}
-
-void PowerPicture::add_response_and_movers(const PatchInputs& inputs, PatchData& data) {
-  // Power below the greater of thermal noise and black level is invisible.
-  const radar::HighResolutionConfiguration& hrm = high_resolution_;
-  const double black = physics::ratio(hrm.brightest_gamma_db - hrm.dynamic_range_db);
-  const double floor = std::max(thermal_noise(inputs, data), black);
-  if (with_response_) response_.apply(static_cast<float>(floor), inputs.executor, data.image);
-  movers_.draw(inputs.order, *data.geometry, data.formation,
-               {*inputs.environment.window, nullptr, true, inputs.environment.traffic},
-               {&data.grid, data.surface.data(), data.crests_m(), data.horizon.data()}, response_, data.image);
-}
-
-void PowerPicture::draw_video(const PatchInputs& inputs, PatchData& data) const {
-  const MapNoise noise{thermal_noise(inputs, data), inputs.order.looks, inputs.order.map, seed_, with_speckle_};
-  data.picture.resize(data.image.power.size());
-  constexpr int kRowsPerTask = 128;  // each task draws two rows of speckle cells again, so smaller tasks cost more time
-  parallel::parallel_for(inputs.executor, data.image.size, kRowsPerTask, [&](int first, int last, std::size_t) {
-    form_video(high_resolution_, data.image, noise, first, last, data.picture);
-  });
+    for (std::size_t i = 0; i < size; ++i)
+      image.power[row * size + i] += buffers.added[(row - begin) * pitch_ + margin_ + i];
 }
 
 }  // namespace yars::model::hrm

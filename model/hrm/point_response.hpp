@@ -1,23 +1,17 @@
-// Last steps of a patch map that is computed as power: impulse response, point targets, video.
-// Inputs: MapImage in the unit of map_image.hpp; point targets of the configuration and of the surface traffic.
-// Outputs: the image with response and point targets; 8-bit video.
+// Impulse response of a patch map that is computed as power.
+// Input, output: MapImage in the unit of map_image.hpp.
 // Units: distances from a point in resolution cells or pixels, as named.
 // Threads: Response::apply() uses its executor; one call at a time.
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <vector>
 
 #include "lib/memory/line_vector.hpp"
 #include "lib/parallel/thread_pool.hpp"
-#include "lib/radar/sensor.hpp"
 #include "model/hrm/map_image.hpp"
 #include "model/hrm/map_image_simd.hpp"
-#include "model/hrm/patch_data.hpp"
-#include "model/hrm/patch_geometry.hpp"
-#include "model/physics/atmosphere.hpp"
-#include "model/physics/environment.hpp"
-#include "model/terrain/sampling/terrain_view.hpp"
 
 namespace yars::model::hrm {
 
@@ -26,6 +20,8 @@ namespace yars::model::hrm {
 // Source: Carrara, Goodman, Majewski, "Spotlight SAR", D.2 (Taylor weighting); docs/spec/physics.md#response.
 class Response {
  public:
+  static constexpr std::size_t kSlabBytes = std::size_t{8} << 20U;
+
   // `sidelobe_db`: level of the highest sidelobes relative to the main lobe; its sign is ignored. `cells_per_pixel`:
   // width of a pixel in resolution cells.
   Response(double sidelobe_db, double cells_per_pixel);
@@ -36,7 +32,9 @@ class Response {
   // Convolves the image with the main lobe. A pixel is strong if its highest sidelobe exceeds the power `floor`. The
   // sidelobes of a strong pixel are added along its row and its column.
   // The main lobe conserves the sum of the image, except for power that leaves the image.
-  void apply(float floor, const parallel::Executor& executor, MapImage& image);
+  // Memory beside the image: buffers of one slab of rows. `slab_bytes` limits the greatest of them, and changes no
+  // result; a slab has at least 32 rows.
+  void apply(float floor, const parallel::Executor& executor, MapImage& image, std::size_t slab_bytes = kSlabBytes);
   // Weights that spread a point at the fractional position `pixel` over a row or column; their sum is 1. Sets `first`,
   // the pixel of the first weight.
   std::vector<float> weights(double pixel, int& first) const;
@@ -48,18 +46,23 @@ class Response {
     std::size_t row, column;                // first pixel of the block
     std::array<float, simd::kBlock> power;  // 0 for pixels that are not strong
   };
-  // Buffers of one worker: a row of the image with margins, a row of the result.
+  // Buffers of one worker: a row of the image with margins, a row of the result, padded rows of sidelobes to add.
   struct WorkerBuffers {
-    memory::CacheAlignedVector<float> source, row;
+    memory::CacheAlignedVector<float> source, row, added;
   };
-  void resize_buffers(const parallel::Executor& executor, const MapImage& image);
+  void resize_buffers(const parallel::Executor& executor, const MapImage& image, std::size_t slab_bytes);
+  void begin_slab(int first, int last, const parallel::Executor& executor, const MapImage& image);
   void smooth_along(int first, int last, WorkerBuffers& buffers, const MapImage& image);
   void smooth_down(int first, int last, WorkerBuffers& buffers, MapImage& image) const;
   void find_strong(float limit, int first, int last, WorkerBuffers& buffers, const MapImage& image);
-  void spread(const StrongBlock& strong, std::size_t first, std::size_t last);
-  void add_sidelobes(int first, int last, MapImage& image);
-  // Index of the first pixel of an image row in a padded copy of the image.
-  std::size_t padded(std::size_t row) const { return (row + margin_) * pitch_ + margin_; }
+  void spread(const StrongBlock& strong, std::size_t first, std::size_t last, float* added) const;
+  void add_sidelobes(int first, int last, WorkerBuffers& buffers, MapImage& image) const;
+  std::size_t main_radius() const { return main_lobe_.size() - 1; }
+  // Row of the image, from main_radius() before the slab to main_radius() behind it, convolved along the row.
+  std::size_t across_at(std::size_t row) const { return (row + main_radius() - slab_first_) * pitch_ + margin_; }
+  // Strong blocks of kRowsPerTask rows.
+  std::vector<StrongBlock>& run(std::size_t number) { return strong_[number % strong_.size()]; }
+  const std::vector<StrongBlock>& run(std::size_t number) const { return strong_[number % strong_.size()]; }
 
   std::vector<double> coefficients_;  // cosine series of the weighting; the first is 1
   double stretch_ = 1.0;              // resolution cell in units of 1 / bandwidth
@@ -68,69 +71,11 @@ class Response {
   std::vector<float> sidelobes_;  // weights of the pixels beyond the main lobe, on the scale of main_lobe_
   std::vector<float> along_;      // sidelobes on both sides of a point at along_middle_; 0 within the main lobe
   std::size_t along_radius_ = 0, along_middle_ = 0;   // [blocks], [pixels]
-  std::size_t margin_ = 0, columns_ = 0, pitch_ = 0;  // [pixels] padded copies: margin, inner width, full width
-  // Padded buffers, kept between maps: the image convolved along its rows, and the sidelobes to add.
-  memory::CacheAlignedVector<float> across_, added_;
-  std::vector<WorkerBuffers> buffers_;
-  std::vector<std::vector<StrongBlock>> strong_;  // blocks with strong pixels; one element per kRowsPerTask rows
-};
-
-// Terrain and scene that can hide a point. Surface and crests are indexed by PolarGrid::at(), the horizon by column.
-struct Horizons {
-  const PolarGrid* grid = nullptr;
-  const SurfacePoint* surface = nullptr;
-  const float* crest_m = nullptr;  // as in GroundArrays::crest_m; null: none
-  const float* horizon = nullptr;  // by column: greatest tangent of elevation of ground before row 0 of the grid
-};
-
-// Point targets on a map, moving or at rest (for example corner reflectors). The radial speed v_r, positive towards the
-// radar, moves the apparent bearing towards the aircraft's ground track by v_r / (V sin(squint)) [rad]. V is the
-// aircraft's ground speed, squint the target's bearing from the aircraft's ground track. At broadside and range R the
-// shift is R v_r / V [m]. Motion during the formation time smears the image of a target.
-// Source: docs/spec/physics.md#movers; Raney, "Synthetic Aperture Imaging Radar and Moving Targets" (1971).
-class MapMovers {
- public:
-  explicit MapMovers(const physics::RadarParameters& parameters);
-
-  // Adds the points of configuration and traffic to the image, except hidden points and points over ground without a
-  // known elevation.
-  void draw(const PatchOrder& order, const PatchGeometry& geometry, geo::Duration formation,
-            const physics::Environment& environment, const Horizons& horizons, const Response& response,
-            MapImage& image) const;
-
- private:
-  struct Trace {
-    MapPoint from, to;  // ends of the smeared image of a target on the map
-  };
-  void draw_point(const physics::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
-                  geo::Duration formation, const terrain::TerrainView& terrain, const Horizons& horizons,
-                  const Response& response, MapImage& image) const;
-  Trace trace_of(const physics::MovingPoint& mover, const PatchOrder& order, const PatchGeometry& geometry,
-                 geo::Duration formation, double height_m) const;
-  bool hidden(const PatchGeometry& geometry, const Horizons& horizons, MapPoint point, double height_m) const;
-
-  physics::GasPath gas_;
-  std::vector<physics::MovingPoint> points_;
-};
-
-// For algorithms that compute power: the last part of the stage `map`, and the stage `video`. The video always has
-// thermal noise. It has speckle only if the fidelity's `noise` is on.
-class PowerPicture {
- public:
-  explicit PowerPicture(const physics::RadarParameters& parameters);
-
-  // Applies the response if the fidelity's `map_response` is on. Adds point targets, moving or at rest.
-  void add_response_and_movers(const PatchInputs& inputs, PatchData& data);
-  void draw_video(const PatchInputs& inputs, PatchData& data) const;
-
- private:
-  double thermal_noise(const PatchInputs& inputs, const PatchData& data) const;
-
-  radar::HighResolutionConfiguration high_resolution_;
-  std::uint64_t seed_;
-  bool with_speckle_, with_response_;
-  MapMovers movers_;
-  Response response_;
+  std::size_t margin_ = 0, columns_ = 0, pitch_ = 0;  // [pixels] padded rows: margin, inner width, full width
+  std::size_t slab_rows_ = 0, slab_first_ = 0;        // rows of a slab; first row of the current one
+  memory::CacheAlignedVector<float> across_;          // padded rows of the slab, by across_at()
+  std::vector<WorkerBuffers> buffers_;                // by thread
+  std::vector<std::vector<StrongBlock>> strong_;      // ring of runs: those whose sidelobes may still be added
 };
 
 }  // namespace yars::model::hrm

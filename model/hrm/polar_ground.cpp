@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "model/hrm/polar_ground_simd.hpp"
+#include "model/physics/clutter_simd.hpp"
 #include "model/physics/reflectivity.hpp"
 
 namespace yars::model::hrm {
@@ -24,6 +25,7 @@ constexpr float kNoHorizon = -1.0e6F;       // [m] or tangent: below every line 
 // first and the last column of a strip are always sampled. kMaxPathStep is larger, because the path affects only the
 // horizon.
 constexpr double kMaxWindowStep = 0.25;
+constexpr double kMaxHeightStep = 0.125;  // for heights alone, over surface materials
 constexpr double kMaxPathStep = 0.5;
 // Row spacings, as fractions of the post spacing, above which crests between rows are computed. Closer rows sample
 // every crest themselves. In a smoothed view, one-degree cells with close posts stay bilinear, so crests lie on their
@@ -90,6 +92,7 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
     window_ = std::make_unique<Column>(rows);
     ground_->resize(rows);
     sin_grazing_.assign(rows + terrain::kRunSlack, 0.0F);
+    sea_divisor_.assign(sin_grazing_.size(), 0.0F);
     // The pitch is an odd multiple of kRunSlack, so that a row of sixteen columns is spread over different cache sets.
     pitch_ = (rows / terrain::kRunSlack + 1) * terrain::kRunSlack;
     if (pitch_ / terrain::kRunSlack % 2 == 0) pitch_ += terrain::kRunSlack;
@@ -104,6 +107,7 @@ void PolarGround::begin(const PatchGeometry& geometry, const PolarGrid& grid, co
     row_sight_.emplace_back(geometry, distance_m);
     const double above_m = geometry.altitude_m() - geometry.plane_msl_m();
     sin_grazing_[row] = static_cast<float>(std::max(0.0, geometry.earth().sight(above_m, distance_m, 0.0).sin_grazing));
+    sea_divisor_[row] = sin_grazing_[row] > 0.0F ? sin_grazing_[row] : std::numeric_limits<float>::infinity();
   }
   const double path_m = grid.first_distance_m;
   const double spacing_m = path.post_spacing_m() > 0.0 ? kPathSpacingWithPosts_m : kPathSpacingWithoutPosts_m;
@@ -124,20 +128,27 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
                               const GroundArrays& arrays) {
   const int step = arrays.crest_m == nullptr ? column_step(grid, *terrain.window, detail) : 1;
   const int path_columns = path_step(grid, *terrain.path);
+  const bool materials = terrain.window->has_materials();
+  const terrain::TerrainView& posts = terrain.posts == nullptr ? *terrain.window : *terrain.posts;
   if (arrays.crest_m != nullptr) strip_crest_.resize(strip_height_.size());
   std::size_t pending = 0;
   for (int column = first; column < last; ++column) {
     const geo::Bearing azimuth = geometry.up() + geo::Angle::radians(std::atan(grid.tangent(column)));
-    const int lane = column % kStripColumns;
-    if (lane % path_columns == 0) pending += read_path(geometry, grid, azimuth, *terrain.path, arrays.horizon[column]);
-    if (lane % step == 0) {
-      pending += read_window(order, geometry, azimuth, *terrain.window, detail, static_cast<std::size_t>(lane));
-      subtract_plane(geometry, static_cast<std::size_t>(lane));
-      if (arrays.crest_m != nullptr) read_crests(geometry, terrain, static_cast<std::size_t>(lane));
+    const int number = column % kStripColumns;
+    const auto lane = static_cast<std::size_t>(number);
+    if (number % path_columns == 0)
+      pending += read_path(geometry, grid, azimuth, *terrain.path, arrays.horizon[column]);
+    if (number % step == 0) {
+      pending += read_window(order, geometry, azimuth, *terrain.window, detail, lane);
+      subtract_plane(geometry, lane);
+      if (arrays.crest_m != nullptr) read_crests(geometry, terrain, lane);
+    } else if (materials) {
+      pending += read_window(order, geometry, azimuth, posts, detail, lane);
+      clear_voids(lane);
     }
     prefetch_strip(grid, column, arrays);
-    if (lane + 1 < kStripColumns) continue;
-    if (step > 1) interpolate_columns(static_cast<std::size_t>(step));
+    if (number + 1 < kStripColumns) continue;
+    if (step > 1) interpolate_columns(static_cast<std::size_t>(step), materials);
     store_strip(grid, column / kStripColumns, arrays);
     if (arrays.crest_m != nullptr) store_crests(grid, column / kStripColumns, arrays.crest_m);
     interpolate_horizons(path_columns, arrays.horizon + column + 1 - kStripColumns);
@@ -145,15 +156,14 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
   return pending;
 }
 
-// Step between the columns sampled in the window. It is 1 with surface materials, with the interpolation `nearest`,
-// and for every algorithm except `standard`.
+// Step between the columns whose heights are sampled in the window. It is 1 with the interpolation `nearest` and for
+// every algorithm except `standard`. Without materials gamma is sampled in the same columns, so they are at most a
+// texel of the ground detail apart. Materials have sharp edges: with them gamma is sampled in every column.
 int PolarGround::column_step(const PolarGrid& grid, const terrain::TerrainView& view,
                              const GroundTexture* detail) const {
-  const bool smooth = algorithm_ == radar::Algorithm::standard && !view.has_materials() &&
-                      interpolation_ != radar::Interpolation::nearest;
-  if (!smooth) return 1;
-  double farthest_m = kMaxWindowStep * view.post_spacing_m();
-  if (detail != nullptr) farthest_m = std::min(farthest_m, detail->texel_m());
+  if (algorithm_ != radar::Algorithm::standard || interpolation_ == radar::Interpolation::nearest) return 1;
+  double farthest_m = (view.has_materials() ? kMaxHeightStep : kMaxWindowStep) * view.post_spacing_m();
+  if (detail != nullptr && !view.has_materials()) farthest_m = std::min(farthest_m, detail->texel_m());
   return step_within(farthest_m, grid.width_m(0.5 * grid.columns, grid.distance_m(grid.rows - 1)));
 }
 
@@ -188,12 +198,20 @@ std::size_t PolarGround::read_window(const PatchOrder& order, const PatchGeometr
     std::copy_n(reflects.land, rows, gamma);
   else
     std::fill_n(gamma, rows, plain_gamma_);
-  // The sea's sigma0 refers to level area. Division by the sine of the grazing angle converts it to gamma.
-  if (reflects.sea != nullptr)
-    for (std::size_t row = 0; row < rows; ++row)
-      if (sin_grazing_[row] > 0.0F) gamma[row] += reflects.sea[row] / sin_grazing_[row];
+  // The sea's sigma0 refers to level area. Division by the sine of the grazing angle converts it to gamma. The divisor
+  // is infinite where sea has no return, so that the compiler uses vectors.
+  if (reflects.sea != nullptr && physics::simd::any_positive(rows, reflects.sea))
+    for (std::size_t row = 0; row < rows; ++row) gamma[row] += reflects.sea[row] / sea_divisor_[row];
   if (detail != nullptr) detail->modulate(column.positions.run(), gamma);
   return pending;
+}
+
+// Sets gamma 0 in the voids of the current column, whose heights will be interpolated.
+void PolarGround::clear_voids(std::size_t lane) {
+  const float* const height_m = &strip_height_[lane * pitch_];
+  float* const gamma = &strip_gamma_[lane * pitch_];
+  for (std::size_t row = 0; row < window_->positions.count; ++row)
+    gamma[row] = std::isnan(height_m[row]) ? 0.0F : gamma[row];
 }
 
 std::size_t PolarGround::read_path(const PatchGeometry& geometry, const PolarGrid& grid, geo::Bearing azimuth,
@@ -314,10 +332,11 @@ void PolarGround::subtract_plane(const PatchGeometry& geometry, std::size_t lane
   }
 }
 
-void PolarGround::interpolate_columns(std::size_t step) {
+// Interpolates heights between the sampled columns. Without materials gamma, too.
+void PolarGround::interpolate_columns(std::size_t step, bool materials) {
   const std::size_t rows = window_->positions.count;
   simd::interpolate_columns(rows, step, strip_height_.data(), pitch_);
-  simd::interpolate_columns(rows, step, strip_gamma_.data(), pitch_);
+  if (!materials) simd::interpolate_columns(rows, step, strip_gamma_.data(), pitch_);
 }
 
 // Prefetches (loads into the cache) one sixteenth of a strip's output with each column.

@@ -35,6 +35,8 @@ struct PatchTerrain {
   const terrain::TerrainView* window = nullptr;
   const terrain::TerrainView* path = nullptr;
   CrestsBetweenRows crests{};  // computed if GroundArrays::crest_m is not null
+  // The view that `window` smooths between posts: the same voids, water and materials, in less time. Null: `window`.
+  const terrain::TerrainView* posts = nullptr;
 };
 
 // Output arrays, indexed by PolarGrid::at(); `horizon` by column.
@@ -83,12 +85,13 @@ class PolarGround {
   int path_step(const PolarGrid& grid, const terrain::TerrainView& view) const;
   std::size_t read_window(const PatchOrder& order, const PatchGeometry& geometry, geo::Bearing azimuth,
                           const terrain::TerrainView& view, const GroundTexture* detail, std::size_t lane);
+  void clear_voids(std::size_t lane);
   std::size_t read_path(const PatchGeometry& geometry, const PolarGrid& grid, geo::Bearing azimuth,
                         const terrain::TerrainView& view, float& horizon);
   void read_crests(const PatchGeometry& geometry, const PatchTerrain& terrain, std::size_t lane);
   void raise_to_summits(const PatchGeometry& geometry, std::size_t lane);
   void subtract_plane(const PatchGeometry& geometry, std::size_t lane);
-  void interpolate_columns(std::size_t step);
+  void interpolate_columns(std::size_t step, bool materials);
   void prefetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const;
   void store_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const;
   void store_crests(const PolarGrid& grid, int strip, float* crest_m) const;
@@ -99,8 +102,9 @@ class PolarGround {
   std::unique_ptr<Column> window_, path_;
   std::unique_ptr<physics::Ground> ground_;
   std::vector<float> sin_grazing_;                                // sine of the grazing angle on the map plane, by row
+  std::vector<float> sea_divisor_;                                // sin_grazing_, infinite in place of 0
   std::vector<Sight> path_sight_, row_sight_;                     // by sample of the path; by row
-  std::size_t pitch_ = 0;                                         // entries per column in the three arrays below
+  std::size_t pitch_ = 0;                                         // entries per column in the arrays below
   memory::CacheAlignedVector<float> strip_height_, strip_gamma_;  // sixteen columns, one after the other
   memory::CacheAlignedVector<float> strip_crest_;  // like strip_height_; empty unless crests are computed
   float plain_gamma_;                              // gamma of land without culture

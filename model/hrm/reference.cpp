@@ -205,7 +205,12 @@ void Reference::cast_profiles(const PatchInputs& /*inputs*/, PatchData& data) {
   for (std::size_t i = 0; i < power_.size(); ++i) image.power[i] = static_cast<float>(power_[i] / unit_m2);
 }
 
-void Reference::draw_map(const PatchInputs& inputs, PatchData& data) {
+// The pixels are those of cast_profiles().
+void Reference::draw_pixels(const PatchInputs& inputs, PatchData& data) {
+  power_picture_.find_hidden_points(inputs, data);
+}
+
+void Reference::complete_map(const PatchInputs& inputs, PatchData& data) {
   power_picture_.add_response_and_movers(inputs, data);
 }
 

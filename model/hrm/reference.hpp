@@ -16,7 +16,7 @@
 #include "model/hrm/algorithm.hpp"
 #include "model/hrm/occluders.hpp"
 #include "model/hrm/patch_geometry.hpp"
-#include "model/hrm/point_response.hpp"
+#include "model/hrm/power_picture.hpp"
 #include "model/physics/atmosphere.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "model/scene/placement/scene_view.hpp"
@@ -31,11 +31,13 @@ class Reference : public Algorithm {
 
   int cells_per_pixel() const override { return std::max(kReferenceCells, fidelity_.map_oversampling); }
   bool uses_crests() const override { return true; }
+  bool uses_sectors() const override { return false; }  // a face may lie in many columns
   void begin(const PatchData& data) override;
   void read_terrain(const PatchInputs& inputs, PatchData& data) override;
   void draw_scene(const PatchInputs& inputs, PatchData& data) override;
   void cast_profiles(const PatchInputs& inputs, PatchData& data) override;
-  void draw_map(const PatchInputs& inputs, PatchData& data) override;
+  void draw_pixels(const PatchInputs& inputs, PatchData& data) override;
+  void complete_map(const PatchInputs& inputs, PatchData& data) override;
   void draw_video(const PatchInputs& inputs, PatchData& data) override;
 
   // True if the ground at a grid point is above all nearer ground, as seen from the radar. False for a void.

@@ -12,10 +12,11 @@ namespace {
 
 constexpr float kWhite = 255.0F;
 
-// Slope of the surface across the line of sight [m/m], positive if it rises to the right. One-sided at the grid edges.
+// Slope of the surface across the line of sight [m/m], positive if it rises to the right. One-sided at the edges of the
+// sector.
 float slope_across(const PolarGrid& grid, const SurfacePoint* surface, int column, int row) {
-  const int left = std::max(column - 1, 0);
-  const int right = std::min(column + 1, grid.columns - 1);
+  const int left = std::max(column - 1, grid.first_strip * kStripColumns);
+  const int right = std::min(column + 1, grid.end_strip * kStripColumns - 1);
   const auto width_m = static_cast<float>(grid.width_m(column, grid.distance_m(row)) * (right - left));
   return (surface[grid.at(right, row)].height_m - surface[grid.at(left, row)].height_m) / width_m;
 }
@@ -68,7 +69,7 @@ void shade_polar_grid(const PatchGeometry& geometry, const PolarGrid& grid, cons
   }
 }
 
-// Interpolates rows [first, last) of the map bilinearly from the polar grid.
+// Interpolates rows [first, last) of the map bilinearly from the polar grid, in the pixels that the sector draws.
 void draw_brightness(const PatchGeometry& geometry, const PolarGrid& grid, const float* brightness, int first, int last,
                      MapImage& image) {
   const double pixel_m = geometry.window_m() / image.size;
@@ -78,9 +79,12 @@ void draw_brightness(const PatchGeometry& geometry, const PolarGrid& grid, const
     for (int pixel = 0; pixel < image.size; ++pixel) {
       const double right_m = (pixel + 0.5) * pixel_m - edge_m;
       float& value = image.power[image.at(pixel, line)];
-      value = 0.0F;
-      if (!(ahead_m > 0.0)) continue;
+      if (!(ahead_m > 0.0)) {
+        value = 0.0F;
+        continue;
+      }
       const SamplePair column = sample_pair((right_m / ahead_m - grid.first_tangent) / grid.tangent_step, grid.columns);
+      if (column.first < grid.first_drawn_column() || column.first >= grid.end_drawn_column()) continue;
       const double distance_m = std::sqrt(right_m * right_m + ahead_m * ahead_m);
       const SamplePair row = sample_pair((distance_m - grid.first_distance_m) / grid.spacing_m, grid.rows);
       const auto along = [&](int grid_column) {
@@ -103,7 +107,7 @@ Report1996::Report1996(const physics::RadarParameters& parameters)
 
 void Report1996::begin(const PatchData& data) {
   scene_.begin(data);
-  brightness_.resize(data.grid.size());
+  brightness_.resize(data.points);
 }
 
 void Report1996::draw_scene(const PatchInputs& inputs, PatchData& data) {
@@ -117,7 +121,7 @@ void Report1996::cast_profiles(const PatchInputs& inputs, PatchData& data) {
   });
 }
 
-void Report1996::draw_map(const PatchInputs& inputs, PatchData& data) {
+void Report1996::draw_pixels(const PatchInputs& inputs, PatchData& data) {
   parallel_for_rows(inputs.executor, data.image, [&](int first, int last, std::size_t) {
     draw_brightness(*data.geometry, data.grid, brightness_.data(), first, last, data.image);
   });

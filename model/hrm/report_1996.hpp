@@ -22,11 +22,12 @@ class Report1996 : public Algorithm {
 
   int cells_per_pixel() const override { return cells_per_pixel_; }
   bool uses_crests() const override { return false; }
+  bool uses_sectors() const override { return true; }
   void begin(const PatchData& data) override;
   void draw_scene(const PatchInputs& inputs, PatchData& data) override;
   // Computes the brightness of each point of the polar grid.
   void cast_profiles(const PatchInputs& inputs, PatchData& data) override;
-  void draw_map(const PatchInputs& inputs, PatchData& data) override;
+  void draw_pixels(const PatchInputs& inputs, PatchData& data) override;
   // Forms video with the fidelity's `map_noise`. The noise depends on seed, number of the map and pixel alone.
   void draw_video(const PatchInputs& inputs, PatchData& data) override;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <span>
 
 #include "lib/geo/earth.hpp"
@@ -84,14 +85,48 @@ bool find_columns(const PatchGeometry& geometry, const PolarGrid& grid, PlacedTi
          min_row < static_cast<float>(grid.rows) + 1.0F;
 }
 
+// Finds tiles far from the polar grid without a geodesic, which takes most of the time of placing a tile.
+class FarTiles {
+ public:
+  FarTiles(const PatchGeometry& geometry, const PolarGrid& grid) : centre_(geometry.position_of({})) {
+    for (const int column : {0, grid.columns - 1})
+      for (const int row : {0, grid.rows - 1}) {
+        const double tangent = grid.tangent(column);
+        const double ahead_m = grid.distance_m(row) / std::sqrt(1.0 + tangent * tangent);
+        reach_m_ = std::max(reach_m_, std::hypot(tangent * ahead_m, ahead_m - geometry.distance_m()));
+      }
+    // The row in the middle of the far edge is the farthest from the aircraft.
+    reach_m_ = std::max(reach_m_, grid.distance_m(grid.rows - 1) - geometry.distance_m());
+  }
+  bool has(const scene::Tile& tile) const {
+    constexpr double kReserve = 1.1;  // above the error of this distance. The length of a degree of longitude is the
+                                      // lesser of both latitudes, so the distance is too small rather than too large.
+    const double latitude_deg = std::max(std::abs(tile.origin.latitude_deg), std::abs(centre_.latitude_deg));
+    const double east_deg = geo::wrapped_degrees(tile.origin.longitude_deg - centre_.longitude_deg) *
+                            std::cos(latitude_deg * geo::kRadiansPerDegree);
+    const double distance_m =
+        geo::kMetresPerDegree * std::hypot(east_deg, tile.origin.latitude_deg - centre_.latitude_deg);
+    const scene::Bounds& bounds = tile.bounds;
+    const double extent_m = std::hypot(static_cast<double>(std::max(-bounds.east_min_m, bounds.east_max_m)),
+                                       static_cast<double>(std::max(-bounds.north_min_m, bounds.north_max_m)));
+    return distance_m > kReserve * (reach_m_ + extent_m);
+  }
+
+ private:
+  geo::GeoPoint centre_;
+  double reach_m_ = 0.0;  // of the grid from the map's centre
+};
+
 }  // namespace
 
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
                                     const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor) {
   std::vector<PlacedTile> all(tiles.size());
+  const FarTiles far(geometry, grid);
   parallel::parallel_for(executor, static_cast<int>(tiles.size()), kTilesPerTask,
                          [&](int first, int last, std::size_t) {
                            for (auto i = static_cast<std::size_t>(first); i < static_cast<std::size_t>(last); ++i) {
+                             if (far.has(*tiles[i])) continue;
                              all[i] = placed_tile(geometry, *tiles[i]);
                              if (!find_columns(geometry, grid, all[i])) all[i].tile = nullptr;
                            }
@@ -105,23 +140,22 @@ std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> t
   const auto strip_of = [&](float column) {
     return std::clamp(static_cast<int>(column) / kStripColumns, 0, grid.strips() - 1);
   };
-  double sum = grid.strips();
   for (const PlacedTile& tile : tiles) {
     const int first = strip_of(std::max(tile.min_column, 0.0F));
     const int last = strip_of(std::min(tile.max_column, static_cast<float>(grid.columns)));
     const auto triangles = static_cast<double>(tile.tile->triangles());
     for (int strip = first; strip <= last; ++strip)
       work[static_cast<std::size_t>(strip)] += triangles / (last - first + 1);
-    sum += triangles;
   }
-  std::vector<int> begin{0};
+  const double sum = std::accumulate(work.begin() + grid.first_strip, work.begin() + grid.end_strip, 0.0);
+  std::vector<int> begin{grid.first_strip};
   double done = 0.0;
-  for (int strip = 0; strip < grid.strips(); ++strip) {
+  for (int strip = grid.first_strip; strip < grid.end_strip; ++strip) {
     const auto next = static_cast<double>(begin.size());
     if (done >= next * sum / bands && begin.size() < static_cast<std::size_t>(bands)) begin.push_back(strip);
     done += work[static_cast<std::size_t>(strip)];
   }
-  begin.resize(static_cast<std::size_t>(bands) + 1, grid.strips());
+  begin.resize(static_cast<std::size_t>(bands) + 1, grid.end_strip);
   return begin;
 }
 
@@ -201,10 +235,11 @@ void SceneRaster::draw_tile(const scene::Tile& tile, const simd::Canvas& canvas)
 }
 
 void PolarScene::begin(const PatchData& data) {
+  placed_.clear();
   drawn_ = !data.tiles.empty();
   if (!drawn_) return;
   const std::size_t before = walls_.size();
-  walls_.resize(data.grid.size());
+  walls_.resize(data.points);
   if (!dirty_ && walls_.size() == before) return;
   std::fill_n(walls_.data(), walls_.size(), WallPoint());
   dirty_ = false;
@@ -218,11 +253,11 @@ void PolarScene::draw(const PatchInputs& inputs, PatchData& data) {
   // A tile that crosses bands is drawn once for each band, so few bands save work. Two bands per thread balance the
   // load.
   const auto bands = static_cast<int>(executor.threads == 1 ? 1 : 2 * executor.threads);
-  const std::vector<PlacedTile> placed = place_tiles(*data.geometry, data.grid, data.tiles, executor);
-  const std::vector<int> begin = even_bands(data.grid, placed, bands);
+  if (placed_.empty()) placed_ = place_tiles(*data.geometry, data.grid, data.tiles, executor);
+  const std::vector<int> begin = even_bands(data.grid, placed_, bands);
   parallel::parallel_for(executor, bands, 1, [&](int first, int last, std::size_t thread) {
     for (auto band = static_cast<std::size_t>(first); band < static_cast<std::size_t>(last); ++band)
-      rasters_[thread].draw(*data.geometry, data.grid, *inputs.environment.scene, placed, begin[band] * kStripColumns,
+      rasters_[thread].draw(*data.geometry, data.grid, *inputs.environment.scene, placed_, begin[band] * kStripColumns,
                             begin[band + 1] * kStripColumns, {data.surface.data(), walls_.data()});
   });
 }

@@ -33,8 +33,8 @@ struct PlacedTile {
 std::vector<PlacedTile> place_tiles(const PatchGeometry& geometry, const PolarGrid& grid,
                                     const std::vector<const scene::Tile*>& tiles, const parallel::Executor& executor);
 
-// Divides the strips (16 columns each) into `bands` contiguous bands with about equal numbers of triangles. Returns the
-// first strip of each band, followed by the number of strips.
+// Divides the strips of the sector (16 columns each) into `bands` contiguous bands with about equal numbers of
+// triangles. Returns the first strip of each band, followed by the end of the sector.
 std::vector<int> even_bands(const PolarGrid& grid, std::span<const PlacedTile> tiles, int bands);
 
 // Draws scene triangles onto the polar grid as seen from above. At each grid point the highest surface wins. Walls have
@@ -69,8 +69,8 @@ class PolarScene {
  public:
   explicit PolarScene(const physics::RadarParameters& parameters) : surface_(parameters) {}
 
-  // Call before each map. If the map has tiles, enlarges the array of walls as needed, and sets the array to zero if it
-  // has grown or if an earlier map has left walls in it.
+  // Call before each map, before its sectors. If the map has tiles, enlarges the array of walls as needed, and sets the
+  // array to zero if it has grown or if an earlier map has left walls in it.
   void begin(const PatchData& data);
   void draw(const PatchInputs& inputs, PatchData& data);
 
@@ -82,6 +82,7 @@ class PolarScene {
   physics::SceneSurface surface_;
   std::vector<SceneRaster> rasters_;  // by thread
   PolarArray<WallPoint> walls_;
+  std::vector<PlacedTile> placed_;
   bool drawn_ = false;  // true if the map has tiles
   bool dirty_ = false;  // true if walls have been drawn and not yet set to zero
 };

@@ -53,12 +53,13 @@ HWY_INLINE Bits ordered_bits(Floats height) {
   return hn::BitCast(db, hn::Xor(bits, turned));
 }
 
-// PolarGrid::at() for vectors of columns and rows.
+// PolarGrid::at() for vectors of columns and rows. Lanes outside the sector get any number.
 HWY_INLINE Bits index_on(const PolarGrid& grid, Floats column, Floats row) {
   const SignedTag di;
   const BitsTag db;
   const auto i = hn::BitCast(db, hn::ConvertTo(di, column));
-  const auto strip = hn::Mul(hn::ShiftRight<4>(i), hn::Set(db, static_cast<std::uint32_t>(grid.strip_size())));
+  const auto held = hn::Sub(hn::ShiftRight<4>(i), hn::Set(db, static_cast<std::uint32_t>(grid.first_strip)));
+  const auto strip = hn::Mul(held, hn::Set(db, static_cast<std::uint32_t>(grid.strip_size())));
   const auto line = hn::ShiftLeft<4>(hn::BitCast(db, hn::ConvertTo(di, row)));
   return hn::Add(hn::Add(strip, line), hn::And(i, hn::Set(db, kStripColumns - 1U)));
 }

@@ -19,7 +19,7 @@ Standard::Standard(const physics::RadarParameters& parameters)
 void Standard::begin(const PatchData& data) {
   const PolarGrid& grid = data.grid;
   scene_.begin(data);
-  cross_section_m2_.resize(grid.size());
+  cross_section_m2_.resize(data.points + grid.strip_size());  // simd::draw_row() may read one strip more
   distance_m_.clear();
   inverse_m_.clear();
   above_plane_m_.clear();
@@ -77,7 +77,7 @@ void Standard::draw_scene(const PatchInputs& inputs, PatchData& data) {
 }
 
 simd::Strip Standard::strip_of(const PatchData& data, int number) {
-  const std::size_t at = static_cast<std::size_t>(number) * data.grid.strip_size();
+  const std::size_t at = data.grid.at(number * kStripColumns, 0);
   const auto column = static_cast<std::size_t>(number) * kStripColumns;
   simd::Strip strip;
   strip.rows = data.grid.rows;
@@ -110,10 +110,14 @@ void Standard::cast_profiles(const PatchInputs& inputs, PatchData& data) {
   scene_.set_clear();
 }
 
-void Standard::draw_map(const PatchInputs& inputs, PatchData& data) {
+void Standard::draw_pixels(const PatchInputs& inputs, PatchData& data) {
   parallel_for_rows(inputs.executor, data.image, [&](int first, int last, std::size_t) {
     draw_polar_grid(*data.geometry, data.grid, cross_section_m2_.data(), first, last, data.image);
   });
+  power_picture_.find_hidden_points(inputs, data);
+}
+
+void Standard::complete_map(const PatchInputs& inputs, PatchData& data) {
   power_picture_.add_response_and_movers(inputs, data);
 }
 

@@ -10,7 +10,7 @@
 
 #include "lib/radar/fidelity.hpp"
 #include "model/hrm/algorithm.hpp"
-#include "model/hrm/point_response.hpp"
+#include "model/hrm/power_picture.hpp"
 #include "model/hrm/profile_simd.hpp"
 #include "model/hrm/scene_raster.hpp"
 #include "model/physics/atmosphere.hpp"
@@ -23,10 +23,12 @@ class Standard : public Algorithm {
 
   int cells_per_pixel() const override { return fidelity_.map_oversampling; }
   bool uses_crests() const override { return true; }
+  bool uses_sectors() const override { return true; }
   void begin(const PatchData& data) override;
   void draw_scene(const PatchInputs& inputs, PatchData& data) override;
   void cast_profiles(const PatchInputs& inputs, PatchData& data) override;
-  void draw_map(const PatchInputs& inputs, PatchData& data) override;
+  void draw_pixels(const PatchInputs& inputs, PatchData& data) override;
+  void complete_map(const PatchInputs& inputs, PatchData& data) override;
   void draw_video(const PatchInputs& inputs, PatchData& data) override;
 
  private:

@@ -98,10 +98,11 @@ void time_one_map(hrm::PatchFormation& formation, const hrm::PatchOrder& order, 
   const double total_s = benchmarks::timed([&] {
     formation.begin(order);
     formation.set_environment(database);
-    for (double& stage_s : stages_s) {
+    while (formation.state() != hrm::PatchState::done) {
+      double& stage_s = stages_s[static_cast<std::size_t>(formation.stages_done())];
       const double begin_s = benchmarks::thread_seconds();
       formation.advance();
-      stage_s = benchmarks::thread_seconds() - begin_s;
+      stage_s += benchmarks::thread_seconds() - begin_s;
     }
   });
   if (total_s < times.total_s) times = {total_s, stages_s};

@@ -8,6 +8,7 @@ import pathlib
 import struct
 import subprocess
 import sys
+import tempfile
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "examples"))
@@ -218,7 +219,24 @@ def a_name_leads_nowhere_else():
             same(f"session {name!r}", "1 to 40 letters" in str(error) and "\x1b" not in str(error), True)
 
 
+def a_map_is_that_of_the_command():
+    facts, power = yars.patch_map(sys.argv[1], size=64, seed=3, force=True)
+    same("patch_map", (facts["size"], len(power), max(power) > 0.0), (64, 64 * 64, True))
+    with tempfile.TemporaryDirectory() as folder:
+        path = pathlib.Path(folder) / "map.f32"
+        subprocess.run([sys.argv[1], "patch", "--size", "64", "--seed", "3", "--force", "--out", str(path)],
+                       capture_output=True, check=True)
+        same("power of patch_map", power.tobytes() == path.read_bytes(), True)
+    facts, power = yars.patch_map(sys.argv[1], size=4096)
+    same("a map of 4096 pixels", (facts["size"], len(power)), (4096, 4096 * 4096))
+    refuses("yars patch: --size: expected a whole number from 16 to 4096, found '4097'", yars.patch_map, sys.argv[1],
+            size=4097)
+    refuses("other than 'out'", yars.patch_map, sys.argv[1], out="map.png")
+    refuses("expected the program yars", yars.patch_map, "/none/there")
+
+
 a_name_leads_nowhere_else()
+a_map_is_that_of_the_command()
 with MadeUpSession() as made_up, yars.Session(made_up.name, "yars_py_test") as session:
     what_cannot_be_done_is_an_error(session)
     a_caption_is_there_while_its_tour_runs(session)

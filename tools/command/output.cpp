@@ -55,13 +55,8 @@ void check_folder_name(const std::string& option, const std::string& name) {
 }
 
 error::Expected<void> write_floats(const std::filesystem::path& path, std::span<const float> values) {
-  std::vector<char> bytes;
-  bytes.reserve(values.size() * sizeof(float));
-  for (const float value : values) {
-    const auto bits = std::bit_cast<std::uint32_t>(value);
-    for (const unsigned shift : {0U, 8U, 16U, 24U}) bytes.push_back(static_cast<char>((bits >> shift) & 0xFFU));
-  }
-  return file::write_file(path, std::as_bytes(std::span(bytes)));
+  static_assert(std::endian::native == std::endian::little, "the file has the bytes of the array");
+  return file::write_file(path, std::as_bytes(values));
 }
 
 double wall_ms() {

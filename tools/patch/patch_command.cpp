@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "databuffer/runtime/program.hpp"
@@ -123,7 +124,8 @@ struct PatchOptions {
   double target_latitude_deg = 37.9, target_longitude_deg = -122.3, time_s = 0.0;
   std::optional<double> window_nm;  // nullopt: as at power-up
   std::optional<int> looks, size;   // nullopt: as configured
-  int threads = 1, repeat = 1;
+  std::optional<int> threads;       // nullopt: one for each processor
+  int repeat = 1;
   bool force = false;
   bool json = false;  // accepted, because all commands with facts have it; the summary is JSON without it, too
 };
@@ -138,6 +140,10 @@ struct Timing {
 radar::RadarConfiguration configure(const CommonOptions& common, const PatchOptions& options) {
   radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
   if (options.size) configuration.fidelity.map_size = *options.size;
+  if (const int most = hrm::max_map_size(configuration.fidelity.algorithm); configuration.fidelity.map_size > most)
+    throw_failure(error::usage_error("--size", "at most " + std::to_string(most) + " with the algorithm reference",
+                                     std::to_string(configuration.fidelity.map_size),
+                                     "give a smaller --size, or --fidelity fine"));
   return configuration;
 }
 
@@ -166,7 +172,7 @@ Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
     const auto stage = static_cast<std::size_t>(patch_formation.stages_done());
     const double stage_begin_ms = wall_ms();
     patch_formation.advance();
-    timing.stages_ms[stage] = wall_ms() - stage_begin_ms;
+    timing.stages_ms[stage] += wall_ms() - stage_begin_ms;  // large maps come by sectors
   }
   timing.whole_ms = wall_ms() - begin_ms;
   timing.cpu_ms = processor_ms() - cpu_begin_ms;
@@ -185,6 +191,13 @@ void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& 
     throw_failure(error::usage_error("--target-lat, --target-lon",
                                      "a target at a distance of at least 0.75 of the window's side",
                                      std::to_string(distance_nm) + " NM"));
+}
+
+constexpr int kMaxThreads = 256;
+
+std::size_t threads_of(const PatchOptions& options) {
+  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
+  return static_cast<std::size_t>(options.threads.value_or(std::clamp(processors, 1, kMaxThreads)));
 }
 
 void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& environment,
@@ -219,7 +232,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   auto path_store = model::terrain::open_terrain(configuration.terrain);
   if (!path_store) throw_failure(path_store.error());
 
-  parallel::ThreadPool workers(static_cast<std::size_t>(options.threads));
+  parallel::ThreadPool workers(threads_of(options));
   hrm::PatchFormation patch_formation(
       configuration,
       {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) { workers.run(job); }});
@@ -253,7 +266,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   line["formation_s"] = patch_formation.formation().seconds();
   line["resolution_ft"] = radar::map_resolution(order.window).feet();
   line["terrain_bytes"] = environment.window->resident_bytes() + environment.path->resident_bytes();
-  line["threads"] = options.threads;
+  line["threads"] = workers.threads();
   line["fidelity"] = configuration.fidelity.name;
   report_dark_pixels(patch_formation.image());
   if (names_file(options.output.file)) write_patch(options.output, order, patch_formation);
@@ -278,9 +291,13 @@ void add_patch_command(databuffer::Command app, const CommonOptions& common) {
   command.flag("--force", options->force, "ignore the radar's limits; the blind zone stays blank");
   command.option("--looks", options->looks, "number of looks to average").range(1, 16).otherwise("that of ML1");
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset").otherwise("the configuration's");
-  command.option("--size", options->size, "[pixels] per side").range(16, 1024).otherwise("the configuration's");
+  command.option("--size", options->size, "[pixels] per side; up to 1024 with the preset reference")
+      .range(16, hrm::max_map_size(radar::Algorithm::standard))
+      .otherwise("the configuration's");
   command.option("--time-s", options->time_s, "[s] sim time at the start, for moving targets").range(0.0, 1e8);
-  command.option("--threads", options->threads, "number of threads").range(1, 256);
+  command.option("--threads", options->threads, "number of threads")
+      .range(1, kMaxThreads)
+      .otherwise("one for each processor");
   command.option("--seed", options->configuration.seed, "seed of the noise").otherwise("the configuration's");
   command.option("--repeat", options->repeat, "number of maps to time, after one untimed map").range(1, 1000000);
   command

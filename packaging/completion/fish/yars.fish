@@ -108,7 +108,7 @@ complete -c yars -n "__yars_at 'patch'" -l window-nm -x -d '[NM] side of the map
 complete -c yars -n "__yars_at 'patch'" -l force -d 'ignore the radar\'s limits; the blind zone stays blank'
 complete -c yars -n "__yars_at 'patch'" -l looks -x -d 'number of looks to average'
 complete -c yars -n "__yars_at 'patch'" -l fidelity -x -a '1996 draft standard fine reference' -d 'preset'
-complete -c yars -n "__yars_at 'patch'" -l size -x -d '[pixels] per side'
+complete -c yars -n "__yars_at 'patch'" -l size -x -d '[pixels] per side; up to 1024 with the preset reference'
 complete -c yars -n "__yars_at 'patch'" -l time-s -x -d '[s] sim time at the start, for moving targets'
 complete -c yars -n "__yars_at 'patch'" -l threads -x -d 'number of threads'
 complete -c yars -n "__yars_at 'patch'" -l seed -x -d 'seed of the noise'

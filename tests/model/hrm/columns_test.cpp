@@ -2,6 +2,7 @@
 // every third or fifth column. The tests check the change of the map, and cases in which every column is sampled.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "lib/geo/earth.hpp"
@@ -26,10 +27,11 @@ std::shared_ptr<const terrain::Cell> mountains(int posts) {
   return std::make_shared<const terrain::Cell>(terrain::CellCorner{37, -123}, posts, posts, heights);
 }
 
-// Passes on another view, but reports that it may have materials. A map then samples every column.
-class Covered final : public terrain::TerrainView {
+// Passes on another view, but reports another spacing of its posts, and, if wanted, that it may have materials.
+class Reported final : public terrain::TerrainView {
  public:
-  explicit Covered(terrain::TerrainViewPointer of) : of_(std::move(of)) {}
+  Reported(terrain::TerrainViewPointer of, double spacing_m, bool materials)
+      : of_(std::move(of)), spacing_m_(spacing_m), materials_(materials) {}
   std::uint64_t generation() const override { return of_->generation(); }
   std::uint64_t resident_bytes() const override { return of_->resident_bytes(); }
   terrain::Surface surface_at(geo::GeoPoint position, Interpolation interpolation) const override {
@@ -39,8 +41,8 @@ class Covered final : public terrain::TerrainView {
                        const terrain::SurfaceRun& found) const override {
     return of_->surfaces(positions, interpolation, found);
   }
-  double post_spacing_m() const override { return of_->post_spacing_m(); }
-  bool has_materials() const override { return true; }
+  double post_spacing_m() const override { return spacing_m_; }
+  bool has_materials() const override { return materials_; }
   std::vector<std::shared_ptr<const terrain::Cell>> cells_within(const terrain::GeoBox& box) const override {
     return of_->cells_within(box);
   }
@@ -51,6 +53,8 @@ class Covered final : public terrain::TerrainView {
 
  private:
   terrain::TerrainViewPointer of_;
+  double spacing_m_;
+  bool materials_;
 };
 
 terrain::TerrainViewPointer view_of(int posts) {
@@ -94,12 +98,31 @@ TEST(ColumnsBetween, LieOnAStraightLineOnEveryVectorTarget) {
   }
 }
 
-TEST(ColumnsBetween, ChangeAMapOfMountainsByLessThanHalfADecibel) {
-  const auto uncovered = view_of(1201);
-  const auto covered = std::make_shared<Covered>(uncovered);
+// Map with the columns of the configuration, or with every column sampled.
+hrm::PatchFormation map_of_mountains(const radar::RadarConfiguration& configuration, int posts, bool every_column,
+                                     bool materials = false) {
+  // Columns of a pixel's width are sampled at most a quarter of the posts' spacing apart, every third or fifth one.
+  // Crests between rows would be computed for rows farther apart than a tenth of the spacing.
+  constexpr double kPixelsPerPost = 11.0;
+  const hrm::PatchOrder order = order_over_mountains();
+  const double pixel_m = order.window.metres() / configuration.fidelity.map_size;
+  const auto ground = view_of(posts);
+  double spacing_m = ground->post_spacing_m();
+  if (every_column) spacing_m = std::min(spacing_m, kPixelsPerPost * pixel_m);
+  hrm::PatchFormation formation(configuration, {});
+  formation.begin(order);
+  formation.set_environment({std::make_shared<Reported>(ground, spacing_m, materials), ground, nullptr});
+  while (formation.state() != hrm::PatchState::done) formation.advance();
+  return formation;
+}
+
+class ColumnsBetweenWith : public testing::TestWithParam<bool> {};
+INSTANTIATE_TEST_SUITE_P(Materials, ColumnsBetweenWith, testing::Bool());
+
+TEST_P(ColumnsBetweenWith, ChangeAMapOfMountainsByLessThanHalfADecibel) {
   const radar::RadarConfiguration configuration = bare_map(1024);
-  const auto interpolated = make_patch(configuration, order_over_mountains(), uncovered);
-  const auto sampled = make_patch(configuration, order_over_mountains(), covered);
+  const auto interpolated = map_of_mountains(configuration, 1201, false, GetParam());
+  const auto sampled = map_of_mountains(configuration, 1201, true, GetParam());
   const auto& interpolated_power = interpolated.image().power;
   const auto& sampled_power = sampled.image().power;
   ASSERT_EQ(interpolated_power.size(), sampled_power.size());
@@ -126,9 +149,8 @@ TEST(ColumnsBetween, ChangeAMapOfMountainsByLessThanHalfADecibel) {
 
 TEST(ColumnsBetween, AreSampledForClosePostsNearestInterpolationAndGroundDetail) {
   const auto equal_maps = [](const radar::RadarConfiguration& configuration, int posts) {
-    const auto uncovered = view_of(posts);
-    return make_patch(configuration, order_over_mountains(), uncovered).image().power ==
-           make_patch(configuration, order_over_mountains(), std::make_shared<Covered>(uncovered)).image().power;
+    return map_of_mountains(configuration, posts, false).image().power ==
+           map_of_mountains(configuration, posts, true).image().power;
   };
   radar::RadarConfiguration configuration = bare_map(240);
   EXPECT_TRUE(equal_maps(configuration, 3601)) << "pixels of 5 m, posts of 24 m";
@@ -141,6 +163,33 @@ TEST(ColumnsBetween, AreSampledForClosePostsNearestInterpolationAndGroundDetail)
   configuration.fidelity.map_detail = true;
   configuration.fidelity.map_size = 480;
   EXPECT_TRUE(equal_maps(configuration, 1201));
+}
+
+// Fields of two materials, 40 m wide, turned against the columns.
+constexpr std::uint8_t kFirstMaterial = 2, kSecondMaterial = 5;
+std::uint8_t field_at(geo::GeoPoint position) {
+  const double field = geo::kMetresPerDegree / 40.0 * (position.latitude_deg + 0.3 * position.longitude_deg);
+  return std::fmod(std::floor(field), 2.0) == 0.0 ? kFirstMaterial : kSecondMaterial;
+}
+
+TEST(ColumnsBetween, HaveTheMaterialsOfTheirOwnPositions) {
+  radar::RadarConfiguration configuration = bare_map(1024);
+  const auto level = [](geo::GeoPoint) { return kGround_m; };
+  const auto fields = std::make_shared<terrain::AnalyticTerrain>(level, 1, field_at);
+  const auto map = make_patch(configuration, order_from({}), std::make_shared<Reported>(fields, 92.7, true));
+  const double border = std::sqrt(gamma_of(configuration, kFirstMaterial) * gamma_of(configuration, kSecondMaterial));
+  const bool first_is_brighter = gamma_of(configuration, kFirstMaterial) > gamma_of(configuration, kSecondMaterial);
+  std::size_t wrong = 0;
+  const double pixel_m = map.geometry().window_m() / map.image().size;
+  for (int row = 0; row < map.image().size; ++row)
+    for (int column = 0; column < map.image().size; ++column) {
+      const double half = 0.5 * map.image().size - 0.5;
+      const geo::GeoPoint position = map.geometry().position_of({(column - half) * pixel_m, (half - row) * pixel_m});
+      const bool bright = static_cast<double>(map.image().power[map.image().at(column, row)]) > border;
+      if (bright != ((field_at(position) == kFirstMaterial) == first_is_brighter)) ++wrong;
+    }
+  // Pixels of 1.2 m at borders of fields of 40 m: one pixel in 33 lies on a border, and half of these are wrong.
+  EXPECT_LT(static_cast<double>(wrong), 0.02 * 1024.0 * 1024.0);
 }
 
 }  // namespace

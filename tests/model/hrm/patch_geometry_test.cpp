@@ -1,12 +1,14 @@
-// PatchGeometry: positions on a map and back, and the displacement of a raised point (layover).
+// PatchGeometry: positions on a map and back, the displacement of a raised point (layover), and tiles of a scene.
 #include "model/hrm/patch_geometry.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "lib/radar/fidelity.hpp"
+#include "model/hrm/scene_raster.hpp"
 #include "tests/model/hrm/patch_maker.hpp"
 
 namespace yars::test {
@@ -49,6 +51,38 @@ TEST(PatchGeometry, LaysARaisedPointOverToTheGroundAtItsSlantRange) {
         EXPECT_NEAR(laid_m - distance_m, exact_m - distance_m, 0.02 + 0.003 * std::abs(exact_m - distance_m))
             << distance_m << ' ' << above_m << ' ' << height_m;
       }
+    }
+  }
+}
+
+// Tiles on the grid points of a coarse grid, at its corners too, are placed; tiles ten windows away are not.
+TEST(PlacedTiles, AreThoseOnThePolarGridAnywhereOnEarth) {
+  constexpr int kPixels = 48;
+  for (const geo::GeoPoint target : {kTarget, geo::GeoPoint{72.0, 20.0}, geo::GeoPoint{-12.0, 179.95},
+                                     geo::GeoPoint{89.0, -60.0}, geo::GeoPoint{0.0, 0.0}}) {
+    for (const double window_nm : {0.67, 20.0, 80.0}) {
+      Viewpoint view;
+      view.target = target;
+      view.from_deg = 310.0;
+      view.window_m = window_nm * geo::kMetresPerNauticalMile;
+      view.distance_m = std::max(20'000.0, 1.5 * view.window_m);
+      const PatchGeometry geometry(order_from(view), radar::Fidelity(), kGround_m);
+      const hrm::PolarGrid grid = hrm::make_polar_grid(geometry, kPixels, 1, {0.3 * view.window_m, view.window_m});
+      std::vector<model::scene::Tile> tiles;
+      const auto add = [&](double right_m, double ahead_m) {
+        tiles.emplace_back().origin = geometry.position_of({right_m, ahead_m - geometry.distance_m()});
+      };
+      for (int column = 1; column < grid.columns; column += grid.columns / 4)
+        for (int row = 1; row < grid.rows; row += grid.rows / 5) {
+          const double ahead_m = grid.distance_m(row) / std::hypot(1.0, grid.tangent(column));
+          add(grid.tangent(column) * ahead_m, ahead_m);
+        }
+      const std::size_t on_grid = tiles.size();
+      for (const double right : {-10.0, 10.0}) add(right * view.window_m, view.distance_m);
+      std::vector<const model::scene::Tile*> pointers;
+      for (const model::scene::Tile& tile : tiles) pointers.push_back(&tile);
+      EXPECT_EQ(hrm::place_tiles(geometry, grid, pointers, {}).size(), on_grid)
+          << target.latitude_deg << ", " << window_nm << " NM";
     }
   }
 }

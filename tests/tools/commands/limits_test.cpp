@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdio>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "lib/geo/geodesy.hpp"
@@ -105,7 +106,28 @@ TEST(PatchLimits, TheHeadingThatTheErrorProposesIsWithinTheLimits) {
 }
 
 TEST(PatchLimits, TheDefaultMapIsWithinTheLimits) {
-  EXPECT_EQ(endtoend::run_program({"yars", "patch"}).code, 0);
+  const auto run = endtoend::run_program({"yars", "patch"});
+  EXPECT_EQ(run.code, 0);
+  const unsigned processors = std::max(std::thread::hardware_concurrency(), 1U);
+  EXPECT_THAT(run.output, HasSubstr("\"threads\":" + std::to_string(processors)));
+}
+
+// A map of 4096 pixels is made in sectors. `reference` holds the whole grid, so it makes smaller maps only.
+TEST(PatchLimits, MapsHaveUpTo4096Pixels) {
+  const auto map = [](const std::string& size, const std::string& preset) {
+    return endtoend::run_program({"yars", "patch", "--size", size, "--fidelity", preset});
+  };
+  const auto large = map("4096", "standard");
+  EXPECT_EQ(large.code, 0) << large.errors;
+  EXPECT_THAT(large.output, HasSubstr("\"size\":4096"));
+  const auto larger = map("4097", "standard");
+  EXPECT_EQ(larger.code, 2);
+  EXPECT_EQ(larger.errors,
+            "yars patch: --size: expected a whole number from 16 to 4096, found '4097'; see yars patch "
+            "--help\n");
+  const auto reference = map("1025", "reference");
+  EXPECT_EQ(reference.code, 2);
+  EXPECT_THAT(reference.errors, HasSubstr("--size: expected at most 1024 with the algorithm reference, found 1025"));
 }
 
 // A configuration with other windows and another window at power-up.
