@@ -89,7 +89,12 @@ void OfflineScan::form_if_ready(std::size_t piece, std::size_t thread) {
   for (std::size_t sweep = first_of(piece); sweep < first_of(piece + 1); ++sweep) form_sweep_video(sweep, thread);
 }
 
+void OfflineScan::begin_pass() {
+  for (const std::unique_ptr<rbm::Algorithm>& algorithm : algorithms_) algorithm->begin_pass();
+}
+
 void OfflineScan::measure(const physics::Environment& environment) {
+  begin_pass();
   to_measure_.begin(pieces());
   workers_.run([&](std::size_t thread) {
     for (int piece = to_measure_.take(thread); piece >= 0; piece = to_measure_.take(thread))
@@ -100,6 +105,7 @@ void OfflineScan::measure(const physics::Environment& environment) {
 // A thread measures until nothing is left to measure, and forms then. That is faster than both in turn.
 void OfflineScan::run(const physics::Environment& environment) {
   for (std::atomic<std::uint8_t>& ready : ready_) ready.store(0, std::memory_order_relaxed);
+  begin_pass();
   to_measure_.begin(pieces());
   to_form_.begin(pieces());
   workers_.run([&](std::size_t thread) {
