@@ -38,11 +38,12 @@ SubBeams::SubBeams(std::unique_ptr<Algorithm> ray, const physics::RadarParameter
   // Rays fit into the circle, so their spacing is at most the bundle's width over their number.
   circle_ = static_cast<int>(std::ceil(360.0 * count / (kSubBeamsWidth * beamwidth_deg_) - kRounding));
   point_stride_ = static_cast<std::size_t>((count + kPointRays - 1) / kPointRays);
-  rays_.resize(static_cast<std::size_t>(count) + 2);
-  for (Ray& kept : rays_) {
-    kept.power.resize(sample_count(parameters) + simd::kPad);
-    kept.lit.resize(sample_count(parameters));
-  }
+  const std::size_t samples = sample_count(parameters);
+  Ray empty;
+  empty.power.resize(samples + simd::kPad);
+  empty.lit.resize(samples);
+  rays_.resize(static_cast<std::size_t>(count) + 2, empty);
+  point_rays_.resize(rays_.size() / point_stride_ + 1, empty);
   beam_.reserve(rays_.size());
   weighted_.reserve(rays_.size());
 }
@@ -105,20 +106,29 @@ physics::BeamSlice SubBeams::slice_of(std::size_t member) const {
   return slice;
 }
 
+void SubBeams::measure_ray(Ray& ray, const physics::SweepGeometry& geometry, const physics::Environment& environment) {
+  ray.geometry = geometry;
+  ray.pending = ray_->measure(geometry, environment, {ray.power.data(), ray.lit.size()});
+  ray_->lit(ray.lit);
+}
+
+// Makes the ray of a member current, or replaces it by one with points.
 void SubBeams::measure_member(std::size_t member, const physics::SweepGeometry& geometry,
                               const physics::Environment& environment, bool points_in_beam) {
   Ray& ray = *beam_[member].ray;
   physics::SweepGeometry ray_geometry = geometry;
   ray_geometry.azimuth = geo::Bearing::degrees(ray.number * (360.0 / circle_));
-  const bool collects = points_in_beam && member % point_stride_ == point_stride_ / 2;
-  if (collects) ray_geometry.slice = slice_of(member);
-  const bool points = collects && ray_->has_points(ray_geometry, environment);
-  if (!points) ray_geometry.slice = kNoPoints;
-  if (!points && is_current(ray, geometry)) return;
-  ray.pending = ray_->measure(ray_geometry, environment, {ray.power.data(), ray.lit.size()});
-  ray_->lit(ray.lit);
-  ray.geometry = ray_geometry;
-  ray.current = !points;
+  if (points_in_beam && member % point_stride_ == point_stride_ / 2) {
+    ray_geometry.slice = slice_of(member);
+    if (ray_->has_points(ray_geometry, environment)) {
+      beam_[member].ray = &point_rays_[member / point_stride_];
+      return measure_ray(*beam_[member].ray, ray_geometry, environment);
+    }
+  }
+  if (is_current(ray, geometry)) return;
+  ray_geometry.slice = kNoPoints;
+  measure_ray(ray, ray_geometry, environment);
+  ray.current = true;
 }
 
 std::size_t SubBeams::measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,

@@ -59,6 +59,7 @@ class SubBeams : public Algorithm {
   Ray& ray_of(int number, int first, int last);
   bool is_current(const Ray& ray, const physics::SweepGeometry& geometry) const;
   physics::BeamSlice slice_of(std::size_t member) const;
+  void measure_ray(Ray& ray, const physics::SweepGeometry& geometry, const physics::Environment& environment);
   void measure_member(std::size_t member, const physics::SweepGeometry& geometry,
                       const physics::Environment& environment, bool points_in_beam);
 
@@ -66,7 +67,8 @@ class SubBeams : public Algorithm {
   double beamwidth_deg_;
   int circle_;                // number of rays around the horizon
   std::size_t point_stride_;  // one of so many rays is measured with points
-  std::vector<Ray> rays_;
+  std::vector<Ray> rays_;        // kept
+  std::vector<Ray> point_rays_;  // with points, of the last sweep
   std::vector<Member> beam_;  // from left to right
   std::vector<simd::WeightedRay> weighted_;
 };
