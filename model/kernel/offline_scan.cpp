@@ -14,6 +14,13 @@ namespace {
 // Sweeps of a piece: 20 to 100 us. A thread waits about so long at the end of a scan. With fewer, threads meet more
 // often at the queues.
 constexpr std::size_t kSweepsPerPiece = 4;
+// The same with sub-beams, which the sweeps of a piece share: the first sweep of a piece measures all of its rays if
+// the thread has measured another piece before.
+constexpr std::size_t kSweepsPerPieceWithSubBeams = 12;
+
+std::size_t sweeps_per_piece(const radar::Fidelity& fidelity) {
+  return fidelity.sub_beams > 1 ? kSweepsPerPieceWithSubBeams : kSweepsPerPiece;
+}
 }  // namespace
 
 OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanRequest& request, int threads)
@@ -33,7 +40,8 @@ OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanR
   jamming_.assign(positions_.size(), 0.0);
   power_.assign(positions_.size() * samples_, 0.0F);
   sweeps_.resize(positions_.size());
-  ready_ = std::vector<std::atomic<std::uint8_t>>(std::max(rays() * sweeps_per_ray_ / kSweepsPerPiece, std::size_t{1}));
+  ready_ = std::vector<std::atomic<std::uint8_t>>(
+      std::max(rays() * sweeps_per_ray_ / sweeps_per_piece(parameters.fidelity), std::size_t{1}));
 }
 
 void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, const ScanRequest& request) {

@@ -242,7 +242,8 @@ std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const
   return pending;
 }
 
-// Slope across the sweep, from two side rays. It is computed at every kSideStep-th sample and interpolated between them.
+// Slope across the sweep, from two side rays. It is computed at every kSideStep-th sample and interpolated between
+// them.
 void Standard::read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   const double side_rad = kSideRayBeamwidths * azimuth_beamwidth_deg_ * geo::kRadiansPerDegree;
   const std::size_t sides = side_positions_.count;

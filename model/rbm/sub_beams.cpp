@@ -141,8 +141,7 @@ std::size_t SubBeams::measure(const physics::SweepGeometry& geometry, const phys
     pending += beam_[member].ray->pending;
   }
   weighted_.clear();
-  for (const Member& member : beam_)
-    weighted_.push_back({member.ray->power.data(), static_cast<float>(member.weight)});
+  for (const Member& member : beam_) weighted_.push_back({member.ray->power.data(), static_cast<float>(member.weight)});
   simd::weighted_sum(power.size(), weighted_, power.data());
   return pending;
 }

@@ -19,8 +19,8 @@ inline constexpr double kSubBeamsWidth = 1.5;  // [beamwidths] outside it the tw
 //
 // The rays lie at fixed true azimuths, so the beams of successive sweeps of a pass share rays. A ray is measured in the
 // sweep in which the beam reaches it, and kept. It is measured again when the aircraft has moved by more than half a
-// sample, after kRayLifetime, and when antenna elevation or range have changed. So a sweep depends on the earlier sweeps
-// of its pass, but for a hovering aircraft on its own geometry alone.
+// sample, after kRayLifetime, and when antenna elevation or range have changed. So a sweep depends on the earlier
+// sweeps of its pass, but for a hovering aircraft on its own geometry alone.
 //
 // Kept rays have no point targets, because a point's gain depends on the sweep's azimuth. Where points lie in the beam,
 // at most kPointRays rays are measured with them for this sweep alone.
@@ -45,7 +45,7 @@ class SubBeams : public Algorithm {
     int number = -1;       // true azimuth divided by the spacing of rays; -1: none
     bool current = false;  // power, lit and pending are those of the ray without points, measured for `geometry`
     physics::SweepGeometry geometry;
-    std::size_t pending = 0;  // result of Algorithm::measure()
+    std::size_t pending = 0;                  // result of Algorithm::measure()
     memory::CacheAlignedVector<float> power;  // simd::kPad entries more than samples
     std::vector<std::uint8_t> lit;
   };
@@ -65,11 +65,11 @@ class SubBeams : public Algorithm {
 
   std::unique_ptr<Algorithm> ray_;
   double beamwidth_deg_;
-  int circle_;                // number of rays around the horizon
-  std::size_t point_stride_;  // one of so many rays is measured with points
+  int circle_;                   // number of rays around the horizon
+  std::size_t point_stride_;     // one of so many rays is measured with points
   std::vector<Ray> rays_;        // kept
   std::vector<Ray> point_rays_;  // with points, of the last sweep
-  std::vector<Member> beam_;  // from left to right
+  std::vector<Member> beam_;     // from left to right
   std::vector<simd::WeightedRay> weighted_;
 };
 

@@ -79,8 +79,8 @@ void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPatter
 // weights[reach + k] * power[i + k] over k = -reach..reach. Writes exactly `count` entries.
 void smear(std::size_t count, const float* power, const float* weights, std::ptrdiff_t reach, float* result);
 
-// Weighted sum of the powers of several rays: result[i] = sum of rays[k].weight * rays[k].power[i]. Writes exactly `count`
-// entries.
+// Weighted sum of the powers of several rays: result[i] = sum of rays[k].weight * rays[k].power[i]. Writes exactly
+// `count` entries.
 struct WeightedRay {
   const float* power;
   float weight;

@@ -133,8 +133,7 @@ TEST_F(SubBeamsOverNotes, MeasureOnlyTheRaysThatTheBeamReaches) {
   EXPECT_EQ(rays_of(towards(0.25)), 3U) << "across north";
   EXPECT_EQ(rays_of(towards(359.75)), 2U) << "back";
   EXPECT_EQ(rays_of(towards(90.0)), 15U);
-  for (const physics::SweepGeometry& ray : calls.measured)
-    EXPECT_EQ(std::remainder(ray.azimuth.degrees(), 0.25), 0.0);
+  for (const physics::SweepGeometry& ray : calls.measured) EXPECT_EQ(std::remainder(ray.azimuth.degrees(), 0.25), 0.0);
 }
 
 TEST_F(SubBeamsOverNotes, MeasureRaysAgainInTheNextPassAndWhenTheGeometryIsAnother) {
@@ -199,9 +198,10 @@ struct World {
     mover.speed_mps = 200.0;
     mover.heading_deg = 90.0;
     configuration.world.movers.push_back(mover);
-    houses = test::scene_of({test::Building{}, {0.0, 900.0, 45.0, 1800.0, 0.0, 9}},
-                            geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(-2.0), geo::Length::metres(20e3)),
-                            0.0, terrain::built_in_hills());
+    houses =
+        test::scene_of({test::Building{}, {0.0, 900.0, 45.0, 1800.0, 0.0, 9}},
+                       geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(-2.0), geo::Length::metres(20e3)),
+                       0.0, terrain::built_in_hills());
   }
 };
 
