@@ -43,7 +43,7 @@ class Algorithm {
                               std::span<float> power) = 0;
 
   // Lit mask of the last measure(): 1 if no nearer ground hides the sample; 0 in shadow and over a void. Report1996
-  // also sets 0 outside the beam. SubBeams gives the mask of its middle ray; of two middle rays, the right one.
+  // also sets 0 outside the beam. SubBeams gives the mask of the ray nearest the beam's centre.
   virtual void lit(std::span<std::uint8_t> mask) const = 0;
 
   // True if point targets (movers, standing parts of scenes) may return power in the sweep's BeamSlice.

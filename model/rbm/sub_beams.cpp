@@ -17,7 +17,8 @@ namespace yars::model::rbm {
 namespace {
 // [samples] A ray is used again within this distance of the position from which it was measured.
 constexpr double kMaxMove = 0.5;
-// [rays] The number of rays around the horizon may be exceeded by this, because the division rounds.
+// [rays] A number of rays around the horizon that exceeds a whole number by less than this, by rounding, is that
+// number.
 constexpr double kRounding = 1e-6;
 constexpr physics::BeamSlice kNoPoints{.left_rad = 0.0, .right_rad = 0.0};
 
@@ -74,7 +75,7 @@ void SubBeams::set_beam(geo::Bearing azimuth) {
 // The ray of a number: the one that is kept, else one that is not among `first` to `last`. Numbers wrap at north.
 SubBeams::Ray& SubBeams::ray_of(int number, int first, int last) {
   const auto wrapped = [this](int any) { return (any % circle_ + circle_) % circle_; };
-  Ray* unused = nullptr;
+  Ray* unused = &rays_.front();
   for (Ray& ray : rays_) {
     if (ray.number == wrapped(number)) return ray;
     if (ray.number < 0 || wrapped(ray.number - first) > last - first) unused = &ray;

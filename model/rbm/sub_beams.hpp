@@ -23,9 +23,11 @@ inline constexpr double kSubBeamsWidth = 1.5;  // [beamwidths] outside it the tw
 // sweeps of its pass, but for a hovering aircraft on its own geometry alone.
 //
 // Kept rays have no point targets, because a point's gain depends on the sweep's azimuth. Where points lie in the beam,
-// at most kPointRays rays are measured with them for this sweep alone.
+// about kPointRays rays at most are measured with them for this sweep alone.
 class SubBeams : public Algorithm {
  public:
+  // With a longer one, sweeps are longer not ready after terrain was loaded, and rays older in flight. A beam of 2.5
+  // degrees passes a ray in 35 ms at 110 degrees a second.
   static constexpr geo::Duration kRayLifetime = geo::Duration::seconds(0.05);
   static constexpr int kPointRays = 5;
 
