@@ -39,15 +39,14 @@ Fidelity draft() {
   return fidelity;
 }
 
-// All effects of the model at the finest terrain level. Five sub-beams replace the azimuth smear.
+// All effects of the model at the finest terrain level. Thirteen sub-beams replace the azimuth smear.
 Fidelity fine() {
   Fidelity fidelity;
-  fidelity.geodesic_knots = 7;
   fidelity.posts_per_sample = 0.0;
   fidelity.samples = 1024;
   fidelity.cross_track_slope = true;
   fidelity.azimuth_smear = false;
-  fidelity.sub_beams = 5;
+  fidelity.sub_beams = 13;
   fidelity.map_oversampling = 2;
   fidelity.map_double_bounce = true;
   return fidelity;

@@ -14,6 +14,13 @@ namespace {
 // Sweeps of a piece: 20 to 100 us. A thread waits about so long at the end of a scan. With fewer, threads meet more
 // often at the queues.
 constexpr std::size_t kSweepsPerPiece = 4;
+// The same with sub-beams, which the sweeps of a piece share: the first sweep of a piece measures all of its rays if
+// the thread has measured another piece before.
+constexpr std::size_t kSweepsPerPieceWithSubBeams = 12;
+
+std::size_t sweeps_per_piece(const radar::Fidelity& fidelity) {
+  return fidelity.sub_beams > 1 ? kSweepsPerPieceWithSubBeams : kSweepsPerPiece;
+}
 }  // namespace
 
 OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanRequest& request, int threads)
@@ -33,7 +40,8 @@ OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanR
   jamming_.assign(positions_.size(), 0.0);
   power_.assign(positions_.size() * samples_, 0.0F);
   sweeps_.resize(positions_.size());
-  ready_ = std::vector<std::atomic<std::uint8_t>>(std::max(rays() * sweeps_per_ray_ / kSweepsPerPiece, std::size_t{1}));
+  ready_ = std::vector<std::atomic<std::uint8_t>>(
+      std::max(rays() * sweeps_per_ray_ / sweeps_per_piece(parameters.fidelity), std::size_t{1}));
 }
 
 void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, const ScanRequest& request) {
@@ -89,7 +97,12 @@ void OfflineScan::form_if_ready(std::size_t piece, std::size_t thread) {
   for (std::size_t sweep = first_of(piece); sweep < first_of(piece + 1); ++sweep) form_sweep_video(sweep, thread);
 }
 
+void OfflineScan::begin_pass() {
+  for (const std::unique_ptr<rbm::Algorithm>& algorithm : algorithms_) algorithm->begin_pass();
+}
+
 void OfflineScan::measure(const physics::Environment& environment) {
+  begin_pass();
   to_measure_.begin(pieces());
   workers_.run([&](std::size_t thread) {
     for (int piece = to_measure_.take(thread); piece >= 0; piece = to_measure_.take(thread))
@@ -100,6 +113,7 @@ void OfflineScan::measure(const physics::Environment& environment) {
 // A thread measures until nothing is left to measure, and forms then. That is faster than both in turn.
 void OfflineScan::run(const physics::Environment& environment) {
   for (std::atomic<std::uint8_t>& ready : ready_) ready.store(0, std::memory_order_relaxed);
+  begin_pass();
   to_measure_.begin(pieces());
   to_form_.begin(pieces());
   workers_.run([&](std::size_t thread) {

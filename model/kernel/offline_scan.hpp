@@ -61,6 +61,7 @@ class OfflineScan {
   }
   std::size_t rays() const { return (positions_.size() + sweeps_per_ray_ - 1) / sweeps_per_ray_; }
   std::size_t pieces() const { return ready_.size(); }
+  void begin_pass();
   void measure_piece(std::size_t piece, std::size_t thread, const physics::Environment& environment);
   void form_if_ready(std::size_t piece, std::size_t thread);
   void form_sweep_video(std::size_t sweep, std::size_t thread);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
 #include "lib/radar/fidelity.hpp"
@@ -84,11 +85,17 @@ bool SweepChain::advance(const SweepHeader& header, const Labels& labels, const 
   next_ = (next_ + 1) % measured_.size();
   measured.header = header;
   measured.labels = labels;
+  if (held_ == 0 || (labels.flags & databuffer::kSweepScanStart) != 0U) begin_pass();
   receive(measured, environment);
   const bool ready = held_ > 0;
   if (ready) finish(held_ > 1 ? newest(2) : newest(1), newest(1), newest(0), sweep);
   held_ = std::min<std::size_t>(held_ + 1, 2);
   return ready;
+}
+
+void SweepChain::begin_pass() {
+  algorithm_->begin_pass();
+  not_ready_until_ns_.reset();
 }
 
 void SweepChain::receive(Measured& measured, const physics::Environment& environment) {
@@ -103,6 +110,7 @@ void SweepChain::receive(Measured& measured, const physics::Environment& environ
     beacons_.measure(geometry, environment.terrain, measured.power);
   } else {
     measure_ray(measured, environment);
+    flag_descendant(measured.labels);
   }
 }
 
@@ -122,6 +130,17 @@ void SweepChain::measure_ray(Measured& measured, const physics::Environment& env
   const std::size_t pending = algorithm_->measure(geometry_of(measured.header, sweeps), environment, measured.power);
   posts_pending_ += pending;
   if (pending > 0) measured.labels.flags |= databuffer::kSweepNotReady;
+}
+
+// Flags a sweep as not ready if it may use what a sweep that was not ready has left.
+void SweepChain::flag_descendant(Labels& labels) {
+  const auto memory_ns = static_cast<std::int64_t>(std::ceil(algorithm_->memory().seconds() * 1e9));
+  if (memory_ns == 0) return;
+  if ((labels.flags & databuffer::kSweepNotReady) != 0U) {
+    not_ready_until_ns_ = labels.sim_time_ns + memory_ns;
+  } else if (not_ready_until_ns_ && labels.sim_time_ns <= *not_ready_until_ns_) {
+    labels.flags |= databuffer::kSweepNotReady;
+  }
 }
 
 bool SweepChain::flush(databuffer::Sweep& sweep) {

@@ -67,6 +67,8 @@ std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 // Measures each sweep, stores the three newest, and finishes a sweep when its successor is measured or flush() ends the
 // pass. The record has the sweep's own position, so the azimuth smear does not displace the picture. The first
 // sweep of a pass also serves as its own predecessor, the last one as its own successor.
+// With sub-beams a sweep also depends on earlier sweeps of its pass (SubBeams), back to a sweep with kSweepScanStart at
+// most.
 class SweepChain {
  public:
   explicit SweepChain(const physics::RadarParameters& parameters);
@@ -104,6 +106,8 @@ class SweepChain {
     double jamming = 0.0;  // received jamming power, equal in all samples; full scale = 1
     memory::CacheAlignedVector<float> power;
   };
+  void begin_pass();
+  void flag_descendant(Labels& labels);
   void receive(Measured& measured, const physics::Environment& environment);
   void measure_ray(Measured& measured, const physics::Environment& environment);
   void finish(const Measured& before, const Measured& centre, const Measured& after, databuffer::Sweep& sweep);
@@ -119,6 +123,7 @@ class SweepChain {
   std::size_t next_ = 0;  // index of the next sweep in measured_
   std::size_t held_ = 0;  // how many of the two newest sweeps belong to this pass: 0 to 2
   std::uint64_t posts_pending_ = 0;
+  std::optional<std::int64_t> not_ready_until_ns_;  // sim time until which rays over terrain not loaded may be in use
 };
 
 // Fills a sweep record: position, labels, video of the sweep `window.centre`, hash.

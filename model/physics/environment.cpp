@@ -105,6 +105,8 @@ std::span<const Echo> Movers::echoes(const SweepGeometry& geometry, const Receiv
   echoes_.clear();
   const auto traffic = environment.traffic.first(std::min(environment.traffic.size(), kMaxTraffic));
   if (points_.empty() && traffic.empty()) return echoes_;
+  const AzimuthInterval interval = point_interval(geometry.slice, receiver.azimuth_beamwidth_rad);
+  if (!(interval.left_rad < interval.right_rad)) return echoes_;
   const Sector sector(geometry, receiver.azimuth_beamwidth_rad);
   const Sweep sweep{geometry, receiver, earth, environment.terrain};
   const auto run_m = [&](const MovingPoint& point, geo::Duration since) {

@@ -28,6 +28,13 @@ class Algorithm {
   Algorithm& operator=(const Algorithm&) = delete;
   virtual ~Algorithm() = default;
 
+  // Discards what earlier sweeps have left for later ones. Call it before the first sweep of a pass (one crossing of
+  // the scan width).
+  virtual void begin_pass() {}
+
+  // Longest time for which what a sweep leaves serves later sweeps.
+  virtual geo::Duration memory() const { return {}; }
+
   // Computes the power of sample_count() samples after sensitivity time control (a gain that increases with range) and
   // pulse smear (mean over the samples that the pulse covers), without noise.
   // Report1996 has no sensitivity time control and smears over three samples. Values are finite and >= 0.
@@ -36,8 +43,13 @@ class Algorithm {
                               std::span<float> power) = 0;
 
   // Lit mask of the last measure(): 1 if no nearer ground hides the sample; 0 in shadow and over a void. Report1996
-  // also sets 0 outside the beam. SubBeams gives the mask of its middle ray; of two middle rays, the right one.
+  // also sets 0 outside the beam. SubBeams gives the mask of the ray nearest the beam's centre.
   virtual void lit(std::span<std::uint8_t> mask) const = 0;
+
+  // True if point targets (movers, standing parts of scenes) may return power in the sweep's BeamSlice.
+  virtual bool has_points(const physics::SweepGeometry& /*geometry*/, const physics::Environment& /*environment*/) {
+    return false;
+  }
 
   // Computes the video of the sweep that has the power `window.centre`: azimuth smear, noise, receiver characteristic.
   // `gain` is the GAIN step 0..3.

@@ -205,6 +205,13 @@ void Reference::lit(std::span<std::uint8_t> mask) const {
                  [](const Sample& sample) { return sample.lit ? std::uint8_t{1} : std::uint8_t{0}; });
 }
 
+bool Reference::has_points(const physics::SweepGeometry& geometry, const physics::Environment& environment) {
+  const physics::Receiver receiver = receivers_.at(geometry.range);
+  const physics::EffectiveEarth earth = physics::effective_earth(fidelity_, geometry.apex, geometry.azimuth);
+  return !movers_.echoes(geometry, receiver, earth, environment).empty() ||
+         scene_return_.has_standing(geometry, receiver, environment.scenes);
+}
+
 void Reference::form_video(const physics::PowerWindow& window, geo::Length range, int gain,
                            const physics::NoiseKey& key, std::span<std::uint8_t> video) {
   const physics::Receiver receiver = receivers_.at(range);

@@ -176,14 +176,17 @@ double SceneReturn::covered_power(const Sweep& sweep, std::size_t sample, double
                            sight.slant_range_m);
 }
 
-void SceneReturn::add_standing(const Sweep& sweep, const scene::Scatterers& scene) {
-  const scene::ScattererLevel& level = scene.levels[scene.level_for(sweep.spacing_m)];
+// Calls `visit` for groups of scatterers that may lie within the range and within point_interval().
+template <class Visit>
+void SceneReturn::visit_standing(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
+                                 const scene::Scatterers& scene, const scene::ScattererLevel& level,
+                                 const Visit& visit) const {
   const Ray ray = ray_in(scene);
-  const physics::AzimuthInterval interval =
-      physics::point_interval(sweep.geometry->slice, sweep.receiver->azimuth_beamwidth_rad);
+  const physics::AzimuthInterval interval = physics::point_interval(geometry.slice, receiver.azimuth_beamwidth_rad);
+  if (!(interval.left_rad < interval.right_rad)) return;
   const double sin_left = std::sin(interval.left_rad), cos_left = std::cos(interval.left_rad);
   const double sin_right = std::sin(interval.right_rad), cos_right = std::cos(interval.right_rad);
-  const double range_m = sweep.geometry->range.metres();
+  const double range_m = geometry.range.metres();
   const auto meets = [&](const scene::Ball& ball) {
     const geo::Vector3 to_point = ball.middle - ray.apex;
     const double ahead_m = dot(to_point, ray.ahead), right_m = dot(to_point, ray.right);
@@ -192,9 +195,29 @@ void SceneReturn::add_standing(const Sweep& sweep, const scene::Scatterers& scen
            right_m * cos_left - ahead_m * sin_left >= -ball.radius_m &&
            ahead_m * sin_right - right_m * cos_right >= -ball.radius_m;
   };
-  level.tree.search(meets, [&](std::uint32_t first, std::uint32_t end) {
+  level.tree.search(meets, visit);
+}
+
+void SceneReturn::add_standing(const Sweep& sweep, const scene::Scatterers& scene) {
+  const scene::ScattererLevel& level = scene.levels[scene.level_for(sweep.spacing_m)];
+  const Ray ray = ray_in(scene);
+  visit_standing(*sweep.geometry, *sweep.receiver, scene, level, [&](std::uint32_t first, std::uint32_t end) {
     for (std::uint32_t i = first; i < end; ++i) add_scatterer(sweep, ray, level, i);
   });
+}
+
+bool SceneReturn::has_standing(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
+                               const scene::SceneView* scenes) {
+  if (!enter(geometry, scenes)) return false;
+  const double spacing_m = geometry.range.metres() / static_cast<double>(ground_.power.size());
+  bool found = false;
+  for (const scene::Scatterers* scene : scenes->scatterers()) {
+    if (found) break;
+    if (in_range(*scene, geometry))
+      visit_standing(geometry, receiver, *scene, scene->levels[scene->level_for(spacing_m)],
+                     [&](std::uint32_t first, std::uint32_t end) { found = found || first < end; });
+  }
+  return found;
 }
 
 void SceneReturn::add_scatterer(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level,

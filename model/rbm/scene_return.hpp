@@ -50,6 +50,10 @@ class SceneReturn {
 
   // Prepares a sweep. If a scene is within range, returns true; the caller then fills ground() and calls apply().
   bool enter(const physics::SweepGeometry& geometry, const scene::SceneView* scenes);
+  // True if a standing part of a scene may lie within the range and within point_interval(). Replaces what enter() has
+  // prepared.
+  bool has_standing(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
+                    const scene::SceneView* scenes);
   Ground& ground() { return ground_; }
   // Applies the scenes to ground().power. `pulse_samples`: length of the pulse smear that the caller applies later.
   void apply(const physics::SweepGeometry& geometry, const physics::Receiver& receiver, const physics::GroundWalk& walk,
@@ -95,6 +99,9 @@ class SceneReturn {
   bool under_ray(const scene::Scatterers& scene) const;
   void cover_ground(const Sweep& sweep, const scene::Scatterers& scene);
   double covered_power(const Sweep& sweep, std::size_t sample, double gamma) const;
+  template <class Visit>
+  void visit_standing(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
+                      const scene::Scatterers& scene, const scene::ScattererLevel& level, const Visit& visit) const;
   void add_standing(const Sweep& sweep, const scene::Scatterers& scene);
   void add_scatterer(const Sweep& sweep, const Ray& ray, const scene::ScattererLevel& level, std::uint32_t index);
   Echo find(const Sweep& sweep, const Ray& ray, const scene::Scatterer& scatterer, std::uint64_t key) const;

@@ -42,9 +42,12 @@ Standard::Standard(const physics::RadarParameters& parameters)
       peak_(count_, kVoid),
       near_(count_, kVoid),
       near_back_(count_, 0.0F),
-      side_(count_, 0.0F),
       crest_(count_, simd::kNoHorizon),
       cross_slope_(count_, 0.0F),
+      side_positions_((count_ + kSideStep - 1) / kSideStep),
+      side_distance_(side_positions_.count, 0.0F),
+      left_side_(side_positions_.count, 0.0F),
+      right_side_(side_positions_.count, 0.0F),
       tangent_(count_, simd::kNoHorizon),
       near_tangent_(count_, simd::kNoHorizon),
       before_(count_, simd::kNoHorizon),
@@ -59,7 +62,6 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   const physics::EffectiveEarth earth = physics::effective_earth(fidelity_, geometry.apex, geometry.azimuth);
   const physics::Receiver& receiver = receiver_at(geometry.range);
   update_distances(geometry, earth, terrain);
-  // The side rays are read first, because they overwrite positions_. Later steps need the sweep's positions there.
   if (fidelity_.cross_track_slope) read_cross_slopes(geometry, terrain);
   const std::size_t pending = read_terrain(geometry, terrain);
 
@@ -104,7 +106,16 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
 }
 
 void Standard::lit(std::span<std::uint8_t> mask) const {
-  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = tangent_.data()[i] > before_.data()[i] ? 1 : 0;
+  const float* const tangent = tangent_.data();
+  const float* const before = before_.data();
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = tangent[i] > before[i] ? 1 : 0;
+}
+
+bool Standard::has_points(const physics::SweepGeometry& geometry, const physics::Environment& environment) {
+  const physics::Receiver& receiver = receiver_at(geometry.range);
+  const physics::EffectiveEarth earth = physics::effective_earth(fidelity_, geometry.apex, geometry.azimuth);
+  return !movers_.echoes(geometry, receiver, earth, environment).empty() ||
+         scene_return_.has_standing(geometry, receiver, environment.scenes);
 }
 
 physics::GasSamples::Coefficients Standard::gas_loss(const physics::SweepGeometry& geometry) {
@@ -231,19 +242,31 @@ std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const
   return pending;
 }
 
+// Slope across the sweep, from two side rays. It is computed at every kSideStep-th sample and interpolated between
+// them.
 void Standard::read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   const double side_rad = kSideRayBeamwidths * azimuth_beamwidth_deg_ * geo::kRadiansPerDegree;
+  const std::size_t sides = side_positions_.count;
+  for (std::size_t k = 0; k < sides; ++k) side_distance_.data()[k] = distance_.data()[k * kSideStep];
   const auto read = [&](double offset_rad, Padded& out) {
     sampler_.sample(geometry.apex, geometry.azimuth + geo::Angle::radians(offset_rad), geometry.range,
-                    fidelity_.geodesic_knots, distance_.data(), positions_);
-    terrain.surfaces(positions_.run(), fidelity_.interpolation, {out.first(count_), water_.first(count_), {}, {}});
+                    fidelity_.geodesic_knots, side_distance_.data(), side_positions_);
+    terrain.surfaces(side_positions_.run(), fidelity_.interpolation, {out.first(sides), water_.first(sides), {}, {}});
   };
-  read(-side_rad, side_);
-  read(side_rad, cross_slope_);
-  for (std::size_t i = 0; i < count_; ++i) {
-    const float rise_m = cross_slope_.data()[i] - side_.data()[i];
-    const float run_m = static_cast<float>(2.0 * side_rad) * distance_.data()[i];
-    cross_slope_.data()[i] = run_m > 0.0F && rise_m == rise_m ? rise_m / run_m : 0.0F;
+  read(-side_rad, left_side_);
+  read(side_rad, right_side_);
+  float* const slope = right_side_.data();
+  for (std::size_t k = 0; k < sides; ++k) {
+    const float rise_m = right_side_.data()[k] - left_side_.data()[k];
+    const float run_m = static_cast<float>(2.0 * side_rad) * side_distance_.data()[k];
+    slope[k] = run_m > 0.0F && rise_m == rise_m ? rise_m / run_m : 0.0F;
+  }
+  slope[sides] = slope[sides - 1];
+  constexpr float kStep = 1.0F / static_cast<float>(kSideStep);
+  for (std::size_t k = 0; k < sides; ++k) {
+    const float rise = kStep * (slope[k + 1] - slope[k]);
+    float* const between = cross_slope_.data() + k * kSideStep;
+    for (std::size_t i = 0; i < kSideStep; ++i) between[i] = slope[k] + static_cast<float>(i) * rise;
   }
 }
 

@@ -35,6 +35,7 @@ class Standard : public Algorithm {
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
+  bool has_points(const physics::SweepGeometry& geometry, const physics::Environment& environment) override;
   void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                   std::span<std::uint8_t> video) override;
 
@@ -47,6 +48,8 @@ class Standard : public Algorithm {
     std::span<float> first(std::size_t count) { return {data(), count}; }
     memory::CacheAlignedVector<float> values;
   };
+
+  static constexpr std::size_t kSideStep = 8;  // [samples] between samples of the side rays
 
   void update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const terrain::TerrainView& terrain);
@@ -92,7 +95,9 @@ class Standard : public Algorithm {
   physics::PositionSampler sampler_;
   physics::PositionArrays positions_;
   RayCrests ray_crests_;
-  Padded elevation_, water_, peak_, near_, near_back_, side_, crest_, cross_slope_;
+  Padded elevation_, water_, peak_, near_, near_back_, crest_, cross_slope_;
+  physics::PositionArrays side_positions_;
+  Padded side_distance_, left_side_, right_side_;
   Padded tangent_, near_tangent_, before_, horizon_;
   Padded power_, variate_;
   memory::CacheAlignedVector<std::int32_t> cell_;  // resolution cell of each sample

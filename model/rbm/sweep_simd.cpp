@@ -265,6 +265,19 @@ void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPatter
   for (std::size_t i = 0; i < count; i += lanes_of<VectorPair>()) pass.measure<VectorPair>(i);
 }
 
+// Stores the sums of the samples from `i` on, but none after the last sample.
+template <class Sum>
+HWY_INLINE void store_sums(std::size_t count, std::size_t i, const Sum& sum, float* result) {
+  const Tag d;
+  if (count - i >= hn::Lanes(d)) {
+    hn::StoreU(sum, d, result + i);
+  } else {
+    HWY_ALIGN float last[kMaxLanes];
+    hn::Store(sum, d, last);
+    std::copy_n(last, count - i, result + i);
+  }
+}
+
 // Smear over `kReach` samples on either side. A negative kReach selects `runtime_reach` instead.
 template <std::ptrdiff_t kReach>
 HWY_INLINE void smear_by(std::size_t count, const float* power, const float* weights, std::ptrdiff_t runtime_reach,
@@ -275,13 +288,17 @@ HWY_INLINE void smear_by(std::size_t count, const float* power, const float* wei
     auto sum = hn::Zero(d);
     for (std::ptrdiff_t k = -reach; k <= reach; ++k)
       sum = fused::mul_add(hn::Set(d, weights[reach + k]), hn::LoadU(d, power + i + k), sum);
-    if (count - i >= hn::Lanes(d)) {
-      hn::StoreU(sum, d, result + i);
-    } else {
-      HWY_ALIGN float last[kMaxLanes];
-      hn::Store(sum, d, last);
-      std::copy_n(last, count - i, result + i);
-    }
+    store_sums(count, i, sum, result);
+  }
+}
+
+void weighted_sum(std::size_t count, std::span<const WeightedRay> rays, float* result) {
+  const Tag d;
+  for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
+    auto sum = hn::Zero(d);
+    for (const WeightedRay& ray : rays)
+      sum = hn::Add(sum, hn::Mul(hn::Set(d, ray.weight), hn::LoadU(d, ray.power + i)));
+    store_sums(count, i, sum, result);
   }
 }
 
@@ -307,6 +324,7 @@ namespace yars::model::rbm::simd {
 HWY_EXPORT(profile);
 HWY_EXPORT(sweep);
 HWY_EXPORT(smear);
+HWY_EXPORT(weighted_sum);
 
 void profile(std::size_t count, const SweepConstants& constants, const SweepInputs& inputs,
              const SweepOutputs& outputs) {
@@ -318,6 +336,9 @@ void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPatter
 }
 void smear(std::size_t count, const float* power, const float* weights, std::ptrdiff_t reach, float* result) {
   HWY_DYNAMIC_DISPATCH(smear)(count, power, weights, reach, result);
+}
+void weighted_sum(std::size_t count, std::span<const WeightedRay> rays, float* result) {
+  HWY_DYNAMIC_DISPATCH(weighted_sum)(count, rays, result);
 }
 
 }  // namespace yars::model::rbm::simd

@@ -7,11 +7,12 @@
 // The csc^2 pattern (cosecant squared) is an elevation pattern of the antenna, see model/physics/receiver.hpp.
 // Threads: pure functions. The instruction set is chosen at run time. All instruction sets give results equal bit by
 // bit. All arrays of samples have kPad readable and writable entries before the first and after the last sample.
-// Exceptions: `result` of smear(); the arrays of SweepInputs::ground (clutter_simd.hpp).
+// Exceptions: the results of smear() and weighted_sum(); the arrays of SweepInputs::ground (clutter_simd.hpp).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "lib/radar/modes.hpp"
 #include "model/physics/atmosphere.hpp"
@@ -77,5 +78,13 @@ void sweep(std::size_t count, const SweepConstants& constants, radar::BeamPatter
 // Applies the pulse smear, which spreads power over the length of a pulse: result[i] = sum of
 // weights[reach + k] * power[i + k] over k = -reach..reach. Writes exactly `count` entries.
 void smear(std::size_t count, const float* power, const float* weights, std::ptrdiff_t reach, float* result);
+
+// Weighted sum of the powers of several rays: result[i] = sum of rays[k].weight * rays[k].power[i]. Writes exactly
+// `count` entries.
+struct WeightedRay {
+  const float* power;
+  float weight;
+};
+void weighted_sum(std::size_t count, std::span<const WeightedRay> rays, float* result);
 
 }  // namespace yars::model::rbm::simd

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lib/radar/configuration.hpp"
+#include "model/rbm/sub_beams.hpp"
 
 namespace yars::tools::recording {
 
@@ -38,14 +39,22 @@ void Comparison::match(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash
 }
 
 namespace {
-// Number of sweeps after a start that are not compared, because their azimuth smear needs sweeps from before the start.
-constexpr std::uint64_t kSmearMemory = 2;
+// Number of sweeps in which the beam passes a sub-beam. Turns of the aircraft may slow down the beam to half its rate.
+std::uint64_t sweeps_over_beam(const radar::RadarConfiguration& configuration) {
+  constexpr double kSlowest = 0.5, kMinRate_dps = 1.0;
+  const double rate_dps = kSlowest * std::max(configuration.antenna.azimuth_rate_dps, kMinRate_dps);
+  const double width_deg = model::rbm::kSubBeamsWidth * configuration.antenna.azimuth_beamwidth_deg;
+  return static_cast<std::uint64_t>(std::ceil(width_deg / (rate_dps * radar::kTickSeconds)));
+}
 
-// Number of sweeps after a start that are not compared: those with smear from before the start, and those that share a
-// ray of before the start.
-std::uint64_t skipped_sweeps(const radar::Fidelity& fidelity) {
+// Number of sweeps after a start that are not compared: those with smear from before the start, those that share a ray
+// of before the start, and those with sub-beams of before the start.
+std::uint64_t skipped_sweeps(const radar::RadarConfiguration& configuration) {
+  constexpr std::uint64_t kSmearMemory = 2;
+  const radar::Fidelity& fidelity = configuration.fidelity;
   const int sharing = fidelity.automatic ? radar::kMaxSweepsPerRay : fidelity.sweeps_per_ray;
-  return kSmearMemory + static_cast<std::uint64_t>(sharing) - 1;
+  const bool sub_beams = fidelity.automatic || fidelity.sub_beams > 1;
+  return kSmearMemory + static_cast<std::uint64_t>(sharing) - 1 + (sub_beams ? sweeps_over_beam(configuration) : 0);
 }
 }  // namespace
 
@@ -61,7 +70,7 @@ void Replay::start(const StartingPoint& point) {
   kernel_ = model::kernel::RadarKernel(*configuration_);
   kernel_.resume(point.status);
   last_ = before_last_ = point.status;
-  skip_sweeps_ = skipped_sweeps(configuration_->fidelity);
+  skip_sweeps_ = skipped_sweeps(*configuration_);
 }
 
 const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {

@@ -59,9 +59,9 @@ class Replay {
 
   // Makes a new kernel that resumes from this status. Allowed before the first tick and between ticks.
   void start(const StartingPoint& point);
-  // Runs one tick and returns its finished sweep. nullptr: no sweep, or a sweep that is not compared. The first
-  // sweeps after start() are not compared, two with a ray for each sweep: azimuth smear combines successive sweeps, and
-  // successive sweeps may share a ray, some from before the start.
+  // Runs one tick and returns its finished sweep. nullptr: no sweep, or a sweep that is not compared. The first sweeps
+  // after start() are not compared, two with a ray for each sweep: azimuth smear, shared rays and sub-beams combine
+  // successive sweeps, some from before the start. Sub-beams with the default antenna: 16.
   const databuffer::Sweep* tick(const databuffer::ModelTick& tick);
   // Sets the traffic from the next tick on.
   void traffic(const databuffer::Traffic& traffic) { traffic_ = model::kernel::points_of(traffic); }

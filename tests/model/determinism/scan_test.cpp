@@ -98,6 +98,48 @@ TEST(Determinism, ScenesGiveTheSameHashesForAnyNumberOfThreadsAndInTheLiveKernel
   }
 }
 
+// The sub-beams that successive sweeps share, over ground, scenes and a mover.
+TEST(Determinism, SubBeamsGiveTheSameHashesForAnyNumberOfThreadsAndInTheLiveKernel) {
+  for (const auto& [algorithm, samples] :
+       {std::pair{radar::Algorithm::standard, 137}, {radar::Algorithm::reference, 23}}) {
+    auto configuration = with(algorithm, samples);
+    configuration.fidelity.sub_beams = 13;
+    configuration.fidelity.cross_track_slope = true;
+    radar::Mover mover;
+    mover.position = {37.2, -121.75};
+    mover.speed_mps = 200.0;
+    configuration.world.movers.push_back(mover);
+    const auto scenes = town();
+    test::Cockpit cockpit(configuration, terrain::built_in_hills());
+    cockpit.scenes = scenes;
+    cockpit.tick.command.antenna_elevation_deg = 0.0;
+    const auto live = cockpit.run(320);
+    ASSERT_GE(live.size(), 182U);
+    for (const int threads : {1, 2, 8}) {
+      ScanRequest request = request_of(cockpit.tick);
+      request.sim_time_ns = live[0].sim_time_ns;
+      OfflineScan scan(configuration, request, threads);
+      for (int run = 0; run < 3; ++run) scan.run({cockpit.terrain, scenes.get()});
+      for (std::size_t i = 0; i < 182U; ++i) ASSERT_EQ(live[i].hash, scan.sweeps()[i].hash) << threads << ' ' << i;
+    }
+  }
+}
+
+// Rays that were measured while scenes were still being read are in use for 50 ms: ten sweeps, and one by the smear.
+TEST(Determinism, SweepsWithSubBeamsAreNotReadyWhileTheyUseRaysOfSweepsThatWereNot) {
+  auto configuration = with(radar::Algorithm::standard, 64);
+  configuration.fidelity.sub_beams = 5;
+  test::Cockpit cockpit(configuration);
+  while (!cockpit.run_until(test::is_scan_start)) continue;
+  cockpit.scenes_ready = false;
+  cockpit.run(50);
+  cockpit.scenes_ready = true;
+  const auto later = cockpit.run(50);
+  ASSERT_EQ(later.size(), 50U);
+  for (std::size_t i = 0; i < later.size(); ++i)
+    EXPECT_EQ((later[i].flags & databuffer::kSweepNotReady) != 0U, i < 12) << i;
+}
+
 TEST(Determinism, SweepsAreNotReadyWhileScenesAreStillBeingRead) {
   test::Cockpit cockpit(with(radar::Algorithm::standard, 64));
   cockpit.scenes_ready = false;

@@ -51,8 +51,9 @@ namespace yars::model::kernel {
 namespace {
 
 // Steps 700 ticks with scans, rain, a jammer, a mover and a scene. Returns the number of allocations.
-long allocations_of(radar::Algorithm algorithm) {
+long allocations_of(radar::Algorithm algorithm, int sub_beams = 1) {
   radar::RadarConfiguration configuration;
+  configuration.fidelity.sub_beams = sub_beams;
   configuration.fidelity.algorithm = algorithm;
   configuration.fidelity.cross_track_slope = true;
   configuration.fidelity.samples = 64;
@@ -109,6 +110,7 @@ TEST(Allocation, TheCounterCounts) {
 TEST(Allocation, AWarmKernelAllocatesNothing) {
   EXPECT_EQ(allocations_of(radar::Algorithm::standard), 0);
   EXPECT_EQ(allocations_of(radar::Algorithm::reference), 0);
+  EXPECT_EQ(allocations_of(radar::Algorithm::standard, 13), 0);
   EXPECT_EQ(allocations_beside_the_scan(), 0);
 }
 

@@ -1,16 +1,36 @@
-// Sub-beams (several rays across the beam): the ray that determines light and shadow.
+// Sub-beams (several rays across the beam): rays that successive sweeps share, rays of point targets, and the ray that
+// determines light and shadow.
 #include "model/rbm/sub_beams.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "tests/lib/simd/vector_targets.hpp"
+#include "tests/model/made_up_objects.hpp"
 #include "tests/model/physics/ground.hpp"
 
 namespace yars::model::rbm {
 namespace {
+
+constexpr std::size_t kSamples = 240;
+
+radar::RadarConfiguration with_rays(int rays, radar::Algorithm algorithm = radar::Algorithm::reference) {
+  radar::RadarConfiguration configuration = test::bare_configuration(static_cast<int>(kSamples));
+  configuration.fidelity.algorithm = algorithm;
+  configuration.fidelity.sub_beams = rays;
+  return configuration;
+}
+
+physics::SweepGeometry towards(double azimuth_deg) {
+  physics::SweepGeometry geometry = test::geometry_north(1000.0, 30000.0);
+  geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
+  return geometry;
+}
 
 // A wall of 900 m that ends 0.0002 degrees west of the meridian of the apex.
 terrain::AnalyticTerrain wall_to_the_west() {
@@ -21,30 +41,226 @@ terrain::AnalyticTerrain wall_to_the_west() {
 }
 
 std::vector<std::uint8_t> lit_by(int rays, double azimuth_deg) {
-  radar::RadarConfiguration configuration = test::bare_configuration(240);
-  configuration.fidelity.sub_beams = rays;
-  const auto algorithm = make_algorithm(configuration);
-  physics::SweepGeometry geometry = test::geometry_north(1000.0, 30000.0);
-  geometry.azimuth = geo::Bearing::degrees(azimuth_deg);
-  std::vector<float> power(240);
-  algorithm->measure(geometry, wall_to_the_west(), power);
-  std::vector<std::uint8_t> lit(240);
+  const auto algorithm = make_algorithm(with_rays(rays));
+  std::vector<float> power(kSamples);
+  algorithm->measure(towards(azimuth_deg), wall_to_the_west(), power);
+  std::vector<std::uint8_t> lit(kSamples);
   algorithm->lit(lit);
   return lit;
 }
 
-TEST(SubBeams, HaveTheShadowOfTheMiddleRay) {
-  for (const double azimuth_deg : {-0.5, 0.0, 0.5})
-    for (const int rays : {3, 5, 15}) EXPECT_EQ(lit_by(rays, azimuth_deg), lit_by(1, azimuth_deg)) << azimuth_deg;
+// The spacing of rays is 1.5 beamwidths divided by their number. Their azimuths are multiples of it.
+TEST(SubBeams, HaveTheShadowOfTheRayNearestTheBeamsCentre) {
+  const double beam_deg = with_rays(1).antenna.azimuth_beamwidth_deg;
+  for (const double azimuth_deg : {-0.9, -0.1, 0.0, 0.1, 0.5}) {
+    for (const int rays : {2, 3, 4, 5, 15}) {
+      const double spacing_deg = 1.5 * beam_deg / rays;
+      EXPECT_EQ(lit_by(rays, azimuth_deg), lit_by(1, spacing_deg * std::round(azimuth_deg / spacing_deg)))
+          << rays << ' ' << azimuth_deg;
+    }
+  }
 }
 
-// The spacing of rays is 1.5 beamwidths divided by their number. The right ray of the middle pair is half a spacing to
-// the right of the beam's centre.
-TEST(SubBeams, OfAnEvenNumberHaveTheShadowOfTheRightRayOfTheMiddlePair) {
-  const double beam_deg = test::bare_configuration(240).antenna.azimuth_beamwidth_deg;
-  for (const double azimuth_deg : {-0.9, -0.1, 0.5}) {
-    EXPECT_EQ(lit_by(2, azimuth_deg), lit_by(1, azimuth_deg + 0.375 * beam_deg)) << azimuth_deg;
-    EXPECT_EQ(lit_by(4, azimuth_deg), lit_by(1, azimuth_deg + 0.1875 * beam_deg)) << azimuth_deg;
+// Weights follow the two-way pattern. Their sum is 1.
+TEST(SubBeams, HaveTheWeightedPowerOfTheirRays) {
+  const terrain::AnalyticTerrain hills{terrain::built_in_hills()};
+  for (const double azimuth_deg : {0.1, 40.0, 359.83}) {
+    std::vector<float> power(kSamples), ray(kSamples);
+    make_algorithm(with_rays(15))->measure(towards(azimuth_deg), hills, power);
+    std::vector<double> sum(kSamples);
+    double weights = 0.0;
+    for (int number = -10; number <= 1500; ++number) {
+      const double offset = (0.25 * number - azimuth_deg) / 2.5;  // [beamwidths] the spacing of rays is 0.25 degrees
+      if (!(offset >= -0.75 && offset < 0.75)) continue;
+      make_algorithm(with_rays(1))->measure(towards(0.25 * number), hills, ray);
+      const double weight = std::exp(-physics::kTwoWayExponent * offset * offset);
+      weights += weight;
+      for (std::size_t i = 0; i < kSamples; ++i) sum[i] += weight * static_cast<double>(ray[i]);
+    }
+    for (std::size_t i = 0; i < kSamples; ++i)
+      EXPECT_NEAR(power[i], sum[i] / weights, 1e-5 * sum[i] / weights) << azimuth_deg << ' ' << i;
+  }
+}
+
+// An algorithm of one ray that notes how it is called. Its power is 1. It finds points at one azimuth.
+class Notes : public Algorithm {
+ public:
+  struct Calls {
+    std::vector<physics::SweepGeometry> measured;
+    double points_deg = std::nan("");
+  };
+  explicit Notes(Calls& calls) : calls_(&calls) {}
+  std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& /*environment*/,
+                      std::span<float> power) override {
+    calls_->measured.push_back(geometry);
+    std::fill(power.begin(), power.end(), 1.0F);
+    return 3;
+  }
+  void lit(std::span<std::uint8_t> /*mask*/) const override {}
+  bool has_points(const physics::SweepGeometry& geometry, const physics::Environment& /*environment*/) override {
+    const double offset_rad = (geo::Bearing::degrees(calls_->points_deg) - geometry.azimuth).radians();
+    return offset_rad >= geometry.slice.left_rad && offset_rad < geometry.slice.right_rad;
+  }
+  void form_video(const physics::PowerWindow& /*window*/, geo::Length /*range*/, int /*gain*/,
+                  const physics::NoiseKey& /*key*/, std::span<std::uint8_t> /*video*/) override {}
+
+ private:
+  Calls* calls_;
+};
+
+class SubBeamsOverNotes : public ::testing::Test {
+ protected:
+  // Number of rays that the sweep measures.
+  std::size_t rays_of(const physics::SweepGeometry& geometry) {
+    calls.measured.clear();
+    std::vector<float> power(kSamples);
+    pending = algorithm.measure(geometry, flat, power);
+    for (const float value : power) EXPECT_NEAR(value, 1.0F, 1e-6F);
+    return calls.measured.size();
+  }
+  Notes::Calls calls;
+  SubBeams algorithm{std::make_unique<Notes>(calls), with_rays(15)};
+  terrain::AnalyticTerrain flat{terrain::flat(0.0)};
+  std::size_t pending = 0;
+};
+
+TEST_F(SubBeamsOverNotes, MeasureOnlyTheRaysThatTheBeamReaches) {
+  // The spacing of the rays is 0.25 degrees.
+  EXPECT_EQ(rays_of(towards(359.0)), 15U);
+  EXPECT_EQ(rays_of(towards(359.0)), 0U);
+  EXPECT_EQ(pending, 45U) << "of kept rays, too";
+  EXPECT_EQ(rays_of(towards(359.5)), 2U);
+  EXPECT_EQ(rays_of(towards(0.25)), 3U) << "across north";
+  EXPECT_EQ(rays_of(towards(359.75)), 2U) << "back";
+  EXPECT_EQ(rays_of(towards(90.0)), 15U);
+  for (const physics::SweepGeometry& ray : calls.measured) EXPECT_EQ(std::remainder(ray.azimuth.degrees(), 0.25), 0.0);
+}
+
+TEST_F(SubBeamsOverNotes, MeasureRaysAgainInTheNextPassAndWhenTheGeometryIsAnother) {
+  physics::SweepGeometry geometry = towards(10.0);
+  EXPECT_EQ(rays_of(geometry), 15U);
+  algorithm.begin_pass();
+  EXPECT_EQ(rays_of(geometry), 15U);
+  geometry.elevation = geo::Angle::degrees(1.0);
+  EXPECT_EQ(rays_of(geometry), 15U) << "elevation";
+  geometry.range = geo::Length::metres(20000.0);
+  EXPECT_EQ(rays_of(geometry), 15U) << "range";
+  geometry.sim_time = geo::Duration::seconds(0.9 * SubBeams::kRayLifetime.seconds());
+  EXPECT_EQ(rays_of(geometry), 0U);
+  geometry.sim_time = geo::Duration::seconds(1.1 * SubBeams::kRayLifetime.seconds());
+  EXPECT_EQ(rays_of(geometry), 15U) << "lifetime";
+  // Half a sample is 41.7 m.
+  geometry.apex = geo::geodesic_direct(geometry.apex, geo::Bearing::degrees(60.0), geo::Length::metres(41.0));
+  EXPECT_EQ(rays_of(geometry), 0U);
+  geometry.apex = geo::geodesic_direct(geometry.apex, geo::Bearing::degrees(60.0), geo::Length::metres(1.0));
+  EXPECT_EQ(rays_of(geometry), 15U) << "position";
+  geometry.altitude = geo::AltitudeMsl::metres(1042.0);
+  EXPECT_EQ(rays_of(geometry), 15U) << "altitude";
+}
+
+// 250 m/s, 110 degrees a second. In the 50 ms of a ray the aircraft flies 12.5 m; half a sample is 41.7 m.
+TEST_F(SubBeamsOverNotes, MeasureEachRayOnceInFlight) {
+  physics::SweepGeometry geometry = towards(300.0);
+  std::size_t rays = 0;
+  for (int sweep = 0; sweep < 182; ++sweep) {
+    geometry.azimuth = geo::Bearing::degrees(300.0 + 0.55 * sweep);
+    geometry.apex = geo::geodesic_direct(geometry.apex, geo::Bearing::degrees(20.0), geo::Length::metres(1.25));
+    geometry.sim_time = geo::Duration::seconds(0.005 * sweep);
+    rays += rays_of(geometry);
+  }
+  EXPECT_NEAR(static_cast<double>(rays), 15.0 + 0.55 * 181.0 / 0.25, 1.0);
+}
+
+TEST_F(SubBeamsOverNotes, MeasureOneRayInEachSweepWithAPointInTheBeam) {
+  EXPECT_EQ(rays_of(towards(10.0)), 15U);
+  for (const double points_deg : {6.0, 8.0, 8.6, 10.0, 11.2, 13.0}) {
+    SCOPED_TRACE(points_deg);
+    calls.points_deg = points_deg;
+    for (int sweep = 0; sweep < 2; ++sweep) {
+      ASSERT_EQ(rays_of(towards(10.0)), 1U);
+      const physics::SweepGeometry& ray = calls.measured.front();
+      EXPECT_LT(ray.slice.left_rad, ray.slice.right_rad);
+      EXPECT_NEAR(ray.slice.beam_rad, (geo::Bearing::degrees(10.0) - ray.azimuth).radians(), 1e-12);
+    }
+  }
+  calls.points_deg = std::nan("");
+  EXPECT_EQ(rays_of(towards(10.0)), 0U) << "the rays without points are kept";
+}
+
+// Hills, a mover 10 km away, and houses.
+struct World {
+  radar::RadarConfiguration configuration = with_rays(13, radar::Algorithm::standard);
+  terrain::AnalyticTerrain hills{terrain::built_in_hills()};
+  scene::SceneViewPointer houses;
+  World() {
+    radar::Mover mover;
+    mover.position = geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(3.0), geo::Length::metres(10e3));
+    mover.speed_mps = 200.0;
+    mover.heading_deg = 90.0;
+    configuration.world.movers.push_back(mover);
+    houses =
+        test::scene_of({test::Building{}, {0.0, 900.0, 45.0, 1800.0, 0.0, 9}},
+                       geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(-2.0), geo::Length::metres(20e3)),
+                       0.0, terrain::built_in_hills());
+  }
+};
+
+TEST(SubBeams, OfAHoveringAircraftDoNotDependOnEarlierSweeps) {
+  World world;
+  world.configuration.fidelity.cross_track_slope = true;
+  const auto kept = make_algorithm(world.configuration);
+  for (int sweep = 0; sweep < 40; ++sweep) {
+    physics::SweepGeometry geometry = towards(-8.0 + 0.549 * (sweep < 30 ? sweep : 60 - sweep));
+    geometry.sim_time = geo::Duration::seconds(0.005 * sweep);
+    std::vector<float> power(kSamples), alone(kSamples);
+    kept->measure(geometry, {world.hills, world.houses.get()}, power);
+    make_algorithm(world.configuration)->measure(geometry, {world.hills, world.houses.get()}, alone);
+    ASSERT_EQ(power, alone) << sweep;
+  }
+}
+
+TEST(SubBeams, HaveTheSamePowerOnEveryVectorTarget) {
+  for (const int samples : {1, 37, 240}) {
+    World world;
+    world.configuration.fidelity.samples = samples;
+    world.configuration.fidelity.cross_track_slope = true;
+    std::vector<float> first;
+    test::for_each_vector_target([&](const char* name) {
+      std::vector<float> power(static_cast<std::size_t>(samples));
+      make_algorithm(world.configuration)->measure(towards(1.0), {world.hills, world.houses.get()}, power);
+      if (first.empty()) first = power;
+      EXPECT_EQ(power, first) << name << ' ' << samples;
+    });
+  }
+}
+
+double sum_of(const std::vector<float>& power) {
+  double sum = 0.0;
+  for (const float value : power) sum += static_cast<double>(value);
+  return sum;
+}
+
+// What a mover adds has the beam's pattern, whichever ray collects it.
+TEST(SubBeams, GiveAMoverTheGainOfItsAzimuthOffTheBeamsCentre) {
+  for (const int rays : {2, 5, 7, 13, 15}) {
+    radar::RadarConfiguration empty = with_rays(rays, radar::Algorithm::standard), busy = empty;
+    radar::Mover mover;
+    mover.position = geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(0.0), geo::Length::metres(10e3));
+    mover.cross_section_m2 = 1e5;
+    busy.world.movers.push_back(mover);
+    const terrain::AnalyticTerrain flat(terrain::flat(0.0));
+    const auto with = make_algorithm(busy), without = make_algorithm(empty);
+    const auto added = [&](double azimuth_deg) {
+      std::vector<float> power(kSamples), ground(kSamples);
+      with->measure(towards(azimuth_deg), flat, power);
+      without->measure(towards(azimuth_deg), flat, ground);
+      return sum_of(power) - sum_of(ground);
+    };
+    const double most = added(0.0);
+    const double beam_deg = busy.antenna.azimuth_beamwidth_deg;
+    for (const double off : {-1.2, -0.8, -0.5, -0.26, 0.1, 0.3, 0.6, 0.74, 0.76, 1.1})
+      EXPECT_NEAR(added(off * beam_deg) / most, std::exp(-physics::kTwoWayExponent * off * off), 2e-3)
+          << rays << ' ' << off;
   }
 }
 

@@ -35,6 +35,7 @@ class Recorded {
 
   void run(int ticks) {
     for (int i = 0; i < ticks; ++i) {
+      move();
       const bool has_sweep = cockpit_.step() != nullptr;
       replay_.tick(cockpit_.tick);
       if (has_sweep) replay_.recorded(digest_of(cockpit_.sweep));
@@ -42,9 +43,12 @@ class Recorded {
       cockpit_.tick.flags &= ~databuffer::kTickRestart;
     }
   }
+  // From now on the aircraft moves by 1.4 m a tick.
+  void fly() { step_deg_ = 1e-5; }
   // Runs the model without a recorder, which then begins with the model's status.
   void run_before_the_recorder(int ticks) {
     for (int i = 0; i < ticks; ++i) {
+      move();
       cockpit_.step();
       cockpit_.tick.flags &= ~databuffer::kTickRestart;
     }
@@ -69,6 +73,12 @@ class Recorded {
   const Comparison& comparison() const { return replay_.comparison(); }
 
  private:
+  void move() {
+    cockpit_.tick.ownship.latitude_deg += step_deg_;
+    cockpit_.tick.ownship.longitude_deg += step_deg_;
+  }
+
+  double step_deg_ = 0.0;
   radar::RadarConfiguration configuration_;
   test::Cockpit cockpit_;
   model::terrain::FixedTerrainStore store_;
@@ -147,6 +157,25 @@ TEST(Replay, ComputesSweepsThatShareARayWhereverTheRecordingBegins) {
       EXPECT_EQ(recorded.comparison().different(), 0U);
       EXPECT_EQ(recorded.comparison().missing(), 0U);
     }
+}
+
+// Sweeps with sub-beams use rays of earlier sweeps. These were measured from other positions of the aircraft.
+TEST(Replay, ComputesSweepsWithSubBeamsInFlightWhereverTheRecordingBegins) {
+  for (const int before : {300, 320, 341, 360}) {
+    SCOPED_TRACE(before);
+    radar::RadarConfiguration configuration;
+    configuration.fidelity.sub_beams = 13;
+    configuration.fidelity.samples = 2048;  // half of one is 18 m at 40 NM
+    Recorded recorded(nullptr, nullptr, configuration);
+    recorded.fly();
+    recorded.run_before_the_recorder(before);
+    recorded.run(300);
+    recorded.restart();
+    recorded.run(300);
+    EXPECT_GT(recorded.comparison().equal(), 450U);
+    EXPECT_EQ(recorded.comparison().different(), 0U);
+    EXPECT_LE(recorded.comparison().missing(), 17U);
+  }
 }
 
 TEST(Replay, ComputesTheSweepsAfterAVelocityUpdateThoughTheModelWasRestartedDuringIt) {

@@ -67,6 +67,19 @@ TEST(Trade, StandardKeepsItsBoundsAgainstTheReferenceAlgorithmWithTheSameKnobs) 
   }
 }
 
+TEST(Trade, FineKeepsItsBoundsAgainstTheReference) {
+  const auto hills = model::terrain::AnalyticTerrain(model::terrain::built_in_hills());
+  for (const double range_nm : {10.0, 40.0}) {
+    SCOPED_TRACE(range_nm);
+    const auto scan = narrow_scan(range_nm);
+    const Ruler ruler = make_ruler(with(*radar::fidelity_preset("reference")), scan, hills);
+    const Errors errors = errors_against(ruler, observe(with(*radar::fidelity_preset("fine")), scan, hills));
+    EXPECT_LE(errors.shadow_percent, 0.1);
+    EXPECT_LE(errors.gray_levels, 0.5);
+    EXPECT_LE(errors.power_db, 0.1);
+  }
+}
+
 // Checks that the measures respond to a coarser picture.
 TEST(Trade, FewerSamplesGiveLargerErrors) {
   const auto hills = model::terrain::AnalyticTerrain(model::terrain::built_in_hills());
