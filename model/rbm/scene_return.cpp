@@ -66,14 +66,14 @@ class RayOverPlane {
 }  // namespace
 
 SceneReturn::SceneReturn(const physics::RadarParameters& parameters, std::size_t samples)
-    : parameters_(parameters.geometry),
-      beam_(parameters.beam),
-      surface_(parameters),
-      tables_(surface_),
-      fast_(parameters.fidelity.algorithm != radar::Algorithm::reference),
+    : tables_(physics::SceneSurface(parameters)),
+      parameters_(parameters.geometry),
       gas_(parameters),
+      echoes_(kEchoes),
+      surface_(parameters),
       ground_(samples),
-      echoes_(kEchoes) {}
+      beam_(parameters.beam),
+      fast_(parameters.fidelity.algorithm != radar::Algorithm::reference) {}
 
 bool SceneReturn::enter(const physics::SweepGeometry& geometry, const scene::SceneView* scenes) {
   if (scenes == nullptr || scenes->scatterers().empty()) return false;

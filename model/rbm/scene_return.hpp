@@ -113,18 +113,18 @@ class SceneReturn {
   double lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const Echo& echo) const;
   void spread(const Echo& echo, double extent_m, double power);
 
-  physics::GeometryParameters parameters_;
-  radar::BeamPattern beam_;
-  physics::SceneSurface surface_;
   simd::SceneTables tables_;
-  bool fast_;  // cross sections in vectors; `reference` uses double precision
-  physics::GasPath gas_;
-  Ground ground_;
-  geo::Vector3 apex_, ahead_, right_, north_, east_;  // earth-centred, earth-fixed
-  View view_;
   std::uint64_t view_number_ = 0;
   std::uint64_t scatterers_before_ = 0;  // in the scenes before the present one
-  std::vector<Echo> echoes_;             // by number of the scatterer, modulo their size
+  physics::GeometryParameters parameters_;
+  physics::GasPath gas_;
+  geo::Vector3 apex_, ahead_, right_, north_, east_;  // earth-centred, earth-fixed
+  std::vector<Echo> echoes_;                          // by number of the scatterer, modulo their size
+  View view_;
+  physics::SceneSurface surface_;
+  Ground ground_;
+  radar::BeamPattern beam_;
+  bool fast_;  // cross sections in vectors; `reference` uses double precision
 };
 
 }  // namespace yars::model::rbm

@@ -126,7 +126,7 @@ std::uint64_t GridIndex::bytes() const {
 }
 
 namespace {
-constexpr std::uint32_t kLeaf = 16;        // largest number of balls in a leaf
+constexpr std::uint32_t kLeaf = 16;       // largest number of balls in a leaf
 constexpr double kRounding = 1.0 + 1e-6;  // factor on a node's radius, larger than the rounding to float
 constexpr double kRounding_m = 0.01;      // [m] covers the rounding of centres up to 80 km from the origin
 }  // namespace

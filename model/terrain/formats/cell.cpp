@@ -83,7 +83,8 @@ Ceilings::Ceilings(int rows, int columns, std::span<const std::int16_t> posts)
     for (int square_column = 0; square_column < square_columns; ++square_column) {
       const auto from = column_peaks.begin() + square_column * kReach;
       const auto to = column_peaks.begin() + std::min((square_column + 1) * kReach, columns);
-      squares[static_cast<std::size_t>(square_row * square_columns + square_column)] = *std::max_element(from, to);
+      squares[static_cast<std::size_t>(square_row) * static_cast<std::size_t>(square_columns) +
+              static_cast<std::size_t>(square_column)] = *std::max_element(from, to);
     }
   }
   for (int tile_row = 0; tile_row < tile_rows_; ++tile_row)
@@ -92,7 +93,8 @@ Ceilings::Ceilings(int rows, int columns, std::span<const std::int16_t> posts)
       for (int row = std::max(2 * tile_row - 1, 0); row < std::min(2 * tile_row + 3, square_rows); ++row)
         for (int column = std::max(2 * tile_column - 1, 0); column < std::min(2 * tile_column + 3, square_columns);
              ++column)
-          highest = std::max(highest, squares[static_cast<std::size_t>(row * square_columns + column)]);
+          highest = std::max(highest, squares[static_cast<std::size_t>(row) * static_cast<std::size_t>(square_columns) +
+                                              static_cast<std::size_t>(column)]);
       highest_.push_back(highest);
     }
 }

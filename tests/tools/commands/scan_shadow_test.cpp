@@ -94,7 +94,8 @@ TEST_P(ScanShadow, TheWallShadowsThePlainBehindItAndVoidsAreNeitherLitNorShadowe
     }
     EXPECT_THAT(row.lit, AnyOf("1", "0", "-"));
     EXPECT_NEAR(row.longitude_deg, -121.5, 0.2);
-    EXPECT_TRUE(row.azimuth_deg < 10.0 || row.azimuth_deg > 350.0) << row.azimuth_deg;
+    // The ray that `draft` takes for the last sweep of an odd number lies on its outer edge.
+    EXPECT_TRUE(row.azimuth_deg <= 10.0 || row.azimuth_deg > 350.0) << row.azimuth_deg;
   }
   EXPECT_NEAR(rows[1].range_m - rows[0].range_m, 40 * 1852.0 / 240, 1e-6);
 }

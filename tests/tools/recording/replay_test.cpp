@@ -155,7 +155,8 @@ TEST(Replay, ComputesSweepsThatShareARayWhereverTheRecordingBegins) {
       recorded.run(300);
       EXPECT_GT(recorded.comparison().equal(), 300U);
       EXPECT_EQ(recorded.comparison().different(), 0U);
-      EXPECT_EQ(recorded.comparison().missing(), 0U);
+      EXPECT_LE(recorded.comparison().missing(),
+                static_cast<std::uint64_t>(sharing + 2));  // the first are not compared
     }
 }
 
