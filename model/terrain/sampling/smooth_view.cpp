@@ -243,13 +243,21 @@ void Grid::flatten(const std::vector<GeoBox>& boxes) {
   const int rows = part_.last_row - part_.first_row, columns = part_.last_column - part_.first_column;
   std::vector<float> weights(static_cast<std::size_t>(rows + 1) * static_cast<std::size_t>(columns + 1), 1.0F);
   for (const GeoBox& box : boxes) mark_plain(box, weights);
-  const memory::CacheAlignedVector<float> smooth_m = height_m_;
-  for (int row = 0; row < rows; ++row)
+  // Smooth heights from one row of posts to the next. The blending of a row changes nodes that the next row has, too.
+  const auto pitch = static_cast<std::size_t>(nodes_.columns);
+  const std::size_t strip = static_cast<std::size_t>(part_.row_parts) * pitch;
+  memory::CacheAlignedVector<float> smooth_m(strip + pitch);
+  std::copy_n(row_at(0), pitch, smooth_m.begin());
+  for (int row = 0; row < rows; ++row) {
+    std::copy_n(row_at(row * part_.row_parts + 1), strip, smooth_m.begin() + nodes_.columns);
     for (int column = 0; column < columns; ++column) blend(row, column, weights, smooth_m);
+    std::copy_n(smooth_m.end() - nodes_.columns, pitch, smooth_m.begin());
+  }
 }
 
 // Blends smooth and bilinear heights in the rectangle between four posts, including its edges. Adjacent rectangles give
-// equal heights on their common edge. A rectangle with a void corner stays smooth.
+// equal heights on their common edge. A rectangle with a void corner stays smooth. `smooth_m`: heights of the nodes
+// from the rectangle's southern row of posts to its northern one.
 void Grid::blend(int row, int column, const std::vector<float>& weights,
                  const memory::CacheAlignedVector<float>& smooth_m) {
   const std::size_t pitch = static_cast<std::size_t>(part_.last_column - part_.first_column) + 1;
@@ -258,25 +266,25 @@ void Grid::blend(int row, int column, const std::vector<float>& weights,
   if (smoothness == std::array{1.0F, 1.0F, 1.0F, 1.0F}) return;
   const int first_row = row * part_.row_parts, first_column = column * part_.column_parts;
   const int last_row = first_row + part_.row_parts, last_column = first_column + part_.column_parts;
-  const auto at_node = [&](int i, int j) {
-    return static_cast<std::size_t>(i) * static_cast<std::size_t>(nodes_.columns) + static_cast<std::size_t>(j);
+  const auto smooth_at = [&](int i, int j) {
+    return smooth_m[static_cast<std::size_t>(i - first_row) * static_cast<std::size_t>(nodes_.columns) +
+                    static_cast<std::size_t>(j)];
   };
-  const std::array<float, 4> corner{
-      smooth_m[at_node(first_row, first_column)], smooth_m[at_node(first_row, last_column)],
-      smooth_m[at_node(last_row, first_column)], smooth_m[at_node(last_row, last_column)]};
+  const std::array<float, 4> corner{smooth_at(first_row, first_column), smooth_at(first_row, last_column),
+                                    smooth_at(last_row, first_column), smooth_at(last_row, last_column)};
   if (std::isnan(corner[0] + corner[1] + corner[2] + corner[3])) return;
   const auto between = [](const std::array<float, 4>& corners, float up, float right) {
     const float south = corners[0] + right * (corners[1] - corners[0]),
                 north = corners[2] + right * (corners[3] - corners[2]);
     return south + up * (north - south);
   };
+  const bool plain = smoothness == std::array{0.0F, 0.0F, 0.0F, 0.0F};
   for (int i = first_row; i <= last_row; ++i)
     for (int j = first_column; j <= last_column; ++j) {
       const float up = static_cast<float>(i - first_row) / static_cast<float>(part_.row_parts);
       const float right = static_cast<float>(j - first_column) / static_cast<float>(part_.column_parts);
       const float bilinear_m = between(corner, up, right);
-      const std::size_t node = at_node(i, j);
-      height_m_[node] = bilinear_m + between(smoothness, up, right) * (smooth_m[node] - bilinear_m);
+      row_at(i)[j] = plain ? bilinear_m : bilinear_m + between(smoothness, up, right) * (smooth_at(i, j) - bilinear_m);
     }
 }
 
