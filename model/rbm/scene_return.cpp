@@ -233,12 +233,14 @@ void SceneReturn::add_scatterer(const Sweep& sweep, const Ray& ray, const scene:
       physics::point_azimuth_gain(sweep.geometry->slice, sweep.receiver->azimuth_beamwidth_rad,
                                   wrapped_rad(echo.azimuth_rad - sweep.azimuth_rad), extent_m / echo.distance_m);
   const double negligible = fast_ ? kNegligible * sweep.receiver->noise : 0.0;
-  const bool known = echo.power >= 0.0;
-  if (!(gain > 0.0) || (known && gain * echo.power <= negligible)) return;
+  const auto is_negligible = [&] { return echo.power >= 0.0 && gain * echo.power <= negligible; };
+  if (!(gain > 0.0) || is_negligible()) return;
   echo.nearer = physics::samples_nearer(ground_.distance_m, echo.distance_m, echo.nearer);
   const double lit = lit_fraction(sweep, scatterer, echo);
   if (!(lit > 0.0)) return;
-  if (!known) echo.power = power_of(sweep, ray, level, scatterer, echo);
+  if (echo.power < 0.0) echo.power = power_of(sweep, ray, level, scatterer, echo);
+  // Whether the power was known before must not change the sweep.
+  if (is_negligible()) return;
   spread(echo, extent_m, sweep.point_smear_gain * lit * gain * echo.power);
 }
 

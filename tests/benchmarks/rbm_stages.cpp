@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdio>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,8 +27,8 @@ using namespace model::rbm;
 constexpr int kRounds = 15;
 constexpr int kSweeps = 200;  // half a degree apart: a scan of 100 deg
 
-// Runs the stages of a sweep one by one, on arrays that stay in memory between the stages. The constants of the sweep
-// are typical values: only the times are used.
+// Runs the stages of a sweep one by one, as rbm::Standard does, on arrays that stay in memory between the stages. The
+// constants of the sweep are typical values: only the times are used.
 class Stages {
  public:
   Stages(const model::terrain::TerrainView& terrain, const model::kernel::ScanRequest& request, int samples)
@@ -39,7 +40,7 @@ class Stages {
         ground_(configuration_, count_) {
     cell_.resize(count_ + 16);
     for (auto& array : arrays_) array.assign(count_ + 2 * rbm::simd::kPad, 0.0F);
-    for (const int padded : {kTangent, kBefore, kHorizon})
+    for (const int padded : {kTangent, kBefore, kHorizon, kCrest, kNearTangent})
       arrays_[padded].assign(arrays_[padded].size(), rbm::simd::kNoHorizon);
     receiver_ = physics::Receivers(configuration_).at(request.range);
     const double spacing_m = request.range.metres() / samples;
@@ -67,24 +68,35 @@ class Stages {
     stage("places", {kDistance}, {kNorth, kEast, kNorth, kEast}, [&](int sweep) {
       physics::sample_positions(request_.pose.position, azimuth(sweep), request_.range, 5, at(kDistance), positions_);
     });
-    stage("terrain", {kNorth, kEast, kNorth, kEast}, {kElevation, kWater}, [&](int) {
-      terrain_->surfaces(positions_.run(), radar::Interpolation::bilinear,
-                         {{at(kElevation), count_}, {at(kWater), count_}, {}, {}});
-    });
+    stage("terrain", {kNorth, kEast, kNorth, kEast}, {kElevation, kWater, kNear, kNearBack},
+          [&](int) { terrain_->surfaces(positions_.run(), radar::Interpolation::bilinear, surfaces({})); });
     if (terrain_->has_materials()) print_ground();
-    stage("crests", {kDistance, kNorth, kEast, kNorth, kEast}, {kCrest}, [&](int) {
-      terrain_->crests(
-          positions_.run(),
-          {request_.pose.altitude.metres(), static_cast<double>(constants_.curvature), {at(kDistance), count_}},
-          {at(kCrest), count_});
+    rbm::simd::SweepInputs inputs{};
+    inputs.distance_m = at(kDistance);
+    inputs.elevation_m = at(kElevation);
+    inputs.near_m = at(kNear);
+    inputs.near_back_m = at(kNearBack);
+    inputs.crest = at(kCrest);
+    inputs.one_step_inverse = at(kOneStep);
+    inputs.two_step_inverse = at(kTwoSteps);
+    const rbm::simd::SweepOutputs outputs{.near = at(kNearTangent),
+                                          .tangent = at(kTangent),
+                                          .before = at(kBefore),
+                                          .horizon = at(kHorizon),
+                                          .power = at(kPower)};
+    stage("profile", {kDistance, kElevation, kNear, kNearBack}, {kTangent, kHorizon, kNearTangent},
+          [&](int) { rbm::simd::profile(count_, constants_, inputs, outputs); });
+    stage("crests", {kDistance, kNorth, kEast, kNorth, kEast, kHorizon}, {kCrest}, [&](int) {
+      terrain_->crests(positions_.run(),
+                       {.altitude_m = request_.pose.altitude.metres(),
+                        .curvature = static_cast<double>(constants_.curvature),
+                        .distance_m = {at(kDistance), count_},
+                        .horizon = {at(kHorizon), count_}},
+                       {at(kCrest), count_});
     });
-    const rbm::simd::SweepInputs inputs{at(kDistance), at(kElevation), nullptr,       at(kCrest),
-                                        nullptr,       at(kOneStep),   at(kTwoSteps), nullptr};
-    stage("sweep", {kDistance, kElevation, kCrest, kOneStep, kTwoSteps}, {kTangent, kBefore, kHorizon, kPower},
-          [&](int) {
-            rbm::simd::sweep(count_, constants_, radar::BeamPattern::cosecant_squared, inputs,
-                             {at(kTangent), at(kBefore), at(kHorizon), at(kPower)});
-          });
+    stage("sweep", {kDistance, kElevation, kTangent, kNearTangent, kCrest, kOneStep, kTwoSteps},
+          {kBefore, kHorizon, kPower},
+          [&](int) { rbm::simd::sweep(count_, constants_, radar::BeamPattern::cosecant_squared, inputs, outputs); });
     std::array<float, 2 * physics::PulseSmear::kMaxRadius + 1> weights{};
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = static_cast<float>(smear_.weights[i]);
     stage("smear", {kPower}, {kSmeared},
@@ -108,14 +120,22 @@ class Stages {
     memory::CacheAlignedVector<std::int32_t>& codes = ground_.materials();
     ground_.use_resolution(receiver_.pulse_length_m, request_.range.metres() / static_cast<double>(count_));
     std::fill_n(at(kSpare), count_, 0.1F);
-    stage("terrain+codes", {kNorth, kEast, kNorth, kEast}, {kElevation, kWater, kSpare}, [&](int) {
-      terrain_->surfaces(positions_.run(), radar::Interpolation::bilinear,
-                         {{at(kElevation), count_}, {at(kWater), count_}, {}, {codes.data(), count_}});
+    stage("terrain+codes", {kNorth, kEast, kNorth, kEast}, {kElevation, kWater, kNear, kNearBack, kSpare}, [&](int) {
+      terrain_->surfaces(positions_.run(), radar::Interpolation::bilinear, surfaces({codes.data(), count_}));
     });
     stage("ground", {kWater, kSpare}, {kPower, kSmeared}, [&](int sweep) {
       ground_.reflect({request_.pose.position, request_.pose.altitude, azimuth(sweep), {}, request_.range},
                       positions_.run(), at(kWater), at(kSpare), true);
     });
+  }
+
+  model::terrain::SurfaceRun surfaces(std::span<std::int32_t> codes) {
+    const auto step_m = static_cast<float>(request_.range.metres() / static_cast<double>(count_));
+    return {.elevation_m = {at(kElevation), count_},
+            .water = {at(kWater), count_},
+            .peak_m = {},
+            .material = codes,
+            .near = {step_m, {at(kNear), count_}, {at(kNearBack), count_}}};
   }
 
   enum Array : int {
@@ -124,6 +144,9 @@ class Stages {
     kEast,
     kElevation,
     kWater,
+    kNear,
+    kNearBack,
+    kNearTangent,
     kTangent,
     kBefore,  // maximum tangent of all ground nearer than the sample
     kCrest,

@@ -7,6 +7,7 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/offline_scan.hpp"
+#include "model/rbm/sub_beams.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/made_up_objects.hpp"
 
@@ -79,6 +80,28 @@ scene::SceneViewPointer town() {
   for (int row = 0; row < 15; ++row)
     for (int i = 0; i < 20; ++i) all.push_back({70.0 * i, 90.0 * row, 12.0, 18.0, 6.0 + (20 * row + i) % 9, 3});
   return test::scene_of(all, {37.2, -121.8}, 30.0, terrain::built_in_hills());
+}
+
+// What is kept of a scatterer for later sweeps does not change them, however weak its echo is.
+TEST(Determinism, SweepsOverASceneHaveTheSamePowerInAnyOrder) {
+  const auto configuration = with(radar::Algorithm::standard, 480);
+  const auto scenes = town();
+  const test::Cockpit cockpit(configuration, terrain::built_in_hills());
+  const auto power_of = [&](bool backward) {
+    const auto algorithm = rbm::make_algorithm(configuration);
+    std::vector<std::vector<float>> power(120, std::vector<float>(480));
+    for (std::size_t i = 0; i < power.size(); ++i) {
+      const std::size_t sweep = backward ? power.size() - 1 - i : i;
+      const physics::SweepGeometry geometry{{37.2, -121.795},
+                                            geo::AltitudeMsl::feet(3000.0),
+                                            geo::Bearing::degrees(-30.0 + 0.55 * static_cast<double>(sweep)),
+                                            geo::Angle::degrees(-60.0),
+                                            geo::Length::nautical_miles(2.0)};
+      algorithm->measure(geometry, {cockpit.terrain, scenes.get()}, power[sweep]);
+    }
+    return power;
+  };
+  EXPECT_EQ(power_of(false), power_of(true));
 }
 
 TEST(Determinism, ScenesGiveTheSameHashesForAnyNumberOfThreadsAndInTheLiveKernel) {
