@@ -319,25 +319,36 @@ def unpack(fields, record):
 
 def patch_map(yars="yars", **options):
     """facts, power = patch_map(lat=37.45, lon=-122.65, target_lat=37.51, target_lon=-122.45, size=4096): a patch map
-    without a session. `options` are those of `yars patch` with _ for -; True for a flag, a list for a repeated option.
+    without a session. `options` are those of `yars patch` with _ for -; True for a flag, a list for a repeated option,
+    None or False for an option that is not given.
     `facts` is the command's JSON. `power` has facts["size"] rows of as many floats, the far edge first: gamma of level
     ground before speckle and noise, -1 in the blind zone. `yars`: the program."""
-    for name in set(options) & {"out", "pixels", "json"}:
+    for name in set(options) & {"out", "pixels", "json", "help"}:
         raise YarsError(f"patch_map: expected an option of `yars patch` other than {name!r}; the map is returned")
     words = [f"--{name.replace('_', '-')}" + ("" if value is True else f"={value}") for name, values in options.items()
-             for value in (values if isinstance(values, (list, tuple)) else [values])]
+             for value in (values if isinstance(values, (list, tuple)) else [values])
+             if value is not None and value is not False]
+    if not isinstance(yars, (str, pathlib.Path)):
+        raise YarsError(f"patch_map: expected the path of the program yars, found {yars!r}; give yars=PATH")
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "map.f32"
         try:
-            done = subprocess.run([yars, "patch", *words, "--out", str(path)], capture_output=True, text=True,
+            # --out first: a flag given to an option that has a value does not take it for that value.
+            done = subprocess.run([yars, "patch", "--out", str(path), *words], capture_output=True, text=True,
                                   stdin=subprocess.DEVNULL)
         except OSError as problem:
             raise YarsError(f"{yars}: expected the program yars, found: {problem.strerror}; give yars=PATH") from None
+        except ValueError as problem:
+            raise YarsError(f"patch_map: expected options that a command line can have, found: {problem}") from None
         if done.returncode != 0:
             raise YarsError(done.stderr.strip() or f"yars patch: ended with code {done.returncode}")
         power = array.array("f")
-        power.frombytes(path.read_bytes())
-    return Record(json.loads(done.stdout)), power
+        try:
+            facts = Record(json.loads(done.stdout))
+            power.frombytes(path.read_bytes())
+        except (OSError, ValueError):
+            raise YarsError(f"{yars}: expected the program yars, found one that makes no map; give yars=PATH") from None
+    return facts, power
 
 
 class Session:

@@ -66,7 +66,7 @@ class Stages {
 
   void print() {
     stage("places", {kDistance}, {kNorth, kEast, kNorth, kEast}, [&](int sweep) {
-      physics::sample_positions(request_.pose.position, azimuth(sweep), request_.range, 5, at(kDistance), positions_);
+      sampler_.sample(request_.pose.position, azimuth(sweep), request_.range, 5, at(kDistance), positions_);
     });
     stage("terrain", {kNorth, kEast, kNorth, kEast}, {kElevation, kWater, kNear, kNearBack},
           [&](int) { terrain_->surfaces(positions_.run(), radar::Interpolation::bilinear, surfaces({})); });
@@ -210,6 +210,7 @@ class Stages {
   rbm::simd::SweepConstants constants_;
   physics::PulseSmear smear_;
   memory::CacheAlignedVector<std::int32_t> cell_;
+  physics::PositionSampler sampler_;
   physics::PositionArrays positions_;
   physics::Ground ground_;
   std::string stages_, floors_;

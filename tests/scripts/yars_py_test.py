@@ -233,6 +233,13 @@ def a_map_is_that_of_the_command():
             size=4097)
     refuses("other than 'out'", yars.patch_map, sys.argv[1], out="map.png")
     refuses("expected the program yars", yars.patch_map, "/none/there")
+    refuses("makes no map", yars.patch_map, "/bin/true")
+    refuses("makes no map", yars.patch_map, "/bin/echo")
+    refuses("expected the path of the program yars, found 3", yars.patch_map, 3)
+    refuses("a command line can have", yars.patch_map, sys.argv[1], terrain="a\0b")
+    refuses("yars patch: --size", yars.patch_map, sys.argv[1], size=True)
+    refuses("yars patch: --size: expected a whole number from 16 to 4096, found '0'", yars.patch_map, sys.argv[1], size=0)
+    same("options that are not given", yars.patch_map(sys.argv[1], size=64, force=False, scene=None)[0]["size"], 64)
 
 
 a_name_leads_nowhere_else()
