@@ -66,6 +66,11 @@ void Recorder::begin_here() {
   append(recording::StartingPoint{*status});
   from_tick_ = status->tick + 1;
   from_epoch_ = status->epoch;
+  // The model publishes a tick before it computes, and the status after it. So ticks after that of the status may be
+  // published already.
+  constexpr std::uint64_t kTicksWithoutStatus = 64;
+  begin_cursor_ = tick_cursor_;
+  tick_cursor_ -= std::min(tick_cursor_, kTicksWithoutStatus);
 }
 
 template <class T>
@@ -192,12 +197,18 @@ void Recorder::take_all(std::int64_t tick) {
   }
 }
 
+// True if the status from which the replay starts includes this tick, the one before tick_cursor_.
+bool Recorder::is_before_start(const databuffer::ModelTick& tick) const {
+  const bool earlier = tick.epoch < from_epoch_ || (tick.epoch == from_epoch_ && tick.tick < *from_tick_);
+  // A model that has been restarted since then begins with an earlier tick.
+  const bool restart = tick_cursor_ > begin_cursor_ && (tick.flags & databuffer::kTickRestart) != 0U;
+  return earlier && !restart;
+}
+
 void Recorder::take_ticks(std::uint64_t& lost) {
   databuffer::ModelTick tick{};
   while (take(session_->layout().model_ticks, tick_cursor_, tick, lost)) {
-    if (from_tick_ && tick.tick < *from_tick_ && tick.epoch == from_epoch_ &&
-        (tick.flags & databuffer::kTickRestart) == 0U)
-      continue;
+    if (from_tick_ && is_before_start(tick)) continue;
     from_tick_.reset();
     take_traffic_before(tick);
     if (!is_valid(tick)) continue;

@@ -54,6 +54,7 @@ class Recorder {
   template <class T>
   bool is_valid(const T& record);
   void publish(std::int64_t tick);
+  bool is_before_start(const databuffer::ModelTick& tick) const;
   void take_ticks(std::uint64_t& lost);
   void take_traffic_before(const databuffer::ModelTick& tick);
   void take_sweeps(std::uint64_t& lost);
@@ -68,6 +69,7 @@ class Recorder {
   std::uint64_t tick_cursor_ = 0, event_cursor_ = 0, sweep_cursor_ = 0, traffic_cursor_ = 0;
   std::optional<std::int64_t> from_tick_;  // earlier ticks of from_epoch_ are not written; nullopt: all are written
   std::uint32_t from_epoch_ = 0;
+  std::uint64_t begin_cursor_ = 0;  // ticks before it were published before the starting point was read
   shm::LatestReader<databuffer::RadarState> state_;
   shm::LatestReader<databuffer::ModelStatus> status_;
   shm::LatestReader<databuffer::Outputs> outputs_;
