@@ -2,6 +2,7 @@
 
 #include <sys/mman.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
@@ -13,6 +14,7 @@ constexpr std::size_t kLargePage_bytes = std::size_t{2} << 20U;  // huge page of
 }  // namespace
 
 void* allocate_lines(std::size_t bytes) {
+  if (bytes > static_cast<std::size_t>(PTRDIFF_MAX)) throw std::bad_alloc();
   const std::size_t large_bytes = bytes / kLargePage_bytes * kLargePage_bytes;
   void* memory = nullptr;
   if (posix_memalign(&memory, large_bytes > 0 ? kLargePage_bytes : kLine_bytes, bytes) != 0) throw std::bad_alloc();
