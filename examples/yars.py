@@ -333,7 +333,7 @@ def patch_map(yars="yars", **options):
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "map.f32"
         try:
-            # --out first: a flag given to an option that has a value does not take it for that value.
+            # --out comes first. So an option that lacks its value cannot take it.
             done = subprocess.run([yars, "patch", "--out", str(path), *words], capture_output=True, text=True,
                                   stdin=subprocess.DEVNULL)
         except OSError as problem:

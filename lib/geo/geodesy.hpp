@@ -82,7 +82,7 @@ struct GeodesicSeries {
 
 // The short geodesics from one start in all directions. Their Taylor coefficients are polynomials in the cosine of the
 // azimuth, those of longitude times its sine.
-// Cost: up to half a microsecond for a start, tens of nanoseconds for a direction. GeodesicRay takes hundreds for each.
+// Cost: 0.3 microseconds for a start with order 3, 1.4 with order 7; tens of nanoseconds for a direction.
 class GeodesicFan {
  public:
   // `order` is in [1, GeodesicSeries::kMaxOrder]. `start` must not be a pole.
