@@ -230,7 +230,7 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
        .lowest = 1,
        .highest = radar::kMaxSubBeams,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.sub_beams)},
-       .purpose = "rays across the beam in azimuth; 1 = only the centre"},
+       .purpose = "rays across the beam in azimuth, which successive sweeps share; 1 = a ray for each sweep"},
       flag("automatic", YARS_FIELD(radar.fidelity.automatic),
            "true: a radar-model in a session uses the finest preset with a load within coreShare"),
       {.name = "coreShare",
@@ -244,7 +244,7 @@ std::vector<SlotSchema> sweep_fidelity_slots() {
            "incidence angle includes the slope across the sweep"),
       flag("noise", YARS_FIELD(radar.fidelity.noise),
            "random fluctuation: of sweeps by speckle and texture, of patch maps by speckle"),
-      flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over the beam width"),
+      flag("azimuthSmear", YARS_FIELD(radar.fidelity.azimuth_smear), "smear over three sweeps"),
       flag("pulseSmear", YARS_FIELD(radar.fidelity.pulse_smear), "smear over the pulse length"),
       {.name = "beam",
        .binding = ChoiceSlot{
@@ -277,13 +277,7 @@ std::vector<SlotSchema> map_fidelity_slots() {
        .binding = NumberSlot{YARS_FIELD(radar.fidelity.map_noise)},
        .purpose = "random fraction of the brightness of patch maps of algorithm report-1996"},
       flag("mapSmoothGround", YARS_FIELD(radar.fidelity.map_smooth_ground),
-           "true: ground of patch maps is smooth between posts more than three pixels apart; false: facets"),
-      // Of sweeps. A slot keeps its position, so a new one is the last.
-      {.name = "sweepsPerRay",
-       .lowest = 1,
-       .highest = radar::kMaxSweepsPerRay,
-       .binding = IntegerSlot{YARS_FIELD(radar.fidelity.sweeps_per_ray)},
-       .purpose = "successive sweeps that share the power of one ray; 1 = a ray for each sweep"}};
+           "true: ground of patch maps is smooth between posts more than three pixels apart; false: facets")};
 }
 
 std::vector<SlotSchema> receiver_slots() {

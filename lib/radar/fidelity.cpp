@@ -16,6 +16,8 @@ Fidelity of_1996() {
   fidelity.algorithm = Algorithm::report_1996;
   fidelity.earth = EarthModel::flat;
   fidelity.earth_radius_factor = 1.0;
+  fidelity.sub_beams = 1;
+  fidelity.azimuth_smear = true;
   fidelity.noise = false;
   fidelity.beam = BeamPattern::hard_edge;
   fidelity.map_layover = false;
@@ -26,26 +28,26 @@ Fidelity of_1996() {
 }
 
 // Preset for a slow machine or many radars: half the rays of `standard` with half the samples, no pulse smear,
-// spherical earth.
+// spherical earth. The azimuth smear softens the steps between its rays.
 Fidelity draft() {
   Fidelity fidelity;
   fidelity.earth = EarthModel::sphere;
   fidelity.posts_per_sample = 20.0;
   fidelity.samples = 240;
-  fidelity.sweeps_per_ray = 2;
+  fidelity.sub_beams = 2;
+  fidelity.azimuth_smear = true;
   fidelity.pulse_smear = false;
   fidelity.map_response = false;
   fidelity.map_detail = false;
   return fidelity;
 }
 
-// All effects of the model at the finest terrain level. Thirteen sub-beams replace the azimuth smear.
+// All effects of the model at the finest terrain level, and three times the rays of `standard`.
 Fidelity fine() {
   Fidelity fidelity;
   fidelity.posts_per_sample = 0.0;
   fidelity.samples = 1024;
   fidelity.cross_track_slope = true;
-  fidelity.azimuth_smear = false;
   fidelity.sub_beams = 13;
   fidelity.map_oversampling = 2;
   fidelity.map_double_bounce = true;

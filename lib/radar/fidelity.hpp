@@ -13,8 +13,7 @@
 
 namespace yars::radar {
 
-inline constexpr int kMaxSweepsPerRay = 4;  // maximum of Fidelity::sweeps_per_ray
-inline constexpr int kMaxSubBeams = 15;     // maximum of Fidelity::sub_beams; bounds the work of one sweep
+inline constexpr int kMaxSubBeams = 15;  // maximum of Fidelity::sub_beams; bounds the work of one sweep
 
 // Parameters that trade speed against accuracy. A configuration selects a preset and can then set single parameters.
 struct Fidelity {
@@ -35,14 +34,13 @@ struct Fidelity {
   // Maximum number of terrain posts between two samples. Where the finest grid has more, a coarser grid of the cell is
   // used. 0: always the finest grid.
   double posts_per_sample = 16.0;
-  int sub_beams = 1;  // rays across the beam in azimuth, weighted by the beam pattern; 1: at the centre
-  // Number of successive sweeps that share the power of one ray through the middle of their wedges. Each has noise of
-  // its own. Doppler beam sharpening has a ray for each sweep.
-  int sweeps_per_ray = 1;
+  // Rays across the beam in azimuth, weighted by the beam pattern, which successive sweeps share. 1: a ray for each
+  // sweep, in the middle of its beam.
+  int sub_beams = 4;
   bool slant_range = false;        // true: samples at equal steps of slant range; false: of ground range
   bool cross_track_slope = false;  // the angle of incidence includes the slope across the sweep
   bool noise = true;               // random fluctuation: speckle and texture of sweeps, speckle of maps
-  bool azimuth_smear = true;       // smear over the beam width
+  bool azimuth_smear = false;      // smear over three sweeps
   bool pulse_smear = true;         // smear over the pulse length
   BeamPattern beam = BeamPattern::cosecant_squared;
   // Parameters of patch maps.

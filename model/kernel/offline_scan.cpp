@@ -6,7 +6,6 @@
 #include "lib/radar/modes.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/physics/receiver.hpp"
-#include "model/rbm/sub_beams.hpp"
 
 namespace yars::model::kernel {
 
@@ -28,12 +27,11 @@ OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanR
       seed_(parameters.seed),
       gain_(request.gain),
       samples_(rbm::sample_count(parameters)),
-      sweeps_per_ray_(static_cast<std::size_t>(parameters.fidelity.sweeps_per_ray)),
       to_measure_(workers_.threads()),
       to_form_(workers_.threads()) {
   position_sweeps(parameters, request);
   for (std::size_t thread = 0; thread < workers_.threads(); ++thread) {
-    algorithms_.push_back(rbm::make_algorithm(parameters));
+    beams_.emplace_back(parameters);
     strobes_.emplace_back(parameters);
   }
   flags_.assign(positions_.size(), 0U);
@@ -41,7 +39,7 @@ OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanR
   power_.assign(positions_.size() * samples_, 0.0F);
   sweeps_.resize(positions_.size());
   ready_ = std::vector<std::atomic<std::uint8_t>>(
-      std::max(rays() * sweeps_per_ray_ / sweeps_per_piece(parameters.fidelity), std::size_t{1}));
+      std::max(positions_.size() / sweeps_per_piece(parameters.fidelity), std::size_t{1}));
 }
 
 void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, const ScanRequest& request) {
@@ -60,14 +58,9 @@ void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, co
 // The assignment of sweeps to threads does not change results, because each sweep is measured from the inputs alone.
 void OfflineScan::measure_piece(std::size_t piece, std::size_t thread, const physics::Environment& environment) {
   for (std::size_t sweep = first_of(piece); sweep < first_of(piece + 1); ++sweep) {
-    jamming_[sweep] = strobes_[thread].level(geometry_of(positions_[sweep]), environment.terrain);
-    if (sweep % sweeps_per_ray_ > 0) {
-      std::copy_n(power_of(sweep - 1).begin(), samples_, power_of(sweep).begin());
-      flags_[sweep] = flags_[sweep - 1];
-      continue;
-    }
-    const physics::SweepGeometry ray = shared_ray(positions_, sweep, static_cast<int>(sweeps_per_ray_));
-    const std::size_t pending = algorithms_[thread]->measure(ray, environment, power_of(sweep));
+    const physics::SweepGeometry geometry = geometry_of(positions_[sweep]);
+    jamming_[sweep] = strobes_[thread].level(geometry, environment.terrain);
+    const std::size_t pending = beams_[thread].measure(geometry, environment, power_of(sweep));
     flags_[sweep] = pending > 0 || !environment.scenes_ready ? databuffer::kSweepNotReady : 0U;
   }
 }
@@ -84,7 +77,7 @@ void OfflineScan::form_sweep_video(std::size_t sweep, std::size_t thread) {
   labels.flags = flags_[before] | flags_[sweep] | flags_[after];
   if (sweep == 0) labels.flags |= databuffer::kSweepScanStart;
   if (sweep == last) labels.flags |= databuffer::kSweepScanEnd;
-  finish_sweep(*algorithms_[thread], seed_, positions_[sweep], labels,
+  finish_sweep(beams_[thread], seed_, positions_[sweep], labels,
                {power_of(before), power_of(sweep), power_of(after), jamming_[sweep]}, sweeps_[sweep]);
 }
 
@@ -98,7 +91,7 @@ void OfflineScan::form_if_ready(std::size_t piece, std::size_t thread) {
 }
 
 void OfflineScan::begin_pass() {
-  for (const std::unique_ptr<rbm::Algorithm>& algorithm : algorithms_) algorithm->begin_pass();
+  for (rbm::Beam& beam : beams_) beam.begin_pass();
 }
 
 void OfflineScan::measure(const physics::Environment& environment) {

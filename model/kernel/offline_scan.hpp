@@ -18,7 +18,7 @@
 #include "lib/parallel/thread_pool.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/kernel/tick_inputs.hpp"
-#include "model/rbm/algorithm.hpp"
+#include "model/rbm/beam.hpp"
 #include "model/rbm/emitters.hpp"
 
 namespace yars::model::kernel {
@@ -54,12 +54,8 @@ class OfflineScan {
  private:
   std::span<float> power_of(std::size_t sweep) { return {power_.data() + sweep * samples_, samples_}; }
   // A piece is a number of successive sweeps that one thread measures or forms at a time.
-  // First sweep of a piece. The first sweep of the piece `pieces()` is the number of sweeps. Sweeps that share a ray
-  // belong to one piece.
-  std::size_t first_of(std::size_t piece) const {
-    return piece == pieces() ? positions_.size() : piece * rays() / pieces() * sweeps_per_ray_;
-  }
-  std::size_t rays() const { return (positions_.size() + sweeps_per_ray_ - 1) / sweeps_per_ray_; }
+  // First sweep of a piece. The first sweep of the piece `pieces()` is the number of sweeps.
+  std::size_t first_of(std::size_t piece) const { return piece * positions_.size() / pieces(); }
   std::size_t pieces() const { return ready_.size(); }
   void begin_pass();
   void measure_piece(std::size_t piece, std::size_t thread, const physics::Environment& environment);
@@ -71,9 +67,8 @@ class OfflineScan {
   std::uint64_t seed_;
   int gain_;
   std::size_t samples_;
-  std::size_t sweeps_per_ray_;
-  std::vector<std::unique_ptr<rbm::Algorithm>> algorithms_;  // one per thread
-  std::vector<rbm::Strobes> strobes_;                        // one per thread
+  std::vector<rbm::Beam> beams_;       // one per thread
+  std::vector<rbm::Strobes> strobes_;  // one per thread
   std::vector<SweepHeader> positions_;
   std::vector<std::uint32_t> flags_;
   std::vector<double> jamming_;              // by sweep; full scale = 1

@@ -17,7 +17,6 @@ radar::RadarConfiguration dbs_configuration(const radar::RadarConfiguration& con
   // Doppler filters resolve neighbouring azimuth cells, so there is no smear between sweeps.
   dbs_settings.fidelity.azimuth_smear = false;
   dbs_settings.fidelity.sub_beams = 1;
-  dbs_settings.fidelity.sweeps_per_ray = 1;
   for (std::size_t i = 0; i < dbs_settings.pulse_us.size() && i < dbs_settings.ranges_nm.size(); ++i) {
     const double cell_m = geo::Length::nautical_miles(dbs_settings.ranges_nm[i]).metres() / radar::kMapCells;
     dbs_settings.pulse_us[i] = std::min(dbs_settings.pulse_us[i], cell_m / physics::kMetresPerMicrosecond);

@@ -9,7 +9,6 @@
 
 #include "lib/radar/fidelity.hpp"
 #include "lib/radar/modes.hpp"
-#include "model/rbm/sub_beams.hpp"
 
 namespace yars::model::kernel {
 
@@ -29,25 +28,18 @@ void write_header(const SweepHeader& header, databuffer::Sweep& sweep) {
   sweep.direction = header.direction > 0 ? 1 : 0;
 }
 
-physics::SweepGeometry geometry_of(const SweepHeader& header, int sweeps) {
-  const geo::Angle width = header.right - header.left;
-  const double from_left = 0.5 + 0.5 * (sweeps - 1) * header.direction;  // [wedges]
-  physics::SweepGeometry geometry{
-      header.apex,      header.altitude, header.beam_azimuth.value_or(header.left + from_left * width),
-      header.elevation, header.range,    header.sim_time,
-      header.band,      header.channel};
+physics::SweepGeometry geometry_of(const SweepHeader& header) {
+  const geo::Bearing middle = header.left + 0.5 * (header.right - header.left);
+  physics::SweepGeometry geometry{header.apex,      header.altitude, header.beam_azimuth.value_or(middle),
+                                  header.elevation, header.range,    header.sim_time,
+                                  header.band,      header.channel};
   geometry.bars_above = header.bars_above;
   geometry.bars_below = header.bars_below;
   if (header.dbs_cell_width) {
-    geometry.slice.left_rad = -0.5 * header.dbs_cell_width->radians();
-    geometry.slice.right_rad = 0.5 * header.dbs_cell_width->radians();
-    geometry.slice.sharpened = true;
+    const double half_rad = 0.5 * header.dbs_cell_width->radians();
+    geometry.sharpened_cell = physics::AzimuthInterval{-half_rad, half_rad};
   }
   return geometry;
-}
-
-physics::SweepGeometry shared_ray(std::span<const SweepHeader> pass, std::size_t sweep, int sweeps_per_ray) {
-  return geometry_of(pass[sweep - sweep % static_cast<std::size_t>(sweeps_per_ray)], sweeps_per_ray);
 }
 
 std::uint64_t sweep_hash(const databuffer::Sweep& sweep) {
@@ -72,8 +64,7 @@ constexpr std::uint32_t kNoEchoFlags = databuffer::kSweepBlank | databuffer::kSw
 SweepChain::SweepChain(const physics::RadarParameters& parameters)
     : seed_(parameters.seed),
       samples_(rbm::sample_count(parameters)),
-      sweeps_per_ray_(static_cast<std::uint32_t>(parameters.fidelity.sweeps_per_ray)),
-      algorithm_(rbm::make_algorithm(parameters)),
+      beam_(parameters),
       strobes_(parameters),
       beacons_(parameters) {
   for (Measured& measured : measured_) measured.power.assign(samples_, 0.0F);
@@ -94,7 +85,7 @@ bool SweepChain::advance(const SweepHeader& header, const Labels& labels, const 
 }
 
 void SweepChain::begin_pass() {
-  algorithm_->begin_pass();
+  beam_.begin_pass();
   not_ready_until_ns_.reset();
 }
 
@@ -102,39 +93,22 @@ void SweepChain::receive(Measured& measured, const physics::Environment& environ
   const Labels& labels = measured.labels;
   const physics::SweepGeometry geometry = geometry_of(measured.header);
   const bool blank = (labels.flags & databuffer::kSweepBlank) != 0U;
-  measured.echo = false;
   measured.jamming = blank ? 0.0 : strobes_.level(geometry, environment.terrain);
   if ((labels.flags & kNoEchoFlags) != 0U || labels.no_return) {
     std::fill(measured.power.begin(), measured.power.end(), 0.0F);
   } else if (labels.mode == static_cast<std::uint8_t>(radar::Mode::beacon)) {
     beacons_.measure(geometry, environment.terrain, measured.power);
   } else {
-    measure_ray(measured, environment);
+    const std::size_t pending = beam_.measure(geometry, environment, measured.power);
+    posts_pending_ += pending;
+    if (pending > 0) measured.labels.flags |= databuffer::kSweepNotReady;
     flag_descendant(measured.labels);
   }
 }
 
-// The number of a sweep says which of the sweeps that share a ray it is. If the pass has no ray yet, or the range or
-// the mode is another one, the sweep begins with a ray for itself and the rest of them.
-void SweepChain::measure_ray(Measured& measured, const physics::Environment& environment) {
-  measured.echo = true;
-  const std::uint32_t place = measured.labels.number % sweeps_per_ray_;
-  const Measured& before = newest(1);
-  if (place > 0 && held_ > 0 && before.echo && before.header.range == measured.header.range &&
-      before.labels.mode == measured.labels.mode) {
-    std::copy(before.power.begin(), before.power.end(), measured.power.begin());
-    measured.labels.flags |= before.labels.flags & databuffer::kSweepNotReady;
-    return;
-  }
-  const int sweeps = static_cast<int>(sweeps_per_ray_ - place);
-  const std::size_t pending = algorithm_->measure(geometry_of(measured.header, sweeps), environment, measured.power);
-  posts_pending_ += pending;
-  if (pending > 0) measured.labels.flags |= databuffer::kSweepNotReady;
-}
-
 // Flags a sweep as not ready if it may use what a sweep that was not ready has left.
 void SweepChain::flag_descendant(Labels& labels) {
-  const auto memory_ns = static_cast<std::int64_t>(std::ceil(algorithm_->memory().seconds() * 1e9));
+  const auto memory_ns = static_cast<std::int64_t>(std::ceil(beam_.memory().seconds() * 1e9));
   if (memory_ns == 0) return;
   if ((labels.flags & databuffer::kSweepNotReady) != 0U) {
     not_ready_until_ns_ = labels.sim_time_ns + memory_ns;
@@ -155,12 +129,11 @@ void SweepChain::finish(const Measured& before, const Measured& centre, const Me
   Labels labels = centre.labels;
   // The smear mixes in the neighbours' power, so their flag kSweepNotReady applies to this sweep too.
   labels.flags |= (before.labels.flags | after.labels.flags) & databuffer::kSweepNotReady;
-  finish_sweep(*algorithm_, seed_, centre.header, labels, {before.power, centre.power, after.power, centre.jamming},
-               sweep);
+  finish_sweep(beam_, seed_, centre.header, labels, {before.power, centre.power, after.power, centre.jamming}, sweep);
 }
 
-void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepHeader& header,
-                  const SweepChain::Labels& labels, const physics::PowerWindow& window, databuffer::Sweep& sweep) {
+void finish_sweep(rbm::Beam& beam, std::uint64_t seed, const SweepHeader& header, const SweepChain::Labels& labels,
+                  const physics::PowerWindow& window, databuffer::Sweep& sweep) {
   write_header(header, sweep);
   sweep.tick = labels.tick;
   sweep.sim_time_ns = labels.sim_time_ns;
@@ -175,7 +148,7 @@ void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepHead
   if ((labels.flags & databuffer::kSweepBlank) != 0U || labels.no_return) {
     std::fill(video.begin(), video.end(), std::uint8_t{0});
   } else {
-    algorithm.form_video(window, header.range, labels.gain, {seed, labels.scan, labels.number}, video);
+    beam.form_video(window, header.range, labels.gain, {seed, labels.scan, labels.number}, video);
   }
   sweep.hash = sweep_hash(sweep);
 }

@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -17,7 +16,7 @@
 #include "lib/memory/line_vector.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/physics/sweep_geometry.hpp"
-#include "model/rbm/algorithm.hpp"
+#include "model/rbm/beam.hpp"
 #include "model/rbm/emitters.hpp"
 
 namespace yars::model::kernel {
@@ -49,13 +48,8 @@ inline geo::Duration sim_time_of(std::int64_t sim_time_ns) {
 
 void write_header(const SweepHeader& header, databuffer::Sweep& sweep);
 
-// Ray geometry of a sweep. The azimuth is `beam_azimuth`, or else the middle of the wedge. A ray of more than one sweep
-// (Fidelity::sweeps_per_ray) goes through the middle of the wedges from this one on in the antenna's direction. All are
-// taken to be as wide as this one.
-physics::SweepGeometry geometry_of(const SweepHeader& header, int sweeps = 1);
-
-// The ray of sweep `sweep` of a pass, which it may share with others of the pass.
-physics::SweepGeometry shared_ray(std::span<const SweepHeader> pass, std::size_t sweep, int sweeps_per_ray);
+// Geometry of a sweep. The azimuth is `beam_azimuth`, or else the middle of the wedge.
+physics::SweepGeometry geometry_of(const SweepHeader& header);
 
 // XXH3 64 over apex, altitude, edges, ground track, antenna elevation and range. The result seeds XXH3 64 over the
 // video samples in use.
@@ -67,8 +61,8 @@ std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 // Measures each sweep, stores the three newest, and finishes a sweep when its successor is measured or flush() ends the
 // pass. The record has the sweep's own position, so the azimuth smear does not displace the picture. The first
 // sweep of a pass also serves as its own predecessor, the last one as its own successor.
-// With sub-beams a sweep also depends on earlier sweeps of its pass (SubBeams), back to a sweep with kSweepScanStart at
-// most.
+// With sub-beams a sweep also depends on earlier sweeps of its pass (rbm::Beam), back to a sweep with kSweepScanStart
+// at most.
 class SweepChain {
  public:
   explicit SweepChain(const physics::RadarParameters& parameters);
@@ -102,21 +96,18 @@ class SweepChain {
   struct Measured {
     SweepHeader header;
     Labels labels;
-    bool echo = false;     // the power is that of a ray
     double jamming = 0.0;  // received jamming power, equal in all samples; full scale = 1
     memory::CacheAlignedVector<float> power;
   };
   void begin_pass();
   void flag_descendant(Labels& labels);
   void receive(Measured& measured, const physics::Environment& environment);
-  void measure_ray(Measured& measured, const physics::Environment& environment);
   void finish(const Measured& before, const Measured& centre, const Measured& after, databuffer::Sweep& sweep);
   Measured& newest(std::size_t age) { return measured_[(next_ + measured_.size() - 1 - age) % measured_.size()]; }
 
   std::uint64_t seed_;
   std::size_t samples_;
-  std::uint32_t sweeps_per_ray_;
-  std::unique_ptr<rbm::Algorithm> algorithm_;
+  rbm::Beam beam_;
   rbm::Strobes strobes_;
   rbm::Beacons beacons_;
   std::array<Measured, 3> measured_;
@@ -127,7 +118,7 @@ class SweepChain {
 };
 
 // Fills a sweep record: position, labels, video of the sweep `window.centre`, hash.
-void finish_sweep(rbm::Algorithm& algorithm, std::uint64_t seed, const SweepHeader& header,
-                  const SweepChain::Labels& labels, const physics::PowerWindow& window, databuffer::Sweep& sweep);
+void finish_sweep(rbm::Beam& beam, std::uint64_t seed, const SweepHeader& header, const SweepChain::Labels& labels,
+                  const physics::PowerWindow& window, databuffer::Sweep& sweep);
 
 }  // namespace yars::model::kernel

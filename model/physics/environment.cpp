@@ -51,7 +51,7 @@ class Movers::Sector {
   Sector(const SweepGeometry& geometry, double beamwidth_rad)
       : apex_(on_ellipsoid(geometry.apex)), range_m_(geometry.range.metres()) {
     const geo::LocalTangentFrame level(geometry.apex, geo::HeightAboveEllipsoid::metres(0.0));
-    const AzimuthInterval interval = point_interval(geometry.slice, beamwidth_rad);
+    const AzimuthInterval interval = point_interval(geometry.sharpened_cell, beamwidth_rad);
     narrow_ = interval.left_rad > -kMaxSide_rad && interval.right_rad < kMaxSide_rad;
     const auto across = [&](double offset_rad) {
       const double azimuth_rad = geometry.azimuth.radians() + offset_rad;
@@ -105,7 +105,7 @@ std::span<const Echo> Movers::echoes(const SweepGeometry& geometry, const Receiv
   echoes_.clear();
   const auto traffic = environment.traffic.first(std::min(environment.traffic.size(), kMaxTraffic));
   if (points_.empty() && traffic.empty()) return echoes_;
-  const AzimuthInterval interval = point_interval(geometry.slice, receiver.azimuth_beamwidth_rad);
+  const AzimuthInterval interval = point_interval(geometry.sharpened_cell, receiver.azimuth_beamwidth_rad);
   if (!(interval.left_rad < interval.right_rad)) return echoes_;
   const Sector sector(geometry, receiver.azimuth_beamwidth_rad);
   const Sweep sweep{geometry, receiver, earth, environment.terrain};
@@ -134,7 +134,7 @@ void Movers::add_echo(const MovingPoint& point, const Sector& sector, const Swee
   }
   const auto [distance_m, offset_rad] = *path;
   if (distance_m >= geometry.range.metres() || distance_m <= 0.0) return;
-  const double gain_across = point_azimuth_gain(geometry.slice, receiver.azimuth_beamwidth_rad, offset_rad);
+  const double gain_across = point_azimuth_gain(geometry.sharpened_cell, receiver.azimuth_beamwidth_rad, offset_rad);
   if (!(gain_across > 0.0)) return;
   const double ground_m = terrain.elevation_m(position);
   const double height_m = (std::isnan(ground_m) ? 0.0 : ground_m) + point.height_m;
@@ -143,7 +143,7 @@ void Movers::add_echo(const MovingPoint& point, const Sector& sector, const Swee
                                                  sight.elevation_rad);
   const double loss = gas_.two_way_transmission(earth, geometry.altitude.metres(), distance_m, height_m);
   const double power = returned_power(point.cross_section_m2, loss * gain, sight.slant_range_m);
-  echoes_.push_back({distance_m, sight.tangent, received(receiver, power, sight.slant_range_m)});
+  echoes_.push_back({distance_m, offset_rad, height_m, sight.tangent, received(receiver, power, sight.slant_range_m)});
 }
 
 namespace {

@@ -63,6 +63,8 @@ struct Environment {
 // Unobstructed return of one mover.
 struct Echo {
   double distance_m = 0.0;  // over ground
+  double offset_rad = 0.0;  // azimuth from the middle of the beam, clockwise positive
+  double height_m = 0.0;    // MSL
   double tangent = 0.0;     // tangent of the elevation angle
   double power = 0.0;       // full scale = 1; includes antenna gain, gas attenuation and sensitivity time control
 };

@@ -14,26 +14,22 @@ namespace {
 constexpr double kMaxBeamwidthsOff = 2.0;
 }  // namespace
 
-AzimuthInterval point_interval(const BeamSlice& slice, double beamwidth_rad) {
+AzimuthInterval point_interval(const std::optional<AzimuthInterval>& sharpened_cell, double beamwidth_rad) {
   const double max_offset_rad = kMaxBeamwidthsOff * beamwidth_rad;
-  if (slice.sharpened) return {slice.left_rad, slice.right_rad};
-  return {std::max(slice.left_rad, slice.beam_rad - max_offset_rad),
-          std::min(slice.right_rad, slice.beam_rad + max_offset_rad)};
+  return sharpened_cell.value_or(AzimuthInterval{-max_offset_rad, max_offset_rad});
 }
 
-double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double offset_rad, double width_rad) {
-  const AzimuthInterval interval = point_interval(slice, beamwidth_rad);
-  if (slice.sharpened) {
-    const double cell_rad = interval.right_rad - interval.left_rad;
-    const double within_rad = std::min(interval.right_rad, offset_rad + 0.5 * width_rad) -
-                              std::max(interval.left_rad, offset_rad - 0.5 * width_rad);
-    // A point of zero width on a cell's left edge belongs to that cell.
-    const bool inside = offset_rad >= interval.left_rad && offset_rad < interval.right_rad;
-    const double part = width_rad > 0.0 ? std::clamp(within_rad / width_rad, 0.0, 1.0) : inside ? 1.0 : 0.0;
-    return part * slice.factor * beamwidth_rad / cell_rad;
-  }
-  if (!(offset_rad >= interval.left_rad && offset_rad < interval.right_rad)) return 0.0;
-  return slice.factor * azimuth_gain(beamwidth_rad, offset_rad - slice.beam_rad);
+double point_azimuth_gain(const std::optional<AzimuthInterval>& sharpened_cell, double beamwidth_rad, double offset_rad,
+                          double width_rad) {
+  const AzimuthInterval interval = point_interval(sharpened_cell, beamwidth_rad);
+  // A point on a cell's left edge belongs to that cell.
+  const bool inside = offset_rad >= interval.left_rad && offset_rad < interval.right_rad;
+  if (!sharpened_cell) return inside ? azimuth_gain(beamwidth_rad, offset_rad) : 0.0;
+  const double cell_rad = interval.right_rad - interval.left_rad;
+  const double within_rad = std::min(interval.right_rad, offset_rad + 0.5 * width_rad) -
+                            std::max(interval.left_rad, offset_rad - 0.5 * width_rad);
+  const double part = width_rad > 0.0 ? std::clamp(within_rad / width_rad, 0.0, 1.0) : inside ? 1.0 : 0.0;
+  return part * beamwidth_rad / cell_rad;
 }
 
 namespace {

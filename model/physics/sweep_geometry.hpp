@@ -9,7 +9,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
+#include <optional>
 #include <span>
 
 #include "lib/geo/geodesy.hpp"
@@ -19,30 +19,21 @@
 
 namespace yars::model::physics {
 
-// Interval of azimuth in which one ray collects point targets. Angles are relative to the ray's azimuth, clockwise
-// positive. With several rays across the beam the intervals do not overlap, so no point is counted twice. A ray of a
-// Doppler sharpened beam collects only the targets in one resolution cell. The default is the whole beam.
-struct BeamSlice {
-  double left_rad = -std::numeric_limits<double>::infinity();
-  double right_rad = std::numeric_limits<double>::infinity();
-  double beam_rad = 0.0;   // azimuth of the beam's centre, relative to the ray
-  double factor = 1.0;     // factor on the gain: 1 / (weight of this ray in the sum of the rays across the beam)
-  bool sharpened = false;  // [left, right) is one resolution cell of Doppler beam sharpening
-};
-
+// Interval of azimuth, relative to the middle of a beam, clockwise positive.
 struct AzimuthInterval {
   double left_rad = 0.0, right_rad = 0.0;
 };
 
-// Interval of azimuth offsets at which a ray returns point targets: its slice, limited to two beamwidths on either side
-// of the beam's centre. The two-way gain outside is below -96 dB. The slice of a sharpened cell is not limited.
-AzimuthInterval point_interval(const BeamSlice& slice, double beamwidth_rad);
+// Azimuths at which a beam returns point targets: two beamwidths on either side of its middle, where the two-way gain
+// is -96 dB. With Doppler beam sharpening: the resolution cell.
+AzimuthInterval point_interval(const std::optional<AzimuthInterval>& sharpened_cell, double beamwidth_rad);
 
-// Two-way gain in azimuth of a target with its middle at `offset_rad` from the ray, clockwise positive, and the width
-// `width_rad`. The gain is 0 if the middle is outside point_interval(). In a sharpened cell the gain is instead the
-// fraction of the target's width inside the cell (for width 0: 1 if the middle is inside, else 0), times beamwidth /
-// cell width. All gains include BeamSlice::factor.
-double point_azimuth_gain(const BeamSlice& slice, double beamwidth_rad, double offset_rad, double width_rad = 0.0);
+// Two-way gain in azimuth of a target with its middle at `offset_rad` from the middle of the beam, clockwise positive,
+// and the width `width_rad`. The gain is 0 if the middle is outside point_interval(). In a sharpened cell the gain is
+// instead the fraction of the target's width inside the cell (for width 0: 1 if the middle is inside, else 0), times
+// beamwidth / cell width.
+double point_azimuth_gain(const std::optional<AzimuthInterval>& sharpened_cell, double beamwidth_rad, double offset_rad,
+                          double width_rad = 0.0);
 
 // Apex, direction and range of one ray of a sweep.
 // Precondition, ensured by the code in model/kernel: every value is finite, latitude is within +-90 deg, range > 0.
@@ -55,7 +46,8 @@ struct SweepGeometry {
   geo::Duration sim_time{};
   std::uint8_t band = 0;     // 0..4: A..E
   std::uint8_t channel = 1;  // 1..8
-  BeamSlice slice{};         // for point targets
+  // Resolution cell of Doppler beam sharpening, about `azimuth`; nullopt: real beam.
+  std::optional<AzimuthInterval> sharpened_cell{};
   // Angles from the antenna elevation up to the scan's highest bar and down to its lowest bar; 0 with one bar.
   geo::Angle bars_above{};
   geo::Angle bars_below{};

@@ -1,6 +1,7 @@
 // Interface of the algorithms that make the sweeps of the real beam map. They compute power from terrain, and video
 // from power. Video is brightness, 0 to 255.
-// Inputs: geometry of a sweep; terrain, scenes and traffic; configuration at construction.
+// A ray of the beam is measured at a time; Beam (beam.hpp) adds rays and point targets.
+// Inputs: geometry of a ray; terrain, scenes and traffic; configuration at construction.
 // Outputs: power per sample, mask of the lit samples, 8-bit video. Samples are ordered near to far. A power of 1 is
 // full scale: it gives video 255 at the highest GAIN step. A void (ground without elevation data) returns no power.
 // Threads: one thread at a time may use an instance. No allocation after construction.
@@ -14,6 +15,7 @@
 #include "model/physics/environment.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
+#include "model/rbm/ray_ground.hpp"
 
 namespace yars::model::rbm {
 
@@ -28,28 +30,23 @@ class Algorithm {
   Algorithm& operator=(const Algorithm&) = delete;
   virtual ~Algorithm() = default;
 
-  // Discards what earlier sweeps have left for later ones. Call it before the first sweep of a pass (one crossing of
-  // the scan width).
-  virtual void begin_pass() {}
-
-  // Longest time for which what a sweep leaves serves later sweeps.
-  virtual geo::Duration memory() const { return {}; }
-
   // Computes the power of sample_count() samples after sensitivity time control (a gain that increases with range) and
-  // pulse smear (mean over the samples that the pulse covers), without noise.
-  // Report1996 has no sensitivity time control and smears over three samples. Values are finite and >= 0.
-  // Returns the number of samples on terrain that is not loaded; SubBeams returns the sum over its rays.
+  // pulse smear (mean over the samples that the pulse covers), without noise: that of the ground along one ray, with
+  // the covers of scenes and the rain, without point targets. Report1996 has no sensitivity time control and smears
+  // over three samples. Values are finite and >= 0. Returns the number of samples on terrain that is not loaded.
   virtual std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                               std::span<float> power) = 0;
 
   // Lit mask of the last measure(): 1 if no nearer ground hides the sample; 0 in shadow and over a void. Report1996
-  // also sets 0 outside the beam. SubBeams gives the mask of the ray nearest the beam's centre.
+  // also sets 0 outside the beam.
   virtual void lit(std::span<std::uint8_t> mask) const = 0;
 
-  // True if point targets (movers, standing parts of scenes) may return power in the sweep's BeamSlice.
-  virtual bool has_points(const physics::SweepGeometry& /*geometry*/, const physics::Environment& /*environment*/) {
-    return false;
-  }
+  // False: point targets (movers, standing parts of scenes) return no power.
+  virtual bool has_points() const = 0;
+
+  // Describes the ground of the last measure() to point targets: all of `ground` but its geometry. Call it only if
+  // has_points().
+  virtual void describe(RayGround& /*ground*/) const {}
 
   // Computes the video of the sweep that has the power `window.centre`: azimuth smear, noise, receiver characteristic.
   // `gain` is the GAIN step 0..3.

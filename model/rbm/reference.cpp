@@ -28,8 +28,7 @@ Reference::Reference(const physics::RadarParameters& parameters)
       surface_(parameters),
       rain_(parameters),
       gas_(parameters),
-      movers_(parameters),
-      scene_return_(parameters, sample_count(parameters)),
+      scene_covers_(parameters, sample_count(parameters)),
       samples_(sample_count(parameters)),
       distance_m_(samples_.size()) {}
 
@@ -49,9 +48,7 @@ std::size_t Reference::measure(const physics::SweepGeometry& geometry, const phy
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     samples_[i].power = samples_[i].lit ? cell_power(receiver, earth, geometry, i) : 0.0;
   }
-  if (scene_return_.enter(geometry, environment.scenes))
-    add_scenes(geometry, receiver, walk, *environment.scenes, pulse_samples);
-  add_movers(movers_.echoes(geometry, receiver, earth, environment), walk, pulse_samples);
+  if (scene_covers_.enter(geometry, environment.scenes)) add_covers(geometry, receiver, earth, *environment.scenes);
   rain_.enter(geometry);
   if (!rain_.dry()) add_rain(receiver, earth, geometry);
   smear_pulse(pulse_samples, power);
@@ -145,28 +142,16 @@ double Reference::cell_power(const physics::Receiver& receiver, const physics::E
                            sight.slant_range_m);
 }
 
-void Reference::add_movers(std::span<const physics::Echo> echoes, const physics::GroundWalk& walk,
-                           double pulse_samples) {
-  for (const physics::Echo& echo : echoes) {
-    const std::size_t index = physics::nearest_sample(distance_m_, echo.distance_m);
-    if (index >= samples_.size()) continue;
-    const auto horizon = [&](std::size_t sample) { return samples_[sample].horizon; };
-    const bool hidden = echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
-    if (!hidden) samples_[index].power += physics::point_smear_gain(pulse_samples) * echo.power;
-  }
-}
-
-void Reference::add_scenes(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
-                           const physics::GroundWalk& walk, const scene::SceneView& scenes, double pulse_samples) {
-  SceneReturn::Ground& ground = scene_return_.ground();
+void Reference::add_covers(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
+                           const physics::EffectiveEarth& earth, const scene::SceneView& scenes) {
+  SceneCovers::Ground& ground = scene_covers_.ground();
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     ground.distance_m[i] = samples_[i].distance_m;
     ground.height_m[i] = samples_[i].height_m;
     ground.cross_slope[i] = samples_[i].cross_slope;
-    ground.horizon[i] = samples_[i].horizon;
     ground.power[i] = samples_[i].power;
   }
-  scene_return_.apply(geometry, receiver, walk, scenes, pulse_samples);
+  scene_covers_.apply(geometry, receiver, earth, scenes);
   for (std::size_t i = 0; i < samples_.size(); ++i) samples_[i].power = ground.power[i];
 }
 
@@ -181,6 +166,7 @@ void Reference::add_rain(const physics::Receiver& receiver, const physics::Effec
     const double rain = rain_.power(receiver, earth, geometry, sample.distance_m, std::atan(sample.horizon));
     const double loss = rain_.two_way_transmission(earth, altitude_m, sample.distance_m, height_m, slant_range_m);
     const double gas = gas_.two_way_transmission(earth, altitude_m, sample.distance_m, height_m);
+    sample.transmission = loss;
     sample.power = (sample.power + gas * physics::received(receiver, rain, slant_range_m)) * loss;
   }
 }
@@ -205,11 +191,15 @@ void Reference::lit(std::span<std::uint8_t> mask) const {
                  [](const Sample& sample) { return sample.lit ? std::uint8_t{1} : std::uint8_t{0}; });
 }
 
-bool Reference::has_points(const physics::SweepGeometry& geometry, const physics::Environment& environment) {
-  const physics::Receiver receiver = receivers_.at(geometry.range);
-  const physics::EffectiveEarth earth = physics::effective_earth(fidelity_, geometry.apex, geometry.azimuth);
-  return !movers_.echoes(geometry, receiver, earth, environment).empty() ||
-         scene_return_.has_standing(geometry, receiver, environment.scenes);
+// No ground is taken to be straight, so the ground before each target is walked.
+void Reference::describe(RayGround& ground) const {
+  ground.transmission.resize(samples_.size());
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    ground.distance_m[i] = samples_[i].distance_m;
+    ground.samples[i].horizon = samples_[i].horizon;
+    ground.samples[i].peak_m = samples_[i].peak_m;
+    ground.transmission[i] = samples_[i].transmission;
+  }
 }
 
 void Reference::form_video(const physics::PowerWindow& window, geo::Length range, int gain,

@@ -8,13 +8,12 @@
 
 #include "lib/radar/fidelity.hpp"
 #include "model/physics/atmosphere.hpp"
-#include "model/physics/environment.hpp"
 #include "model/physics/ground_return.hpp"
 #include "model/physics/ray.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/scene_return.hpp"
+#include "model/rbm/scene_covers.hpp"
 
 namespace yars::model::rbm {
 
@@ -25,7 +24,8 @@ class Reference : public Algorithm {
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
-  bool has_points(const physics::SweepGeometry& geometry, const physics::Environment& environment) override;
+  bool has_points() const override { return true; }
+  void describe(RayGround& ground) const override;
   void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                   std::span<std::uint8_t> video) override;
 
@@ -41,7 +41,8 @@ class Reference : public Algorithm {
     double cross_slope = 0.0;   // slope across the sweep, positive if it rises to the right
     double horizon = 0.0;       // maximum tangent of elevation angle of all ground up to and including this sample
     bool lit = false;
-    double power = 0.0;  // full scale = 1, before the pulse smear
+    double transmission = 1.0;  // two-way, of the rain
+    double power = 0.0;         // full scale = 1, before the pulse smear
   };
   std::span<const Sample> samples() const { return samples_; }
 
@@ -53,9 +54,8 @@ class Reference : public Algorithm {
   double along_slope(std::size_t index) const;
   double cell_power(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
                     const physics::SweepGeometry& geometry, std::size_t index) const;
-  void add_movers(std::span<const physics::Echo> echoes, const physics::GroundWalk& walk, double pulse_samples);
-  void add_scenes(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
-                  const physics::GroundWalk& walk, const scene::SceneView& scenes, double pulse_samples);
+  void add_covers(const physics::SweepGeometry& geometry, const physics::Receiver& receiver,
+                  const physics::EffectiveEarth& earth, const scene::SceneView& scenes);
   void add_rain(const physics::Receiver& receiver, const physics::EffectiveEarth& earth,
                 const physics::SweepGeometry& geometry);
   void smear_pulse(double pulse_samples, std::span<float> power) const;
@@ -66,8 +66,7 @@ class Reference : public Algorithm {
   physics::SurfaceReturn surface_;
   physics::RainPath rain_;
   physics::GasPath gas_;
-  physics::Movers movers_;
-  SceneReturn scene_return_;
+  SceneCovers scene_covers_;
   std::vector<Sample> samples_;
   std::vector<double> distance_m_;
 };

@@ -14,10 +14,16 @@ namespace yars::model::rbm {
 
 namespace {
 constexpr float kVoid = std::numeric_limits<float>::quiet_NaN();
-// Ground between two samples is straight for scatterers if it rises at most kMaxCrest_m above the next sample's line of
-// sight, and the samples are at most kMaxStraight_m apart.
+// Ground between two samples is straight for point targets if it rises at most kMaxCrest_m above the next sample's line
+// of sight, and the samples are at most max_straight_m() apart.
 constexpr float kMaxCrest_m = 0.5F;
-constexpr float kMaxStraight_m = 200.0F;
+
+// [m] Coarser sweeps have coarser point targets. At 400 m, 2 % of the samples with movers differ from those over ground
+// that is walked.
+float max_straight_m(std::size_t samples) {
+  constexpr float kMaxStraight_m = 200.0F, kSamples = 480.0F;
+  return kMaxStraight_m * std::max(1.0F, kSamples / static_cast<float>(samples));
+}
 }  // namespace
 
 Standard::Standard(const physics::RadarParameters& parameters)
@@ -28,9 +34,9 @@ Standard::Standard(const physics::RadarParameters& parameters)
       rain_(parameters, sample_count(parameters)),
       gas_(parameters),
       gas_samples_(parameters, sample_count(parameters)),
-      movers_(parameters),
-      scene_return_(parameters, sample_count(parameters)),
+      scene_covers_(parameters, sample_count(parameters)),
       count_(sample_count(parameters)),
+      max_straight_m_(max_straight_m(count_)),
       distance_m_(count_),
       distance_(count_, 0.0F),
       one_step_inverse_(count_, 0.0F),
@@ -72,7 +78,7 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   const terrain::PositionRun positions = positions_.run();
   simd::SweepInputs inputs{distance_.data(), elevation_.data(),
                            // Where a cell is reduced to fewer posts, the highest original posts cast the shadow.
-                           terrain.has_peaks() ? peak_.data() : nullptr, near_.data(), near_back_.data(), nullptr,
+                           has_peaks_ ? peak_.data() : nullptr, near_.data(), near_back_.data(), nullptr,
                            fidelity_.cross_track_slope ? cross_slope_.data() : nullptr, one_step_inverse_.data(),
                            two_step_inverse_.data(), gas_loss(geometry),
                            ground_.prepare(geometry, positions, water_.data(), terrain.has_materials())};
@@ -87,10 +93,7 @@ std::size_t Standard::measure(const physics::SweepGeometry& geometry, const phys
   simd::sweep(count_, constants, fidelity_.beam, inputs, outputs);
   // sweep() may have written after the last sample. The smear reads those entries, so they are set to 0.
   std::fill_n(power_.data() + count_, simd::kPad, 0.0F);
-  const physics::GroundWalk walk(geometry, earth, terrain, fidelity_.interpolation);
-  if (scene_return_.enter(geometry, environment.scenes))
-    add_scenes(geometry, walk, receiver, environment, pulse_samples);
-  add_movers(geometry, walk, receiver, environment, pulse_samples);
+  if (scene_covers_.enter(geometry, environment.scenes)) add_covers(geometry, earth, receiver, *environment.scenes);
   rain_.enter(geometry);
   if (!rain_.dry()) add_rain(geometry, earth, receiver);
 
@@ -111,13 +114,6 @@ void Standard::lit(std::span<std::uint8_t> mask) const {
   for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = tangent[i] > before[i] ? 1 : 0;
 }
 
-bool Standard::has_points(const physics::SweepGeometry& geometry, const physics::Environment& environment) {
-  const physics::Receiver& receiver = receiver_at(geometry.range);
-  const physics::EffectiveEarth earth = physics::effective_earth(fidelity_, geometry.apex, geometry.azimuth);
-  return !movers_.echoes(geometry, receiver, earth, environment).empty() ||
-         scene_return_.has_standing(geometry, receiver, environment.scenes);
-}
-
 physics::GasSamples::Coefficients Standard::gas_loss(const physics::SweepGeometry& geometry) {
   if (gas_.none()) return {};
   gas_samples_.use(gas_, geometry.altitude.metres(), geometry.range.metres(), distance_.first(count_),
@@ -125,67 +121,41 @@ physics::GasSamples::Coefficients Standard::gas_loss(const physics::SweepGeometr
   return gas_samples_.coefficients();
 }
 
-void Standard::add_scenes(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
-                          const physics::Receiver& receiver, const physics::Environment& environment,
-                          double pulse_samples) {
-  SceneReturn::Ground& ground = scene_return_.ground();
+void Standard::add_covers(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
+                          const physics::Receiver& receiver, const scene::SceneView& scenes) {
+  SceneCovers::Ground& ground = scene_covers_.ground();
   const bool across = fidelity_.cross_track_slope;
   for (std::size_t i = 0; i < count_; ++i) {
     ground.distance_m[i] = i < holes_ ? std::numeric_limits<double>::quiet_NaN() : distance_m_[i];
     ground.height_m[i] = static_cast<double>(elevation_.data()[i]);
     ground.cross_slope[i] = across ? static_cast<double>(cross_slope_.data()[i]) : 0.0;
-    ground.horizon[i] = static_cast<double>(horizon_.data()[i]);
     ground.power[i] = static_cast<double>(power_.data()[i]);
   }
-  describe_steps(environment.terrain, ground);
-  scene_return_.apply(geometry, receiver, walk, *environment.scenes, pulse_samples);
+  scene_covers_.apply(geometry, receiver, earth, scenes);
   for (std::size_t i = 0; i < count_; ++i) power_.data()[i] = static_cast<float>(ground.power[i]);
 }
 
-// True if no ground between the previous sample and this one stands out. There movers and scatterers are shaded by a
+// True if no ground between the previous sample and this one stands out. There point targets are shaded by a
 // straight line between the peaks at both samples. `peak_m`: elevation of the ground that casts the shadow.
 bool Standard::is_straight(std::size_t i, const float* peak_m) const {
-  if (!has_crests_ || i <= holes_ || i >= count_) return false;
+  if (!has_crests_ || i <= holes_) return false;
   const float limit = std::max(horizon_.data()[i - 1], tangent_.data()[i] + kMaxCrest_m / distance_.data()[i]);
   const bool known = peak_m[i - 1] == peak_m[i - 1] && peak_m[i] == peak_m[i];
-  return known && distance_.data()[i] - distance_.data()[i - 1] <= kMaxStraight_m &&
+  return known && distance_.data()[i] - distance_.data()[i - 1] <= max_straight_m_ &&
          std::max(crest_.data()[i], near_tangent_.data()[i]) <= limit;
 }
 
-void Standard::describe_steps(const terrain::TerrainView& terrain, SceneReturn::Ground& ground) const {
-  const float* const peak_m = terrain.has_peaks() ? peak_.data() : elevation_.data();
-  ground.peak_m.assign(peak_m, peak_m + count_);
-  ground.straight.assign(count_, 0);
-  for (std::size_t i = 1; i < count_; ++i) ground.straight[i] = is_straight(i, peak_m) ? 1 : 0;
-}
-
-// True if ground hides a mover. `nearer`: number of samples nearer than the mover.
-bool Standard::hides(const physics::Echo& echo, std::size_t nearer, const physics::GroundWalk& walk,
-                     const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) const {
-  const auto horizon = [&](std::size_t sample) { return static_cast<double>(horizon_.data()[sample]); };
-  // The ground between the samples is not examined if the samples hide the mover.
-  if (nearer > holes_ && echo.tangent <= horizon(nearer - 1)) return true;
-  const float* const peak_m = terrain.has_peaks() ? peak_.data() : elevation_.data();
-  if (!is_straight(nearer, peak_m)) return echo.tangent <= walk.horizon_before(distance_m_, echo.distance_m, horizon);
-  const double near_m = distance_m_[nearer - 1], near_peak_m = static_cast<double>(peak_m[nearer - 1]);
-  const double fraction = (echo.distance_m - near_m) / (distance_m_[nearer] - near_m);
-  const double ground_m = near_peak_m + fraction * (static_cast<double>(peak_m[nearer]) - near_peak_m);
-  return echo.tangent <= walk.earth().tangent(geometry.altitude.metres(), echo.distance_m, ground_m);
-}
-
-void Standard::add_movers(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
-                          const physics::Receiver& receiver, const physics::Environment& environment,
-                          double pulse_samples) {
-  for (const physics::Echo& echo : movers_.echoes(geometry, receiver, walk.earth(), environment)) {
-    // A mover nearer than the first sample on the ground is added to that sample, as in Reference.
-    const std::size_t index = std::max(holes_, physics::nearest_sample(distance_m_, echo.distance_m));
-    if (index >= count_) continue;
-    float& power = power_.data()[index];
-    const float sum = power + static_cast<float>(physics::point_smear_gain(pulse_samples) * echo.power);
-    // A mover whose echo is lost in rounding is left out.
-    const std::size_t nearer = physics::samples_nearer(distance_m_, echo.distance_m);
-    if (sum != power && !hides(echo, nearer, walk, geometry, environment.terrain)) power = sum;
+void Standard::describe(RayGround& ground) const {
+  const float* const peak_m = has_peaks_ ? peak_.data() : elevation_.data();
+  std::copy_n(distance_m_.begin(), count_, ground.distance_m.begin());
+  std::fill_n(ground.distance_m.begin(), holes_, std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t i = 0; i < count_; ++i) {
+    const float slope = is_straight(i, peak_m) ? (peak_m[i] - peak_m[i - 1]) * one_step_inverse_.data()[i - 1] : kVoid;
+    ground.samples[i] = {static_cast<double>(horizon_.data()[i]), static_cast<double>(peak_m[i]),
+                         static_cast<double>(slope)};
   }
+  ground.transmission.clear();
+  if (!rain_.dry()) ground.transmission.assign(rain_.transmission(), rain_.transmission() + count_);
 }
 
 // Adds rain echo and applies rain attenuation.
@@ -226,12 +196,12 @@ void Standard::update_distances(const physics::SweepGeometry& geometry, const ph
 std::size_t Standard::read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   sampler_.sample(geometry.apex, geometry.azimuth, geometry.range, fidelity_.geodesic_knots, distance_.data(),
                   positions_);
-  const bool peaks = terrain.has_peaks();
+  has_peaks_ = terrain.has_peaks();
   const auto step_m = static_cast<float>(geometry.range.metres() / static_cast<double>(count_));
   std::fill_n(near_.data(), count_, kVoid);
   const terrain::SurfaceRun found{elevation_.first(count_),
                                   water_.first(count_),
-                                  peak_.first(peaks ? count_ : 0),
+                                  peak_.first(has_peaks_ ? count_ : 0),
                                   {ground_.materials().data(), terrain.has_materials() ? count_ : 0},
                                   {step_m, near_.first(fidelity_.slant_range ? 0 : count_), near_back_.first(count_)}};
   const std::size_t pending = terrain.surfaces(positions_.run(), fidelity_.interpolation, found);

@@ -15,7 +15,6 @@
 #include "lib/memory/line_vector.hpp"
 #include "lib/radar/fidelity.hpp"
 #include "model/physics/atmosphere.hpp"
-#include "model/physics/environment.hpp"
 #include "model/physics/ground_return.hpp"
 #include "model/physics/rain_simd.hpp"
 #include "model/physics/ray.hpp"
@@ -23,7 +22,7 @@
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
 #include "model/rbm/line_of_sight.hpp"
-#include "model/rbm/scene_return.hpp"
+#include "model/rbm/scene_covers.hpp"
 #include "model/rbm/sweep_simd.hpp"
 
 namespace yars::model::rbm {
@@ -35,7 +34,8 @@ class Standard : public Algorithm {
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;
-  bool has_points(const physics::SweepGeometry& geometry, const physics::Environment& environment) override;
+  bool has_points() const override { return true; }
+  void describe(RayGround& ground) const override;
   void form_video(const physics::PowerWindow& window, geo::Length range, int gain, const physics::NoiseKey& key,
                   std::span<std::uint8_t> video) override;
 
@@ -54,16 +54,11 @@ class Standard : public Algorithm {
   void update_distances(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                         const terrain::TerrainView& terrain);
   std::size_t read_terrain(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
-  void add_movers(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
-                  const physics::Receiver& receiver, const physics::Environment& environment, double pulse_samples);
   void add_rain(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
                 const physics::Receiver& receiver);
-  void add_scenes(const physics::SweepGeometry& geometry, const physics::GroundWalk& walk,
-                  const physics::Receiver& receiver, const physics::Environment& environment, double pulse_samples);
+  void add_covers(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
+                  const physics::Receiver& receiver, const scene::SceneView& scenes);
   bool is_straight(std::size_t i, const float* peak_m) const;
-  bool hides(const physics::Echo& echo, std::size_t nearer, const physics::GroundWalk& walk,
-             const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) const;
-  void describe_steps(const terrain::TerrainView& terrain, SceneReturn::Ground& ground) const;
   physics::GasSamples::Coefficients gas_loss(const physics::SweepGeometry& geometry);
   void read_cross_slopes(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
   simd::SweepConstants sweep_constants(const physics::SweepGeometry& geometry, const physics::EffectiveEarth& earth,
@@ -79,12 +74,13 @@ class Standard : public Algorithm {
   physics::RainSamples rain_;
   physics::GasPath gas_;
   physics::GasSamples gas_samples_;
-  physics::Movers movers_;
-  SceneReturn scene_return_;
+  SceneCovers scene_covers_;
   physics::Receiver receiver_;  // result of the last receiver_at()
   std::size_t count_;
+  float max_straight_m_;     // distance between samples up to which ground may be straight for point targets
   std::size_t holes_ = 0;    // number of samples nearest the aircraft with a slant range too short to meet the ground
   bool has_crests_ = false;  // crest_ is that of the sweep
+  bool has_peaks_ = false;   // peak_ is that of the sweep
   double spaced_range_m_ = 0.0;     // [m] range for which distance_m_ was computed; 0: none
   double smeared_samples_ = 0.0;    // pulse length [samples] of smear_weights_; 0: none
   std::ptrdiff_t smear_reach_ = 0;  // [samples] smear_weights_ has offsets -smear_reach_ to smear_reach_

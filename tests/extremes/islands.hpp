@@ -11,7 +11,7 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/sub_beams.hpp"
+#include "model/rbm/beam.hpp"
 #include "tests/model/physics/ground.hpp"
 
 namespace yars::test {
@@ -69,9 +69,9 @@ inline bool is_dark(const std::vector<float>& power) {
 inline std::vector<float> seen(const radar::RadarConfiguration& configuration,
                                const model::physics::SweepGeometry& geometry,
                                const model::terrain::TerrainView& terrain) {
-  const auto algorithm = model::rbm::make_algorithm(configuration);
+  model::rbm::Beam algorithm(configuration);
   std::vector<float> power(model::rbm::sample_count(configuration), -1.0F);
-  algorithm->measure(geometry, terrain, power);
+  algorithm.measure(geometry, terrain, power);
   for (std::size_t i = 0; i < power.size(); ++i)
     EXPECT_TRUE(std::isfinite(power[i]) && power[i] >= 0.0F) << "sample " << i << ": " << power[i];
   return power;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "lib/radar/configuration.hpp"
-#include "model/rbm/sub_beams.hpp"
+#include "model/rbm/beam.hpp"
 
 namespace yars::tools::recording {
 
@@ -47,14 +47,13 @@ std::uint64_t sweeps_over_beam(const radar::RadarConfiguration& configuration) {
   return static_cast<std::uint64_t>(std::ceil(width_deg / (rate_dps * radar::kTickSeconds)));
 }
 
-// Number of sweeps after a start that are not compared: those with smear from before the start, those that share a ray
-// of before the start, and those with sub-beams of before the start.
+// Number of sweeps after a start that are not compared: those with smear from before the start, and those with
+// sub-beams of before the start.
 std::uint64_t skipped_sweeps(const radar::RadarConfiguration& configuration) {
   constexpr std::uint64_t kSmearMemory = 2;
   const radar::Fidelity& fidelity = configuration.fidelity;
-  const int sharing = fidelity.automatic ? radar::kMaxSweepsPerRay : fidelity.sweeps_per_ray;
   const bool sub_beams = fidelity.automatic || fidelity.sub_beams > 1;
-  return kSmearMemory + static_cast<std::uint64_t>(sharing) - 1 + (sub_beams ? sweeps_over_beam(configuration) : 0);
+  return kSmearMemory + (sub_beams ? sweeps_over_beam(configuration) : 0);
 }
 }  // namespace
 

@@ -95,7 +95,7 @@ imageio::Image scan_picture(std::span<const Sweep> sweeps, const radar::ViewConf
 // slant range; latitude and longitude are then the aircraft's.
 // `samples` has the same number of elements for each sweep.
 void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader> positions,
-                  std::span<const trade::RaySample> samples, int sweeps_per_ray);
+                  std::span<const trade::RaySample> samples);
 
 namespace {
 constexpr const char* kUnknown = "-";
@@ -110,14 +110,14 @@ void write_known(std::ostream& out, double value) {
 }  // namespace
 
 void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader> positions,
-                  std::span<const trade::RaySample> samples, int sweeps_per_ray) {
+                  std::span<const trade::RaySample> samples) {
   out << "sweep,azimuth_deg,ground_range_m,latitude_deg,longitude_deg,elevation_m,lit\n";
   out.precision(kDigits);
   const std::size_t count = samples.size() / positions.size();
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const trade::RaySample& sample = samples[i];
     const std::size_t sweep = i / count;
-    out << sweep << ',' << model::kernel::shared_ray(positions, sweep, sweeps_per_ray).azimuth.degrees() << ',';
+    out << sweep << ',' << model::kernel::geometry_of(positions[sweep]).azimuth.degrees() << ',';
     write_known(out, sample.distance_m);
     out << ',' << sample.position.latitude_deg << ',' << sample.position.longitude_deg << ',';
     write_known(out, sample.ground.elevation_m);
@@ -288,8 +288,7 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   if (names_file(options.out)) write_result(options, configuration.view, work);
   if (names_file(options.shadow)) {
     std::ostringstream file;
-    write_shadow(file, work.headers(), trade::ray_samples(configuration, work.headers(), *terrain),
-                 configuration.fidelity.sweeps_per_ray);
+    write_shadow(file, work.headers(), trade::ray_samples(configuration, work.headers(), *terrain));
     write_text_file(options.shadow, file);
   }
   print_json(line);

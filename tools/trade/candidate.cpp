@@ -77,8 +77,8 @@ bool set_geodesic_knots(Fidelity& fidelity, std::string_view text) {
   return true;
 }
 
-const std::array<Knob, 18>& knobs() {
-  static const std::array<Knob, 18> all{{
+const std::array<Knob, 17>& knobs() {
+  static const std::array<Knob, 17> all{{
       {"samples", "whole numbers 1 to 4096", whole_number(&Fidelity::samples, 1, radar::kMaxSamples), true, false},
       {"geodesicKnots", "0 or whole numbers 2 to 9", set_geodesic_knots, true, true},
       {"interpolation", "nearest, bilinear, cubic", choice(&Fidelity::interpolation, {"nearest", "bilinear", "cubic"}),
@@ -86,8 +86,6 @@ const std::array<Knob, 18>& knobs() {
       {"postsPerSample", "numbers 0 to 1000", set_posts_per_sample, true, false},
       {"earth", "flat, sphere, ellipsoid", choice(&Fidelity::earth, {"flat", "sphere", "ellipsoid"}), true, true},
       {"subBeams", "whole numbers 1 to 15", whole_number(&Fidelity::sub_beams, 1, radar::kMaxSubBeams), true, false},
-      {"sweepsPerRay", "whole numbers 1 to 4", whole_number(&Fidelity::sweeps_per_ray, 1, radar::kMaxSweepsPerRay),
-       true, false},
       {"crossTrackSlope", "true, false", flag(&Fidelity::cross_track_slope), true, false},
       {"pulseSmear", "true, false", flag(&Fidelity::pulse_smear), true, false},
       {"azimuthSmear", "true, false", flag(&Fidelity::azimuth_smear), true, false},

@@ -11,7 +11,7 @@
 #include "model/physics/receiver.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/sub_beams.hpp"
+#include "model/rbm/beam.hpp"
 #include "tools/trade/candidate.hpp"
 #include "tools/trade/trade_table.hpp"
 
@@ -62,7 +62,7 @@ std::vector<RaySample> ray_samples(const RadarConfiguration& given,
   std::vector<RaySample> samples;
   samples.reserve(positions.size() * count);
   for (std::size_t sweep = 0; sweep < positions.size(); ++sweep) {
-    SweepGeometry geometry = model::kernel::shared_ray(positions, sweep, configuration.fidelity.sweeps_per_ray);
+    SweepGeometry geometry = model::kernel::geometry_of(positions[sweep]);
     geometry.elevation = geo::Angle();
     algorithm->measure(geometry, terrain, power);
     algorithm->lit(lit);
@@ -93,8 +93,7 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
   model::physics::PositionArrays positions(model::rbm::sample_count(configuration));
   double worst_m = 0.0;
   for (std::size_t sweep = 0; sweep < scan.headers().size(); sweep += kStep) {
-    const SweepGeometry geometry =
-        model::kernel::shared_ray(scan.headers(), sweep, configuration.fidelity.sweeps_per_ray);
+    const SweepGeometry geometry = model::kernel::geometry_of(scan.headers()[sweep]);
     std::vector<double> exact_m(positions.count);
     const auto earth = model::physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth);
     model::physics::sample_distances(configuration.fidelity, earth, geometry, terrain, exact_m);

@@ -144,7 +144,6 @@ class RandomConfiguration {
     made.interpolation = static_cast<radar::Interpolation>(random_() % 3);
     made.posts_per_sample = number(0, 100);
     made.sub_beams = 1 + int(random_() % 15);
-    made.sweeps_per_ray = 1 + int(random_() % 4);
     made.automatic = coin();
     made.core_share = number(0.001, 1);
     made.slant_range = coin();

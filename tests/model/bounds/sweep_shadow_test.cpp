@@ -17,7 +17,7 @@
 #include "model/kernel/tick_inputs.hpp"
 #include "model/physics/sweep_geometry.hpp"
 #include "model/rbm/algorithm.hpp"
-#include "model/rbm/sub_beams.hpp"
+#include "model/rbm/beam.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "model/terrain/store/directory_store.hpp"
@@ -90,7 +90,7 @@ Counts compare(const char* preset, const Scan& scan, double range_nm, const Grou
   radar::RadarConfiguration configuration;
   configuration.fidelity = *radar::fidelity_preset(preset);
   configuration.fidelity.sub_beams = 1;  // only the middle ray of the beam
-  const auto algorithm = make_algorithm(configuration);
+  Beam algorithm(configuration);
   const std::size_t count = sample_count(configuration);
   std::vector<float> power(count);
   std::vector<std::uint8_t> lit(count);
@@ -98,8 +98,8 @@ Counts compare(const char* preset, const Scan& scan, double range_nm, const Grou
   for (double azimuth_deg = scan.first_deg; azimuth_deg <= scan.last_deg; azimuth_deg += scan.step_deg) {
     const physics::SweepGeometry geometry = geometry_along(scan, azimuth_deg, range_nm);
     const Truth truth = brute_force(geometry, *ground.finest, ground.posts_m, count);
-    algorithm->measure(geometry, *ground.served, power);
-    algorithm->lit(lit);
+    algorithm.measure(geometry, *ground.served, power);
+    algorithm.lit(lit);
     for (std::size_t i = 0; i < count; ++i) {
       if (!truth.known[i]) continue;
       counts.samples += 1.0;

@@ -7,7 +7,7 @@
 
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/offline_scan.hpp"
-#include "model/rbm/sub_beams.hpp"
+#include "model/rbm/beam.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/made_up_objects.hpp"
 
@@ -53,16 +53,6 @@ TEST(Determinism, AnyNumberOfThreadsGivesTheSameHashes) {
   }
 }
 
-TEST(Determinism, SweepsThatShareARayHaveTheSameHashesForAnyNumberOfThreads) {
-  for (int sharing = 2; sharing <= radar::kMaxSweepsPerRay; ++sharing) {
-    auto configuration = with(radar::Algorithm::standard, 137);
-    configuration.fidelity.sweeps_per_ray = sharing;
-    const auto alone = hashes(configuration, 1);
-    ASSERT_EQ(alone.size(), 182U);
-    for (const int threads : {2, 3, 8, 200}) EXPECT_EQ(hashes(configuration, threads), alone) << sharing << threads;
-  }
-}
-
 TEST(Determinism, ThreadsThatStealPiecesGiveTheSameHashesInEveryRun) {
   const auto configuration = with(radar::Algorithm::standard, 37);
   const auto alone = hashes(configuration, 1);
@@ -88,7 +78,7 @@ TEST(Determinism, SweepsOverASceneHaveTheSamePowerInAnyOrder) {
   const auto scenes = town();
   const test::Cockpit cockpit(configuration, terrain::built_in_hills());
   const auto power_of = [&](bool backward) {
-    const auto algorithm = rbm::make_algorithm(configuration);
+    rbm::Beam algorithm(configuration);
     std::vector<std::vector<float>> power(120, std::vector<float>(480));
     for (std::size_t i = 0; i < power.size(); ++i) {
       const std::size_t sweep = backward ? power.size() - 1 - i : i;
@@ -97,7 +87,7 @@ TEST(Determinism, SweepsOverASceneHaveTheSamePowerInAnyOrder) {
                                             geo::Bearing::degrees(-30.0 + 0.55 * static_cast<double>(sweep)),
                                             geo::Angle::degrees(-60.0),
                                             geo::Length::nautical_miles(2.0)};
-      algorithm->measure(geometry, {cockpit.terrain, scenes.get()}, power[sweep]);
+      algorithm.measure(geometry, {cockpit.terrain, scenes.get()}, power[sweep]);
     }
     return power;
   };

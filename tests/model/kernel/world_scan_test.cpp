@@ -4,7 +4,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "model/kernel/sweep_chain.hpp"
-#include "model/rbm/sub_beams.hpp"
+#include "model/rbm/beam.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 
 namespace yars::model::kernel {
@@ -63,43 +63,6 @@ TEST(WorldScan, IsTheSameLiveAndOffline) {
   const auto hashes = offline_hashes(configuration, cockpit, live[0].sim_time_ns);
   ASSERT_EQ(hashes.size(), 182U);
   for (std::size_t i = 0; i < hashes.size(); ++i) ASSERT_EQ(live[i].hash, hashes[i]) << i;
-}
-
-TEST(WorldScan, SweepsThatShareARayAreTheSameLiveAndOffline) {
-  for (int sharing = 2; sharing <= radar::kMaxSweepsPerRay; ++sharing) {
-    radar::RadarConfiguration configuration = world_with_rain_jammer_and_mover();
-    configuration.fidelity.algorithm = radar::Algorithm::standard;
-    configuration.fidelity.sweeps_per_ray = sharing;
-    test::Cockpit cockpit(configuration, terrain::built_in_hills());
-    const auto live = cockpit.run(320);
-    ASSERT_GE(live.size(), 182U);
-    const auto hashes = offline_hashes(configuration, cockpit, live[0].sim_time_ns);
-    ASSERT_EQ(hashes.size(), 182U);
-    for (std::size_t i = 0; i < hashes.size(); ++i) ASSERT_EQ(live[i].hash, hashes[i]) << sharing << ' ' << i;
-  }
-}
-
-// The ray of two sweeps is that of one sweep twice as wide.
-TEST(WorldScan, SweepsThatShareARayHaveItsPower) {
-  radar::RadarConfiguration configuration;
-  test::Cockpit cockpit(configuration, terrain::built_in_hills());
-  configuration.fidelity.sweeps_per_ray = 2;
-  OfflineScan scan(configuration, request_of(cockpit.tick, 0), 1);
-  scan.run(cockpit.terrain);
-  const auto algorithm = rbm::make_algorithm(configuration);
-  const std::size_t samples = rbm::sample_count(configuration);
-  std::vector<float> power(samples);
-  double lit = 0.0;
-  for (std::size_t sweep = 0; sweep < scan.headers().size(); ++sweep) {
-    SweepHeader both = scan.headers()[sweep / 2 * 2];
-    both.right = scan.headers()[sweep / 2 * 2 + 1].right;
-    algorithm->measure(geometry_of(both), cockpit.terrain, power);
-    for (std::size_t i = 0; i < samples; ++i) {
-      ASSERT_NEAR(scan.power()[sweep * samples + i], power[i], 1e-5F * power[i] + 1e-7F) << sweep << ' ' << i;
-      lit += static_cast<double>(power[i]);
-    }
-  }
-  EXPECT_GT(lit, 1.0);
 }
 
 TEST(WorldScan, ChangesWithTheChannelTheTimeAndTheRain) {

@@ -8,9 +8,9 @@
 
 #include "model/kernel/scan_state.hpp"
 #include "model/physics/atmosphere.hpp"
+#include "model/rbm/beam.hpp"
 #include "model/rbm/emitters.hpp"
 #include "model/rbm/standard.hpp"
-#include "model/rbm/sub_beams.hpp"
 #include "tests/model/made_up_objects.hpp"
 #include "tests/model/physics/gas_layers.hpp"
 #include "tests/model/physics/ground.hpp"
@@ -159,8 +159,8 @@ TEST(Gases, AttenuateGroundShipsAndRainEqually) {
       with.fidelity.algorithm = algorithm;
       const radar::RadarConfiguration no_gases = without_gases(with);
       std::vector<float> attenuated(480), clear(480);
-      make_algorithm(with)->measure(geometry, plain, attenuated);
-      make_algorithm(no_gases)->measure(geometry, plain, clear);
+      Beam(with).measure(geometry, plain, attenuated);
+      Beam(no_gases).measure(geometry, plain, clear);
       const physics::GasPath path(with);
       for (const std::size_t i : {100U, 359U, 360U, 470U}) {
         const double distance_m = (static_cast<double>(i) + 0.5) * geometry.range.metres() / 480.0;
@@ -213,8 +213,8 @@ std::vector<double> loss_db(const radar::RadarConfiguration& configuration, cons
                             const terrain::TerrainView& ground, const scene::SceneView* scenes) {
   const std::size_t count = sample_count(configuration);
   std::vector<float> attenuated(count), clear(count);
-  make_algorithm(configuration)->measure(geometry, {ground, scenes, true, {}}, attenuated);
-  make_algorithm(without_gases(configuration))->measure(geometry, {ground, scenes, true, {}}, clear);
+  Beam(configuration).measure(geometry, {ground, scenes, true, {}}, attenuated);
+  Beam(without_gases(configuration)).measure(geometry, {ground, scenes, true, {}}, clear);
   std::vector<double> found;
   for (std::size_t i = 0; i < count; ++i)
     found.push_back(clear[i] > 0.0F
@@ -231,7 +231,6 @@ TEST(Gases, AttenuateTheHrmPpiByTheirIntegral) {
       configuration.fidelity.algorithm = algorithm;
       configuration.fidelity.pulse_smear = false;
       physics::SweepGeometry geometry = test::geometry_north(6000.0, 80.0 * kNauticalMile_m);
-      geometry.slice.sharpened = true;
       const terrain::AnalyticTerrain plain(terrain::flat(ground_m));
       const double radius_m =
           physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth).radius_m();
@@ -264,8 +263,8 @@ TEST(Gases, AttenuateObjectsOfScenesByTheirIntegral) {
           physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth).radius_m();
       radar::RadarConfiguration no_gases = without_gases(configuration);
       std::vector<float> with(480), without(480);
-      make_algorithm(no_gases)->measure(geometry, {terrain::AnalyticTerrain(ground), scene.get(), true, {}}, with);
-      make_algorithm(no_gases)->measure(geometry, {terrain::AnalyticTerrain(ground), nullptr, true, {}}, without);
+      Beam(no_gases).measure(geometry, {terrain::AnalyticTerrain(ground), scene.get(), true, {}}, with);
+      Beam(no_gases).measure(geometry, {terrain::AnalyticTerrain(ground), nullptr, true, {}}, without);
       const std::vector<double> found = loss_db(configuration, geometry, terrain::AnalyticTerrain(ground), scene.get());
       int hall_samples = 0;
       for (std::size_t i = 0; i < found.size(); ++i) {

@@ -21,7 +21,7 @@ inline radar::RadarConfiguration bare_configuration(int samples) {
   configuration.fidelity.samples = samples;
   configuration.fidelity.earth = radar::EarthModel::flat;
   configuration.fidelity.noise = false;
-  configuration.fidelity.azimuth_smear = false;
+  configuration.fidelity.sub_beams = 1;
   configuration.fidelity.pulse_smear = false;
   configuration.fidelity.beam = radar::BeamPattern::hard_edge;
   configuration.antenna.elevation_beamwidth_deg = 180.0;

@@ -8,6 +8,7 @@
 
 #include "model/kernel/tick_inputs.hpp"
 #include "model/physics/environment.hpp"
+#include "model/rbm/beam.hpp"
 #include "tests/model/physics/decibels.hpp"
 #include "tests/model/physics/ground.hpp"
 
@@ -34,9 +35,9 @@ radar::RadarConfiguration with(const radar::Mover& mover) {
 
 std::vector<float> power_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& geometry,
                             const terrain::AnalyticTerrain::Height& height) {
-  Reference reference(configuration);
+  rbm::Beam beam(configuration);
   std::vector<float> power(1000);
-  reference.measure(geometry, terrain::AnalyticTerrain(height), power);
+  beam.measure(geometry, terrain::AnalyticTerrain(height), power);
   return power;
 }
 

@@ -10,8 +10,8 @@
 #include "lib/radar/configuration.hpp"
 #include "model/physics/ray.hpp"
 #include "model/rbm/algorithm.hpp"
+#include "model/rbm/beam.hpp"
 #include "model/rbm/emitters.hpp"
-#include "model/rbm/sub_beams.hpp"
 #include "model/terrain/sampling/cell_view.hpp"
 #include "tests/lib/simd/vector_targets.hpp"
 #include "tests/model/terrain/sampling/rough_cell.hpp"
@@ -51,13 +51,13 @@ void expect_dark_behind(const terrain::TerrainView& view, physics::SweepGeometry
       radar::RadarConfiguration configuration;
       configuration.fidelity = *radar::fidelity_preset(preset);
       configuration.fidelity.sub_beams = 1;
-      const auto algorithm = make_algorithm(configuration);
+      Beam algorithm(configuration);
       const std::size_t count = sample_count(configuration);
       std::vector<float> power(count);
       std::vector<std::uint8_t> lit(count);
       geometry.range = geo::Length::nautical_miles(range_nm);
-      algorithm->measure(geometry, view, power);
-      algorithm->lit(lit);
+      algorithm.measure(geometry, view, power);
+      algorithm.lit(lit);
       for (std::size_t i = 0; i < count; ++i) {
         const double miles = (static_cast<double>(i) + 0.5) * range_nm / static_cast<double>(count);
         const bool before = miles > 1.0 && miles < wall_nm - 0.15;
@@ -120,9 +120,9 @@ TEST_F(LoneWall, HidesAShipBehindIt) {
       configuration.fidelity.sub_beams = 1;
       const std::size_t count = sample_count(configuration);
       std::vector<float> with(count), without(count);
-      make_algorithm(configuration)->measure(geometry(range_nm), view_, without);
+      Beam(configuration).measure(geometry(range_nm), view_, without);
       configuration.world.movers.push_back({"ship", behind(0.2), 0.0, 0.0, 1.0e9, 6.0});
-      make_algorithm(configuration)->measure(geometry(range_nm), view_, with);
+      Beam(configuration).measure(geometry(range_nm), view_, with);
       EXPECT_EQ(with, without) << preset << ", " << range_nm << " NM";
     }
 }

@@ -1,6 +1,4 @@
 // Return of scene objects in a sweep: one object against the radar equation, many objects against the sum of each.
-#include "model/rbm/scene_return.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -8,8 +6,9 @@
 #include <numeric>
 
 #include "model/physics/reflectivity.hpp"
+#include "model/rbm/beam.hpp"
+#include "model/rbm/point_return.hpp"
 #include "model/rbm/standard.hpp"
-#include "model/rbm/sub_beams.hpp"
 #include "tests/model/made_up_objects.hpp"
 #include "tests/model/physics/decibels.hpp"
 #include "tests/model/physics/ground.hpp"
@@ -36,10 +35,10 @@ geo::GeoPoint north_by(double distance_m, double bearing_deg = 0.0) {
 std::vector<float> power_of(const radar::RadarConfiguration& configuration, const physics::SweepGeometry& geometry,
                             const scene::SceneView* scenes,
                             const terrain::AnalyticTerrain::Height& height = terrain::flat(0.0)) {
-  const auto algorithm = make_algorithm(configuration);
+  Beam algorithm(configuration);
   std::vector<float> power(kSceneSamples);
   const terrain::AnalyticTerrain ground(height);
-  algorithm->measure(geometry, {ground, scenes}, power);
+  algorithm.measure(geometry, {ground, scenes}, power);
   return power;
 }
 
@@ -123,10 +122,8 @@ TEST(SceneReturn, IsTheSameWithSeveralRaysAcrossTheBeam) {
 
 TEST(SceneReturn, IsInOneCellOfASharpenedBeamAndStrongerByTheSharpening) {
   physics::SweepGeometry geometry = test::geometry_north(kSceneAltitude_m, kSceneRange_m);
-  geometry.slice.sharpened = true;
   const double half_rad = 0.05 * geo::kRadiansPerDegree;
-  geometry.slice.left_rad = -half_rad;
-  geometry.slice.right_rad = half_rad;
+  geometry.sharpened_cell = physics::AzimuthInterval{-half_rad, half_rad};
   const auto scene_at = [](double bearing_deg) { return test::scene_of({Building{}}, north_by(20020.0, bearing_deg)); };
   const double real = sum_of(added_by(base_configuration(), *scene_at(0.0)));
   const double beam_deg = base_configuration().antenna.azimuth_beamwidth_deg;

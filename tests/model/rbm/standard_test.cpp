@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "model/physics/polynomials-inl.hpp"
+#include "model/rbm/beam.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tests/lib/simd/vector_targets.hpp"
 #include "tests/model/physics/ground.hpp"
@@ -40,6 +41,12 @@ TEST(VectorPolynomials, AreWithinTheirStatedErrors) {
   }
 }
 
+Beam one_ray(radar::RadarConfiguration configuration, radar::Algorithm algorithm) {
+  configuration.fidelity.sub_beams = 1;
+  configuration.fidelity.algorithm = algorithm;
+  return Beam(configuration);
+}
+
 constexpr float kDarkPower = 1e-8F;  // [full scale] samples up to this power are dark; far below the noise
 
 struct Difference {
@@ -52,8 +59,8 @@ struct Difference {
 Difference difference(radar::RadarConfiguration configuration, const physics::SweepGeometry& first,
                       const terrain::TerrainView& terrain) {
   configuration.fidelity.noise = false;
-  Reference reference(configuration);
-  Standard standard(configuration);
+  Beam reference = one_ray(configuration, radar::Algorithm::reference);
+  Beam standard = one_ray(configuration, radar::Algorithm::standard);
   const std::size_t count = sample_count(configuration);
   std::vector<float> exact(count), fast(count);
   std::vector<std::uint8_t> exact_video(count), fast_video(count);
@@ -184,10 +191,10 @@ TEST(Standard, AShipNearerThanTheFirstGroundSampleLeavesTheAltitudeHoleDark) {
   const physics::SweepGeometry geometry = geometry_from(test::kMidLatitude, 200.0, 10.0);
   const std::size_t count = sample_count(configuration);
   std::vector<float> exact(count), fast(count), without(count);
-  Reference(configuration).measure(geometry, sea, exact);
-  Standard(configuration).measure(geometry, sea, fast);
+  one_ray(configuration, radar::Algorithm::reference).measure(geometry, sea, exact);
+  one_ray(configuration, radar::Algorithm::standard).measure(geometry, sea, fast);
   configuration.world.movers.clear();
-  Standard(configuration).measure(geometry, sea, without);
+  one_ray(configuration, radar::Algorithm::standard).measure(geometry, sea, without);
   EXPECT_NE(fast, without) << "the ship returns";
   ASSERT_EQ(exact[100], 0.0F) << "a sample in the altitude hole";
   for (std::size_t i = 0; i < count; ++i) {

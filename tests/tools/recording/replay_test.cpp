@@ -142,24 +142,6 @@ TEST(Replay, ContinuesWithTheStatusFromWhichARestartedModelResumed) {
   }
 }
 
-TEST(Replay, ComputesSweepsThatShareARayWhereverTheRecordingBegins) {
-  for (int sharing = 1; sharing <= radar::kMaxSweepsPerRay; ++sharing)
-    for (int before = 400; before < 404; ++before) {
-      SCOPED_TRACE(std::to_string(sharing) + " sweeps a ray, " + std::to_string(before) + " ticks before");
-      radar::RadarConfiguration configuration;
-      configuration.fidelity.sweeps_per_ray = sharing;
-      Recorded recorded(nullptr, nullptr, configuration);
-      recorded.run_before_the_recorder(before);
-      recorded.run(100);
-      recorded.restart();
-      recorded.run(300);
-      EXPECT_GT(recorded.comparison().equal(), 300U);
-      EXPECT_EQ(recorded.comparison().different(), 0U);
-      EXPECT_LE(recorded.comparison().missing(),
-                static_cast<std::uint64_t>(sharing + 2));  // the first are not compared
-    }
-}
-
 // Sweeps with sub-beams use rays of earlier sweeps. These were measured from other positions of the aircraft.
 TEST(Replay, ComputesSweepsWithSubBeamsInFlightWhereverTheRecordingBegins) {
   for (const int before : {300, 320, 341, 360}) {

@@ -146,7 +146,7 @@ TEST(Trade, RefusesBadInputWithAMessageOfOneLine) {
   for (const char* sweep :
        {"", "samples", "samples=", "samples=0", "samples=4097", "samples=12x", "samples=120,,240", "sample=5",
         "geodesicKnots=1", "geodesicKnots=10", "interpolation=best", "postsPerSample=-1", "postsPerSample=nan",
-        "earth=disc", "subBeams=16", "sweepsPerRay=5", "crossTrackSlope=1", "beam=hard", "mapSize=480"}) {
+        "earth=disc", "subBeams=16", "sweepsPerRay=2", "crossTrackSlope=1", "beam=hard", "mapSize=480"}) {
     const auto found = knob_candidates(sweep, base, Subject::scan);
     ASSERT_FALSE(found) << sweep;
     expect_refused(found.error());

@@ -1,6 +1,6 @@
 // Sub-beams (several rays across the beam): rays that successive sweeps share, rays of point targets, and the ray that
 // determines light and shadow.
-#include "model/rbm/sub_beams.hpp"
+#include "model/rbm/beam.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,10 +17,10 @@
 namespace yars::model::rbm {
 namespace {
 
-constexpr std::size_t kSamples = 240;
+constexpr std::size_t kBeamSamples = 240;
 
 radar::RadarConfiguration with_rays(int rays, radar::Algorithm algorithm = radar::Algorithm::reference) {
-  radar::RadarConfiguration configuration = test::bare_configuration(static_cast<int>(kSamples));
+  radar::RadarConfiguration configuration = test::bare_configuration(static_cast<int>(kBeamSamples));
   configuration.fidelity.algorithm = algorithm;
   configuration.fidelity.sub_beams = rays;
   return configuration;
@@ -41,11 +41,11 @@ terrain::AnalyticTerrain wall_to_the_west() {
 }
 
 std::vector<std::uint8_t> lit_by(int rays, double azimuth_deg) {
-  const auto algorithm = make_algorithm(with_rays(rays));
-  std::vector<float> power(kSamples);
-  algorithm->measure(towards(azimuth_deg), wall_to_the_west(), power);
-  std::vector<std::uint8_t> lit(kSamples);
-  algorithm->lit(lit);
+  Beam algorithm(with_rays(rays));
+  std::vector<float> power(kBeamSamples);
+  algorithm.measure(towards(azimuth_deg), wall_to_the_west(), power);
+  std::vector<std::uint8_t> lit(kBeamSamples);
+  algorithm.lit(lit);
   return lit;
 }
 
@@ -65,61 +65,54 @@ TEST(SubBeams, HaveTheShadowOfTheRayNearestTheBeamsCentre) {
 TEST(SubBeams, HaveTheWeightedPowerOfTheirRays) {
   const terrain::AnalyticTerrain hills{terrain::built_in_hills()};
   for (const double azimuth_deg : {0.1, 40.0, 359.83}) {
-    std::vector<float> power(kSamples), ray(kSamples);
-    make_algorithm(with_rays(15))->measure(towards(azimuth_deg), hills, power);
-    std::vector<double> sum(kSamples);
+    std::vector<float> power(kBeamSamples), ray(kBeamSamples);
+    Beam(with_rays(15)).measure(towards(azimuth_deg), hills, power);
+    std::vector<double> sum(kBeamSamples);
     double weights = 0.0;
     for (int number = -10; number <= 1500; ++number) {
       const double offset = (0.25 * number - azimuth_deg) / 2.5;  // [beamwidths] the spacing of rays is 0.25 degrees
       if (!(offset >= -0.75 && offset < 0.75)) continue;
-      make_algorithm(with_rays(1))->measure(towards(0.25 * number), hills, ray);
+      Beam(with_rays(1)).measure(towards(0.25 * number), hills, ray);
       const double weight = std::exp(-physics::kTwoWayExponent * offset * offset);
       weights += weight;
-      for (std::size_t i = 0; i < kSamples; ++i) sum[i] += weight * static_cast<double>(ray[i]);
+      for (std::size_t i = 0; i < kBeamSamples; ++i) sum[i] += weight * static_cast<double>(ray[i]);
     }
-    for (std::size_t i = 0; i < kSamples; ++i)
+    for (std::size_t i = 0; i < kBeamSamples; ++i)
       EXPECT_NEAR(power[i], sum[i] / weights, 1e-5 * sum[i] / weights) << azimuth_deg << ' ' << i;
   }
 }
 
-// An algorithm of one ray that notes how it is called. Its power is 1. It finds points at one azimuth.
+// An algorithm of one ray that notes how it is called. Its power is 1.
 class Notes : public Algorithm {
  public:
-  struct Calls {
-    std::vector<physics::SweepGeometry> measured;
-    double points_deg = std::nan("");
-  };
-  explicit Notes(Calls& calls) : calls_(&calls) {}
+  explicit Notes(std::vector<physics::SweepGeometry>& measured) : measured_(&measured) {}
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& /*environment*/,
                       std::span<float> power) override {
-    calls_->measured.push_back(geometry);
+    measured_->push_back(geometry);
     std::fill(power.begin(), power.end(), 1.0F);
     return 3;
   }
   void lit(std::span<std::uint8_t> /*mask*/) const override {}
-  bool has_points(const physics::SweepGeometry& geometry, const physics::Environment& /*environment*/) override {
-    const double offset_rad = (geo::Bearing::degrees(calls_->points_deg) - geometry.azimuth).radians();
-    return offset_rad >= geometry.slice.left_rad && offset_rad < geometry.slice.right_rad;
-  }
+  bool has_points() const override { return false; }
   void form_video(const physics::PowerWindow& /*window*/, geo::Length /*range*/, int /*gain*/,
                   const physics::NoiseKey& /*key*/, std::span<std::uint8_t> /*video*/) override {}
 
  private:
-  Calls* calls_;
+  std::vector<physics::SweepGeometry>* measured_;
 };
 
 class SubBeamsOverNotes : public ::testing::Test {
  protected:
   // Number of rays that the sweep measures.
   std::size_t rays_of(const physics::SweepGeometry& geometry) {
-    calls.measured.clear();
-    std::vector<float> power(kSamples);
-    pending = algorithm.measure(geometry, flat, power);
+    measured.clear();
+    std::vector<float> power(kBeamSamples);
+    pending = beam.measure(geometry, flat, power);
     for (const float value : power) EXPECT_NEAR(value, 1.0F, 1e-6F);
-    return calls.measured.size();
+    return measured.size();
   }
-  Notes::Calls calls;
-  SubBeams algorithm{std::make_unique<Notes>(calls), with_rays(15)};
+  std::vector<physics::SweepGeometry> measured;
+  Beam beam{std::make_unique<Notes>(measured), with_rays(15)};
   terrain::AnalyticTerrain flat{terrain::flat(0.0)};
   std::size_t pending = 0;
 };
@@ -133,21 +126,21 @@ TEST_F(SubBeamsOverNotes, MeasureOnlyTheRaysThatTheBeamReaches) {
   EXPECT_EQ(rays_of(towards(0.25)), 3U) << "across north";
   EXPECT_EQ(rays_of(towards(359.75)), 2U) << "back";
   EXPECT_EQ(rays_of(towards(90.0)), 15U);
-  for (const physics::SweepGeometry& ray : calls.measured) EXPECT_EQ(std::remainder(ray.azimuth.degrees(), 0.25), 0.0);
+  for (const physics::SweepGeometry& ray : measured) EXPECT_EQ(std::remainder(ray.azimuth.degrees(), 0.25), 0.0);
 }
 
 TEST_F(SubBeamsOverNotes, MeasureRaysAgainInTheNextPassAndWhenTheGeometryIsAnother) {
   physics::SweepGeometry geometry = towards(10.0);
   EXPECT_EQ(rays_of(geometry), 15U);
-  algorithm.begin_pass();
+  beam.begin_pass();
   EXPECT_EQ(rays_of(geometry), 15U);
   geometry.elevation = geo::Angle::degrees(1.0);
   EXPECT_EQ(rays_of(geometry), 15U) << "elevation";
   geometry.range = geo::Length::metres(20000.0);
   EXPECT_EQ(rays_of(geometry), 15U) << "range";
-  geometry.sim_time = geo::Duration::seconds(0.9 * SubBeams::kRayLifetime.seconds());
+  geometry.sim_time = geo::Duration::seconds(0.9 * Beam::kRayLifetime.seconds());
   EXPECT_EQ(rays_of(geometry), 0U);
-  geometry.sim_time = geo::Duration::seconds(1.1 * SubBeams::kRayLifetime.seconds());
+  geometry.sim_time = geo::Duration::seconds(1.1 * Beam::kRayLifetime.seconds());
   EXPECT_EQ(rays_of(geometry), 15U) << "lifetime";
   // Half a sample is 41.7 m.
   geometry.apex = geo::geodesic_direct(geometry.apex, geo::Bearing::degrees(60.0), geo::Length::metres(41.0));
@@ -171,22 +164,6 @@ TEST_F(SubBeamsOverNotes, MeasureEachRayOnceInFlight) {
   EXPECT_NEAR(static_cast<double>(rays), 15.0 + 0.55 * 181.0 / 0.25, 1.0);
 }
 
-TEST_F(SubBeamsOverNotes, MeasureOneRayInEachSweepWithAPointInTheBeam) {
-  EXPECT_EQ(rays_of(towards(10.0)), 15U);
-  for (const double points_deg : {6.0, 8.0, 8.6, 10.0, 11.2, 13.0}) {
-    SCOPED_TRACE(points_deg);
-    calls.points_deg = points_deg;
-    for (int sweep = 0; sweep < 2; ++sweep) {
-      ASSERT_EQ(rays_of(towards(10.0)), 1U);
-      const physics::SweepGeometry& ray = calls.measured.front();
-      EXPECT_LT(ray.slice.left_rad, ray.slice.right_rad);
-      EXPECT_NEAR(ray.slice.beam_rad, (geo::Bearing::degrees(10.0) - ray.azimuth).radians(), 1e-12);
-    }
-  }
-  calls.points_deg = std::nan("");
-  EXPECT_EQ(rays_of(towards(10.0)), 0U) << "the rays without points are kept";
-}
-
 // Hills, a mover 10 km away, and houses.
 struct World {
   radar::RadarConfiguration configuration = with_rays(13, radar::Algorithm::standard);
@@ -208,13 +185,13 @@ struct World {
 TEST(SubBeams, OfAHoveringAircraftDoNotDependOnEarlierSweeps) {
   World world;
   world.configuration.fidelity.cross_track_slope = true;
-  const auto kept = make_algorithm(world.configuration);
+  Beam kept(world.configuration);
   for (int sweep = 0; sweep < 40; ++sweep) {
     physics::SweepGeometry geometry = towards(-8.0 + 0.549 * (sweep < 30 ? sweep : 60 - sweep));
     geometry.sim_time = geo::Duration::seconds(0.005 * sweep);
-    std::vector<float> power(kSamples), alone(kSamples);
-    kept->measure(geometry, {world.hills, world.houses.get()}, power);
-    make_algorithm(world.configuration)->measure(geometry, {world.hills, world.houses.get()}, alone);
+    std::vector<float> power(kBeamSamples), alone(kBeamSamples);
+    kept.measure(geometry, {world.hills, world.houses.get()}, power);
+    Beam(world.configuration).measure(geometry, {world.hills, world.houses.get()}, alone);
     ASSERT_EQ(power, alone) << sweep;
   }
 }
@@ -227,7 +204,7 @@ TEST(SubBeams, HaveTheSamePowerOnEveryVectorTarget) {
     std::vector<float> first;
     test::for_each_vector_target([&](const char* name) {
       std::vector<float> power(static_cast<std::size_t>(samples));
-      make_algorithm(world.configuration)->measure(towards(1.0), {world.hills, world.houses.get()}, power);
+      Beam(world.configuration).measure(towards(1.0), {world.hills, world.houses.get()}, power);
       if (first.empty()) first = power;
       EXPECT_EQ(power, first) << name << ' ' << samples;
     });
@@ -249,11 +226,11 @@ TEST(SubBeams, GiveAMoverTheGainOfItsAzimuthOffTheBeamsCentre) {
     mover.cross_section_m2 = 1e5;
     busy.world.movers.push_back(mover);
     const terrain::AnalyticTerrain flat(terrain::flat(0.0));
-    const auto with = make_algorithm(busy), without = make_algorithm(empty);
+    Beam with(busy), without(empty);
     const auto added = [&](double azimuth_deg) {
-      std::vector<float> power(kSamples), ground(kSamples);
-      with->measure(towards(azimuth_deg), flat, power);
-      without->measure(towards(azimuth_deg), flat, ground);
+      std::vector<float> power(kBeamSamples), ground(kBeamSamples);
+      with.measure(towards(azimuth_deg), flat, power);
+      without.measure(towards(azimuth_deg), flat, ground);
       return sum_of(power) - sum_of(ground);
     };
     const double most = added(0.0);
@@ -261,6 +238,41 @@ TEST(SubBeams, GiveAMoverTheGainOfItsAzimuthOffTheBeamsCentre) {
     for (const double off : {-1.2, -0.8, -0.5, -0.26, 0.1, 0.3, 0.6, 0.74, 0.76, 1.1})
       EXPECT_NEAR(added(off * beam_deg) / most, std::exp(-physics::kTwoWayExponent * off * off), 2e-3)
           << rays << ' ' << off;
+  }
+}
+
+// In flight a ray may have been measured 12 m behind the aircraft and 5 m above or below it. What lies on the ground is
+// as bright as over new rays.
+TEST(SubBeams, OfAFlyingAircraftLightPointsAsNewRaysDo) {
+  radar::RadarConfiguration empty = with_rays(4, radar::Algorithm::standard), busy = empty;
+  const geo::GeoPoint place =
+      geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(1.0), geo::Length::metres(10e3));
+  radar::Mover mover;
+  mover.position = place;
+  mover.height_m = 2.0;
+  mover.cross_section_m2 = 1e5;
+  busy.world.movers.push_back(mover);
+  const terrain::AnalyticTerrain flat(terrain::flat(0.0));
+  const auto house = test::scene_of({test::Building{}}, place);
+  for (const double climb_mps : {-100.0, 0.0, 100.0}) {
+    Beam with(busy), without(empty);
+    physics::SweepGeometry geometry = towards(-2.0);
+    for (int sweep = 0; sweep < 14; ++sweep) {
+      geometry.azimuth = geo::Bearing::degrees(-2.0 + 0.5 * sweep);
+      geometry.apex = geo::geodesic_direct(geometry.apex, geo::Bearing::degrees(0.0), geo::Length::metres(1.25));
+      geometry.altitude = geo::AltitudeMsl::metres(geometry.altitude.metres() + 0.005 * climb_mps);
+      geometry.sim_time = geo::Duration::seconds(0.005 * sweep);
+      const auto added = [&](Beam& points, Beam& none) {
+        std::vector<float> power(kBeamSamples), ground(kBeamSamples);
+        points.measure(geometry, {flat, house.get()}, power);
+        none.measure(geometry, flat, ground);
+        return sum_of(power) - sum_of(ground);
+      };
+      Beam new_with(busy), new_without(empty);
+      const double expected = added(new_with, new_without);
+      EXPECT_GT(expected, 0.0);
+      EXPECT_NEAR(added(with, without), expected, 1e-3 * expected) << climb_mps << ' ' << sweep;
+    }
   }
 }
 

@@ -1,0 +1,160 @@
+#include "model/rbm/beam.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "lib/geo/earth.hpp"
+#include "lib/radar/fidelity.hpp"
+#include "model/physics/receiver.hpp"
+#include "model/rbm/reference.hpp"
+#include "model/rbm/report_1996.hpp"
+#include "model/rbm/standard.hpp"
+
+namespace yars::model::rbm {
+
+namespace {
+// [samples] A ray is used again within this distance of the position from which it was measured.
+constexpr double kMaxMove = 0.5;
+// [rays] A number of rays around the horizon that exceeds a whole number by less than this, by rounding, is that
+// number.
+constexpr double kRounding = 1e-6;
+
+// Square of the distance between the aircraft's positions in two sweeps.
+double squared_distance_m2(const physics::SweepGeometry& from, const physics::SweepGeometry& to) {
+  constexpr double kMetresPerDegree = geo::kMeanEarthRadius_m * geo::kRadiansPerDegree;
+  const double north_m = kMetresPerDegree * (to.apex.latitude_deg - from.apex.latitude_deg);
+  const double east_m = kMetresPerDegree * geo::wrapped_degrees(to.apex.longitude_deg - from.apex.longitude_deg) *
+                        std::cos(to.apex.latitude_deg * geo::kRadiansPerDegree);
+  const double up_m = to.altitude.metres() - from.altitude.metres();
+  return north_m * north_m + east_m * east_m + up_m * up_m;
+}
+}  // namespace
+
+Beam::Beam(const physics::RadarParameters& parameters) : Beam(make_algorithm(parameters), parameters) {}
+
+Beam::Beam(std::unique_ptr<Algorithm> algorithm, const physics::RadarParameters& parameters)
+    : algorithm_(std::move(algorithm)), beamwidth_deg_(parameters.azimuth_beamwidth_deg) {
+  if (algorithm_->has_points()) points_.emplace(parameters);
+  const int count = std::clamp(parameters.fidelity.sub_beams, 1, radar::kMaxSubBeams);
+  // Rays fit into the circle, so their spacing is at most the bundle's width over their number.
+  circle_ = static_cast<int>(std::ceil(360.0 * count / (kSubBeamsWidth * beamwidth_deg_) - kRounding));
+  const std::size_t kept = count > 1 ? static_cast<std::size_t>(count) + 2 : 1;
+  rays_.reserve(kept);
+  while (rays_.size() < kept) rays_.emplace_back(sample_count(parameters));
+  beam_.reserve(rays_.size());
+  weighted_.reserve(rays_.size());
+  grounds_.reserve(rays_.size());
+}
+
+void Beam::begin_pass() {
+  for (Ray& ray : rays_) ray.current = false;
+}
+
+// Selects the rays in the beam of a sweep and their weights.
+void Beam::set_beam(geo::Bearing azimuth) {
+  const double spacing_deg = 360.0 / circle_;
+  const double half_span_deg = 0.5 * kSubBeamsWidth * beamwidth_deg_;
+  const auto offset_deg = [&](int number) { return number * spacing_deg - azimuth.degrees(); };
+  const int first = static_cast<int>(std::ceil((azimuth.degrees() - half_span_deg) / spacing_deg));
+  int last = first;
+  while (offset_deg(last + 1) < half_span_deg && last + 2 - first < static_cast<int>(rays_.size())) ++last;
+  beam_.clear();
+  double sum = 0.0;
+  for (int number = first; number <= last; ++number) {
+    const double offset = offset_deg(number) / beamwidth_deg_;
+    beam_.push_back({&ray_of(number, first, last), offset, std::exp(-physics::kTwoWayExponent * offset * offset)});
+    sum += beam_.back().weight;
+  }
+  for (Member& member : beam_) member.weight /= sum;
+}
+
+// The ray of a number: the one that is kept, else one that is not among `first` to `last`. Numbers wrap at north.
+Beam::Ray& Beam::ray_of(int number, int first, int last) {
+  const auto wrapped = [this](int any) { return (any % circle_ + circle_) % circle_; };
+  Ray* unused = &rays_.front();
+  for (Ray& ray : rays_) {
+    if (ray.number == wrapped(number)) return ray;
+    if (ray.number < 0 || wrapped(ray.number - first) > last - first) unused = &ray;
+  }
+  unused->number = wrapped(number);
+  unused->current = false;
+  return *unused;
+}
+
+bool Beam::is_current(const Ray& ray, const physics::SweepGeometry& geometry, bool with_points) const {
+  if (!ray.current || (with_points && !ray.described)) return false;
+  const physics::SweepGeometry& then = ray.ground.geometry;
+  const double max_move_m = kMaxMove * geometry.range.metres() / static_cast<double>(ray.lit.size());
+  return then.elevation.radians() == geometry.elevation.radians() && then.range.metres() == geometry.range.metres() &&
+         then.bars_above.radians() == geometry.bars_above.radians() &&
+         then.bars_below.radians() == geometry.bars_below.radians() &&
+         std::abs((geometry.sim_time - then.sim_time).seconds()) <= kRayLifetime.seconds() &&
+         squared_distance_m2(then, geometry) <= max_move_m * max_move_m;
+}
+
+void Beam::measure_ray(Ray& ray, const physics::SweepGeometry& geometry, const physics::Environment& environment,
+                       bool with_points) {
+  ray.ground.geometry = geometry;
+  ray.ground.geometry.azimuth = geo::Bearing::degrees(ray.number * (360.0 / circle_));
+  ray.pending = algorithm_->measure(ray.ground.geometry, environment, {ray.power.data(), ray.lit.size()});
+  algorithm_->lit(ray.lit);
+  ray.described = with_points;
+  if (with_points) algorithm_->describe(ray.ground);
+  ray.current = true;
+}
+
+std::size_t Beam::measure_members(const physics::SweepGeometry& geometry, const physics::Environment& environment,
+                                  bool with_points, std::span<float> power) {
+  set_beam(geometry.azimuth);
+  std::size_t pending = 0;
+  weighted_.clear();
+  for (const Member& member : beam_) {
+    if (!is_current(*member.ray, geometry, with_points)) measure_ray(*member.ray, geometry, environment, with_points);
+    pending += member.ray->pending;
+    weighted_.push_back({member.ray->power.data(), static_cast<float>(member.weight)});
+    grounds_.push_back(&member.ray->ground);
+  }
+  simd::weighted_sum(power.size(), weighted_, power.data());
+  return pending;
+}
+
+std::size_t Beam::measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
+                          std::span<float> power) {
+  const bool with_points = points_ && points_->may_return(geometry, environment);
+  std::size_t pending = 0;
+  grounds_.clear();
+  if (rays_.size() > 1) {
+    pending = measure_members(geometry, environment, with_points, power);
+  } else {
+    RayGround& ground = rays_.front().ground;
+    pending = algorithm_->measure(geometry, environment, power);
+    ground.geometry = geometry;
+    if (with_points) algorithm_->describe(ground);
+    grounds_.push_back(&ground);
+  }
+  if (with_points) points_->add(geometry, environment, grounds_, power);
+  return pending;
+}
+
+void Beam::lit(std::span<std::uint8_t> mask) const {
+  if (rays_.size() == 1) return algorithm_->lit(mask);
+  const auto off = [](const Member& member) { return std::abs(member.offset); };
+  const auto nearest =
+      std::min_element(beam_.begin(), beam_.end(), [&](const Member& a, const Member& b) { return off(a) < off(b); });
+  std::copy(nearest->ray->lit.begin(), nearest->ray->lit.end(), mask.begin());
+}
+
+std::unique_ptr<Algorithm> make_algorithm(const physics::RadarParameters& parameters) {
+  switch (parameters.algorithm) {
+    case radar::Algorithm::reference:
+      return std::make_unique<Reference>(parameters);
+    case radar::Algorithm::report_1996:
+      return std::make_unique<Report1996>(parameters);
+    case radar::Algorithm::standard:
+      break;
+  }
+  return std::make_unique<Standard>(parameters);
+}
+
+}  // namespace yars::model::rbm
