@@ -1,8 +1,8 @@
 #include "model/kernel/offline_scan.hpp"
 
 #include <algorithm>
+#include <numeric>
 
-#include "lib/radar/fidelity.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/physics/receiver.hpp"
@@ -10,16 +10,9 @@
 namespace yars::model::kernel {
 
 namespace {
-// Sweeps of a piece: 20 to 100 us. A thread waits about so long at the end of a scan. With fewer, threads meet more
-// often at the queues.
-constexpr std::size_t kSweepsPerPiece = 4;
-// The same with sub-beams, which the sweeps of a piece share: the first sweep of a piece measures all of its rays if
-// the thread has measured another piece before.
-constexpr std::size_t kSweepsPerPieceWithSubBeams = 12;
-
-std::size_t sweeps_per_piece(const radar::Fidelity& fidelity) {
-  return fidelity.sub_beams > 1 ? kSweepsPerPieceWithSubBeams : kSweepsPerPiece;
-}
+// Sweeps of a piece: 20 to 100 us. A thread waits about so long at the end of a scan. With fewer, threads meet more often
+// at the queues, and more often measure a ray that another thread has measured, too.
+constexpr std::size_t kSweepsPerPiece = 6;
 }  // namespace
 
 OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanRequest& request, int threads)
@@ -39,7 +32,7 @@ OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanR
   power_.assign(positions_.size() * samples_, 0.0F);
   sweeps_.resize(positions_.size());
   ready_ = std::vector<std::atomic<std::uint8_t>>(
-      std::max(positions_.size() / sweeps_per_piece(parameters.fidelity), std::size_t{1}));
+      std::max(positions_.size() / kSweepsPerPiece, std::size_t{1}));
 }
 
 void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, const ScanRequest& request) {
@@ -55,14 +48,28 @@ void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, co
   }
 }
 
-// The assignment of sweeps to threads does not change results, because each sweep is measured from the inputs alone.
-void OfflineScan::measure_piece(std::size_t piece, std::size_t thread, const physics::Environment& environment) {
-  for (std::size_t sweep = first_of(piece); sweep < first_of(piece + 1); ++sweep) {
-    const physics::SweepGeometry geometry = geometry_of(positions_[sweep]);
-    jamming_[sweep] = strobes_[thread].level(geometry, environment.terrain);
-    const std::size_t pending = beams_[thread].measure(geometry, environment, power_of(sweep));
-    flags_[sweep] = pending > 0 || !environment.scenes_ready ? databuffer::kSweepNotReady : 0U;
+// Measures pieces as long as there are any, and calls `measured` after each. The assignment of sweeps to threads and their
+// order do not change results, because each sweep is measured from the inputs alone. Successive sweeps share rays: a
+// thread takes its own pieces from left to right, and those of other threads from right to left.
+template <class Measured>
+void OfflineScan::measure_pieces(std::size_t thread, const physics::Environment& environment,
+                                 const Measured& measured) {
+  int before = -1;
+  for (int piece = to_measure_.take(thread); piece >= 0; piece = to_measure_.take(thread)) {
+    const std::size_t first = first_of(static_cast<std::size_t>(piece));
+    const std::size_t end = first_of(static_cast<std::size_t>(piece) + 1);
+    const bool leftwards = before >= 0 && piece != before + 1;
+    for (std::size_t i = first; i < end; ++i) measure_sweep(leftwards ? end - 1 - (i - first) : i, thread, environment);
+    before = piece;
+    measured(static_cast<std::size_t>(piece));
   }
+}
+
+void OfflineScan::measure_sweep(std::size_t sweep, std::size_t thread, const physics::Environment& environment) {
+  const physics::SweepGeometry geometry = geometry_of(positions_[sweep]);
+  jamming_[sweep] = strobes_[thread].level(geometry, environment.terrain);
+  const std::size_t pending = beams_[thread].measure(geometry, environment, power_of(sweep));
+  flags_[sweep] = pending > 0 || !environment.scenes_ready ? databuffer::kSweepNotReady : 0U;
 }
 
 void OfflineScan::form_sweep_video(std::size_t sweep, std::size_t thread) {
@@ -94,12 +101,16 @@ void OfflineScan::begin_pass() {
   for (rbm::Beam& beam : beams_) beam.begin_pass();
 }
 
+std::size_t OfflineScan::rays() const {
+  return std::accumulate(beams_.begin(), beams_.end(), std::size_t{0},
+                         [](std::size_t sum, const rbm::Beam& beam) { return sum + beam.rays(); });
+}
+
 void OfflineScan::measure(const physics::Environment& environment) {
   begin_pass();
   to_measure_.begin(pieces());
   workers_.run([&](std::size_t thread) {
-    for (int piece = to_measure_.take(thread); piece >= 0; piece = to_measure_.take(thread))
-      measure_piece(static_cast<std::size_t>(piece), thread, environment);
+    measure_pieces(thread, environment, [](std::size_t) {});
   });
 }
 
@@ -110,13 +121,11 @@ void OfflineScan::run(const physics::Environment& environment) {
   to_measure_.begin(pieces());
   to_form_.begin(pieces());
   workers_.run([&](std::size_t thread) {
-    for (int taken = to_measure_.take(thread); taken >= 0; taken = to_measure_.take(thread)) {
-      const auto piece = static_cast<std::size_t>(taken);
-      measure_piece(piece, thread, environment);
+    measure_pieces(thread, environment, [&](std::size_t piece) {
       if (piece > 0) form_if_ready(piece - 1, thread);
       form_if_ready(piece, thread);
       if (piece + 1 < pieces()) form_if_ready(piece + 1, thread);
-    }
+    });
     for (int piece = to_form_.take(thread); piece >= 0; piece = to_form_.take(thread))
       form_if_ready(static_cast<std::size_t>(piece), thread);
   });

@@ -50,6 +50,8 @@ class OfflineScan {
   // Geometry and settings of each sweep. power() has the power of all samples, sweep after sweep.
   std::span<const SweepHeader> headers() const { return positions_; }
   std::span<const float> power() const { return power_; }
+  // Number of rays of the last scan, which sweeps share. Threads measure some rays at the ends of their pieces twice.
+  std::size_t rays() const;
 
  private:
   std::span<float> power_of(std::size_t sweep) { return {power_.data() + sweep * samples_, samples_}; }
@@ -58,7 +60,9 @@ class OfflineScan {
   std::size_t first_of(std::size_t piece) const { return piece * positions_.size() / pieces(); }
   std::size_t pieces() const { return ready_.size(); }
   void begin_pass();
-  void measure_piece(std::size_t piece, std::size_t thread, const physics::Environment& environment);
+  template <class Measured>
+  void measure_pieces(std::size_t thread, const physics::Environment& environment, const Measured& measured);
+  void measure_sweep(std::size_t sweep, std::size_t thread, const physics::Environment& environment);
   void form_if_ready(std::size_t piece, std::size_t thread);
   void form_sweep_video(std::size_t sweep, std::size_t thread);
   void position_sweeps(const physics::RadarParameters& parameters, const ScanRequest& request);

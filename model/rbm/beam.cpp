@@ -49,6 +49,7 @@ Beam::Beam(std::unique_ptr<Algorithm> algorithm, const physics::RadarParameters&
 
 void Beam::begin_pass() {
   for (Ray& ray : rays_) ray.current = false;
+  measured_ = 0;
 }
 
 // Selects the rays in the beam of a sweep and their weights.
@@ -102,6 +103,7 @@ void Beam::measure_ray(Ray& ray, const physics::SweepGeometry& geometry, const p
   ray.described = with_points;
   if (with_points) algorithm_->describe(ray.ground);
   ray.current = true;
+  ++measured_;
 }
 
 std::size_t Beam::measure_members(const physics::SweepGeometry& geometry, const physics::Environment& environment,
@@ -129,6 +131,7 @@ std::size_t Beam::measure(const physics::SweepGeometry& geometry, const physics:
   } else {
     RayGround& ground = rays_.front().ground;
     pending = algorithm_->measure(geometry, environment, power);
+    ++measured_;
     ground.geometry = geometry;
     if (with_points) algorithm_->describe(ground);
     grounds_.push_back(&ground);

@@ -50,6 +50,8 @@ class Beam {
   // As Algorithm::measure(), with point targets. Returns the sum over the rays.
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power);
+  // Number of rays measured since the begin of the pass.
+  std::size_t rays() const { return measured_; }
   // As Algorithm::lit(), of the ray nearest the beam's centre.
   void lit(std::span<std::uint8_t> mask) const;
   // As Algorithm::form_video().
@@ -91,6 +93,7 @@ class Beam {
   std::vector<Member> beam_;  // from left to right
   std::vector<simd::WeightedRay> weighted_;
   std::vector<const RayGround*> grounds_;  // of beam_
+  std::size_t measured_ = 0;
 };
 
 // Makes the algorithm that the fidelity names.

@@ -280,6 +280,7 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
   const Times times = run_scans(work, {*terrain, scene.get()}, options.repeat, begin_ms);
 
   nlohmann::ordered_json line = summary(work.sweeps(), times, index_ms);
+  line["rays"] = work.rays();
   line["terrain_bytes"] = terrain->resident_bytes();
   if (scene) line["scene_bytes"] = scene->resident_bytes();
   line["threads"] = options.threads;
