@@ -10,8 +10,8 @@
 namespace yars::model::kernel {
 
 namespace {
-// Sweeps of a piece: 20 to 100 us. A thread waits about so long at the end of a scan. With fewer, threads meet more often
-// at the queues, and more often measure a ray that another thread has measured, too.
+// Sweeps of a piece: 20 to 100 us. A thread waits about so long at the end of a scan. With fewer, threads meet more
+// often at the queues, and more often measure a ray that another thread has measured, too.
 constexpr std::size_t kSweepsPerPiece = 6;
 }  // namespace
 
@@ -31,8 +31,7 @@ OfflineScan::OfflineScan(const physics::RadarParameters& parameters, const ScanR
   jamming_.assign(positions_.size(), 0.0);
   power_.assign(positions_.size() * samples_, 0.0F);
   sweeps_.resize(positions_.size());
-  ready_ = std::vector<std::atomic<std::uint8_t>>(
-      std::max(positions_.size() / kSweepsPerPiece, std::size_t{1}));
+  ready_ = std::vector<std::atomic<std::uint8_t>>(std::max(positions_.size() / kSweepsPerPiece, std::size_t{1}));
 }
 
 void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, const ScanRequest& request) {
@@ -48,9 +47,9 @@ void OfflineScan::position_sweeps(const physics::RadarParameters& parameters, co
   }
 }
 
-// Measures pieces as long as there are any, and calls `measured` after each. The assignment of sweeps to threads and their
-// order do not change results, because each sweep is measured from the inputs alone. Successive sweeps share rays: a
-// thread takes its own pieces from left to right, and those of other threads from right to left.
+// Measures pieces as long as there are any, and calls `measured` after each. The assignment of sweeps to threads and
+// their order do not change results, because each sweep is measured from the inputs alone. Successive sweeps share
+// rays: a thread takes its own pieces from left to right, and those of other threads from right to left.
 template <class Measured>
 void OfflineScan::measure_pieces(std::size_t thread, const physics::Environment& environment,
                                  const Measured& measured) {
@@ -109,9 +108,7 @@ std::size_t OfflineScan::rays() const {
 void OfflineScan::measure(const physics::Environment& environment) {
   begin_pass();
   to_measure_.begin(pieces());
-  workers_.run([&](std::size_t thread) {
-    measure_pieces(thread, environment, [](std::size_t) {});
-  });
+  workers_.run([&](std::size_t thread) { measure_pieces(thread, environment, [](std::size_t) {}); });
 }
 
 // A thread measures until nothing is left to measure, and forms then. That is faster than both in turn.

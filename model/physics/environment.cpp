@@ -116,14 +116,17 @@ std::span<const Echo> Movers::echoes(const SweepGeometry& geometry, const Receiv
     Fix& fix = fixes_[i];
     if (run_m(points_[i], fix.time) > kMaxRun_m)
       fix = {on_ellipsoid(points_[i].position(geometry.sim_time)), geometry.sim_time};
-    if (sector.may_contain(fix.ecef, run_m(points_[i], fix.time))) add_echo(points_[i], sector, sweep);
+    if (sector.may_contain(fix.ecef, run_m(points_[i], fix.time))) add_echo(i, points_[i], sector, sweep);
   }
-  for (const MovingPoint& point : traffic)
-    if (sector.may_contain(point.start_ecef, run_m(point, point.since))) add_echo(point, sector, sweep);
+  for (std::size_t i = 0; i < traffic.size(); ++i) {
+    const MovingPoint& point = traffic[i];
+    if (sector.may_contain(point.start_ecef, run_m(point, point.since)))
+      add_echo(radar::kMaxMovers + i, point, sector, sweep);
+  }
   return echoes_;
 }
 
-void Movers::add_echo(const MovingPoint& point, const Sector& sector, const Sweep& sweep) {
+void Movers::add_echo(std::size_t number, const MovingPoint& point, const Sector& sector, const Sweep& sweep) {
   const auto& [geometry, receiver, earth, terrain] = sweep;
   const geo::GeoPoint position = point.position(geometry.sim_time);
   std::optional<Sector::Path> path;
@@ -143,7 +146,8 @@ void Movers::add_echo(const MovingPoint& point, const Sector& sector, const Swee
                                                  sight.elevation_rad);
   const double loss = gas_.two_way_transmission(earth, geometry.altitude.metres(), distance_m, height_m);
   const double power = returned_power(point.cross_section_m2, loss * gain, sight.slant_range_m);
-  echoes_.push_back({distance_m, offset_rad, height_m, sight.tangent, received(receiver, power, sight.slant_range_m)});
+  echoes_.push_back(
+      {number, position, point.height_m, distance_m, offset_rad, received(receiver, power, sight.slant_range_m)});
 }
 
 namespace {

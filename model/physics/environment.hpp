@@ -1,6 +1,6 @@
 // Environment of a sweep (terrain, scenes, moving targets), and the echoes of the moving targets.
 // Inputs: sweep geometry, receiver, terrain below the movers, sim time.
-// Outputs: distance over ground [m], tangent of elevation angle, power (full scale = 1) of each mover in the beam.
+// Outputs: distance over ground [m], azimuth, power (full scale = 1) of each mover in the beam.
 // Where the terrain is void, a mover stands at mean sea level.
 // Threads: one thread at a time may use a Movers object.
 // Source: docs/spec/physics.md#power (radar equation of a point).
@@ -62,10 +62,11 @@ struct Environment {
 
 // Unobstructed return of one mover.
 struct Echo {
+  std::size_t number = 0;  // below kMaxMovers + kMaxTraffic; equal for a mover from sweep to sweep
+  geo::GeoPoint position;
+  double above_ground_m = 0.0;
   double distance_m = 0.0;  // over ground
   double offset_rad = 0.0;  // azimuth from the middle of the beam, clockwise positive
-  double height_m = 0.0;    // MSL
-  double tangent = 0.0;     // tangent of the elevation angle
   double power = 0.0;       // full scale = 1; includes antenna gain, gas attenuation and sensitivity time control
 };
 
@@ -98,7 +99,7 @@ class Movers {
     const EffectiveEarth& earth;
     const terrain::TerrainView& terrain;
   };
-  void add_echo(const MovingPoint& point, const Sector& sector, const Sweep& sweep);
+  void add_echo(std::size_t number, const MovingPoint& point, const Sector& sector, const Sweep& sweep);
 
   bool exact_;  // azimuth and distance of the geodesic
   radar::BeamPattern beam_;

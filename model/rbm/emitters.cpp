@@ -36,8 +36,6 @@ double altitude_of(double configured_m, geo::GeoPoint position, const terrain::T
 }  // namespace
 
 namespace {
-constexpr double kSquare_m = 100.0;          // side of the squares with one line of sight to each emitter
-constexpr double kAltitudeStep_m = 5.0;      // step of altitude with one line of sight
 constexpr double kMaxPlane_m = 1'000'000.0;  // beyond this distance the series of path() is not used
 }  // namespace
 
@@ -49,21 +47,6 @@ EmitterSights::EmitterSights(const physics::RadarParameters& parameters, std::ve
       sights_(emitters_.size()) {
   for (const Emitter& emitter : emitters_)
     ecef_.push_back(geo::ecef_from_geodetic(emitter.position, geo::HeightAboveEllipsoid::metres(0.0)));
-}
-
-EmitterSights::Origin EmitterSights::origin_of(const physics::SweepGeometry& geometry,
-                                               const terrain::TerrainView& terrain) const {
-  Origin origin{geometry.apex.latitude_deg, geometry.apex.longitude_deg, geometry.altitude.metres(), &terrain,
-                terrain.generation()};
-  if (exact_) return origin;
-  constexpr double kStep_deg = kSquare_m / geo::kMetresPerDegree;
-  const auto middle = [](double value, double step) { return step * (std::floor(value / step) + 0.5); };
-  origin.latitude_deg = std::clamp(middle(origin.latitude_deg, kStep_deg), -90.0, 90.0);
-  // A row of squares ends at the antimeridian with a part of a square.
-  const double parallel = std::max(std::cos(origin.latitude_deg * geo::kRadiansPerDegree), 1e-6);
-  origin.longitude_deg = middle(geo::wrapped_degrees(origin.longitude_deg), kStep_deg / parallel);
-  origin.altitude_m = kAltitudeStep_m * std::ceil(origin.altitude_m / kAltitudeStep_m);
-  return origin;
 }
 
 EmitterSights::Sight EmitterSights::sight_of(const Emitter& emitter, const physics::SweepGeometry& geometry,
@@ -94,18 +77,10 @@ std::span<const EmitterSights::Sight> EmitterSights::from(const physics::SweepGe
   apex_ecef_ = geo::ecef_from_geodetic(geometry.apex, sea_level);
   ahead_ = level.ecef_from_enu_direction({sine, cosine, 0.0});
   right_ = level.ecef_from_enu_direction({cosine, -sine, 0.0});
-  const Origin origin = origin_of(geometry, terrain);
+  const SightOrigin origin(geometry, terrain, exact_);
   if (origin == origin_) return sights_;
   origin_ = origin;
-  physics::SweepGeometry there = geometry;
-  there.apex = {origin.latitude_deg, geo::wrapped_degrees(origin.longitude_deg)};
-  double altitude_m = origin.altitude_m;
-  if (!exact_) {
-    // The ground in the middle of the square may be higher than that below the aircraft.
-    const double ground_m = terrain.elevation_m(there.apex);
-    if (altitude_m < ground_m + kAltitudeStep_m) altitude_m = ground_m + kAltitudeStep_m;
-  }
-  there.altitude = geo::AltitudeMsl::metres(altitude_m);
+  const physics::SweepGeometry there = origin.moved(geometry, terrain);
   for (std::size_t i = 0; i < emitters_.size(); ++i) sights_[i] = sight_of(emitters_[i], there, terrain);
   return sights_;
 }

@@ -29,10 +29,8 @@ struct JammingConfiguration;
 
 namespace yars::model::rbm {
 
-// Lines of sight to emitters at fixed positions, recomputed after each 100 m flown or 5 m climbed and when the terrain
-// changes. They are those from the middle of the 100 m square of latitude and longitude that contains the aircraft, at
-// its altitude rounded up to 5 m. So they do not depend on earlier calls. The algorithm `reference` uses the position
-// itself. Gas attenuation of a line of sight is within 0.005 dB.
+// Lines of sight to emitters at fixed positions from a SightOrigin, recomputed after each 100 m flown or 5 m climbed
+// and when the terrain changes. Gas attenuation of a line of sight is within 0.005 dB.
 class EmitterSights {
  public:
   struct Emitter {
@@ -62,14 +60,6 @@ class EmitterSights {
   Path path(std::size_t number) const;
 
  private:
-  // Position for which sights_ are valid, and the terrain.
-  struct Origin {
-    double latitude_deg = 0.0, longitude_deg = 0.0, altitude_m = 0.0;
-    const terrain::TerrainView* terrain = nullptr;
-    std::uint64_t generation = 0;
-    bool operator==(const Origin&) const = default;
-  };
-  Origin origin_of(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) const;
   Sight sight_of(const Emitter& emitter, const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
 
   bool exact_;
@@ -79,7 +69,7 @@ class EmitterSights {
   std::vector<Emitter> emitters_;
   std::vector<geo::Vector3> ecef_;  // [m] positions of the emitters on the ellipsoid
   std::vector<Sight> sights_;
-  Origin origin_;
+  SightOrigin origin_;
   geo::GeoPoint apex_;  // of the sweep of the last from()
   geo::Bearing azimuth_;
   geo::Vector3 apex_ecef_, ahead_, right_;  // ECEF

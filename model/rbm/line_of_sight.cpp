@@ -131,13 +131,78 @@ bool SightLine::clear(const physics::GeometryParameters& parameters, const physi
   double highest = static_cast<double>(terrain::kNoTangent);
   for (std::size_t i = 0; i + 1 < kSamples; ++i) {
     const double height_m = std::isnan(peak_m_[i]) ? 0.0 : static_cast<double>(peak_m_[i]);
-    highest = std::max(highest,
-                       earth.sight(geometry.altitude.metres(), static_cast<double>(distance_m_[i]), height_m).tangent);
+    highest =
+        std::max(highest, earth.tangent(geometry.altitude.metres(), static_cast<double>(distance_m_[i]), height_m));
   }
   if (ray_crests_.find(terrain, {geometry.apex, path.azimuth_at_start, path.distance, parameters.geodesic_knots},
                        positions_, {geometry.altitude.metres(), earth.curvature(), all(distance_m_), {}}, all(crest_)))
     highest = std::max(highest, static_cast<double>(*std::max_element(crest_.data(), crest_.data() + kSamples)));
-  return highest < earth.sight(geometry.altitude.metres(), distance_m, altitude_m).tangent;
+  return highest < earth.tangent(geometry.altitude.metres(), distance_m, altitude_m);
+}
+
+namespace {
+constexpr double kAircraftSquare_m = 100.0;
+constexpr double kAltitudeStep_m = 5.0;
+constexpr double kMoverSquare_m = 10.0;
+constexpr double kAlwaysClear_m = 10.0;  // nearer points are in sight
+
+// Middle of the square of latitude and longitude that contains a position. A row of squares ends at the antimeridian
+// with a part of a square.
+geo::GeoPoint middle_of_square(geo::GeoPoint position, double side_m) {
+  const auto middle = [](double value, double step) { return step * (std::floor(value / step) + 0.5); };
+  const double step_deg = side_m / geo::kMetresPerDegree;
+  const double latitude_deg = std::clamp(middle(position.latitude_deg, step_deg), -90.0, 90.0);
+  const double parallel = std::max(std::cos(latitude_deg * geo::kRadiansPerDegree), 1e-6);
+  return {latitude_deg,
+          geo::wrapped_degrees(middle(geo::wrapped_degrees(position.longitude_deg), step_deg / parallel))};
+}
+}  // namespace
+
+SightOrigin::SightOrigin(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain, bool exact)
+    : altitude_m_(geometry.altitude.metres()), exact_(exact), terrain_(&terrain), generation_(terrain.generation()) {
+  const geo::GeoPoint position = exact ? geometry.apex : middle_of_square(geometry.apex, kAircraftSquare_m);
+  latitude_deg_ = position.latitude_deg;
+  longitude_deg_ = position.longitude_deg;
+  if (!exact) altitude_m_ = kAltitudeStep_m * std::ceil(altitude_m_ / kAltitudeStep_m);
+}
+
+physics::SweepGeometry SightOrigin::moved(const physics::SweepGeometry& geometry,
+                                          const terrain::TerrainView& terrain) const {
+  physics::SweepGeometry there = geometry;
+  there.apex = {latitude_deg_, longitude_deg_};
+  double altitude_m = altitude_m_;
+  if (!exact_) {
+    // The ground in the middle of the square may be higher than that below the aircraft.
+    const double ground_m = terrain.elevation_m(there.apex);
+    if (altitude_m < ground_m + kAltitudeStep_m) altitude_m = ground_m + kAltitudeStep_m;
+  }
+  there.altitude = geo::AltitudeMsl::metres(altitude_m);
+  return there;
+}
+
+MoverSights::MoverSights(const physics::RadarParameters& parameters, std::size_t movers)
+    : exact_(parameters.algorithm == radar::Algorithm::reference), parameters_(parameters.geometry), found_(movers) {}
+
+void MoverSights::enter(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
+  const SightOrigin origin(geometry, terrain, exact_);
+  if (origin_number_ > 0 && origin == origin_) return;
+  origin_ = origin;
+  ++origin_number_;
+  from_ = origin.moved(geometry, terrain);
+}
+
+bool MoverSights::clear(std::size_t number, geo::GeoPoint position, double above_ground_m,
+                        const terrain::TerrainView& terrain) {
+  const geo::GeoPoint middle = exact_ ? position : middle_of_square(position, kMoverSquare_m);
+  Found& found = found_[number];
+  if (found.origin == origin_number_ && found.middle == middle && found.above_ground_m == above_ground_m)
+    return found.clear;
+  const geo::GeodesicInverse path = geo::geodesic_inverse(from_.apex, middle);
+  const double ground_m = terrain.elevation_m(middle);
+  const double altitude_m = (std::isnan(ground_m) ? 0.0 : ground_m) + above_ground_m;
+  found = {origin_number_, middle, above_ground_m,
+           path.distance.metres() < kAlwaysClear_m || sight_line_.clear(parameters_, from_, terrain, path, altitude_m)};
+  return found.clear;
 }
 
 }  // namespace yars::model::rbm

@@ -1,4 +1,4 @@
-// Line of sight over terrain: crests along a ray, and visibility of a point.
+// Line of sight over terrain: crests along a ray, and visibility of points.
 // A sample's crest is the highest ground, by elevation angle, between the previous sample and this sample.
 // Inputs: terrain, ray (apex, azimuth, range), altitude of the aircraft [m MSL], effective earth (a sphere that
 // accounts for refraction).
@@ -9,6 +9,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -65,6 +66,52 @@ class SightLine {
   physics::PositionArrays positions_;
   RayCrests ray_crests_;
   memory::CacheAlignedVector<float> distance_m_, elevation_m_, water_, peak_m_, crest_;
+};
+
+// Position from which lines of sight are computed, so that successive sweeps share them and they do not depend on
+// earlier calls: the middle of the 100 m square of latitude and longitude that contains the aircraft, at its altitude
+// rounded up to 5 m. The algorithm `reference` uses the aircraft's own position.
+class SightOrigin {
+ public:
+  SightOrigin() = default;
+  SightOrigin(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain, bool exact);
+  bool operator==(const SightOrigin&) const = default;
+
+  // `geometry` with the apex at this position, at least 5 m above the ground below it.
+  physics::SweepGeometry moved(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) const;
+
+ private:
+  double latitude_deg_ = 0.0, longitude_deg_ = 0.0, altitude_m_ = 0.0;
+  bool exact_ = false;
+  const terrain::TerrainView* terrain_ = nullptr;
+  std::uint64_t generation_ = 0;  // of the terrain
+};
+
+// Visibility of movers from a SightOrigin. A mover counts as standing in the middle of the 10 m square of latitude and
+// longitude that contains it; `reference` uses the mover's own position. What is found is kept while neither changes.
+class MoverSights {
+ public:
+  MoverSights(const physics::RadarParameters& parameters, std::size_t movers);
+
+  // Prepares a sweep.
+  void enter(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
+  // True if no ground hides a mover. `number`: less than `movers`; a mover that keeps its number is found sooner.
+  bool clear(std::size_t number, geo::GeoPoint position, double above_ground_m, const terrain::TerrainView& terrain);
+
+ private:
+  struct Found {
+    std::uint64_t origin = 0;  // origin_number_; 0: none
+    geo::GeoPoint middle;
+    double above_ground_m = 0.0;
+    bool clear = false;
+  };
+  bool exact_;
+  physics::GeometryParameters parameters_;
+  SightLine sight_line_;
+  SightOrigin origin_;
+  std::uint64_t origin_number_ = 0;
+  physics::SweepGeometry from_;  // the sweep, from origin_
+  std::vector<Found> found_;     // by number of the mover
 };
 
 }  // namespace yars::model::rbm

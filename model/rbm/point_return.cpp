@@ -8,6 +8,7 @@
 #include "lib/geo/earth.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/fidelity.hpp"
+#include "lib/radar/world.hpp"
 #include "model/physics/ray.hpp"
 
 namespace yars::model::rbm {
@@ -43,6 +44,7 @@ PointReturn::PointReturn(const physics::RadarParameters& parameters)
       has_movers_(!parameters.world.movers.empty()),
       receivers_(parameters),
       movers_(parameters),
+      mover_sights_(parameters, radar::kMaxMovers + physics::kMaxTraffic),
       gas_(parameters),
       surface_(parameters),
       tables_(surface_),
@@ -99,10 +101,16 @@ void PointReturn::set_rays(const physics::SweepGeometry& geometry, std::span<con
   rays_per_rad_ = width_rad > 0.0 ? static_cast<double>(rays.size() - 1) / width_rad : 0.0;
 }
 
-// The target as the nearest ray sees it. `about`: about how many samples are nearer.
-PointReturn::Seen PointReturn::seen_at(double offset_rad, const Target& target, std::size_t about) const {
-  const double steps = std::max((offset_rad - first_ray_rad_) * rays_per_rad_ + 0.5, 0.0);
-  const Shade& ray = rays_[std::min(static_cast<std::size_t>(steps), rays_.size() - 1)];
+// The rays to the left and to the right of an azimuth. Beyond the outermost rays it is that ray alone.
+PointReturn::Neighbours PointReturn::rays_at(double offset_rad) const {
+  const auto last = static_cast<double>(rays_.size() - 1);
+  const double steps = std::clamp((offset_rad - first_ray_rad_) * rays_per_rad_, 0.0, last);
+  const auto left = static_cast<std::size_t>(steps);
+  return {left, std::min(left + 1, rays_.size() - 1), steps - static_cast<double>(left)};
+}
+
+// The target as a ray sees it. `about`: about how many samples are nearer.
+PointReturn::Seen PointReturn::seen_by(const Shade& ray, const Target& target, std::size_t about) const {
   Seen seen{*ray.ground, target, 0};
   if (ray.moved && target.distance_m + ray.ahead_m > 0.0) {
     seen.target.distance_m = target.distance_m + ray.ahead_m;
@@ -129,18 +137,17 @@ double PointReturn::horizon_before(const Sweep& sweep, const Seen& seen) const {
   return std::max(before.horizon, seen.tangent_of(ground_m));
 }
 
+// A mover is hidden along its own azimuth: a hill may hide it from the rays on both sides of it, or from neither.
 void PointReturn::add_movers(const Sweep& sweep) {
   const physics::SweepGeometry& geometry = sweep.geometry;
+  const terrain::TerrainView& terrain = sweep.environment.terrain;
   const auto earth = physics::effective_earth(parameters_, geometry.apex, geometry.azimuth);
+  mover_sights_.enter(geometry, terrain);
   for (const physics::Echo& echo : movers_.echoes(geometry, sweep.receiver, earth, sweep.environment)) {
     if (echo.power <= sweep.negligible) continue;
-    const Seen seen = seen_at(echo.offset_rad, {echo.distance_m, 1.0 / echo.distance_m, echo.tangent, echo.height_m},
-                              physics::samples_nearer(distance_m_, echo.distance_m));
-    const double tangent = seen.target.tangent;
-    const bool hidden_by_samples = seen.nearer > 0 && tangent <= seen.ground.samples[seen.nearer - 1].horizon;
-    if (hidden_by_samples || tangent <= horizon_before(sweep, seen)) continue;
+    if (!mover_sights_.clear(echo.number, echo.position, echo.above_ground_m, terrain)) continue;
     // A mover nearer than the first sample on the ground is added to that sample.
-    put(seen.ground, physics::nearest_sample(distance_m_, echo.distance_m, seen.nearer),
+    put(*rays_[rays_at(echo.offset_rad).nearest()].ground, physics::nearest_sample(distance_m_, echo.distance_m),
         sweep.point_smear_gain * echo.power);
   }
 }
@@ -193,16 +200,20 @@ void PointReturn::add_scatterer(const Sweep& sweep, const SceneRay::InScene& ray
                                                   offset_rad, extent_m * echo.per_metre);
   const auto is_negligible = [&] { return echo.power >= 0.0 && gain * echo.power <= sweep.negligible; };
   if (!(gain > 0.0) || is_negligible()) return;
-  const Seen seen =
-      seen_at(offset_rad, {echo.distance_m, echo.per_metre, echo.tangent, static_cast<double>(scatterer.middle_msl_m)},
-              echo.nearer);
-  echo.nearer = seen.nearer;
-  const double lit = lit_fraction(sweep, scatterer, seen);
+  const Neighbours rays = rays_at(offset_rad);
+  const Target target{echo.distance_m, echo.per_metre, echo.tangent, static_cast<double>(scatterer.middle_msl_m)};
+  const auto lit_by = [&](std::size_t ray) {
+    const Seen seen = seen_by(rays_[ray], target, echo.nearer);
+    echo.nearer = seen.nearer;
+    return lit_fraction(sweep, scatterer, seen);
+  };
+  double lit = lit_by(rays.left);
+  if (rays.right_weight > 0.0) lit += rays.right_weight * (lit_by(rays.right) - lit);
   if (!(lit > 0.0)) return;
   if (echo.power < 0.0) echo.power = power_of(sweep, ray, level, scatterer, echo);
   // Whether the power was known before must not change the sweep.
   if (is_negligible()) return;
-  spread(seen.ground, echo, extent_m, sweep.point_smear_gain * lit * gain * echo.power);
+  spread(*rays_[rays.nearest()].ground, echo, extent_m, sweep.point_smear_gain * lit * gain * echo.power);
 }
 
 // Earth and sight are those in the scatterer's own azimuth, so that they are the same in each sweep.

@@ -1,7 +1,8 @@
 // Return of point targets in a sweep of the real beam map: movers, and the standing parts of polygonal scenes.
 // A standing object has the cross section sigma: the sum over its faces of gamma times the area projected towards the
-// radar. It returns at its own range and bearing. Only its part above the horizon of nearer ground is lit. The nearest
-// ray of the beam has that horizon and the rain on the way.
+// radar. It returns at its own range and bearing. Only its part above the horizon of nearer ground is lit, weighted
+// between the two rays of the beam beside it. A mover is lit or hidden along its own azimuth. The nearest ray has the
+// rain on the way.
 // Inputs: geometry of the sweep, scenes, traffic, the ground along the beam's rays.
 // Outputs: power of the targets, smeared over the pulse and added to the power of the samples; full scale = 1.
 // Accuracy: double precision; the algorithms `reference` and `standard` both use this class. Of `standard` the cross
@@ -22,6 +23,7 @@
 #include "model/physics/receiver.hpp"
 #include "model/physics/reflectivity.hpp"
 #include "model/physics/sweep_geometry.hpp"
+#include "model/rbm/line_of_sight.hpp"
 #include "model/rbm/ray_ground.hpp"
 #include "model/rbm/scene_ray.hpp"
 #include "model/rbm/scene_simd.hpp"
@@ -80,6 +82,13 @@ class PointReturn {
     double climb_m;
     bool moved;  // false: both are 0
   };
+  // Numbers of the two rays beside a target, and the weight of the right one.
+  struct Neighbours {
+    std::size_t left, right;
+    double right_weight;
+    std::size_t nearest() const { return right_weight < 0.5 ? left : right; }
+  };
+  // A scatterer's middle as seen from the aircraft.
   struct Target {
     double distance_m;
     double per_metre;  // 1 / distance_m
@@ -107,7 +116,8 @@ class PointReturn {
   double cross_section_m2(const scene::ScattererLevel& level, const scene::Scatterer& scatterer,
                           const SceneRay::InScene& ray, const physics::Sight& sight) const;
   void set_rays(const physics::SweepGeometry& geometry, std::span<const RayGround* const> rays);
-  Seen seen_at(double offset_rad, const Target& target, std::size_t about) const;
+  Neighbours rays_at(double offset_rad) const;
+  Seen seen_by(const Shade& ray, const Target& target, std::size_t about) const;
   double horizon_before(const Sweep& sweep, const Seen& seen) const;
   double lit_fraction(const Sweep& sweep, const scene::Scatterer& scatterer, const Seen& seen) const;
   void put(const RayGround& ground, std::size_t sample, double power);
@@ -123,6 +133,7 @@ class PointReturn {
   physics::Receivers receivers_;
   physics::Receiver receiver_;  // of the last sweep's range
   physics::Movers movers_;
+  MoverSights mover_sights_;
   physics::GasPath gas_;
   physics::SceneSurface surface_;
   simd::SceneTables tables_;

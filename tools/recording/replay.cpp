@@ -39,21 +39,15 @@ void Comparison::match(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash
 }
 
 namespace {
-// Number of sweeps in which the beam passes a sub-beam. Turns of the aircraft may slow down the beam to half its rate.
-std::uint64_t sweeps_over_beam(const radar::RadarConfiguration& configuration) {
-  constexpr double kSlowest = 0.5, kMinRate_dps = 1.0;
-  const double rate_dps = kSlowest * std::max(configuration.antenna.azimuth_rate_dps, kMinRate_dps);
-  const double width_deg = model::rbm::kSubBeamsWidth * configuration.antenna.azimuth_beamwidth_deg;
-  return static_cast<std::uint64_t>(std::ceil(width_deg / (rate_dps * radar::kTickSeconds)));
+constexpr int kSmearMemory = 2;  // [sweeps] after the begin whose azimuth smear has power from before it
+
+bool has_sub_beams(const radar::RadarConfiguration& configuration) {
+  return configuration.fidelity.automatic || configuration.fidelity.sub_beams > 1;
 }
 
-// Number of sweeps after a start that are not compared: those with smear from before the start, and those with
-// sub-beams of before the start.
-std::uint64_t skipped_sweeps(const radar::RadarConfiguration& configuration) {
-  constexpr std::uint64_t kSmearMemory = 2;
-  const radar::Fidelity& fidelity = configuration.fidelity;
-  const bool sub_beams = fidelity.automatic || fidelity.sub_beams > 1;
-  return kSmearMemory + (sub_beams ? sweeps_over_beam(configuration) : 0);
+geo::Bearing middle_of(const databuffer::Sweep& sweep) {
+  const geo::Bearing left = geo::Bearing::degrees(sweep.azimuth_left_deg);
+  return left + 0.5 * (geo::Bearing::degrees(sweep.azimuth_right_deg) - left);
 }
 }  // namespace
 
@@ -69,7 +63,22 @@ void Replay::start(const StartingPoint& point) {
   kernel_ = model::kernel::RadarKernel(*configuration_);
   kernel_.resume(point.status);
   last_ = before_last_ = point.status;
-  skip_sweeps_ = skipped_sweeps(*configuration_);
+  smeared_sweeps_ = kSmearMemory;
+  old_rays_ = has_sub_beams(*configuration_);
+  begin_.reset();
+}
+
+// True if a sweep has nothing from before the start. Rays from before it are left until a pass begins, or until the
+// beam has moved by its width and has only rays that it has reached since.
+bool Replay::is_whole(const databuffer::Sweep& sweep) {
+  if (!begin_) begin_ = middle_of(sweep);
+  const double moved_deg = std::abs((middle_of(sweep) - *begin_).degrees());
+  const bool passed = moved_deg > model::rbm::kSubBeamsWidth * configuration_->antenna.azimuth_beamwidth_deg;
+  if (passed || (sweep.flags & databuffer::kSweepScanStart) != 0U) old_rays_ = false;
+  if (old_rays_) return false;
+  if (smeared_sweeps_ == 0) return true;
+  --smeared_sweeps_;
+  return false;
 }
 
 const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {
@@ -84,10 +93,7 @@ const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {
   kernel_.describe(*view_, last_);
   if (!finished) return nullptr;
   ++sweeps_;
-  if (skip_sweeps_ > 0) {
-    --skip_sweeps_;
-    return nullptr;
-  }
+  if (!is_whole(sweep_)) return nullptr;
   comparison_.replayed(sweep_);
   return &sweep_;
 }

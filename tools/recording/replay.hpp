@@ -60,8 +60,8 @@ class Replay {
   // Makes a new kernel that resumes from this status. Allowed before the first tick and between ticks.
   void start(const StartingPoint& point);
   // Runs one tick and returns its finished sweep. nullptr: no sweep, or a sweep that is not compared. The first sweeps
-  // after start() are not compared, two with a ray for each sweep: azimuth smear, shared rays and sub-beams combine
-  // successive sweeps, some from before the start. Sub-beams with the default antenna: 16.
+  // after start() are not compared, because the azimuth smear and sub-beams combine successive sweeps, some from before
+  // the start: two sweeps, and with sub-beams those until the beam has moved by their width or a scan begins.
   const databuffer::Sweep* tick(const databuffer::ModelTick& tick);
   // Sets the traffic from the next tick on.
   void traffic(const databuffer::Traffic& traffic) { traffic_ = model::kernel::points_of(traffic); }
@@ -73,6 +73,7 @@ class Replay {
 
  private:
   void restart(std::int64_t resumed_tick);
+  bool is_whole(const databuffer::Sweep& sweep);
 
   const radar::RadarConfiguration* configuration_;
   model::terrain::TerrainStore* store_;
@@ -85,7 +86,9 @@ class Replay {
   databuffer::ModelStatus last_{}, before_last_{};  // status after the newest tick, and after the tick before
   Comparison comparison_;
   std::uint64_t ticks_ = 0, sweeps_ = 0;
-  std::uint64_t skip_sweeps_ = 0;  // number of sweeps still to come that are not compared
+  int smeared_sweeps_ = 0;             // number of sweeps still to come with smear from before the start
+  bool old_rays_ = false;              // rays from before the start may be in use
+  std::optional<geo::Bearing> begin_;  // azimuth of the first sweep after the start
 };
 
 // Configuration, terrain and scenes of the kernel. The stores must outlive the player; `scenes` may be null.

@@ -241,7 +241,8 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
                    text::counted(comparison.different(), "different sweep"), cause_of_difference(run, reader), false});
   if (comparison.equal() == 0 && comparison.missing() > 0)
     throw_failure({options.file, "the sweeps of the recording", "none of these sweeps",
-                   "replay with the same configuration", false});
+                   "replay with the same configuration; a recording shorter than a scan may have no sweep of its own",
+                   false});
   report_missing(reader, options.file);
 }
 

@@ -276,5 +276,60 @@ TEST(SubBeams, OfAFlyingAircraftLightPointsAsNewRaysDo) {
   }
 }
 
+// Walls of 900 m, 5 km away, at azimuths from `from_deg` to `to_deg`.
+terrain::AnalyticTerrain::Height wall_between(std::vector<std::pair<double, double>> sectors) {
+  return [sectors](geo::GeoPoint position) {
+    const geo::GeodesicInverse path = geo::geodesic_inverse(test::kMidLatitude, position);
+    const double distance_m = path.distance.metres(),
+                 azimuth_deg = geo::wrapped_degrees(path.azimuth_at_start.degrees());
+    const bool wall = distance_m > 5000.0 && distance_m < 5300.0 &&
+                      std::any_of(sectors.begin(), sectors.end(), [&](const auto& sector) {
+                        return azimuth_deg > sector.first && azimuth_deg < sector.second;
+                      });
+    return wall ? 900.0 : 0.0;
+  };
+}
+
+// The rays of `standard` are 0.94 degrees apart. A mover at 0.45 degrees lies between two of them.
+TEST(SubBeams, LightAMoverAlongItsOwnAzimuth) {
+  radar::RadarConfiguration empty = with_rays(4, radar::Algorithm::standard);
+  for (const auto algorithm : {radar::Algorithm::standard, radar::Algorithm::reference}) {
+    empty.fidelity.algorithm = algorithm;
+    radar::RadarConfiguration busy = empty;
+    radar::Mover mover;
+    mover.position = geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(0.45), geo::Length::metres(10e3));
+    busy.world.movers.push_back(mover);
+    const auto added = [&](const terrain::AnalyticTerrain::Height& height) {
+      const terrain::AnalyticTerrain ground(height);
+      std::vector<float> power(kBeamSamples), without(kBeamSamples);
+      Beam(busy).measure(towards(0.45), ground, power);
+      Beam(empty).measure(towards(0.45), ground, without);
+      return sum_of(power) - sum_of(without);
+    };
+    const double free = added(wall_between({}));
+    EXPECT_GT(free, 0.0);
+    EXPECT_NEAR(added(wall_between({{-0.3, 0.2}, {0.7, 1.2}})), free, 1e-3 * free) << "hills before the rays alone";
+    EXPECT_NEAR(added(wall_between({{0.1, 0.8}})), 0.0, 1e-3 * free) << "a hill before the mover alone";
+  }
+}
+
+// A house between two rays, of which one is hidden.
+TEST(SubBeams, LightAHouseByTheTwoRaysBesideIt) {
+  radar::RadarConfiguration configuration = with_rays(4, radar::Algorithm::standard);
+  const auto house = test::scene_of(
+      {test::Building{}},
+      geo::geodesic_direct(test::kMidLatitude, geo::Bearing::degrees(0.25 * 0.9375), geo::Length::metres(10e3)));
+  const auto added = [&](const terrain::AnalyticTerrain::Height& height) {
+    const terrain::AnalyticTerrain ground(height);
+    std::vector<float> power(kBeamSamples), without(kBeamSamples);
+    Beam(configuration).measure(towards(0.2), {ground, house.get()}, power);
+    Beam(configuration).measure(towards(0.2), ground, without);
+    return sum_of(power) - sum_of(without);
+  };
+  const double free = added(wall_between({}));
+  EXPECT_NEAR(added(wall_between({{0.8, 1.1}})) / free, 0.75, 0.01);
+  EXPECT_NEAR(added(wall_between({{-0.1, 0.1}})) / free, 0.25, 0.01);
+}
+
 }  // namespace
 }  // namespace yars::model::rbm

@@ -45,6 +45,8 @@ class Recorded {
   }
   // From now on the aircraft moves by 1.4 m a tick.
   void fly() { step_deg_ = 1e-5; }
+  // From now on the aircraft turns at this rate, clockwise positive.
+  void turn(double rate_dps) { turn_deg_ = radar::kTickSeconds * rate_dps; }
   // Runs the model without a recorder, which then begins with the model's status.
   void run_before_the_recorder(int ticks) {
     for (int i = 0; i < ticks; ++i) {
@@ -76,9 +78,14 @@ class Recorded {
   void move() {
     cockpit_.tick.ownship.latitude_deg += step_deg_;
     cockpit_.tick.ownship.longitude_deg += step_deg_;
+    if (turn_deg_ == 0.0) return;
+    databuffer::Ownship& ownship = cockpit_.tick.ownship;
+    ownship.heading_deg = geo::Bearing::degrees(ownship.heading_deg + turn_deg_).degrees();
+    ownship.velocity_north_mps = 240.0 * std::cos(ownship.heading_deg * geo::kRadiansPerDegree);
+    ownship.velocity_east_mps = 240.0 * std::sin(ownship.heading_deg * geo::kRadiansPerDegree);
   }
 
-  double step_deg_ = 0.0;
+  double step_deg_ = 0.0, turn_deg_ = 0.0;
   radar::RadarConfiguration configuration_;
   test::Cockpit cockpit_;
   model::terrain::FixedTerrainStore store_;
@@ -158,6 +165,25 @@ TEST(Replay, ComputesSweepsWithSubBeamsInFlightWhereverTheRecordingBegins) {
     EXPECT_GT(recorded.comparison().equal(), 450U);
     EXPECT_EQ(recorded.comparison().different(), 0U);
     EXPECT_LE(recorded.comparison().missing(), 17U);
+  }
+}
+
+// In a turn against a slow scan the beam hardly moves. Its rays are measured again every 50 ms, in ticks that depend on
+// when the pass began.
+TEST(Replay, ComputesSweepsInATurnAgainstASlowScanWhereverTheRecordingBegins) {
+  for (const int before : {1500, 1503, 1506, 1509}) {
+    SCOPED_TRACE(before);
+    radar::RadarConfiguration configuration;
+    configuration.antenna.azimuth_rate_dps = 10.0;
+    configuration.fidelity.sub_beams = 13;
+    configuration.fidelity.samples = 1024;
+    Recorded recorded(nullptr, nullptr, configuration);
+    recorded.fly();
+    recorded.turn(-8.0);
+    recorded.run_before_the_recorder(before);
+    recorded.run(3000);
+    EXPECT_GT(recorded.comparison().equal(), 1000U);
+    EXPECT_EQ(recorded.comparison().different(), 0U);
   }
 }
 
