@@ -48,7 +48,7 @@ int run(int argc, char** argv) {
     if (!failed.message.empty()) databuffer::print_failure("yars", failed.message);
     return failed.code;
   } catch (const std::exception& problem) {
-    databuffer::print_failure("yars", std::string("stopped by ") + problem.what());
+    databuffer::print_failure("yars", databuffer::message_of(problem));
     return databuffer::kExitFailure;
   }
 }

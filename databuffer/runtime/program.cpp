@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <new>
 #include <system_error>
 
 #include "databuffer/runtime/process.hpp"
@@ -77,6 +78,12 @@ std::optional<error::Error> begin_program(const std::string& name, const Program
   return std::nullopt;
 }
 
+std::string message_of(const std::exception& problem) {
+  if (dynamic_cast<const std::bad_alloc*>(&problem) != nullptr)
+    return "expected enough memory, found none left; end other programs, ask for less, or raise the limit (ulimit -v)";
+  return std::string("stopped by ") + problem.what();
+}
+
 int exit_code_after_output(const std::string& program, int exit_code) {
   const auto closed = close_standard_output();
   if (closed) return exit_code;
@@ -100,7 +107,7 @@ int run_body(CommandLine& app, const ProgramOptions& options, const ProgramBody&
     print_failure(app.name(), error->message());
     return error->bad_usage ? kExitUsage : kExitFailure;
   } catch (const std::exception& problem) {
-    print_failure(app.name(), std::string("stopped by ") + problem.what());
+    print_failure(app.name(), message_of(problem));
     return kExitFailure;
   }
 }

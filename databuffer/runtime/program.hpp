@@ -4,6 +4,7 @@
 // Threads: main thread only.
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <optional>
 #include <string>
@@ -33,6 +34,9 @@ void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role)
 // The exit code is then kExitUsage for a usage error, else kExitFailure. The name of `app` is the program's name.
 using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body);
+
+// The one line that a program prints when an exception ends it.
+std::string message_of(const std::exception& problem);
 
 // Closes standard output at the end of main and returns the exit code of the program. If a write to standard output has
 // failed, prints one line on standard error and returns kExitFailure in place of 0.

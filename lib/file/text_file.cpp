@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "lib/file/folder.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::file {
 
@@ -57,8 +58,7 @@ error::Expected<std::string> read_text_file(const std::filesystem::path& path) {
   if (std::filesystem::exists(path, code) && !std::filesystem::is_regular_file(path, code))
     return error::fail(path.string(), "a text file", "a pipe, a socket or a device", "copy it into a regular file");
   const std::uintmax_t size = std::filesystem::is_regular_file(path, code) ? std::filesystem::file_size(path, code) : 0;
-  if (size > kMaxFile_bytes)
-    return error::fail(path.string(), "at most 256 MiB of text", std::to_string(size) + " bytes");
+  if (size > kMaxFile_bytes) return error::fail(path.string(), "at most 256 MiB of text", text::counted(size, "byte"));
   auto text = read_regular_file(path, kMaxFile_bytes + 1);
   if (!text) return error::fail(path.string(), "a file that can be read", error::reason_of(errno), "check the path");
   if (text->size() > kMaxFile_bytes) return error::fail(path.string(), "at most 256 MiB of text", "more");

@@ -7,6 +7,7 @@ and `1e999`: exit code 2 and one line that names the option and the value. Then 
 Each option and argument of a text gets an empty one: exit code 2 and a message that names the option.
 """
 import concurrent.futures
+import itertools
 import os
 import pathlib
 import re
@@ -47,11 +48,12 @@ FILES = [
     ("a.script", "N freeze\n", ["input-monitor", "--source", "script:F"]),
     ("a.script", "0 tdc N 0\n", ["input-monitor", "--source", "script:F"]),
 ]
-SESSION = ["--session", f"numbers-{os.getpid()}"]
+COUNT = itertools.count()
 
 
 def run(arguments):
-    command = [str(BIN / arguments[0])] + SESSION + arguments[1:]
+    """Runs a program in a session of its own: programs run at the same time, and a session has one state-machine."""
+    command = [str(BIN / arguments[0]), "--session", f"numbers-{os.getpid()}-{next(COUNT)}"] + arguments[1:]
     return subprocess.run(command, capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)
 
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "lib/text/plain_text.hpp"
 #include "model/scene/openflight/model.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/openflight/parser.hpp"
@@ -26,8 +27,8 @@ error::Expected<std::vector<std::byte>> read_bytes(const fs::path& path, std::ui
   const std::uintmax_t size = fs::file_size(path, code);
   if (code) return error::fail(path.string(), "a readable file", error::reason_of(code.value()));
   if (size > kMaxFileBytes)
-    return error::fail(path.string(), "at most " + std::to_string(kMaxFileBytes) + " bytes",
-                       std::to_string(size) + " bytes", "split the scene into several files");
+    return error::fail(path.string(), "at most " + text::counted(kMaxFileBytes, "byte"), text::counted(size, "byte"),
+                       "split the scene into several files");
   return terrain::read_file_part(path, 0, std::min(size, max_bytes));
 }
 

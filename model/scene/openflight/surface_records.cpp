@@ -5,6 +5,7 @@
 
 #include "lib/geo/frames.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/scene/openflight/records.hpp"
 
 namespace yars::model::scene {
@@ -107,7 +108,7 @@ error::Expected<std::size_t> read_local_pool(const Record& record, double metres
   if (!layout.has_position || record.size() < kPoolHead || count > (record.size() - kPoolHead) / layout.stride)
     return damaged(subject, record, "a vertex pool with positions, and long enough for its count",
                    std::to_string(count) + " vertices of " + std::to_string(layout.stride) + " bytes in " +
-                       std::to_string(record.size()) + " bytes");
+                       text::counted(record.size(), "byte"));
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = kPoolHead + i * layout.stride;
     TreeVertex vertex;

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <system_error>
 
+#include "lib/text/plain_text.hpp"
 namespace yars::model::terrain {
 
 namespace {
@@ -67,15 +68,15 @@ error::Expected<void> read_part(const std::filesystem::path& path, std::uintmax_
   const error::Expected<std::uintmax_t> length = file_length(path);
   if (!length) return tl::unexpected(length.error());
   if (offset > *length || bytes > *length - offset)
-    return error::fail(path.string(), "at least " + std::to_string(offset + bytes) + " bytes",
-                       std::to_string(*length) + " bytes", "the file is truncated; fetch it again");
+    return error::fail(path.string(), "at least " + text::counted(offset + bytes, "byte"),
+                       text::counted(*length, "byte"), "the file is truncated; fetch it again");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   file.seekg(static_cast<std::streamoff>(offset));
   part.resize(bytes);
   file.read(reinterpret_cast<char*>(part.data()), static_cast<std::streamsize>(bytes));
   if (!file)
-    return error::fail(path.string(), "a readable file of " + std::to_string(*length) + " bytes",
+    return error::fail(path.string(), "a readable file of " + text::counted(*length, "byte"),
                        errno != 0 ? error::reason_of(errno) : "a failed read",
                        "check the rights of the file and the disk");
   return {};
@@ -95,8 +96,8 @@ error::Expected<void> read_file(const std::filesystem::path& path, std::size_t l
   const error::Expected<std::uintmax_t> length = file_length(path);
   if (!length) return tl::unexpected(length.error());
   if (*length > limit_bytes)
-    return error::fail(path.string(), "at most " + std::to_string(limit_bytes) + " bytes",
-                       std::to_string(*length) + " bytes", "this is not a one-degree cell");
+    return error::fail(path.string(), "at most " + text::counted(limit_bytes, "byte"), text::counted(*length, "byte"),
+                       "this is not a one-degree cell");
   return read_part(path, 0, *length, bytes);
 }
 

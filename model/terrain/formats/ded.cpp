@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "lib/memory/byte_order.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::model::terrain {
 
@@ -98,7 +99,7 @@ error::Expected<std::vector<DedCell>> parse_table(std::span<const std::byte> tab
   }
   if (offset != file_bytes)
     return error::fail(subject, std::to_string(offset) + " bytes for " + std::to_string(cells.size()) + " cells",
-                       std::to_string(file_bytes) + " bytes", "the file is truncated or damaged; fetch it again");
+                       text::counted(file_bytes, "byte"), "the file is truncated or damaged; fetch it again");
   return cells;
 }
 

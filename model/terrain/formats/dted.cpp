@@ -12,6 +12,7 @@
 #include "lib/error/error.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/memory/byte_order.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::model::terrain {
 
@@ -87,8 +88,8 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
     start += dted::kLabelBytes;
   }
   if (bytes.size() < start + dted::kHeaderBytes)
-    return error::fail(subject, "a DTED header of " + std::to_string(dted::kHeaderBytes) + " bytes",
-                       std::to_string(bytes.size() - start) + " bytes", "the file is truncated; fetch it again");
+    return error::fail(subject, "a DTED header of " + text::counted(dted::kHeaderBytes, "byte"),
+                       text::counted(bytes.size() - start, "byte"), "the file is truncated; fetch it again");
   const std::string_view user_header = text_of(bytes.subspan(start, dted::kUserHeaderBytes));
   if (user_header.substr(0, 4) != "UHL1")
     return error::fail(subject, "a DTED file that begins with UHL1", "other bytes");
@@ -153,9 +154,12 @@ error::Expected<Columns> find_columns(std::span<const std::byte> data, const Hea
   for (std::span<const std::byte> rest = data; !rest.empty();) {
     const auto at = [&] { return "column record " + std::to_string(found.present + 1); };
     const auto truncated = [&] {
-      return error::fail(subject, "a whole " + at(), std::to_string(rest.size()) + " bytes",
+      return error::fail(subject, "a whole " + at(), text::counted(rest.size(), "byte"),
                          "the file is truncated; fetch it again");
     };
+    if (found.present == static_cast<std::size_t>(header.columns) && rest.size() < kRecordHeadBytes)
+      return error::fail(subject, "nothing after the last column record", text::counted(rest.size(), "byte"),
+                         "the file is damaged; fetch it again");
     if (rest.size() < kRecordHeadBytes) return truncated();
     const std::size_t column = memory::big_endian<std::uint16_t>(rest.data() + 4);
     const int first_row = memory::big_endian<std::uint16_t>(rest.data() + 6);

@@ -16,6 +16,7 @@
 #include "lib/file/file_search.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/memory/byte_order.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::model::terrain {
 
@@ -37,10 +38,10 @@ error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const s
                                        CellCorner corner) {
   const int posts = hgt_posts_for_size(bytes.size());
   if (posts == 0)
-    return error::fail(subject,
-                       "an HGT file of " + std::to_string(bytes_of(kPosts[0])) + " or " +
-                           std::to_string(bytes_of(kPosts[1])) + " bytes",
-                       std::to_string(bytes.size()) + " bytes", "the file is truncated or is not HGT; fetch it again");
+    return error::fail(
+        subject,
+        "an HGT file of " + std::to_string(bytes_of(kPosts[0])) + " or " + text::counted(bytes_of(kPosts[1]), "byte"),
+        text::counted(bytes.size(), "byte"), "the file is truncated or is not HGT; fetch it again");
   const auto side = static_cast<std::size_t>(posts);
   std::vector<std::int16_t>& heights = reading_buffers().posts;
   heights.resize(side * side);
@@ -92,8 +93,8 @@ bool is_gzip(const std::filesystem::path& path) {
 error::Expected<std::uintmax_t> compressed_length(const std::filesystem::path& path) {
   auto length = file_length(path);
   if (!length || *length <= kMaxCompressedBytes) return length;
-  return error::fail(path.string(), "at most " + std::to_string(kMaxCompressedBytes) + " bytes",
-                     std::to_string(*length) + " bytes", "this is no compressed HGT cell");
+  return error::fail(path.string(), "at most " + text::counted(kMaxCompressedBytes, "byte"),
+                     text::counted(*length, "byte"), "this is no compressed HGT cell");
 }
 
 // The original file name in the gzip header (RFC 1952, flag FNAME); empty if the header has none.
@@ -186,7 +187,7 @@ error::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path&
                        "give the archive the name of the cell that is in it");
   if (hgt_posts_for_size(entry->bytes) == 0)
     return error::fail(path.string(), "an entry of 2884802 or 25934402 bytes",
-                       "one of " + std::to_string(entry->bytes) + " bytes", "this is no HGT cell");
+                       "one of " + text::counted(entry->bytes, "byte"), "this is no HGT cell");
   const std::unique_ptr<zip_file_t, CloseZipEntry> file(zip_fopen_index(archive->get(), entry->index, 0));
   if (!file) return error::fail(path.string(), "an entry that can be unpacked", zip_strerror(archive->get()));
   std::vector<std::byte> bytes(entry->bytes);

@@ -5,8 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <new>
+#include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "databuffer/runtime/program.hpp"
 
 namespace yars::databuffer {
 namespace {
@@ -146,6 +150,11 @@ TEST_F(Program, HelpOfACommandIsTheTextOfItsOption) {
   expect_refused({"drwa", "--help"}, "prog: expected a command, found 'drwa'; did you mean 'draw'? See prog --help");
   expect_refused({"help", "draw", "more"},
                  "prog draw: expected no further argument, found 'more'; see prog draw --help");
+}
+
+TEST(MessageOf, AnExceptionSaysWhatToDo) {
+  EXPECT_THAT(message_of(std::bad_alloc()), HasSubstr("expected enough memory, found none left; end other programs"));
+  EXPECT_EQ(message_of(std::runtime_error("a riddle")), "stopped by a riddle");
 }
 
 }  // namespace

@@ -261,6 +261,14 @@ TEST(DtedReader, EveryTruncationIsRefusedOrLacksCompleteColumns) {
   }
 }
 
+TEST(DtedReader, BytesAfterTheLastColumnAreNamed) {
+  std::vector<std::byte> longer = test::small_dted().bytes();
+  longer.push_back(std::byte{0});
+  const auto reading = parse_dted(longer, "longer.dt0", kDtedCorner);
+  ASSERT_FALSE(reading);
+  EXPECT_THAT(reading.error().message(), HasSubstr("nothing after the last column record, found 1 byte;"));
+}
+
 TEST(DtedReader, RandomDamageNeverReadsBeyondTheFile) {
   constexpr unsigned kSeed = 20;
   std::mt19937 random(kSeed);
