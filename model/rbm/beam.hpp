@@ -85,15 +85,15 @@ class Beam {
   std::size_t measure_members(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                               bool with_points, std::span<float> power);
 
-  std::unique_ptr<Algorithm> algorithm_;
   std::optional<PointReturn> points_;
+  std::unique_ptr<Algorithm> algorithm_;
   double beamwidth_deg_;
-  int circle_;                // number of rays around the horizon
   std::vector<Ray> rays_;     // kept; one if there are no sub-beams
   std::vector<Member> beam_;  // from left to right
   std::vector<simd::WeightedRay> weighted_;
   std::vector<const RayGround*> grounds_;  // of beam_
   std::size_t measured_ = 0;
+  int circle_;  // number of rays around the horizon
 };
 
 // Makes the algorithm that the fidelity names.

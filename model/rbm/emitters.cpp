@@ -45,6 +45,7 @@ EmitterSights::EmitterSights(const physics::RadarParameters& parameters, std::ve
       gas_(parameters),
       emitters_(std::move(emitters)),
       sights_(emitters_.size()) {
+  ecef_.reserve(emitters_.size());
   for (const Emitter& emitter : emitters_)
     ecef_.push_back(geo::ecef_from_geodetic(emitter.position, geo::HeightAboveEllipsoid::metres(0.0)));
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/geo/earth.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
 namespace yars::model::rbm {
