@@ -105,7 +105,18 @@ void RayCrests::sample_short_pieces(const terrain::TerrainView& terrain, const t
 
 namespace {
 constexpr std::size_t kSamples = 512;
+
+// True if ground at a distance surely lies below the line of sight with a tangent, without the sines of
+// EffectiveEarth::tangent(). The line is approximated by altitude + tangent d + d^2 / (2 R). The margin bounds what
+// that and the inclination of the ground's vertical leave out, for angles up to 1 rad at the earth's centre.
+bool lies_below(const physics::EffectiveEarth& earth, double altitude_m, double tangent, double distance_m,
+                double height_m) {
+  const double angle_rad = distance_m * earth.curvature();
+  const double margin_m =
+      (std::abs(tangent) + angle_rad) * angle_rad * (std::abs(height_m) + distance_m * angle_rad / 6.0);
+  return height_m < altitude_m + distance_m * (tangent + 0.5 * angle_rad) - margin_m;
 }
+}  // namespace
 
 SightLine::SightLine()
     : positions_(kSamples),
@@ -120,7 +131,7 @@ bool SightLine::clear(const physics::GeometryParameters& parameters, const physi
                       const terrain::TerrainView& terrain, const geo::GeodesicInverse& path, double altitude_m) {
   const physics::EffectiveEarth earth = physics::effective_earth(parameters, geometry.apex, path.azimuth_at_start);
   const double distance_m = path.distance.metres();
-  // The last sample is directly below the point and is left out of the maximum `highest`.
+  // The last sample is directly below the point and hides nothing.
   for (std::size_t i = 0; i < kSamples; ++i)
     distance_m_[i] = static_cast<float>(distance_m * static_cast<double>(i + 1) / static_cast<double>(kSamples));
   std::fill_n(distance_m_.data() + kSamples, physics::kPairSlack, static_cast<float>(distance_m));
@@ -129,16 +140,17 @@ bool SightLine::clear(const physics::GeometryParameters& parameters, const physi
   const auto all = [](memory::CacheAlignedVector<float>& values) { return std::span(values).first(kSamples); };
   terrain.surfaces(positions_.run(), radar::Interpolation::bilinear,
                    {all(elevation_m_), all(water_), all(peak_m_), {}});
-  double highest = static_cast<double>(terrain::kNoTangent);
+  const double tangent = earth.tangent(geometry.altitude.metres(), distance_m, altitude_m);
   for (std::size_t i = 0; i + 1 < kSamples; ++i) {
     const double height_m = std::isnan(peak_m_[i]) ? 0.0 : static_cast<double>(peak_m_[i]);
-    highest =
-        std::max(highest, earth.tangent(geometry.altitude.metres(), static_cast<double>(distance_m_[i]), height_m));
+    const auto along_m = static_cast<double>(distance_m_[i]);
+    if (lies_below(earth, geometry.altitude.metres(), tangent, along_m, height_m)) continue;
+    if (earth.tangent(geometry.altitude.metres(), along_m, height_m) >= tangent) return false;
   }
-  if (ray_crests_.find(terrain, {geometry.apex, path.azimuth_at_start, path.distance, parameters.geodesic_knots},
-                       positions_, {geometry.altitude.metres(), earth.curvature(), all(distance_m_), {}}, all(crest_)))
-    highest = std::max(highest, static_cast<double>(*std::max_element(crest_.data(), crest_.data() + kSamples)));
-  return highest < earth.tangent(geometry.altitude.metres(), distance_m, altitude_m);
+  if (!ray_crests_.find(terrain, {geometry.apex, path.azimuth_at_start, path.distance, parameters.geodesic_knots},
+                        positions_, {geometry.altitude.metres(), earth.curvature(), all(distance_m_), {}}, all(crest_)))
+    return true;
+  return static_cast<double>(*std::max_element(crest_.data(), crest_.data() + kSamples)) < tangent;
 }
 
 namespace {
