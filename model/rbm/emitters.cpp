@@ -102,6 +102,7 @@ EmitterSights::Path EmitterSights::path(std::size_t number) const {
 namespace {
 std::vector<EmitterSights::Emitter> emitters_of(const radar::JammingConfiguration& jamming) {
   std::vector<EmitterSights::Emitter> emitters;
+  emitters.reserve(jamming.jammers.size());
   for (const radar::Jammer& jammer : jamming.jammers) emitters.push_back({jammer.position, jammer.altitude_m});
   return emitters;
 }
@@ -171,6 +172,7 @@ std::vector<radar::Beacon> answering(const radar::BeaconConfiguration& settings)
 
 std::vector<EmitterSights::Emitter> emitters_of(const std::vector<radar::Beacon>& beacons) {
   std::vector<EmitterSights::Emitter> emitters;
+  emitters.reserve(beacons.size());
   for (const radar::Beacon& beacon : beacons) emitters.push_back({beacon.position, beacon.altitude_m});
   return emitters;
 }
