@@ -202,8 +202,8 @@ void PointReturn::add_scatterer(const Sweep& sweep, const SceneRay::InScene& ray
   if (!(gain > 0.0) || is_negligible()) return;
   const Neighbours rays = rays_at(offset_rad);
   const Target target{echo.distance_m, echo.per_metre, echo.tangent, static_cast<double>(scatterer.middle_msl_m)};
-  const auto lit_by = [&](std::size_t ray) {
-    const Seen seen = seen_by(rays_[ray], target, echo.nearer);
+  const auto lit_by = [&](std::size_t number_of_ray) {
+    const Seen seen = seen_by(rays_[number_of_ray], target, echo.nearer);
     echo.nearer = seen.nearer;
     return lit_fraction(sweep, scatterer, seen);
   };
