@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "lib/radar/fidelity.hpp"
-#include "lib/radar/world.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
 namespace yars::model::physics {
@@ -121,7 +120,7 @@ std::span<const Echo> Movers::echoes(const SweepGeometry& geometry, const Receiv
   for (std::size_t i = 0; i < traffic.size(); ++i) {
     const MovingPoint& point = traffic[i];
     if (sector.may_contain(point.start_ecef, run_m(point, point.since)))
-      add_echo(radar::kMaxMovers + i, point, sector, sweep);
+      add_echo(points_.size() + i, point, sector, sweep);
   }
   return echoes_;
 }

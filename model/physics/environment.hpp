@@ -62,7 +62,9 @@ struct Environment {
 
 // Unobstructed return of one mover.
 struct Echo {
-  std::size_t number = 0;  // below kMaxMovers + kMaxTraffic; equal for a mover from sweep to sweep
+  // Of the configured movers first, then of the traffic. It is less than the number of configured movers + kMaxTraffic,
+  // and equal for a mover from sweep to sweep.
+  std::size_t number = 0;
   geo::GeoPoint position;
   double above_ground_m = 0.0;
   double distance_m = 0.0;  // over ground

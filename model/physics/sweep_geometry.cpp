@@ -32,6 +32,14 @@ double point_azimuth_gain(const std::optional<AzimuthInterval>& sharpened_cell, 
   return part * beamwidth_rad / cell_rad;
 }
 
+Displacement displacement(const SweepGeometry& from, const SweepGeometry& to) {
+  constexpr double kMetresPerDegree = geo::kMeanEarthRadius_m * geo::kRadiansPerDegree;
+  return {kMetresPerDegree * (to.apex.latitude_deg - from.apex.latitude_deg),
+          kMetresPerDegree * geo::wrapped_degrees(to.apex.longitude_deg - from.apex.longitude_deg) *
+              std::cos(to.apex.latitude_deg * geo::kRadiansPerDegree),
+          to.altitude.metres() - from.altitude.metres()};
+}
+
 namespace {
 // Lower limit of the earth radius factor k. On a much smaller sphere the selected range would span a large angle.
 constexpr double kMinFactor = 0.1;

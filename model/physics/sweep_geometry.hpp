@@ -53,6 +53,12 @@ struct SweepGeometry {
   geo::Angle bars_below{};
 };
 
+// Way of the aircraft from one sweep to another shortly after it, on a sphere.
+struct Displacement {
+  double north_m = 0.0, east_m = 0.0, up_m = 0.0;
+};
+Displacement displacement(const SweepGeometry& from, const SweepGeometry& to);
+
 // Key of a sweep's noise. Equal keys give equal noise.
 struct NoiseKey {
   std::uint64_t seed = 0;

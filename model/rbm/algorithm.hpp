@@ -1,6 +1,6 @@
 // Interface of the algorithms that make the sweeps of the real beam map. They compute power from terrain, and video
 // from power. Video is brightness, 0 to 255.
-// A ray of the beam is measured at a time; Beam (beam.hpp) adds rays and point targets.
+// An algorithm measures one ray at a time. Beam (beam.hpp) adds several rays and point targets.
 // Inputs: geometry of a ray; terrain, scenes and traffic; configuration at construction.
 // Outputs: power per sample, mask of the lit samples, 8-bit video. Samples are ordered near to far. A power of 1 is
 // full scale: it gives video 255 at the highest GAIN step. A void (ground without elevation data) returns no power.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "lib/geo/earth.hpp"
 #include "lib/radar/fidelity.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/rbm/reference.hpp"
@@ -19,16 +18,6 @@ constexpr double kMaxMove = 0.5;
 // [rays] A number of rays around the horizon that exceeds a whole number by less than this, by rounding, is that
 // number.
 constexpr double kRounding = 1e-6;
-
-// Square of the distance between the aircraft's positions in two sweeps.
-double squared_distance_m2(const physics::SweepGeometry& from, const physics::SweepGeometry& to) {
-  constexpr double kMetresPerDegree = geo::kMeanEarthRadius_m * geo::kRadiansPerDegree;
-  const double north_m = kMetresPerDegree * (to.apex.latitude_deg - from.apex.latitude_deg);
-  const double east_m = kMetresPerDegree * geo::wrapped_degrees(to.apex.longitude_deg - from.apex.longitude_deg) *
-                        std::cos(to.apex.latitude_deg * geo::kRadiansPerDegree);
-  const double up_m = to.altitude.metres() - from.altitude.metres();
-  return north_m * north_m + east_m * east_m + up_m * up_m;
-}
 }  // namespace
 
 Beam::Beam(const physics::RadarParameters& parameters) : Beam(make_algorithm(parameters), parameters) {}
@@ -86,12 +75,13 @@ Beam::Ray& Beam::ray_of(int number, int first, int last) {
 bool Beam::is_current(const Ray& ray, const physics::SweepGeometry& geometry, bool with_points) const {
   if (!ray.current || (with_points && !ray.described)) return false;
   const physics::SweepGeometry& then = ray.ground.geometry;
+  const auto [north_m, east_m, up_m] = physics::displacement(then, geometry);
   const double max_move_m = kMaxMove * geometry.range.metres() / static_cast<double>(ray.lit.size());
   return then.elevation.radians() == geometry.elevation.radians() && then.range.metres() == geometry.range.metres() &&
          then.bars_above.radians() == geometry.bars_above.radians() &&
          then.bars_below.radians() == geometry.bars_below.radians() &&
          std::abs((geometry.sim_time - then.sim_time).seconds()) <= kRayLifetime.seconds() &&
-         squared_distance_m2(then, geometry) <= max_move_m * max_move_m;
+         north_m * north_m + east_m * east_m + up_m * up_m <= max_move_m * max_move_m;
 }
 
 void Beam::measure_ray(Ray& ray, const physics::SweepGeometry& geometry, const physics::Environment& environment,

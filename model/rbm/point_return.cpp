@@ -24,15 +24,6 @@ double wrapped_rad(double angle_rad) {
   constexpr double kPi = std::numbers::pi;
   return angle_rad > kPi ? angle_rad - 2.0 * kPi : angle_rad < -kPi ? angle_rad + 2.0 * kPi : angle_rad;
 }
-
-// Distance from one position to another, which are near each other, in the direction of an azimuth.
-double distance_along_m(geo::GeoPoint from, geo::GeoPoint to, geo::Bearing azimuth) {
-  constexpr double kMetresPerDegree = geo::kMeanEarthRadius_m * geo::kRadiansPerDegree;
-  const double north_m = kMetresPerDegree * (to.latitude_deg - from.latitude_deg);
-  const double east_m = kMetresPerDegree * geo::wrapped_degrees(to.longitude_deg - from.longitude_deg) *
-                        std::cos(to.latitude_deg * geo::kRadiansPerDegree);
-  return north_m * std::cos(azimuth.radians()) + east_m * std::sin(azimuth.radians());
-}
 }  // namespace
 
 PointReturn::PointReturn(const physics::RadarParameters& parameters)
@@ -44,7 +35,7 @@ PointReturn::PointReturn(const physics::RadarParameters& parameters)
       has_movers_(!parameters.world.movers.empty()),
       receivers_(parameters),
       movers_(parameters),
-      mover_sights_(parameters, radar::kMaxMovers + physics::kMaxTraffic),
+      mover_sights_(parameters, parameters.world.movers.size() + physics::kMaxTraffic),
       gas_(parameters),
       surface_(parameters),
       tables_(surface_),
@@ -91,9 +82,9 @@ void PointReturn::set_rays(const physics::SweepGeometry& geometry, std::span<con
   rays_.clear();
   for (const RayGround* ground : rays) {
     const physics::SweepGeometry& ray = ground->geometry;
-    const double ahead_m = distance_along_m(ray.apex, geometry.apex, ray.azimuth);
-    const double climb_m = geometry.altitude.metres() - ray.altitude.metres();
-    rays_.push_back({ground, ahead_m, climb_m, ahead_m != 0.0 || climb_m != 0.0});
+    const auto [north_m, east_m, up_m] = physics::displacement(ray, geometry);
+    const double ahead_m = north_m * std::cos(ray.azimuth.radians()) + east_m * std::sin(ray.azimuth.radians());
+    rays_.push_back({ground, ahead_m, up_m, ahead_m != 0.0 || up_m != 0.0});
   }
   const auto offset_rad = [&](const RayGround* ray) { return (ray->geometry.azimuth - geometry.azimuth).radians(); };
   first_ray_rad_ = offset_rad(rays.front());

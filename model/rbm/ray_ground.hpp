@@ -1,4 +1,5 @@
-// Ground along one ray, as far as it hides and attenuates point targets.
+// Ground along one ray, as far as it hides and attenuates point targets. Algorithm::describe() fills it, PointReturn
+// reads it.
 // Heights are above mean sea level. Samples are in order from near to far.
 #pragma once
 

@@ -1,4 +1,6 @@
-// Ray of a sweep in the coordinates of polygonal scenes.
+// Ray of a sweep in the coordinates of polygonal scenes, and which scenes it meets.
+// Inputs: apex, azimuth and range of the ray; a scene.
+// Outputs: vectors in the scene's frame; whether the scene lies within the range, and under the ray.
 // Frames: earth-centred, earth-fixed; east-north-up of a scene [m].
 // Accuracy: double precision. A geodesic differs by less than 1 km from the vertical plane through its start.
 #pragma once

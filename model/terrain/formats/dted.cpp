@@ -154,12 +154,10 @@ error::Expected<Columns> find_columns(std::span<const std::byte> data, const Hea
   for (std::span<const std::byte> rest = data; !rest.empty();) {
     const auto at = [&] { return "column record " + std::to_string(found.present + 1); };
     const auto truncated = [&] {
-      return error::fail(subject, "a whole " + at(), text::counted(rest.size(), "byte"),
-                         "the file is truncated; fetch it again");
+      const bool complete = found.present == seen.size();
+      return error::fail(subject, complete ? "nothing after the last column record" : "a whole " + at(),
+                         text::counted(rest.size(), "byte"), "the file is truncated or damaged; fetch it again");
     };
-    if (found.present == static_cast<std::size_t>(header.columns) && rest.size() < kRecordHeadBytes)
-      return error::fail(subject, "nothing after the last column record", text::counted(rest.size(), "byte"),
-                         "the file is damaged; fetch it again");
     if (rest.size() < kRecordHeadBytes) return truncated();
     const std::size_t column = memory::big_endian<std::uint16_t>(rest.data() + 4);
     const int first_row = memory::big_endian<std::uint16_t>(rest.data() + 6);

@@ -120,9 +120,11 @@ class SubBeamsOverNotes : public ::testing::Test {
 TEST_F(SubBeamsOverNotes, MeasureOnlyTheRaysThatTheBeamReaches) {
   // The spacing of the rays is 0.25 degrees.
   EXPECT_EQ(rays_of(towards(359.0)), 15U);
+  EXPECT_EQ(beam.rays(), 15U);
   EXPECT_EQ(rays_of(towards(359.0)), 0U);
   EXPECT_EQ(pending, 45U) << "of kept rays, too";
   EXPECT_EQ(rays_of(towards(359.5)), 2U);
+  EXPECT_EQ(beam.rays(), 17U);
   EXPECT_EQ(rays_of(towards(0.25)), 3U) << "across north";
   EXPECT_EQ(rays_of(towards(359.75)), 2U) << "back";
   EXPECT_EQ(rays_of(towards(90.0)), 15U);
