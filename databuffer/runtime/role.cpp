@@ -14,6 +14,25 @@ namespace {
 // [ms] A standby takes over within this time after the role is free. Each look is one system call.
 constexpr std::chrono::milliseconds kStandbyInterval(10);
 
+// [ns] Time for which a standby leaves the role to a gateway that has died. A supervisor starts the gateway again within
+// 1 s; input events that wait for another host then still reach that host.
+constexpr std::int64_t kGatewayReturn_ns = 1'200'000'000;
+
+// True while the role is not free for a standby.
+class Occupation {
+ public:
+  bool lasts(const Session& session, Role role) {
+    if (session.role_is_held(role) || session.must_yield(role)) return true;
+    if (!session.is_mirrored(role)) return false;
+    const std::int64_t now_ns = monotonic_ns();
+    if (session.role_is_held(Role::gateway)) gateway_seen_ns_ = now_ns;
+    return now_ns - gateway_seen_ns_ < kGatewayReturn_ns;
+  }
+
+ private:
+  std::int64_t gateway_seen_ns_ = monotonic_ns();
+};
+
 error::Expected<HeldRole> open_and_claim(const std::string& session_name, Role role, std::string_view program) {
   auto session = Session::open(session_name, program);
   if (!session) return tl::unexpected(session.error());
@@ -31,8 +50,9 @@ void add_standby_option(CommandLine& app, bool& standby) {
 error::Expected<std::optional<HeldRole>> take_role(const std::string& session_name, Role role, std::string_view program,
                                                    bool standby) {
   std::optional<Session> waiting;
+  Occupation occupation;
   while (!stop_requested()) {
-    if (!waiting || (!waiting->role_is_held(role) && !waiting->must_yield(role))) {
+    if (!waiting || !occupation.lasts(std::as_const(*waiting), role)) {
       auto held = open_and_claim(session_name, role, program);
       if (held) return std::optional<HeldRole>(std::move(*held));
       if (!standby || !held.error().bad_usage) return tl::unexpected(held.error());

@@ -134,7 +134,7 @@ struct RemoteLane {
 struct Network {
   std::atomic<std::uint64_t> segment;         // random number of this segment; 0: no gateway has joined it
   std::atomic<std::uint32_t> yielding_roles;  // bit n: role n is held on another host; its holder here must release it
-  std::atomic<std::uint32_t> reserved;
+  std::atomic<std::uint32_t> mirrored_roles;  // bit n: the gateway holds role n for another host
   std::array<RemoteLane, kInputLanes> remote_lanes;  // of the input lanes, in their order
 };
 
