@@ -77,7 +77,8 @@ LAYERS = {
     "display/app": SHELL + ["display/symbology", "display/gl", "display/host"],
     "gateway": RECORDS,
     "gateway/dds": RECORDS + ["lib/file"],
-    "gateway/app": SHELL + ["gateway", "gateway/dds"],
+    "gateway/exchange": RECORDS + ["lib/log", "databuffer/session", "databuffer/runtime", "gateway", "gateway/dds"],
+    "gateway/app": SHELL + ["gateway", "gateway/dds", "gateway/exchange"],
     "tools/command": SHELL + KERNEL + WORLD,
     "tools/recording": KERNEL + WORLD,
     "tools/trade": SHELL + KERNEL + WORLD + ["tools/command"],
@@ -93,7 +94,7 @@ LAYERS = {
 
 # Shells: folders that may use the segment, the log and clocks. They have the programs, and code that programs share.
 SHELLS = ["lib/log", "databuffer/session", "databuffer/runtime", "databuffer/app", "databuffer/client", "model/app", "statemachine/app",
-          "inputmonitor/app", "display/host", "display/library", "display/app", "gateway/app", "tools", "tests", "examples"]
+          "inputmonitor/app", "display/host", "display/library", "display/app", "gateway/exchange", "gateway/app", "tools", "tests", "examples"]
 
 # Third-party and system headers: a header, or a folder of headers with "/" at the end -> who may include it: folders,
 # single files, or "shells" for SHELLS.
@@ -122,7 +123,7 @@ SYSTEM_HEADERS = {
     "dlfcn.h": ["display/gl/context.cpp", "lib/file/file_search.cpp"],
     "EGL/": ["display/gl"],
     "glm/": ["lib/geo", "lib/radar", "model/scene/openflight"],
-    "xxhash.h": ["model/kernel"],
+    "xxhash.h": ["model/kernel", "databuffer/messages"],
     "yars/": ["examples", "tests"],  # headers for programs of others, as they are installed
     "hwy/": ["lib/simd", "lib/random", "model/terrain/sampling", "model/physics", "model/rbm", "model/hrm", "tests"],
     "embree3/": ["tests"],

@@ -101,7 +101,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Model
 int main(int argc, char** argv) {
   databuffer::CommandLine app("YARS radar model: antenna, real beam map and patch maps", "radar-model");
   databuffer::ProgramOptions options;
-  databuffer::add_common_options(app, options, true);
+  databuffer::add_common_options(app, options, databuffer::ProgramKind::role);
   ModelOptions model_options;
   app.option("--terrain", model_options.terrain, "folder of elevation cells: DTED, HGT, DED, packs, rasters")
       .value_name("DIR")

@@ -49,7 +49,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, bool standb
 int main(int argc, char** argv) {
   databuffer::CommandLine app("YARS state machine: turns input events into the radar state", "state-machine");
   databuffer::ProgramOptions options;
-  databuffer::add_common_options(app, options, true);
+  databuffer::add_common_options(app, options, databuffer::ProgramKind::role);
   bool standby = false;
   databuffer::add_standby_option(app, standby);
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, standby); });
