@@ -246,7 +246,8 @@ void EventExchange::pop_applied(Context& context, const databuffer::AppliedEvent
 
 void EventExchange::receive(Context& context, const yars_net_AppliedEventSample& sample) {
   auto& ring = context.session.layout().applied_events;
-  if (context.roles.source(Role::state_machine) != sample.host || !is_new_in_history(context, sample, ring.next()))
+  if (context.roles.source(Role::state_machine) != sample.host ||
+      !is_new_in_history(context, sample, ring.next(), sample.applied.tick))
     return;
   databuffer::AppliedEvent applied{};
   copy_record(applied, sample.applied);
