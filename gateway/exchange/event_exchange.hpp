@@ -50,7 +50,6 @@ class EventExchange {
     std::uint64_t segment = 0;
     std::optional<databuffer::Claim> claim = std::nullopt;
     std::uint64_t next_event = 0;
-    std::optional<std::uint64_t> blocked_at = std::nullopt;  // this event found no room; later ones wait for it
     bool receipt_due = false;
     std::int64_t heard_ns = 0;
   };
@@ -59,7 +58,7 @@ class EventExchange {
   void send_applied(Context& context);
   Receiving* receiving_from(Context& context, const yars_net_InputEventSample& sample);
   bool take_lane(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample);
-  bool push(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample);
+  void push(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample);
   void release_lanes(Context& context);
   void pop_applied(Context& context, const databuffer::AppliedEvent& applied);
 

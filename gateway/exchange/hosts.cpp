@@ -65,7 +65,8 @@ Hosts::Hosts(databuffer::Session& session, dds::Link* link, Identity identity)
 }
 
 void Hosts::exchange(std::int64_t now_ns) {
-  link_->take_hosts([&](const yars_net_HostSample& sample, bool alive) { receive(sample, alive, now_ns); });
+  if (link_ != nullptr)
+    link_->take_hosts([&](const yars_net_HostSample& sample, bool alive) { receive(sample, alive, now_ns); });
   update_group(now_ns);
   announce(now_ns);
   ask(now_ns);
@@ -175,7 +176,7 @@ void Hosts::announce(std::int64_t now_ns) {
   sample.group = self().group;
   set_text(sample.name, identity_.name);
   set_text(sample.version, YARS_VERSION);
-  link_->write(sample);
+  if (link_ != nullptr) link_->write(sample);
 }
 
 void Hosts::ask(std::int64_t now_ns) {
@@ -186,7 +187,7 @@ void Hosts::ask(std::int64_t now_ns) {
     question.from = self().id;
     question.to = host.view.id;
     question.asked_ns = databuffer::monotonic_ns();
-    link_->write(question);
+    if (link_ != nullptr) link_->write(question);
   }
 }
 
@@ -212,15 +213,21 @@ Hosts::Host* Hosts::host_of(std::uint64_t id, bool add) {
   for (Host& host : hosts_)
     if (host.view.id == id) return &host;
   if (!add || id == self().id) return nullptr;
-  if (hosts_.size() + 1 >= databuffer::kMaxHosts) {
-    const std::string line = "expected at most " + std::to_string(databuffer::kMaxHosts) + " hosts, found another";
-    log::warning(line);
-    return nullptr;
-  }
   Host host;
   host.view.id = id;
-  hosts_.push_back(std::move(host));
-  return &hosts_.back();
+  if (hosts_.size() + 1 < databuffer::kMaxHosts) {
+    hosts_.push_back(std::move(host));
+    return &hosts_.back();
+  }
+  // A host that has left makes room, one that never announced itself first.
+  const auto oldest = std::ranges::min_element(
+      hosts_, {}, [](const Host& known) { return std::pair(known.alive, known.heard_ns); });
+  if (oldest->alive) {
+    log::warning("expected at most " + std::to_string(databuffer::kMaxHosts) + " hosts, found another");
+    return nullptr;
+  }
+  *oldest = std::move(host);
+  return &*oldest;
 }
 
 const Hosts::Host* Hosts::host_of(std::uint64_t id) const {
@@ -250,6 +257,11 @@ void Hosts::update_group(std::int64_t now_ns) {
 const HostView* Hosts::find(std::uint64_t id) const {
   const auto found = std::ranges::find(views_, id, &HostView::id);
   return found == views_.end() ? nullptr : &*found;
+}
+
+bool Hosts::has_announced(std::uint64_t id) const {
+  const Host* host = host_of(id);
+  return host != nullptr && !host->view.name.empty() && !host->other_layout;
 }
 
 std::optional<std::int64_t> Hosts::offset_ns(std::uint64_t id) const {
