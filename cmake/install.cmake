@@ -6,6 +6,9 @@ set(documents ${CMAKE_INSTALL_DATADIR}/doc/yars)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${share}/config
   FILES_MATCHING PATTERN "*.guf" PATTERN "*.route" PATTERN "*.script" PATTERN "*.scenes" PATTERN "*.tour")
+# Structures of the topics, for programs of others that join by DDS: docs/network.md. A component of its own: the build makes one.
+install(FILES ${PROJECT_SOURCE_DIR}/gateway/yars_network.idl ${PROJECT_BINARY_DIR}/generated/gateway/yars_records.idl
+  DESTINATION ${share}/idl COMPONENT idl)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${documents})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copyright)

@@ -12,7 +12,8 @@ import re
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
-FOLDERS = "build|config|databuffer|display|docs|examples|inputmonitor|lib|model|packaging|scripts|shm|statemachine|tests|tools|worldgen"
+FOLDERS = ("build|config|databuffer|display|docs|examples|gateway|inputmonitor|lib|model|packaging|scripts|shm|statemachine|tests|tools"
+           "|worldgen")
 PATH = re.compile(rf"(?<![\w./<~$=-])(?:\./)?((?:{FOLDERS})/(?:[\w*@-]|[./](?=[\w*@-]))*/?)")
 LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")
 # What only a checkout needs, and the text that takes its place. The comment marks show the first in the sources.
@@ -27,7 +28,7 @@ PLACES = {
     "build/terrain/default": "~/.cache/yars/terrain", "build/start.log": "yars-start's log",
     "packaging/systemd": "lib/systemd/user", "examples/yars.py": "yars.py", "databuffer/client/yars.h": "yars/yars.h",
     "databuffer/client/yars_records.h": "yars/yars_records.h", "databuffer/client/yars_segment.h": "yars/yars_segment.h",
-    "display/library/yars_display.h": "yars/yars_display.h",
+    "display/library/yars_display.h": "yars/yars_display.h", "gateway/yars_network.idl": "share/yars/idl/yars_network.idl",
 }
 SAYS = ("This is the installed copy: the programs are on your path, `examples/` lies beside this README. `SOURCES/` "
         "stands for the sources of YARS{}, which hold the rest.")
@@ -88,7 +89,7 @@ def with_preface(text, version):
 def main(prefix, documents, share, version=""):
     prefix, documents, share = pathlib.Path(prefix), pathlib.Path(documents), pathlib.Path(share)
     for path in sorted(path for root in (documents, share) for path in (prefix / root).rglob("*") if path.is_file()):
-        if path.suffix not in (".md", ".c", ".cpp", ".py", ".txt", ".guf", ".route", ".script", ".scenes", ".tour"):
+        if path.suffix not in (".md", ".c", ".cpp", ".py", ".txt", ".idl", ".guf", ".route", ".script", ".scenes", ".tour"):
             continue
         before = path.read_text(encoding="utf-8")
         after = rewritten(before, path.relative_to(prefix), prefix, documents, share)

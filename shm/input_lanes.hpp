@@ -25,6 +25,9 @@ class InputLanes {
   // False: the lane is empty, or its damaged cursors were reset. `out` is then unchanged.
   bool peek(std::size_t lane, T& out);
   bool pop(std::size_t lane, T& out);
+  // Called by the consumer. Copies the record with this number, counted from 0 since the segment was created, and leaves
+  // it in the lane. False: the lane does not hold the record. `out` is then unchanged.
+  bool peek_at(std::size_t lane, std::uint64_t number, T& out) const;
 
   // pushed(), popped() and dropped() count the records since the segment was created.
   bool empty(std::size_t lane) const { return pushed(lane) == popped(lane); }
@@ -102,6 +105,16 @@ bool InputLanes<T, Lanes, Depth, Access>::peek(std::size_t lane, T& out) {
     if (pushed - number > Depth) Access::store(from.popped, pushed, std::memory_order_release);
     if (pushed - number > Depth || pushed == number) return false;
   }
+  load_words<Access>(from.records[number % Depth].data(), &out, kWordsOf<T>);
+  return true;
+}
+
+template <Record T, std::size_t Lanes, std::size_t Depth, class Access>
+bool InputLanes<T, Lanes, Depth, Access>::peek_at(std::size_t lane, std::uint64_t number, T& out) const {
+  const Lane& from = lanes_[lane];
+  const Word first = Access::load(from.popped, std::memory_order_relaxed);
+  const Word end = Access::load(from.pushed, std::memory_order_acquire);
+  if (end - first > Depth || number - first >= end - first) return false;
   load_words<Access>(from.records[number % Depth].data(), &out, kWordsOf<T>);
   return true;
 }

@@ -61,6 +61,7 @@ void print(const ConfigOptions& options, const CommonOptions& common) {
   const auto text = options.defaults ? config::print_explained(configuration.radar)
                                      : config::print_configuration(configuration.radar);
   std::fputs(text.c_str(), stdout);
+  if (configuration.network) std::fputs(config::print_network(*configuration.network).c_str(), stdout);
 }
 
 void convert(const ConfigOptions& options, const CommonOptions& common) {

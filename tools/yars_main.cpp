@@ -30,7 +30,7 @@ int run(int argc, char** argv) {
   app.require_subcommand();
   app.accept_options_after_subcommands();
   databuffer::ProgramOptions options;
-  databuffer::add_common_options(app, options, false);
+  databuffer::add_common_options(app, options, databuffer::ProgramKind::command);
   tools::CommonOptions common;
   app.before_callbacks([&] {
     if (auto error = databuffer::begin_program("yars", options)) tools::throw_failure(*error);

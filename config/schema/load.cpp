@@ -233,6 +233,7 @@ error::Expected<LoadedConfiguration> configuration_from(ParsedText tree) {
     return tl::unexpected(parse_error.error);
   }
   loaded.radar = std::move(builder->whole);
+  if (builder->has_network) loaded.network = std::move(builder->network);
   return loaded;
 }
 
@@ -327,6 +328,16 @@ error::Expected<radar::RadarConfiguration> load_program_configuration(const std:
   if (!loaded) return tl::unexpected(loaded.error());
   for (const auto& warning : loaded->warnings) log::warning(warning);
   return std::move(loaded->radar);
+}
+
+error::Expected<radar::NetworkSettings> load_network(const std::filesystem::path& path) {
+  if (path.empty()) return radar::NetworkSettings{};
+  auto loaded = load_configuration(path);
+  if (!loaded) return tl::unexpected(loaded.error());
+  for (const auto& warning : loaded->warnings) log::warning(warning);
+  if (loaded->network) return std::move(*loaded->network);
+  return error::fail(path.string(), "a form Network, as ( Network :interfaces `( \"eth0\" ) )", "none",
+                     "add it; docs/configuration/network.md has its slots");
 }
 
 error::Expected<ConvertedConfiguration> convert_configuration(const fs::path& path, const fs::path& folder) {

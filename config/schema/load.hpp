@@ -8,17 +8,20 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "lib/error/error.hpp"
 #include "lib/radar/configuration.hpp"
+#include "lib/radar/network.hpp"
 
 namespace yars::config {
 
 struct LoadedConfiguration {
   radar::RadarConfiguration radar;
+  std::optional<radar::NetworkSettings> network;  // of the form Network; none: the file has no such form
   std::vector<std::string> warnings;  // such as: old spellings, unknown forms and slots, values without effect
   std::vector<std::string> notes;     // lists of forms, such as showers, that replace those of earlier forms
 };
@@ -31,6 +34,10 @@ error::Expected<LoadedConfiguration> load_configuration_text(std::string_view te
 
 // Like load_configuration(), but writes the warnings to the log.
 error::Expected<radar::RadarConfiguration> load_program_configuration(const std::filesystem::path& path);
+
+// The form Network of a file, which may have other forms too. Writes the warnings to the log. An empty path gives the
+// defaults. Errors: those of load_configuration(), and a file without the form.
+error::Expected<radar::NetworkSettings> load_network(const std::filesystem::path& path);
 
 // A configuration as one GUF file: the message syntax is translated, included files are inserted, and old names are
 // replaced.

@@ -8,6 +8,7 @@
 
 #include "config/guf/tree.hpp"
 #include "lib/radar/configuration.hpp"
+#include "lib/radar/network.hpp"
 #include "lib/text/nearest_word.hpp"
 
 namespace yars::config {
@@ -25,6 +26,7 @@ struct ConfigurationBuilder::Storage {
   radar::Device device;
   radar::DeviceButton device_button;
   radar::DeviceAxis device_axis;
+  radar::NetworkSettings network;
   ConfigurationBuilder builder{*this};
 };
 
@@ -65,7 +67,8 @@ ConfigurationBuilder::ConfigurationBuilder(Storage& storage)
       beacon(storage.beacon),
       device(storage.device),
       device_button(storage.device_button),
-      device_axis(storage.device_axis) {}
+      device_axis(storage.device_axis),
+      network(storage.network) {}
 
 BuilderPointer new_builder() {
   const auto storage = std::make_shared<ConfigurationBuilder::Storage>();
@@ -106,7 +109,7 @@ std::vector<FormSchema> all_forms() {
   std::vector<FormSchema> forms;
   for (const auto group :
        {system_forms, mode_forms, antenna_forms, display_forms, database_forms, model_forms, route_forms, world_forms,
-        navigation_forms, traffic_forms, limit_forms, beacon_forms, device_forms, value_forms}) {
+        navigation_forms, traffic_forms, limit_forms, beacon_forms, device_forms, network_forms, value_forms}) {
     for (FormSchema& form : group()) forms.push_back(std::move(form));
   }
   return forms;
@@ -143,6 +146,9 @@ struct KindText {
     constexpr std::string_view kOrders[] = {"", " ascending", " descending"};
     return "a list of " + count + std::string(kOrders[static_cast<std::size_t>(list.order)]) + " numbers" +
            range_text(slot);
+  }
+  std::string operator()(const WordsSlot& words) const {
+    return "a list of " + std::to_string(words.min_count) + " to " + std::to_string(words.max_count) + " strings";
   }
   std::string operator()(const FirstSlot&) const { return "a whole number or a list of them" + range_text(slot); }
   std::string operator()(const PairSlot&) const { return "a list of 2 numbers" + range_text(slot); }

@@ -34,6 +34,7 @@ struct Jammer;
 struct Material;
 struct Mover;
 struct NavigationConfiguration;
+struct NetworkSettings;
 struct RadarConfiguration;
 struct RainCell;
 struct ReceiverConfiguration;
@@ -117,6 +118,8 @@ struct ConfigurationBuilder {
   radar::Device& device;
   radar::DeviceButton& device_button;
   radar::DeviceAxis& device_axis;
+  radar::NetworkSettings& network;
+  bool has_network = false;  // true: a form Network was read
 };
 
 using BuilderPointer = std::shared_ptr<ConfigurationBuilder>;
@@ -164,6 +167,11 @@ struct ListSlot {
   std::size_t max_count = 16;
   Order order = Order::any;
 };
+struct WordsSlot {  // a string or an identifier, or a list of them
+  std::vector<std::string>& (*of)(ConfigurationBuilder&) = nullptr;
+  std::size_t min_count = 0;
+  std::size_t max_count = 16;
+};
 struct FirstSlot {  // a number, or a list whose first number is used; `of` must not be null
   int& (*of)(ConfigurationBuilder&) = nullptr;
 };
@@ -189,7 +197,7 @@ struct FormSlot {
 };
 
 using Binding = std::variant<NumberSlot, IntegerSlot, CounterSlot, BooleanSlot, TextSlot, PathSlot, AngleSlot,
-                             ChoiceSlot, ListSlot, FirstSlot, PairSlot, SpanSlot, SymmetricSlot, FormSlot>;
+                             ChoiceSlot, ListSlot, WordsSlot, FirstSlot, PairSlot, SpanSlot, SymmetricSlot, FormSlot>;
 
 struct SlotSchema {
   std::string_view name{};
@@ -277,6 +285,7 @@ std::vector<FormSchema> traffic_forms();     // Jammers, Jammer, Movers, Mover, 
 std::vector<FormSchema> limit_forms();       // WindowLimits, HeightRanges
 std::vector<FormSchema> beacon_forms();      // Beacons, Beacon
 std::vector<FormSchema> device_forms();      // Devices, Device, Button, Axis
+std::vector<FormSchema> network_forms();     // Network
 
 // Rule: WindowLimits lists every window of SarMode, with a minimum and a maximum cursor range.
 std::optional<ConstraintViolation> check_windows_have_limits(const ConfigurationBuilder& builder);

@@ -7,6 +7,7 @@
 #include "config/guf/tree.hpp"
 #include "config/schema/schema.hpp"
 #include "lib/radar/devices.hpp"
+#include "lib/radar/network.hpp"
 
 namespace yars::config {
 
@@ -54,6 +55,12 @@ struct Writer {
     return index < 0 ? std::string() : std::string(kind.words[static_cast<std::size_t>(index)]);
   }
   std::string operator()(const ListSlot& kind) const { return kind.of ? list_text(kind.of(builder)) : ""; }
+  std::string operator()(const WordsSlot& kind) const {
+    if (kind.of == nullptr) return {};
+    std::string text = "`( ";
+    for (const std::string& word : kind.of(builder)) text += quoted_text(word) + " ";
+    return text + ")";
+  }
   std::string operator()(const FirstSlot& kind) const { return std::to_string(kind.of(builder)); }
   std::string operator()(const PairSlot& kind) const {
     return kind.first ? list_text({kind.first(builder), kind.second(builder)}) : "";
@@ -216,6 +223,12 @@ std::string print_devices(const std::vector<radar::Device>& devices) {
   return Printer(builder, PrintStyle::brief).print("Devices");
 }
 
+std::string print_network(const radar::NetworkSettings& network) {
+  const BuilderPointer builder = new_builder();
+  builder->network = network;
+  return Printer(builder, PrintStyle::full).print("Network");
+}
+
 namespace {
 
 // Forms that the manual describes on one page.
@@ -237,6 +250,7 @@ const std::vector<FormGroup>& groups() {
         "Mover", "Beacons", "Beacon", "Scenes", "Scene"}},
       {"route", {"Route", "Point", "Navigation"}},
       {"devices", {"Devices", "Device", "Button", "Axis"}},
+      {"network", {"Network"}},
       {"fidelity", {"Fidelity"}},
       {"values", {"rgb", "rgba", "hsv", "hsva", "lat-long"}}};
   return table;

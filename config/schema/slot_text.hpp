@@ -28,6 +28,9 @@ std::string print_explained(const radar::RadarConfiguration& configuration);
 // has its default is left out.
 std::string print_devices(const std::vector<radar::Device>& devices);
 
+// The form Network as GUF text, with all slots.
+std::string print_network(const radar::NetworkSettings& network);
+
 // Names of the groups of forms. Every form is in one group. The manual has a page for each group:
 // docs/configuration.md#forms-and-slots.
 std::vector<std::string> form_groups();

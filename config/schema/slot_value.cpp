@@ -67,6 +67,17 @@ class Reader {
     }
     if (kind.of) kind.of(builder_) = std::move(numbers);
   }
+  void operator()(const WordsSlot& kind) const {
+    const auto* items = std::get_if<List>(&value_.data);
+    std::vector<std::string> words;
+    if (items == nullptr) {
+      words.push_back(word(value_));
+    } else {
+      for (const Value& item : items->items) words.push_back(word(item));
+    }
+    if (words.size() < kind.min_count || words.size() > kind.max_count) wrong(value_);
+    if (kind.of) kind.of(builder_) = std::move(words);
+  }
   void operator()(const FirstSlot& kind) const {
     constexpr std::size_t kMaxItems = 16;
     const auto* items = std::get_if<List>(&value_.data);
@@ -130,6 +141,13 @@ class Reader {
   const std::string& string() const {
     const auto* text = std::get_if<std::string>(&value_.data);
     if (text == nullptr) wrong(value_);
+    return *text;
+  }
+
+  const std::string& word(const Value& value) const {
+    if (const auto* identifier = std::get_if<Identifier>(&value.data)) return identifier->name;
+    const auto* text = std::get_if<std::string>(&value.data);
+    if (text == nullptr) wrong(value);
     return *text;
   }
 

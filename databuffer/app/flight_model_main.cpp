@@ -86,7 +86,7 @@ int main(int argc, char** argv) {
   databuffer::CommandLine app("YARS flight model: position and motion of the aircraft", "flight-model");
   databuffer::ProgramOptions options;
   std::string source;
-  databuffer::add_common_options(app, options, true);
+  databuffer::add_common_options(app, options, databuffer::ProgramKind::role);
   app.option("--source", source, kSources).value_name("SOURCE").required();
   return databuffer::run_program(argc, argv, app, options, [&] {
     return databuffer::bridges::names_bridge(source) ? run_bridge(options, source) : run_flight_model(options, source);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Generates code and documents from the IDL of the records (records.idl in this folder).
 
-usage: generate.py --build FOLDER   the C++ headers and sources, into FOLDER; the build calls it
+usage: generate.py --build FOLDER   the C++ headers and sources, and the IDL for DDS, into FOLDER; the build calls it
        generate.py --write YARS     databuffer/client/yars_records.h, and the marked parts of examples/yars.py and
                                     docs/shared_memory.md
        generate.py --check YARS     checks that these files equal what --write would write; exit 1 if not
@@ -17,7 +17,7 @@ import sys
 sys.dont_write_bytecode = True
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
-from generator import clients, cpp, idl, schema, stability, tables  # noqa: E402
+from generator import clients, cpp, dds, idl, schema, stability, tables  # noqa: E402
 
 ROOT = HERE.parents[1]
 HEADER = "databuffer/client/yars_records.h"
@@ -41,6 +41,8 @@ def write_if_changed(path, text):
 def build(folder, chapters):
     made = cpp.files(chapters)
     made["databuffer/client/yars_records_check.hpp"] = clients.c_asserts(chapters)
+    made["gateway/yars_records.idl"] = dds.idl(chapters)
+    made["gateway/dds/yars_records_check.cpp"] = dds.asserts(chapters)
     for name, text in made.items():
         write_if_changed(folder / name, text)
 

@@ -83,6 +83,10 @@ Refusal validate(const PilotAdvice& advice) {
   return validate_fields(advice);
 }
 
+Refusal validate(const NetworkStatus& status) {
+  return validate_fields(status);
+}
+
 Refusal validate(const RecorderStatus& status) {
   return validate_fields(status);
 }

@@ -12,6 +12,7 @@
 #include "databuffer/messages/input_event_record.hpp"
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/messages/model_records.hpp"
+#include "databuffer/messages/network_status.hpp"
 #include "databuffer/messages/pictures.hpp"
 #include "databuffer/messages/radar_state.hpp"
 #include "databuffer/messages/world_state.hpp"
@@ -34,6 +35,7 @@ Refusal validate(const RadarState& state);
 Refusal validate(const Caption& caption);
 Refusal validate(const InputEvent& event);
 Refusal validate(const PilotAdvice& advice);
+Refusal validate(const NetworkStatus& status);
 // Records of radar-model.
 Refusal validate(const ModelStatus& status);
 Refusal validate(const Sweep& sweep);

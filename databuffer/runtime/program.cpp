@@ -38,7 +38,7 @@ std::optional<error::Error> arrange_cpus(const ProgramOptions& options) {
 
 }  // namespace
 
-void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role) {
+void add_common_options(CommandLine& app, ProgramOptions& options, ProgramKind kind) {
   const char* session = std::getenv("YARS_SESSION");
   const bool has_session = session != nullptr && *session != '\0';
   if (has_session) options.session = session;
@@ -54,11 +54,12 @@ void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role)
   app.option("--log-level", options.log_level, "lines of this level and above are logged")
       .one_of({"trace", "debug", "info", "warning", "error", "off"})
       .in_user_file();
-  if (!is_role) return;
-  app.option("--lockstep", options.lockstep,
-             "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; give all these roles the same value")
-      .value_name("ROLES")
-      .otherwise("live");
+  if (kind == ProgramKind::command) return;
+  if (kind == ProgramKind::role)
+    app.option("--lockstep", options.lockstep,
+               "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; give all these roles the same value")
+        .value_name("ROLES")
+        .otherwise("live");
   app.option("--log-dir", options.log_dir, "folder for a rotated log file")
       .value_name("DIR")
       .otherwise("no file")

@@ -4,6 +4,7 @@
 // Threads: main thread only.
 #pragma once
 
+#include <cstdint>
 #include <exception>
 #include <functional>
 #include <optional>
@@ -25,9 +26,12 @@ struct ProgramOptions {
   std::string cpus;       // --cpus 2,3: CPU affinity; empty: all
 };
 
-// Adds --session, --config, --log-level and --version. With `is_role` (a program that runs the tick loop) it also adds
-// --lockstep, --log-dir, --realtime and --cpus.
-void add_common_options(CommandLine& app, ProgramOptions& options, bool is_role);
+// A command; a program that runs for the time of a session; such a program that also runs the tick loop.
+enum class ProgramKind : std::uint8_t { command, service, role };
+
+// Adds --session, --config, --log-level and --version; for services and roles also --log-dir, --realtime and --cpus; for
+// roles --lockstep.
+void add_common_options(CommandLine& app, ProgramOptions& options, ProgramKind kind);
 
 // Main function of a program. Parses the command line, sets a private umask, starts the log, installs signal handlers
 // and runs the body. Returns the exit code. An error or exception of the body is printed as one line on standard error.

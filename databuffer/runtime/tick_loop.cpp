@@ -208,11 +208,13 @@ error::Expected<void> TickLoop::outcome() const {
 }
 
 void TickLoop::done(const Due& due) {
-  if (!lockstep_) return;
-  auto& shared = session_->layout().lockstep;
-  shared.done_tick[role_].store(due.tick, std::memory_order_release);
-  shared.wake[role_].fetch_add(1, std::memory_order_release);
-  futex_wake_all(shared.wake[role_]);
+  if (lockstep_) complete_tick(session_->layout().lockstep, role_, due.tick);
+}
+
+void complete_tick(Lockstep& lockstep, std::size_t role, std::int64_t tick) {
+  lockstep.done_tick[role].store(tick, std::memory_order_release);
+  lockstep.wake[role].fetch_add(1, std::memory_order_release);
+  futex_wake_all(lockstep.wake[role]);
 }
 
 }  // namespace yars::databuffer

@@ -30,6 +30,10 @@ enum class LockstepRole : std::uint8_t {
 // burst of late ticks. With a smaller value short stalls would skip ticks.
 inline constexpr std::int64_t kMaxTicksBehind = 20;
 
+// Marks a tick of a lockstep run as done by a role, and wakes the roles that wait for it. `role`: index of
+// kLockstepRoleNames.
+void complete_tick(Lockstep& lockstep, std::size_t role, std::int64_t tick);
+
 class TickLoop {
  public:
   // `lockstep`: value of --lockstep; empty: live.

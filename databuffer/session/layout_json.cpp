@@ -99,6 +99,7 @@ std::string containers() {
   parts.add("recorder_status", latest_value<shm::LatestValue<RecorderStatus>>("RecorderStatus"));
   parts.add("caption", latest_value<shm::LatestValue<Caption>>("Caption"));
   parts.add("advice", latest_value<shm::LatestValue<PilotAdvice>>("PilotAdvice"));
+  parts.add("network_status", latest_value<shm::LatestValue<NetworkStatus>>("NetworkStatus"));
   parts.add("model_ticks", ring<decltype(SessionLayout::model_ticks)>("ModelTick"));
   parts.add("applied_events", ring<decltype(SessionLayout::applied_events)>("AppliedEvent"));
   parts.add("sweeps", ring<decltype(SessionLayout::sweeps)>("Sweep"));
@@ -156,14 +157,16 @@ std::string offsets() {
                     {"counters", offsetof(SessionLayout, counters)},
                     {"caption", offsetof(SessionLayout, caption)},
                     {"advice", offsetof(SessionLayout, advice)},
-                    {"skipped_ticks", offsetof(SessionLayout, skipped_ticks)}});
+                    {"skipped_ticks", offsetof(SessionLayout, skipped_ticks)},
+                    {"network_status", offsetof(SessionLayout, network_status)},
+                    {"network", offsetof(SessionLayout, network)}});
 }
 
 std::string lock_bytes() {
   ObjectText object;
   object.add("participation", std::size_t{0});
   for (const Role role : {Role::radar_model, Role::state_machine, Role::recorder, Role::clock, Role::traffic,
-                          Role::glass_frames, Role::tour})
+                          Role::glass_frames, Role::tour, Role::gateway})
     object.add(name_of(role), static_cast<std::size_t>(role));
   object.add("first_ownship_lane", kFirstOwnshipByte);
   object.add("first_input_lane", kFirstInputByte);

@@ -143,6 +143,13 @@ bool Session::role_is_held(Role role) const {
 std::int32_t Session::role_holder(Role role) const {
   return role_is_held(role) ? state_->segment->holder_pid(static_cast<std::size_t>(role)) : 0;
 }
+bool Session::must_yield(Role role) const {
+  const std::uint32_t yielding = layout().network.yielding_roles.load(std::memory_order_acquire);
+  return (yielding >> static_cast<unsigned>(role) & 1U) != 0 && role_is_held(Role::gateway);
+}
+bool Session::is_mirrored(Role role) const {
+  return (layout().network.mirrored_roles.load(std::memory_order_acquire) >> static_cast<unsigned>(role) & 1U) != 0;
+}
 bool Session::ownship_lane_is_held(std::size_t lane) const {
   YARS_REQUIRE(lane, <, kOwnshipLanes);
   return state_->segment->is_locked(kFirstOwnshipByte + lane);

@@ -53,6 +53,10 @@ class Session {
 
   bool role_is_held(Role role) const;         // true if this or another process holds the role
   std::int32_t role_holder(Role role) const;  // pid of the holder; 0: none
+  // True if another host of the session holds the role and its holder here must release it. False without a gateway.
+  bool must_yield(Role role) const;
+  // True if this host's gateway holds the role for another host, or held it when the gateway died.
+  bool is_mirrored(Role role) const;
   bool ownship_lane_is_held(std::size_t lane) const;
   bool input_lane_is_held(std::size_t lane) const;
   std::vector<ProcessInfo> processes() const;  // entries of the process table whose process is alive

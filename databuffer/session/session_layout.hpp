@@ -13,6 +13,7 @@
 
 #include "databuffer/messages/caption.hpp"
 #include "databuffer/messages/model_records.hpp"
+#include "databuffer/messages/network_status.hpp"
 #include "databuffer/messages/note.hpp"
 #include "databuffer/messages/pictures.hpp"
 #include "databuffer/messages/radar_state.hpp"
@@ -120,6 +121,23 @@ struct SkippedTicks {
   }
 };
 
+// Input lane that a gateway fills with the events of a lane of another host. Its entry outlives the gateway, so that the
+// next gateway delivers each event once.
+struct RemoteLane {
+  std::atomic<std::uint64_t> sender;  // number of host, segment and lane; 0: no remote sender
+  // Low 32 bits: `pushed` of this lane before the last event. High 32 bits: number of the event after the last one.
+  // Stored before the event is pushed. If `pushed` has not changed since, the last event is still missing.
+  std::atomic<std::uint64_t> progress;
+};
+
+// State of the gateway that joins this segment to the segments of other hosts (gateway/README.md).
+struct Network {
+  std::atomic<std::uint64_t> segment;         // random number of this segment; 0: no gateway has joined it
+  std::atomic<std::uint32_t> yielding_roles;  // bit n: role n is held on another host; its holder here must release it
+  std::atomic<std::uint32_t> mirrored_roles;  // bit n: the gateway holds role n for another host
+  std::array<RemoteLane, kInputLanes> remote_lanes;  // of the input lanes, in their order
+};
+
 // Slot of a patch map. The writer clears the id, writes, and stores the new id last. A reader copies between two loads
 // of the same id. progress_permille of a written slot is always 1000.
 struct PatchSlot {
@@ -138,10 +156,11 @@ struct FrameSlot {
 };
 
 // [bytes] Part of the reserve that containers occupy: Counters with padding to a cache line, Caption, PilotAdvice,
-// SkippedTicks. The assertions below SessionLayout hold the value.
+// SkippedTicks, NetworkStatus, Network with padding to a cache line. The assertions below SessionLayout hold the value.
 inline constexpr std::size_t kUsedSpareBytes = 680 + sizeof(shm::LatestValue<Caption>) +
                                                sizeof(shm::LatestValue<PilotAdvice>) +
-                                               kLockstepRoles * sizeof(SkippedTicks);
+                                               kLockstepRoles * sizeof(SkippedTicks) +
+                                               sizeof(shm::LatestValue<NetworkStatus>) + sizeof(Network);
 
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is the layout, and cache lines need the padding
 struct SessionLayout {
@@ -170,6 +189,8 @@ struct SessionLayout {
   shm::LatestValue<Caption> caption;  // written by the holder of the role `tour`
   shm::LatestValue<PilotAdvice> advice;
   std::array<SkippedTicks, kLockstepRoles> skipped_ticks;  // in the order of kLockstepRoleNames
+  shm::LatestValue<NetworkStatus> network_status;          // written by the gateway
+  Network network;
   std::array<std::atomic<std::uint64_t>, (kSpareBytes - kUsedSpareBytes) / 8> spare;
 };
 // New containers leave the end of the reserve, and thus the size of the layout, where it was.

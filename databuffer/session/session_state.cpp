@@ -48,6 +48,8 @@ std::string_view name_of(Role role) {
       return "glass frames";
     case Role::tour:
       return "tour";
+    case Role::gateway:
+      return "gateway";
   }
   return "unknown role";
 }

@@ -27,7 +27,8 @@ enum class Role : std::uint8_t {
   clock = 4,
   traffic = 5,
   glass_frames = 6,
-  tour = 7
+  tour = 7,
+  gateway = 12
 };
 std::string_view name_of(Role role);
 
@@ -35,7 +36,8 @@ std::string_view name_of(Role role);
 inline constexpr std::size_t kFirstOwnshipByte = 8;
 inline constexpr std::size_t kFirstInputByte = 16;
 inline constexpr std::size_t kFirstProcessByte = 32;
-static_assert(kFirstOwnshipByte + kOwnshipLanes <= kFirstInputByte);
+static_assert(kFirstOwnshipByte + kOwnshipLanes <= static_cast<std::size_t>(Role::gateway));
+static_assert(static_cast<std::size_t>(Role::gateway) < kFirstInputByte);
 static_assert(kFirstInputByte + kInputLanes <= kFirstProcessByte);
 static_assert(kFirstProcessByte + kProcesses <= shm::kLockBytes);
 

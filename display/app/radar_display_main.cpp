@@ -255,7 +255,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Displ
 int main(int argc, char** argv) {
   databuffer::CommandLine app("YARS radar display", "radar-display");
   databuffer::ProgramOptions options;
-  databuffer::add_common_options(app, options, true);
+  databuffer::add_common_options(app, options, databuffer::ProgramKind::role);
   DisplayOptions display_options;
   const databuffer::Option headless =
       app.flag("--headless", display_options.headless, "no window; pictures go to a folder or the session");

@@ -70,7 +70,7 @@ int main(int argc, char** argv) {
   std::vector<std::string> sources{"auto"};
   std::string learn_path;
   std::string map_file;
-  databuffer::add_common_options(app, options, true);
+  databuffer::add_common_options(app, options, databuffer::ProgramKind::role);
   app.option("--source", sources,
              "window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto; repeatable")
       .value_name("SOURCE")

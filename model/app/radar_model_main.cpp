@@ -3,6 +3,7 @@
 
 #include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
+#include "databuffer/runtime/role.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/app/radar_model_shell.hpp"
@@ -15,6 +16,7 @@ using namespace yars;
 struct ModelOptions {
   std::string terrain;
   std::optional<int> samples;  // nullopt: as configured
+  bool standby = false;
 };
 
 error::Expected<radar::RadarConfiguration> configure(const databuffer::ProgramOptions& options,
@@ -37,35 +39,61 @@ error::Expected<model::PatchStores> open_patch_stores(const radar::RadarConfigur
   return model::PatchStores{std::move(*window), std::move(*path), std::move(*scenes)};
 }
 
-error::Expected<void> run(const databuffer::ProgramOptions& options, const ModelOptions& model_options) {
-  auto configuration = configure(options, model_options);
-  if (!configuration) return tl::unexpected(configuration.error());
-  auto store = model::terrain::open_terrain(configuration->terrain);
-  if (!store) return tl::unexpected(store.error());
-  auto patch_stores = open_patch_stores(*configuration);
-  if (!patch_stores) return tl::unexpected(patch_stores.error());
-  auto scenes = model::scene::open_scenes(configuration->world.scenes, configuration->terrain,
+struct Stores {
+  std::unique_ptr<model::terrain::TerrainStore> terrain;
+  model::PatchStores patches;
+  std::unique_ptr<model::scene::SceneStore> scenes;
+};
+
+error::Expected<Stores> open_stores(const radar::RadarConfiguration& configuration) {
+  auto terrain = model::terrain::open_terrain(configuration.terrain);
+  if (!terrain) return tl::unexpected(terrain.error());
+  auto patches = open_patch_stores(configuration);
+  if (!patches) return tl::unexpected(patches.error());
+  auto scenes = model::scene::open_scenes(configuration.world.scenes, configuration.terrain,
                                           model::scene::SceneUse::scatterers);
   if (!scenes) return tl::unexpected(scenes.error());
-  auto session = databuffer::Session::open(options.session, "radar-model");
-  if (!session) return tl::unexpected(session.error());
-  auto role = session->claim(databuffer::Role::radar_model);
-  if (!role) return tl::unexpected(error::usage_error(role.error()));
-  auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::radar_model, options.lockstep);
+  return Stores{std::move(*terrain), std::move(*patches), std::move(*scenes)};
+}
+
+// Runs the ticks of the role until a stop is requested. True: the role went to another host instead.
+error::Expected<bool> run_as_holder(databuffer::Session& session, const databuffer::ProgramOptions& options,
+                                    const radar::RadarConfiguration& configuration, Stores stores) {
+  auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::radar_model, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
-  model::TerrainLoader terrain(std::move(*store), loop->lockstep());
-  model::SceneLoader scene_loader(std::move(*scenes), loop->lockstep());
-  model::PatchMaker patches(*configuration, std::move(*patch_stores), loop->lockstep());
-  model::RadarModelShell shell(*session, *configuration, {terrain, scene_loader, patches});
+  model::TerrainLoader terrain(std::move(stores.terrain), loop->lockstep());
+  model::SceneLoader scenes(std::move(stores.scenes), loop->lockstep());
+  model::PatchMaker patches(configuration, std::move(stores.patches), loop->lockstep());
+  model::RadarModelShell shell(session, configuration, {terrain, scenes, patches});
   log::info("runs in session " + options.session + ", terrain " +
-            (configuration->terrain.directory.empty() ? "built-in hills" : configuration->terrain.directory));
+            (configuration.terrain.directory.empty() ? "built-in hills" : configuration.terrain.directory));
   while (const auto due = loop->wait()) {
+    if (session.must_yield(databuffer::Role::radar_model)) return true;
     shell.step(*due, loop->late_ticks());
     loop->done(*due);
     if (due->skipped > 0)
-      session->note(databuffer::NoteKind::late_tick, "radar-model skipped " + text::counted(due->skipped, "tick"));
+      session.note(databuffer::NoteKind::late_tick, "radar-model skipped " + text::counted(due->skipped, "tick"));
   }
-  return loop->outcome();
+  if (auto outcome = loop->outcome(); !outcome) return tl::unexpected(outcome.error());
+  return false;
+}
+
+error::Expected<void> run(const databuffer::ProgramOptions& options, const ModelOptions& model_options) {
+  auto configuration = configure(options, model_options);
+  if (!configuration) return tl::unexpected(configuration.error());
+  while (true) {
+    auto stores = open_stores(*configuration);
+    if (!stores) return tl::unexpected(stores.error());
+    auto held = databuffer::take_role(options.session, databuffer::Role::radar_model, "radar-model",
+                                      model_options.standby);
+    if (!held) return tl::unexpected(held.error());
+    if (!*held) return {};
+    const auto yielded = run_as_holder((*held)->session, options, *configuration, std::move(*stores));
+    if (!yielded) return tl::unexpected(yielded.error());
+    if (!*yielded) return {};
+    (*held)->session.note(databuffer::NoteKind::restart, "radar-model yields to another host");
+    if (!model_options.standby) return databuffer::fail_yielded(databuffer::Role::radar_model);
+  }
 }
 
 }  // namespace
@@ -73,7 +101,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Model
 int main(int argc, char** argv) {
   databuffer::CommandLine app("YARS radar model: antenna, real beam map and patch maps", "radar-model");
   databuffer::ProgramOptions options;
-  databuffer::add_common_options(app, options, true);
+  databuffer::add_common_options(app, options, databuffer::ProgramKind::role);
   ModelOptions model_options;
   app.option("--terrain", model_options.terrain, "folder of elevation cells: DTED, HGT, DED, packs, rasters")
       .value_name("DIR")
@@ -82,5 +110,6 @@ int main(int argc, char** argv) {
   app.option("--samples", model_options.samples, "samples of a sweep")
       .range(1, radar::kMaxSamples)
       .otherwise("the configuration's");
+  databuffer::add_standby_option(app, model_options.standby);
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, model_options); });
 }

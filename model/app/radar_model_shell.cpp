@@ -7,6 +7,7 @@
 #include <string>
 
 #include "databuffer/messages/derived_values.hpp"
+#include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "lib/log/log.hpp"
@@ -243,7 +244,7 @@ void RadarModelShell::publish_map(const PatchMaker::Picture& picture) {
   map.flags = (picture.ready ? 0U : databuffer::kPatchNotReady) | (picture.blind ? databuffer::kPatchBlind : 0U) |
               (pending.blank_window ? databuffer::kPatchWindowBlank : 0U);
   configuration_->fidelity.name.copy(map.fidelity, sizeof map.fidelity - 1);
-  map.hash = kernel::map_hash(map, picture.pixels);
+  map.hash = databuffer::map_hash(map, picture.pixels);
   std::array<std::uint64_t, 5> keep{};
   std::copy(referenced_maps_.begin(), referenced_maps_.end(), keep.begin());
   keep.back() = kernel_.maps().newest();

@@ -1,7 +1,5 @@
 #include "model/kernel/map_schedule.hpp"
 
-#include <xxhash.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,14 +10,6 @@
 #include "model/kernel/tick_inputs.hpp"
 
 namespace yars::model::kernel {
-
-std::uint64_t map_hash(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels) {
-  const std::array<double, 12> fields{
-      map.latitude_deg, map.longitude_deg,     map.elevation_msl_m,    map.up_deg,
-      map.window_nm,    map.apex_latitude_deg, map.apex_longitude_deg, map.apex_altitude_msl_m,
-      map.distance_m,   map.squint_deg,        map.resolution_m,       map.formation_s};
-  return XXH3_64bits_withSeed(pixels.data(), pixels.size(), XXH3_64bits(fields.data(), sizeof fields));
-}
 
 using databuffer::ModelStatus;
 using databuffer::ModelTick;

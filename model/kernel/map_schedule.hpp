@@ -21,10 +21,6 @@
 
 namespace yars::model::kernel {
 
-// Hash of a patch map: XXH3 64 over the pixels. The seed is XXH3 64 over the map's twelve geometry fields. Ids and
-// ticks are not hashed, so equal maps have equal hashes.
-std::uint64_t map_hash(const databuffer::PatchMap& map, std::span<const std::uint8_t> pixels);
-
 // Patch map in formation.
 struct PendingMap {
   hrm::PatchOrder order;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <span>
 
+#include "databuffer/messages/record_hashes.hpp"
 #include "lib/radar/fidelity.hpp"
 #include "lib/radar/modes.hpp"
 
@@ -40,15 +41,6 @@ physics::SweepGeometry geometry_of(const SweepHeader& header) {
     geometry.sharpened_cell = physics::AzimuthInterval{-half_rad, half_rad};
   }
   return geometry;
-}
-
-std::uint64_t sweep_hash(const databuffer::Sweep& sweep) {
-  const std::array<double, 8> fields{
-      sweep.apex_latitude_deg, sweep.apex_longitude_deg, sweep.apex_altitude_msl_m, sweep.azimuth_left_deg,
-      sweep.azimuth_right_deg, sweep.ground_track_deg,   sweep.elevation_deg,       sweep.range_m};
-  const std::uint64_t geometry_hash = XXH3_64bits_withSeed(fields.data(), sizeof fields, kHashSeed);
-  const std::size_t used = std::min<std::size_t>(sweep.samples, radar::kMaxSamples);
-  return XXH3_64bits_withSeed(sweep.video, used, geometry_hash);
 }
 
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps) {
@@ -150,7 +142,7 @@ void finish_sweep(rbm::Beam& beam, std::uint64_t seed, const SweepHeader& header
   } else {
     beam.form_video(window, header.range, labels.gain, {seed, labels.scan, labels.number}, video);
   }
-  sweep.hash = sweep_hash(sweep);
+  sweep.hash = databuffer::sweep_hash(sweep);
 }
 
 }  // namespace yars::model::kernel

@@ -51,10 +51,6 @@ void write_header(const SweepHeader& header, databuffer::Sweep& sweep);
 // Geometry of a sweep. The azimuth is `beam_azimuth`, or else the middle of the wedge.
 physics::SweepGeometry geometry_of(const SweepHeader& header);
 
-// XXH3 64 over apex, altitude, edges, ground track, antenna elevation and range. The result seeds XXH3 64 over the
-// video samples in use.
-std::uint64_t sweep_hash(const databuffer::Sweep& sweep);
-
 // Hash of a scan: XXH3 64 over the hashes of its sweeps in order, each seeded with the previous result.
 std::uint64_t scan_hash(std::span<const databuffer::Sweep> sweeps);
 

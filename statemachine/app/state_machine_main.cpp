@@ -2,6 +2,7 @@
 
 #include "config/schema/load.hpp"
 #include "databuffer/runtime/program.hpp"
+#include "databuffer/runtime/role.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "statemachine/app/state_machine_shell.hpp"
@@ -10,24 +11,37 @@ namespace {
 
 using namespace yars;
 
-error::Expected<void> run(const databuffer::ProgramOptions& options) {
-  auto configuration = config::load_program_configuration(options.config);
-  if (!configuration) return tl::unexpected(configuration.error());
-  auto session = databuffer::Session::open(options.session, "state-machine");
-  if (!session) return tl::unexpected(session.error());
-  auto role = session->claim(databuffer::Role::state_machine);
-  if (!role) return tl::unexpected(error::usage_error(role.error()));
-  auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::state_machine, options.lockstep);
+// Runs the ticks of the role until a stop is requested. True: the role went to another host instead.
+error::Expected<bool> run_as_holder(databuffer::Session& session, const databuffer::ProgramOptions& options,
+                                    const radar::RadarConfiguration& configuration) {
+  auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::state_machine, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
-  statemachine::StateMachineShell shell(*session, *configuration, loop->lockstep());
+  statemachine::StateMachineShell shell(session, configuration, loop->lockstep());
   log::info("runs in session " + options.session);
   while (const auto due = loop->wait()) {
+    if (session.must_yield(databuffer::Role::state_machine)) return true;
     shell.step(*due);
     loop->done(*due);
     if (due->skipped > 0)
-      session->note(databuffer::NoteKind::late_tick, "state-machine skipped " + text::counted(due->skipped, "tick"));
+      session.note(databuffer::NoteKind::late_tick, "state-machine skipped " + text::counted(due->skipped, "tick"));
   }
-  return loop->outcome();
+  if (auto outcome = loop->outcome(); !outcome) return tl::unexpected(outcome.error());
+  return false;
+}
+
+error::Expected<void> run(const databuffer::ProgramOptions& options, bool standby) {
+  auto configuration = config::load_program_configuration(options.config);
+  if (!configuration) return tl::unexpected(configuration.error());
+  while (true) {
+    auto held = databuffer::take_role(options.session, databuffer::Role::state_machine, "state-machine", standby);
+    if (!held) return tl::unexpected(held.error());
+    if (!*held) return {};
+    const auto yielded = run_as_holder((*held)->session, options, *configuration);
+    if (!yielded) return tl::unexpected(yielded.error());
+    if (!*yielded) return {};
+    (*held)->session.note(databuffer::NoteKind::restart, "state-machine yields to another host");
+    if (!standby) return databuffer::fail_yielded(databuffer::Role::state_machine);
+  }
 }
 
 }  // namespace
@@ -35,6 +49,8 @@ error::Expected<void> run(const databuffer::ProgramOptions& options) {
 int main(int argc, char** argv) {
   databuffer::CommandLine app("YARS state machine: turns input events into the radar state", "state-machine");
   databuffer::ProgramOptions options;
-  databuffer::add_common_options(app, options, true);
-  return databuffer::run_program(argc, argv, app, options, [&options] { return run(options); });
+  databuffer::add_common_options(app, options, databuffer::ProgramKind::role);
+  bool standby = false;
+  databuffer::add_standby_option(app, standby);
+  return databuffer::run_program(argc, argv, app, options, [&] { return run(options, standby); });
 }

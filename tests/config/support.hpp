@@ -168,6 +168,11 @@ inline auto fields(const radar::HeightRanges& table) {
   return std::tuple(heights, ranges);
 }
 
+inline auto fields(const radar::NetworkSettings& network) {
+  const auto& [name, priority, domain, interfaces, peers, in, out, participants, rows, bytes, security] = network;
+  return std::tuple(name, priority, domain, interfaces, peers, in, out, participants, rows, bytes, security);
+}
+
 inline auto fields(const radar::RadarConfiguration& configuration) {
   const auto& [name, ranges, widths, windows, pulses, antenna, view, fidelity, receiver, terrain, high, navigation,
                world, route, seed, variation, limits, heights, devices] = configuration;

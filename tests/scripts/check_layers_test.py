@@ -75,6 +75,11 @@ class CheckLayers(unittest.TestCase):
     def test_opengl_stays_in_display_gl(self):
         self.finds("display/symbology/symbology.hpp", "#pragma once\n#include <epoxy/gl.h>\n", "2: layer")
 
+    def test_dds_stays_in_gateway_dds(self):
+        self.finds("gateway/hosts.hpp", "#pragma once\n#include <dds/dds.h>\n", "2: layer")
+        output, status = check({"gateway/dds/participant.hpp": '#pragma once\n#include <dds/dds.h>\n#include "gateway/dds/yars_network.h"\n'})
+        self.assertEqual(status, 0, output)
+
     def test_a_header_from_nowhere_needs_a_row(self):
         self.finds("display/symbology/symbology.hpp", "#pragma once\n#include <novel/thing.hpp>\n", "2: layer")
 

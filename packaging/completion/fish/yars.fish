@@ -294,7 +294,7 @@ complete -c yars -n "__yars_at 'config check'" -l log-level -x -a 'trace debug i
 complete -c yars -n "__yars_at 'config print'" -F
 complete -c yars -n "__yars_at 'config print'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'config print'" -l defaults -d 'explain every slot: position, kind, range, default'
-complete -c yars -n "__yars_at 'config print'" -l markdown -x -a 'radar antenna modes display terrain world route devices fidelity values' -d 'group of forms: prints their slots as tables'
+complete -c yars -n "__yars_at 'config print'" -l markdown -x -a 'radar antenna modes display terrain world route devices network fidelity values' -d 'group of forms: prints their slots as tables'
 complete -c yars -n "__yars_at 'config print'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'config print'" -l config -r -F -d 'GUF configuration file'
 complete -c yars -n "__yars_at 'config print'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'

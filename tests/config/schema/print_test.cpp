@@ -45,7 +45,8 @@ std::string text_of_file(const std::string& name) {
 
 // EqualTheFilesOfTheApg70 would also pass with files that set no slot.
 TEST(Defaults, AreWrittenOutSlotBySlotInTheFiles) {
-  const std::string text = text_of_file("config/apg70nd.guf") + text_of_file("config/apg70d.guf");
+  const std::string text =
+      text_of_file("config/apg70nd.guf") + text_of_file("config/apg70d.guf") + text_of_file("config/network.guf");
   int slots = 0;
   const BuilderPointer builder = new_builder();
   ConfigurationBuilder& draft = *builder;

@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 MESSAGES = ROOT / "databuffer/messages"
 sys.path.insert(0, str(MESSAGES))
 import generate  # noqa: E402
-from generator import clients, cpp, idl, schema, stability, tables  # noqa: E402
+from generator import clients, cpp, dds, idl, schema, stability, tables  # noqa: E402
 
 GOOD = """// One record.
 module yars {
@@ -180,6 +180,41 @@ class TheRecordsOfTheTree(unittest.TestCase):
     def test_are_described_in_words_where_a_name_does_not_say_all(self):
         for one in self.records.values():
             self.assertTrue(one.doc, one.name)
+
+
+class TheIdlForDds(unittest.TestCase):
+    def test_has_numbers_for_enumerations_and_bytes_for_texts(self):
+        text = dds.idl(chapters_of(GOOD))
+        self.assertIn("  const uint32 kMost = 4;\n", text)
+        self.assertIn("  // Values of Gear.\n  const uint8 Gear_up = 0;    // of the aircraft\n  const uint8 Gear_down = 1;", text)
+        self.assertIn("    uint8 gear;       // Gear\n", text)
+        self.assertIn("    char names[4][8];\n", text)
+
+    def test_keeps_units_ranges_and_meaning_as_comments(self):
+        text = dds.idl(chapters_of(GOOD))
+        self.assertIn("    double latitude_deg;  // [deg] [-90, 90] WGS84\n", text)
+        self.assertIn("    // What is optional.\n    double height_m;  // [m] above mean sea level; NaN = unknown\n", text)
+        self.assertIn("    uint16 marks[4];  // the first `count` are in use\n", text)
+        self.assertNotIn("@unit", text)
+
+    def test_numbers_the_bits_of_a_mask(self):
+        text = dds.idl(chapters_of(GOOD.replace("enum Gear { Gear_up, Gear_down };", "bitmask Gear { @position(0) kUp, @position(3) kDown };")))
+        self.assertIn("  // Bits of Gear.\n  const uint8 kUp = 1;    // of the aircraft\n  const uint8 kDown = 8;", text)
+
+    def test_has_the_head_of_a_record_whose_last_array_is_cut(self):
+        text = dds.idl(chapters_of(changed('@counted_by("count") uint16 marks', 'uint32 reserved1; @counted_by("count") @cut uint8 marks')))
+        head = text.split("struct PlaceHeader {")[1]
+        self.assertIn("char names[4][8];", head)
+        self.assertNotIn("marks", head)
+
+    def test_opens_and_closes_modules(self):
+        text = dds.idl(chapters_of(GOOD + "module yars { module radar { const int32 kOne = 1; }; };\n"))
+        self.assertTrue(text.endswith("\n  module radar {\n    const int32 kOne = 1;\n  };\n};\n"), text)
+
+    def test_is_compared_with_the_records_field_by_field(self):
+        text = dds.asserts(chapters_of(GOOD))
+        self.assertIn("sizeof(yars_Place) == sizeof(Place)", text)
+        self.assertEqual(text.count("static_assert(offsetof("), 8)
 
 
 def layout_of(chapters):

@@ -7,11 +7,10 @@
 #include <string_view>
 #include <utility>
 
+#include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "lib/text/plain_text.hpp"
-#include "model/kernel/map_schedule.hpp"
-#include "model/kernel/sweep_chain.hpp"
 #include "tests/endtoend/fault_injection/ranges.hpp"
 #include "tests/endtoend/fault_injection/witness.h"
 
@@ -223,7 +222,7 @@ void Watch::check_rings(SegmentState& last) {
   for (; layout.sweeps.read(last.next_sweep, last.sweep).delivered; ++read, ++hashed) {
     ++sweeps_;
     refuse(why_out_of_range(last.sweep), "sweep");
-    if (last.sweep.samples > radar::kMaxSamples || model::kernel::sweep_hash(last.sweep) != last.sweep.hash)
+    if (last.sweep.samples > radar::kMaxSamples || databuffer::sweep_hash(last.sweep) != last.sweep.hash)
       note(&Verdict::torn, "sweep " + std::to_string(last.sweep.number) + ": wrong hash");
   }
   for (databuffer::Traffic traffic{}; layout.traffic_latched.read(last.next_traffic, traffic).delivered; ++read)
@@ -245,7 +244,7 @@ void Watch::check_pictures(SegmentState& last) {
       const std::scoped_lock lock(mutex_);
       ++verdict_.records, ++verdict_.witnessed;
     }
-    if (model::kernel::map_hash(map, last.pixels) != map.hash)
+    if (databuffer::map_hash(map, last.pixels) != map.hash)
       note(&Verdict::torn, "patch map " + std::to_string(id) + ": wrong hash");
   }
   if (!databuffer::read_newest_frame(layout, last.newest_frame, last.frame, last.pixels)) return;

@@ -1,0 +1,114 @@
+// Form Network of the configuration language GUF with its slots (schema.hpp): how this computer joins others.
+#include <algorithm>
+#include <string>
+#include <string_view>
+
+#include "config/guf/tree.hpp"
+#include "config/schema/schema.hpp"
+#include "lib/radar/network.hpp"
+#include "lib/text/nearest_word.hpp"
+
+namespace yars::config {
+
+namespace {
+
+constexpr std::size_t kMaxInterfaceName = 15;  // [bytes] of Linux: IFNAMSIZ without the zero
+constexpr std::size_t kMaxAddress = 253;       // [bytes] of a host name, RFC 1035 section 2.3.4
+
+// True for 1 to `max` ASCII letters, digits and characters of `others`. Names and addresses become XML for Cyclone DDS.
+bool is_plain(std::string_view text, std::size_t max, std::string_view others) {
+  return !text.empty() && text.size() <= max && std::ranges::all_of(text, [&](char letter) {
+    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || (letter >= '0' && letter <= '9') ||
+           others.find(letter) != std::string_view::npos;
+  });
+}
+
+using Words = std::vector<std::string>;
+
+// Rule: all words of a slot fulfil `is_valid`.
+std::optional<ConstraintViolation> check_words(std::string_view slot, const Words& words, const char* expected,
+                                               bool (*is_valid)(std::string_view)) {
+  const auto wrong = std::ranges::find_if_not(words, is_valid);
+  if (wrong == words.end()) return std::nullopt;
+  return ConstraintViolation{slot, expected, quoted_text(*wrong)};
+}
+
+// Rule: all words are names of topics.
+std::optional<ConstraintViolation> check_topics(std::string_view slot, const Words& words) {
+  const auto& names = radar::kTopicNames;
+  const auto wrong =
+      std::ranges::find_if(words, [&](std::string_view word) { return std::ranges::find(names, word) == names.end(); });
+  if (wrong == words.end()) return std::nullopt;
+  const std::string meant = text::did_you_mean(*wrong, Words(names.begin(), names.end()));
+  std::string expected = "topics, which are";
+  for (const std::string_view name : names) expected.append(name == names.front() ? " " : ", ").append(name);
+  return ConstraintViolation{slot, expected, quoted_text(*wrong) + (meant.empty() ? "" : "; " + meant)};
+}
+
+std::optional<ConstraintViolation> check_network(const ConfigurationBuilder& builder) {
+  const radar::NetworkSettings& network = builder.network;
+  if (!network.name.empty() && !is_plain(network.name, radar::kMaxHostName, "-_"))
+    return ConstraintViolation{"name", "1 to 31 letters, digits, - or _", quoted_text(network.name)};
+  if (auto wrong = check_words("interfaces", network.interfaces, "names of network interfaces, as `ip link` lists them",
+                               [](std::string_view word) { return is_plain(word, kMaxInterfaceName, "-_.:@"); }))
+    return wrong;
+  if (auto wrong = check_words("peers", network.peers, "IPv4 or IPv6 addresses or host names",
+                               [](std::string_view word) { return is_plain(word, kMaxAddress, "-_.:[]%"); }))
+    return wrong;
+  if (auto wrong = check_topics("topicsIn", network.topics_in)) return wrong;
+  return check_topics("topicsOut", network.topics_out);
+}
+
+SlotSchema whole_slot(std::string_view name, std::string_view unit, int lowest, int highest, IntegerSlot binding,
+                      std::string_view purpose) {
+  return {.name = name,
+          .unit = unit,
+          .lowest = double(lowest),
+          .highest = double(highest),
+          .binding = binding,
+          .purpose = purpose};
+}
+
+SlotSchema words_slot(std::string_view name, WordsSlot binding, std::string_view purpose) {
+  return {.name = name, .binding = binding, .purpose = purpose};
+}
+
+std::vector<SlotSchema> network_slots() {
+  return {{.name = "name",
+           .binding = TextSlot{YARS_FIELD(network.name)},
+           .purpose = "name of this computer: 1 to 31 letters, digits, - or _; left out: its host name"},
+          whole_slot("priority", "", 0, 1000, {YARS_FIELD(network.priority)},
+                     "when two computers hold one role, that with the higher priority keeps it"),
+          whole_slot("domain", "", 0, 232, {YARS_FIELD(network.domain)},
+                     "DDS domain, the same on all computers; it sets the UDP ports, from 7400 + 250 domain"),
+          words_slot("interfaces", {YARS_FIELD(network.interfaces), 1, radar::kMaxInterfaces},
+                     "network interfaces of this computer; with lo alone nothing leaves the computer"),
+          words_slot("peers", {YARS_FIELD(network.peers), 0, radar::kMaxPeers},
+                     "addresses or host names of the computers of the session; multicast is off"),
+          words_slot("topicsIn", {YARS_FIELD(network.topics_in), 0, radar::kTopicNames.size()},
+                     "topics that are read from other computers; none named: all"),
+          words_slot("topicsOut", {YARS_FIELD(network.topics_out), 0, radar::kTopicNames.size()},
+                     "topics that are written for other computers; none named: all"),
+          whole_slot("participants", "", 1, 32, {YARS_FIELD(network.participants)},
+                     "maximum number of DDS participants on one computer, programs of others included"),
+          whole_slot("mapRowsPerSecond", "1/s", 10, 20'000, {YARS_FIELD(network.map_rows_per_s)},
+                     "rate at which the rows of a patch map are written"),
+          whole_slot("maxMessageBytes", "bytes", 512, 65'000, {YARS_FIELD(network.max_message_bytes)},
+                     "maximum size of a datagram; one that exceeds the network's MTU is lost as a whole with any part"),
+          {.name = "security",
+           .binding = PathSlot{YARS_FIELD(network.security)},
+           .purpose = "folder with the identity of this computer for DDS Security; left out: none, anybody may join"}};
+}
+
+}  // namespace
+
+std::vector<FormSchema> network_forms() {
+  return {{.name = "Network",
+           .purpose = "how this computer joins others in a session; read by the gateway, from a file of its own or "
+                      "from the configuration",
+           .slots = network_slots(),
+           .check = check_network,
+           .end = [](ConfigurationBuilder& builder) { builder.has_network = true; }}};
+}
+
+}  // namespace yars::config

@@ -1,0 +1,78 @@
+#include "databuffer/runtime/role.hpp"
+
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include "databuffer/runtime/process.hpp"
+#include "lib/log/log.hpp"
+
+namespace yars::databuffer {
+
+namespace {
+
+// [ms] A standby takes over within this time after the role is free. Each look is one system call.
+constexpr std::chrono::milliseconds kStandbyInterval(10);
+
+// [ns] Time for which a standby leaves the role to a gateway that has died. A supervisor starts the gateway again within
+// 1 s; input events that wait for another host then still reach that host.
+constexpr std::int64_t kGatewayReturn_ns = 1'200'000'000;
+
+// True while the role is not free for a standby.
+class Occupation {
+ public:
+  bool lasts(const Session& session, Role role) {
+    if (session.role_is_held(role) || session.must_yield(role)) return true;
+    if (!session.is_mirrored(role)) return false;
+    const std::int64_t now_ns = monotonic_ns();
+    if (session.role_is_held(Role::gateway)) gateway_seen_ns_ = now_ns;
+    return now_ns - gateway_seen_ns_ < kGatewayReturn_ns;
+  }
+
+ private:
+  std::int64_t gateway_seen_ns_ = monotonic_ns();
+};
+
+error::Expected<HeldRole> open_and_claim(const std::string& session_name, Role role, std::string_view program) {
+  auto session = Session::open(session_name, program);
+  if (!session) return tl::unexpected(session.error());
+  auto claim = session->claim(role);
+  if (!claim) return tl::unexpected(error::usage_error(claim.error()));
+  return HeldRole{std::move(*session), std::move(*claim)};
+}
+
+}  // namespace
+
+void add_standby_option(CommandLine& app, bool& standby) {
+  app.flag("--standby", standby, "waits while another process or another computer of the session holds the role");
+}
+
+error::Expected<std::optional<HeldRole>> take_role(const std::string& session_name, Role role, std::string_view program,
+                                                   bool standby) {
+  std::optional<Session> waiting;
+  Occupation occupation;
+  while (!stop_requested()) {
+    if (!waiting || !occupation.lasts(std::as_const(*waiting), role)) {
+      auto held = open_and_claim(session_name, role, program);
+      if (held) return std::optional<HeldRole>(std::move(*held));
+      if (!standby || !held.error().bad_usage) return tl::unexpected(held.error());
+    }
+    if (!waiting) {
+      auto session = Session::open(session_name, std::string(program) + " standby");
+      if (!session) return tl::unexpected(session.error());
+      waiting.emplace(std::move(*session));
+      log::info("stands by: another process holds the role " + std::string(name_of(role)));
+    }
+    waiting->heartbeat();
+    std::this_thread::sleep_for(kStandbyInterval);
+  }
+  return std::optional<HeldRole>();
+}
+
+tl::unexpected<error::Error> fail_yielded(Role role) {
+  return error::fail("role " + std::string(name_of(role)), "one process of this role in a session",
+                     "another host of the session holds it",
+                     "end one of the two, or start both with --standby; docs/network.md has the rule");
+}
+
+}  // namespace yars::databuffer

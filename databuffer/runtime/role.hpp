@@ -1,0 +1,34 @@
+// Start of a program that holds a role: opens the session and claims the role, at once or as a standby.
+// Inputs: name of the session, the role, the program's name in the process table.
+// Outputs: the session and the claim.
+// Errors: those of Session::open(); without `standby` also a role that another process holds.
+// Threads: main thread only.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "databuffer/runtime/command_line.hpp"
+#include "databuffer/session/session.hpp"
+#include "lib/error/error.hpp"
+
+namespace yars::databuffer {
+
+struct HeldRole {
+  Session session;
+  Claim claim;
+};
+
+// Adds the option --standby.
+void add_standby_option(CommandLine& app, bool& standby);
+
+// Claims the role. With `standby` waits while another process holds it, and while another host of the session does. The
+// process table shows a waiting program as "NAME standby". nullopt: a stop was requested while waiting.
+error::Expected<std::optional<HeldRole>> take_role(const std::string& session, Role role, std::string_view program,
+                                                   bool standby);
+
+// Outcome of a program without --standby whose role another host of the session has taken.
+tl::unexpected<error::Error> fail_yielded(Role role);
+
+}  // namespace yars::databuffer

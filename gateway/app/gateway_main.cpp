@@ -1,0 +1,110 @@
+// The program gateway: joins the session of this computer to those of other computers.
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "config/schema/load.hpp"
+#include "config/schema/slot_text.hpp"
+#include "databuffer/runtime/process.hpp"
+#include "databuffer/runtime/program.hpp"
+#include "gateway/app/gateway_shell.hpp"
+#include "lib/log/log.hpp"
+
+namespace {
+
+using namespace yars;
+
+struct GatewayOptions {
+  std::string network;
+  std::string terrain;
+};
+
+// Hash of a configuration's values. The folders of terrain and scenes are left out: they may differ between computers.
+std::uint64_t configuration_hash(radar::RadarConfiguration configuration) {
+  configuration.terrain.directory.clear();
+  for (radar::Scene& scene : configuration.world.scenes)
+    scene.file = std::filesystem::path(scene.file).filename().string();
+  return gateway::host_id(config::print_configuration(configuration));
+}
+
+// Hash of the names and sizes of the files in a folder of elevation cells; 0: no folder.
+std::uint64_t terrain_hash(const std::string& folder) {
+  std::vector<std::string> lines;
+  std::error_code code;
+  for (std::filesystem::recursive_directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code))
+    if (entry->is_regular_file(code))
+      lines.push_back(entry->path().lexically_relative(folder).string() + ' ' +
+                      std::to_string(entry->file_size(code)) + '\n');
+  std::ranges::sort(lines);
+  std::string text;
+  for (const std::string& line : lines) text += line;
+  return text.empty() ? 0 : gateway::host_id(text);
+}
+
+std::string host_name() {
+  std::array<char, 64> name{};
+  gethostname(name.data(), name.size() - 1);
+  std::string text(name.data());
+  return text.substr(0, std::min(text.find('.'), radar::kMaxHostName));
+}
+
+std::uint64_t random_number() {
+  std::random_device source;
+  return std::uint64_t{source()} << 32 | source() | 1U;
+}
+
+// Number of the segment, made by the first gateway that joins it.
+std::uint64_t segment_number(databuffer::Session& session) {
+  auto& number = session.layout().network.segment;
+  std::uint64_t none = 0;
+  number.compare_exchange_strong(none, random_number());
+  return number.load();
+}
+
+error::Expected<void> run(const databuffer::ProgramOptions& options, const GatewayOptions& gateway_options) {
+  const auto settings = config::load_network(gateway_options.network);
+  if (!settings) return tl::unexpected(settings.error());
+  auto configuration = config::load_program_configuration(options.config);
+  if (!configuration) return tl::unexpected(configuration.error());
+  if (!gateway_options.terrain.empty()) configuration->terrain.directory = gateway_options.terrain;
+  auto session = databuffer::Session::open(options.session, "gateway");
+  if (!session) return tl::unexpected(session.error());
+  const auto role = session->claim(databuffer::Role::gateway);
+  if (!role) return tl::unexpected(error::usage_error(role.error()));
+  auto link = gateway::dds::Link::open(*settings, options.session);
+  if (!link) return tl::unexpected(link.error());
+  gateway::Identity identity;
+  identity.name = settings->name.empty() ? host_name() : settings->name;
+  identity.priority = static_cast<std::uint32_t>(settings->priority);
+  identity.start = random_number();
+  identity.segment = segment_number(*session);
+  identity.configuration_hash = configuration_hash(*configuration);
+  identity.terrain_hash = terrain_hash(configuration->terrain.directory);
+  log::info("host " + identity.name + " joins session " + options.session + ", DDS domain " +
+            std::to_string(settings->domain) + (settings->security.empty() ? "" : ", encrypted"));
+  gateway::GatewayShell shell(*session, options.session, std::move(*link), *settings, std::move(identity));
+  while (!databuffer::stop_requested()) shell.step();
+  return {};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  databuffer::CommandLine app("YARS gateway: joins the session of this computer to those of other computers", "gateway");
+  databuffer::ProgramOptions options;
+  databuffer::add_common_options(app, options, databuffer::ProgramKind::service);
+  GatewayOptions gateway_options;
+  app.option("--network", gateway_options.network, "GUF file with the form Network: peers, interfaces, domain")
+      .value_name("FILE")
+      .otherwise("this computer alone, over the loopback interface");
+  app.option("--terrain", gateway_options.terrain, "folder of elevation cells, compared with that of other computers")
+      .value_name("DIR")
+      .otherwise("the configuration's");
+  return databuffer::run_program(argc, argv, app, options, [&] { return run(options, gateway_options); });
+}

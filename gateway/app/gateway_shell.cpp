@@ -1,0 +1,117 @@
+#include "gateway/app/gateway_shell.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <ctime>
+#include <utility>
+
+#include "lib/log/log.hpp"
+
+namespace yars::gateway {
+
+namespace {
+
+constexpr std::int64_t kPass_ns = 5'000'000;          // a tick at rate 1
+constexpr std::int64_t kLockstepPass_ns = 250'000;    // the roles of a lockstep run wait for each pass
+constexpr std::int64_t kReportInterval_ns = 500'000'000;
+
+// Processor time of this process, with the threads of Cyclone DDS.
+double process_time_s() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
+
+GatewayShell::GatewayShell(databuffer::Session& session, const std::string& session_name, dds::Link link,
+                           const radar::NetworkSettings& settings, Identity identity)
+    : link_(std::move(link)),
+      session_(&session),
+      hosts_(session, &link_, std::move(identity)),
+      roles_(session, session_name),
+      context_{session, &link_, hosts_, roles_},
+      maps_(settings.map_rows_per_s),
+      domain_(settings.domain),
+      secured_(!settings.security.empty()) {}
+
+void GatewayShell::step() {
+  link_.wait(next_pass_ns_);
+  hosts_.exchange_probes();
+  context_.now_ns = databuffer::monotonic_ns();
+  events_.receive_inputs(context_);
+  if (context_.now_ns < next_pass_ns_) return;
+  pass();
+  const std::int64_t interval_ns = context_.lockstep ? kLockstepPass_ns : kPass_ns;
+  next_pass_ns_ = std::max(next_pass_ns_ + interval_ns, context_.now_ns);
+}
+
+void GatewayShell::pass() {
+  session_->heartbeat();
+  context_.lockstep = std::as_const(*session_).layout().lockstep.enabled.load(std::memory_order_acquire) != 0;
+  hosts_.set_claims(roles_.held_roles(), clock_.owns(), session_->clock().epoch);
+  hosts_.exchange(context_.now_ns);
+  roles_.update(hosts_, context_.now_ns);
+  roles_.heartbeat();
+  clock_.exchange(context_);
+  context_.joined = clock_.joined();
+  lockstep_.begin_pass(context_);
+  receive();
+  send();
+  if (context_.now_ns >= next_report_ns_) report();
+}
+
+void GatewayShell::receive() {
+  states_.receive(context_);
+  states_.keep_lane(context_);
+  events_.receive(context_);
+  history_.receive(context_);
+  history_.publish(context_);
+  maps_.receive(context_);
+  maps_.publish(context_);
+  if (!context_.lockstep) return;
+  lockstep_.receive(context_);
+  lockstep_.apply(context_, history_.is_empty());
+}
+
+void GatewayShell::send() {
+  states_.send(context_);
+  events_.send(context_);
+  history_.send(context_);
+  maps_.send(context_);
+  if (context_.lockstep) lockstep_.send(context_);
+}
+
+void GatewayShell::report() {
+  next_report_ns_ = context_.now_ns + kReportInterval_ns;
+  if (context_.joined && !std::exchange(reported_joined_, true)) log::info("joined the session clock");
+  for (const std::string& message : link_.take_messages()) log::warning("Cyclone DDS: " + message);
+  const double cpu_s = process_time_s();
+  const double elapsed_s = 1e-9 * static_cast<double>(context_.now_ns - last_report_ns_);
+  if (last_report_ns_ != 0) load_ = (cpu_s - last_cpu_s_) / elapsed_s;
+  last_cpu_s_ = cpu_s;
+  last_report_ns_ = context_.now_ns;
+  databuffer::NetworkStatus status{};
+  status.monotonic_ns = context_.now_ns;
+  status.joined = context_.joined ? 1 : 0;
+  status.domain = static_cast<std::uint32_t>(domain_);
+  status.secured = secured_ ? 1 : 0;
+  status.takeovers = roles_.takeovers();
+  status.conflicts = roles_.conflicts();
+  status.load = load_;
+  hosts_.describe(status, context_.now_ns);
+  status.topic_count = dds::kTopicCount;
+  for (std::size_t i = 0; i < dds::kTopicCount; ++i) {
+    const auto topic = static_cast<dds::Topic>(i);
+    const dds::TopicCounts& counts = link_.counts(topic);
+    auto& to = status.topics[i];
+    dds::settings_of(topic).name.copy(to.name, sizeof to.name - 1);
+    to.sent = counts.sent;
+    to.sent_bytes = counts.sent_bytes;
+    to.received = counts.received;
+    to.received_bytes = counts.received_bytes;
+  }
+  session_->layout().network_status.publish(status);
+}
+
+}  // namespace yars::gateway

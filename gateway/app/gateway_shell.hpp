@@ -1,0 +1,62 @@
+// Gateway of one host: in passes of 5 ms it exchanges records between the local segment and the other hosts.
+// Inputs: the local segment; samples of other hosts.
+// Outputs: samples; records of other hosts in the local segment; NetworkStatus twice a second.
+// Errors: none ends the gateway. Invalid samples are refused, counted and noted.
+// Threads: one.
+// Source: docs/network.md.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "databuffer/session/session.hpp"
+#include "gateway/dds/link.hpp"
+#include "gateway/exchange/clock_exchange.hpp"
+#include "gateway/exchange/context.hpp"
+#include "gateway/exchange/event_exchange.hpp"
+#include "gateway/exchange/history_exchange.hpp"
+#include "gateway/exchange/hosts.hpp"
+#include "gateway/exchange/lane_names.hpp"
+#include "gateway/exchange/lockstep_exchange.hpp"
+#include "gateway/exchange/map_exchange.hpp"
+#include "gateway/exchange/roles.hpp"
+#include "gateway/exchange/state_exchange.hpp"
+
+namespace yars::gateway {
+
+class GatewayShell {
+ public:
+  GatewayShell(databuffer::Session& session, const std::string& session_name, dds::Link link,
+               const radar::NetworkSettings& settings, Identity identity);
+  // Waits for the next pass and runs it. Probes and input events are taken as soon as they arrive.
+  void step();
+
+ private:
+  void pass();
+  void receive();
+  void send();
+  void report();
+
+  dds::Link link_;
+  databuffer::Session* session_;
+  Hosts hosts_;
+  Roles roles_;
+  Context context_;
+  LaneNames lanes_;
+  ClockExchange clock_;
+  StateExchange states_{lanes_};
+  EventExchange events_{lanes_};
+  HistoryExchange history_{lanes_};
+  MapExchange maps_;
+  LockstepExchange lockstep_;
+  int domain_;
+  bool secured_;
+  bool reported_joined_ = false;
+  std::int64_t next_pass_ns_ = 0;
+  std::int64_t next_report_ns_ = 0;
+  std::int64_t last_report_ns_ = 0;
+  double last_cpu_s_ = 0.0;
+  double load_ = 0.0;
+};
+
+}  // namespace yars::gateway

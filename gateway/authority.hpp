@@ -1,0 +1,82 @@
+// Rule by which the hosts of a session agree, each for itself, which host has a role and which sets the clock.
+// Inputs: what each host that is heard says about itself.
+// Outputs: the host with the role; none if no host holds it.
+// Units: times [ns], CLOCK_MONOTONIC of this host.
+// Threads: pure functions and plain values.
+// Source: docs/network.md#which-host-has-a-role.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+namespace yars::gateway {
+
+// A host that is heard, or this host.
+struct HostView {
+  std::uint64_t id = 0;
+  std::string name;
+  std::uint32_t priority = 0;
+  std::uint32_t group = 1;       // number of hosts that it heard 1 s ago, itself included
+  std::uint32_t held_roles = 0;  // bit n: a process of the host holds role n
+  bool owns_clock = false;
+};
+
+// True if `first` keeps a role that both hold: the host of higher priority; then the one that heard more hosts before
+// the two met, which after a partition is the larger part; then the first name by ASCII.
+inline bool precedes(const HostView& first, const HostView& second) {
+  if (first.priority != second.priority) return first.priority > second.priority;
+  if (first.group != second.group) return first.group > second.group;
+  return first.name != second.name ? first.name < second.name : first.id < second.id;
+}
+
+// The preceding host of those for which `holds(host)` is true; nullptr: none.
+template <class Holds>
+const HostView* preceding(std::span<const HostView> hosts, const Holds& holds) {
+  const HostView* best = nullptr;
+  for (const HostView& host : hosts)
+    if (holds(host) && (best == nullptr || precedes(host, *best))) best = &host;
+  return best;
+}
+
+inline const HostView* holder_of(std::span<const HostView> hosts, unsigned role) {
+  return preceding(hosts, [role](const HostView& host) { return (host.held_roles >> role & 1U) != 0; });
+}
+
+inline const HostView* clock_owner(std::span<const HostView> hosts) {
+  return preceding(hosts, [](const HostView& host) { return host.owns_clock; });
+}
+
+// Number of hosts that precede `self` in the order of priority and name.
+inline std::size_t rank_of(std::span<const HostView> hosts, const HostView& self) {
+  std::size_t rank = 0;
+  for (HostView host : hosts) {
+    host.group = self.group;
+    if (host.id != self.id && precedes(host, self)) ++rank;
+  }
+  return rank;
+}
+
+// Wait before a host takes what no host has. It grows with the host's rank, so that two hosts rarely take the same role
+// in the same moment.
+inline constexpr std::int64_t kTurn_ns = 150'000'000;
+
+class Vacancy {
+ public:
+  // `vacant`: no host has the role now. True if this host may take it.
+  bool may_take(bool vacant, std::size_t rank, std::int64_t now_ns) {
+    if (!vacant) {
+      since_ns_.reset();
+      return false;
+    }
+    if (!since_ns_) since_ns_ = now_ns;
+    return now_ns - *since_ns_ >= static_cast<std::int64_t>(rank) * kTurn_ns;
+  }
+
+ private:
+  std::optional<std::int64_t> since_ns_;
+};
+
+}  // namespace yars::gateway

@@ -1,0 +1,100 @@
+// Connection of one process to the DDS domain of a session: writers and readers of all topics.
+// Inputs: the form Network; samples, as structures of yars_network.h.
+// Outputs: samples of other processes; counts of samples and bytes.
+// Errors: open(): an interface that does not exist, a configuration that Cyclone DDS refuses, unreadable identities. A
+//   write that fails is counted. Messages of Cyclone DDS are kept for take_messages().
+// Threads: one. Cyclone DDS has threads of its own.
+// Source: Eclipse Cyclone DDS 0.10, C API.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+#include "gateway/dds/topics.hpp"
+#include "lib/error/error.hpp"
+#include "lib/radar/network.hpp"
+
+namespace yars::gateway::dds {
+
+struct TopicCounts {
+  std::uint64_t sent = 0, sent_bytes = 0, received = 0, received_bytes = 0, failed = 0;
+};
+
+class Link {
+ public:
+  // `session`: name of the session, which is the DDS partition.
+  static error::Expected<Link> open(const radar::NetworkSettings& settings, const std::string& session);
+  Link(Link&&) noexcept;
+  Link& operator=(Link&&) noexcept;
+  ~Link();  // other hosts learn at once that this one has left
+
+  // True if the form Network lets the topic out, or in.
+  bool writes(Topic topic) const;
+  bool reads(Topic topic) const;
+
+  // False: the topic is not let out, or DDS refused the sample.
+  template <class Sample>
+  bool write(const Sample& sample) {
+    return write_bytes(kTopicOf<Sample>, &sample, bytes_of(sample));
+  }
+  // Ends the sample's instance, for example a row of a map that no longer exists.
+  template <class Sample>
+  void dispose(const Sample& sample) {
+    dispose_bytes(kTopicOf<Sample>, &sample);
+  }
+  // Ownship of one lane, with the lane's priority as strength. The other hosts get the strongest live writer's samples.
+  bool write_ownship(std::uint32_t lane, const yars_net_OwnshipSample& sample);
+  void end_ownship(std::uint32_t lane);
+
+  // Calls take(const Sample&) for each sample that has arrived, in the order of each writer.
+  template <class Sample, class Take>
+  void take(const Take& take) {
+    static_assert(!std::is_same_v<Sample, yars_net_HostSample>, "hosts also end; see take_hosts()");
+    while (const void* sample = take_next(kTopicOf<Sample>)) {
+      const Sample& taken = *static_cast<const Sample*>(sample);
+      count_received(kTopicOf<Sample>, bytes_of(taken));
+      take(taken);
+    }
+  }
+  // As take(). `alive` false: the host has left, or has not written within kLease; of the sample only `host` is valid.
+  template <class Take>
+  void take_hosts(const Take& take) {
+    bool alive = false;
+    while (const void* sample = take_next(Topic::hosts, &alive)) {
+      const auto& taken = *static_cast<const yars_net_HostSample*>(sample);
+      if (alive) count_received(Topic::hosts, sizeof taken);
+      take(taken, alive);
+    }
+  }
+
+  // Returns when a sample of a topic that is answered at once has arrived (probes, input events), or at `until_ns`
+  // (CLOCK_MONOTONIC).
+  void wait(std::int64_t until_ns);
+
+  const TopicCounts& counts(Topic topic) const;
+  // Messages of Cyclone DDS since the last call.
+  std::vector<std::string> take_messages();
+
+ private:
+  struct State;
+  explicit Link(std::unique_ptr<State> state);
+  template <class Sample>
+  static std::size_t bytes_of(const Sample& sample) {
+    if constexpr (std::is_same_v<Sample, yars_net_SweepSample>)
+      return sizeof sample - sizeof sample.video + sample.video._length;
+    else
+      return sizeof sample;
+  }
+  bool write_bytes(Topic topic, const void* sample, std::size_t bytes);
+  void dispose_bytes(Topic topic, const void* sample);
+  // The next sample, valid until the next call; nullptr: none. Without `alive`, ends of instances are left out.
+  const void* take_next(Topic topic, bool* alive = nullptr);
+  void count_received(Topic topic, std::size_t bytes);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace yars::gateway::dds

@@ -1,0 +1,218 @@
+#include "gateway/exchange/clock_exchange.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+#include "databuffer/messages/validation.hpp"
+#include "lib/log/log.hpp"
+#include "lib/radar/modes.hpp"
+
+namespace yars::gateway {
+
+using databuffer::ClockState;
+
+namespace {
+
+constexpr std::int64_t kRefresh_ns = 250'000'000;
+// [ns] A host keeps its own change of the clock until the owner has answered, at most for this time.
+constexpr std::int64_t kRequestTime_ns = 500'000'000;
+constexpr std::int64_t kMaxBehind_ns = 100'000'000;  // kMaxTicksBehind ticks
+
+bool equal(const ClockState& first, const ClockState& second) {
+  return std::memcmp(&first, &second, sizeof first) == 0;
+}
+
+// The clock with its base moved to `now_ns`; sim time does not change.
+ClockState rebased(ClockState clock, std::int64_t now_ns) {
+  clock.base_sim_ns = databuffer::sim_time_at(clock, now_ns);
+  clock.base_monotonic_ns = now_ns;
+  return clock;
+}
+
+}  // namespace
+
+void ClockExchange::exchange(Context& context) {
+  if (first_pass_ns_ == 0) first_pass_ns_ = context.now_ns;
+  context.link->take<yars_net_ClockSample>([&](const auto& sample) { receive(context, sample); });
+  context.link->take<yars_net_ClockRequestSample>([&](const auto& sample) { receive(context, sample); });
+  choose_owner(context);
+  if (owns_)
+    publish(context);
+  else
+    follow(context);
+  context.session.restore_clock();
+}
+
+void ClockExchange::choose_owner(Context& context) {
+  const auto owns = [&](const HostView& host) {
+    return host.id == context.hosts.self().id ? owns_ : host.owns_clock;
+  };
+  const HostView* owner = preceding(context.hosts.views(), owns);
+  resolve_conflicts(context);
+  const bool listened = context.now_ns - first_pass_ns_ >= kListening_ns;
+  const std::size_t rank = rank_of(context.hosts.views(), context.hosts.self());
+  if (vacancy_.may_take(listened && owner == nullptr, rank, context.now_ns)) {
+    owns_ = true;
+    log::info("sets the session clock");
+    followed_.reset();
+    owner_ = context.hosts.self().id;
+    return;
+  }
+  if (owner == nullptr) return;
+  if (owns_ && owner->id != context.hosts.self().id) {
+    owns_ = false;
+    log::info("follows the clock of host " + owner->name);
+  }
+  if (!owns_ && owner->id != owner_) followed_.reset();
+  owner_ = owner->id;
+}
+
+// After a partition two hosts own the clock, or hold a role. The host whose clock stays begins a new epoch, so that no
+// picture mixes records of the two parts.
+void ClockExchange::resolve_conflicts(Context& context) {
+  bool conflict = context.roles.in_conflict();
+  bool precedes_all = owns_;
+  std::uint32_t epoch = 0;
+  for (const HostView& host : context.hosts.views().subspan(1)) {
+    epoch = std::max(epoch, context.hosts.epoch_of(host.id));
+    if (!owns_ || !host.owns_clock) continue;
+    conflict = true;
+    precedes_all = precedes_all && precedes(context.hosts.self(), host);
+  }
+  if (conflict && !in_conflict_ && precedes_all) raise_epoch(context, epoch);
+  in_conflict_ = conflict;
+}
+
+void ClockExchange::raise_epoch(Context& context, std::uint32_t above) {
+  const auto raised = context.session.change_clock([&](const ClockState& clock) {
+    ClockState next = rebased(clock, databuffer::monotonic_ns());
+    next.epoch = std::max(clock.epoch, above) + 1;
+    next.reposition_latitude_deg = std::numeric_limits<double>::quiet_NaN();
+    return next;
+  });
+  if (!raised) log::warning(raised.error().message());
+  const std::string line = "two parts of the session meet; a new epoch begins";
+  log::info(line);
+  context.session.note(databuffer::NoteKind::restart, line);
+}
+
+void ClockExchange::publish(Context& context) {
+  const ClockState clock = context.session.clock();
+  if (equal(clock, published_) && context.now_ns < next_publish_ns_) return;
+  next_publish_ns_ = context.now_ns + kRefresh_ns;
+  published_ = clock;
+  yars_net_ClockSample sample{};
+  context.hosts.stamp(sample);
+  copy_record(sample.clock, clock);
+  context.link->write(sample);
+}
+
+void ClockExchange::receive(Context& context, const yars_net_ClockSample& sample) {
+  if (!context.hosts.is_new(sample)) return;
+  ClockState clock{};
+  copy_record(clock, sample.clock);
+  if (const auto reason = validate(clock)) return context.hosts.refuse(sample.host, dds::Topic::clock, *reason);
+  if (clocks_.size() < databuffer::kMaxHosts || clocks_.contains(sample.host)) clocks_[sample.host] = sample;
+}
+
+// Applies a change that another host asks for. Each request is applied once.
+void ClockExchange::receive(Context& context, const yars_net_ClockRequestSample& sample) {
+  if (!context.hosts.is_new(sample) || sample.owner != context.hosts.self().id || !owns_) return;
+  ClockState wanted{};
+  copy_record(wanted, sample.clock);
+  if (const auto reason = validate(wanted))
+    return context.hosts.refuse(sample.host, dds::Topic::clock_requests, *reason);
+  const auto changed = context.session.change_clock([&](const ClockState& clock) {
+    ClockState next = wanted;
+    // The request has the sim time that its host had. The time of transmission has passed since.
+    next.base_monotonic_ns = std::min(next.base_monotonic_ns, databuffer::monotonic_ns());
+    next.epoch = clock.epoch + (sample.new_epoch != 0 ? 1 : 0);
+    return next;
+  });
+  if (!changed) context.hosts.refuse(sample.host, dds::Topic::clock_requests, changed.error().message());
+}
+
+void ClockExchange::follow(Context& context) {
+  const auto offset_ns = context.hosts.offset_ns(owner_);
+  const auto found = clocks_.find(owner_);
+  if (owner_ == 0 || !offset_ns || found == clocks_.end() || found->second.start != context.hosts.start_of(owner_))
+    return;
+  ClockState theirs{};
+  copy_record(theirs, found->second.clock);
+  if (followed_ && forward_local_change(context)) return;
+  if (context.now_ns < request_pending_until_ns_ && followed_ && equal(theirs, followed_->theirs)) return;
+  request_pending_until_ns_ = 0;
+  if (followed_ && equal(theirs, followed_->theirs)) return slew(context);
+  const bool first = !followed_.has_value();
+  if (first) followed_.emplace();
+  followed_->owner = owner_;
+  followed_->theirs = theirs;
+  if (first) followed_->offset.set(*offset_ns);
+  const ClockState before = context.session.clock();
+  adopt(context, followed_->offset.offset_ns());
+  // Local roles that are ahead in the same epoch would wait until the owner's sim time reaches theirs.
+  const std::int64_t ahead_ns = databuffer::sim_time_at(before, context.now_ns) - context.session.sim_time_ns();
+  if (first && before.epoch == theirs.epoch && ahead_ns > kMaxBehind_ns && !context.lockstep)
+    request(context, followed_->written, true);
+}
+
+// Writes the owner's clock to the local segment, with its base at the present time.
+void ClockExchange::adopt(Context& context, std::int64_t offset_ns) {
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  ClockState mine = followed_->theirs;
+  mine.base_sim_ns = databuffer::sim_time_at(followed_->theirs, now_ns + offset_ns);
+  mine.base_monotonic_ns = now_ns;
+  followed_->changed_ns = context.now_ns;
+  const auto changed = context.session.change_clock([&mine](const ClockState&) { return mine; });
+  if (changed) followed_->written = mine;
+}
+
+// A program of this host has changed the clock (`yars sim`, a jump of the aircraft): the owner is asked to change it.
+bool ClockExchange::forward_local_change(Context& context) {
+  const ClockState clock = context.session.clock();
+  if (equal(clock, followed_->written)) return false;
+  request(context, clock, clock.epoch != followed_->written.epoch);
+  followed_->written = clock;
+  request_pending_until_ns_ = context.now_ns + kRequestTime_ns;
+  return true;
+}
+
+void ClockExchange::request(Context& context, const ClockState& wanted, bool new_epoch) {
+  yars_net_ClockRequestSample sample{};
+  context.hosts.stamp(sample);
+  sample.owner = owner_;
+  sample.new_epoch = new_epoch ? 1 : 0;
+  const ClockState moved = rebased(wanted, context.now_ns);
+  copy_record(sample.clock, moved);
+  sample.clock.base_monotonic_ns = std::max<std::int64_t>(context.now_ns + followed_->offset.offset_ns(), 0);
+  context.link->write(sample);
+}
+
+// Moves the clock towards the measured offset, at most 1 ms per second. The base moves; sim time has no step greater
+// than 5 us at this gateway's interval.
+void ClockExchange::slew(Context& context) {
+  const auto measured_ns = context.hosts.offset_ns(owner_);
+  const std::int64_t elapsed_ns = context.now_ns - std::exchange(followed_->changed_ns, context.now_ns);
+  const std::int64_t before_ns = followed_->offset.offset_ns();
+  constexpr std::int64_t kMaxPause_ns = 100'000'000;  // after a pause of this process sim time must not jump
+  if (!measured_ns || !followed_->offset.approach(*measured_ns, std::min(elapsed_ns, kMaxPause_ns))) return;
+  ClockState mine = followed_->written;
+  // sim time = base + rate x (now - base time): a greater offset is a later time, thus an earlier base.
+  mine.base_monotonic_ns -= followed_->offset.offset_ns() - before_ns;
+  if (mine.base_monotonic_ns < 0) return;
+  bool untouched = false;
+  const auto changed = context.session.change_clock(
+      [&](const ClockState& present) {
+        untouched = equal(present, followed_->written);
+        return untouched ? mine : present;
+      },
+      databuffer::WaitPolicy::none);
+  if (changed && untouched)
+    followed_->written = mine;
+  else
+    followed_->offset.set(before_ns);
+}
+
+}  // namespace yars::gateway

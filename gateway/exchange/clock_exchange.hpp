@@ -1,0 +1,65 @@
+// The session clock on several hosts: one host owns it, the others follow.
+// Inputs: the local segment's clock; clocks and requests of other hosts; measured offsets.
+// Outputs: on the owner, the clock as a sample, and requested changes applied; on the others, the owner's clock in the
+//   local segment, translated by the offset and slewed, and local changes as requests.
+// Units: times [ns].
+// Errors: sim time on two hosts differs by at most the error of the offset, half of the least round trip, plus 50 us. A
+//   change of the clock (freeze, rate, step, reset) reaches the others one transmission later.
+// Threads: one.
+// Source: docs/network.md#time.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+
+#include "databuffer/messages/world_state.hpp"
+#include "gateway/authority.hpp"
+#include "gateway/clock_offset.hpp"
+#include "gateway/exchange/context.hpp"
+
+namespace yars::gateway {
+
+class ClockExchange {
+ public:
+  void exchange(Context& context);
+
+  void receive(Context& context, const yars_net_ClockSample& sample);
+  void receive(Context& context, const yars_net_ClockRequestSample& sample);
+
+  bool owns() const { return owns_; }
+  bool joined() const { return owns_ || followed_.has_value(); }
+
+ private:
+  // The owner's clock as it was last received, and as it was last written here.
+  struct Followed {
+    std::uint64_t owner = 0;
+    databuffer::ClockState theirs{};
+    databuffer::ClockState written{};
+    SlewedOffset offset;
+    std::int64_t changed_ns = 0;  // last pass
+  };
+  void choose_owner(Context& context);
+  void resolve_conflicts(Context& context);
+  void raise_epoch(Context& context, std::uint32_t above);
+  void publish(Context& context);
+  void follow(Context& context);
+  void adopt(Context& context, std::int64_t offset_ns);
+  bool forward_local_change(Context& context);
+  void request(Context& context, const databuffer::ClockState& wanted, bool new_epoch);
+  void slew(Context& context);
+  bool write(Context& context, const databuffer::ClockState& clock);
+
+  bool owns_ = false;
+  bool in_conflict_ = false;
+  std::int64_t first_pass_ns_ = 0;
+  Vacancy vacancy_;
+  std::uint64_t owner_ = 0;  // 0: none
+  databuffer::ClockState published_{};
+  std::int64_t next_publish_ns_ = 0;
+  std::map<std::uint64_t, yars_net_ClockSample> clocks_;  // newest of each host
+  std::optional<Followed> followed_;
+  std::int64_t request_pending_until_ns_ = 0;
+};
+
+}  // namespace yars::gateway

@@ -1,0 +1,264 @@
+#include "gateway/exchange/event_exchange.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "databuffer/messages/validation.hpp"
+#include "lib/log/log.hpp"
+
+namespace yars::gateway {
+
+using databuffer::Role;
+
+namespace {
+
+// [ns] Without a receipt for so long, the waiting events are sent again: the receiver leaves out what it has.
+constexpr std::int64_t kRepeatAfter_ns = 1'000'000'000;
+constexpr std::int64_t kLaneSilence_ns = 30'000'000'000;  // then a lane of a host that is not heard is released
+constexpr std::uint64_t kRecentEvents = 256;              // applied events that a restarted gateway sends again
+
+std::uint64_t low_word(std::uint64_t value) {
+  return value & 0xFFFF'FFFFU;
+}
+
+// Translates a CLOCK_MONOTONIC time of another host; without a measured offset the result is the present time.
+std::int64_t local_time_ns(const Context& context, std::uint64_t host, std::int64_t time_ns) {
+  const auto offset_ns = context.hosts.offset_ns(host);
+  if (!offset_ns) return context.now_ns;
+  const auto local = static_cast<std::int64_t>(static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(*offset_ns));
+  return std::clamp<std::int64_t>(local, 0, databuffer::monotonic_ns());
+}
+
+}  // namespace
+
+std::uint64_t lane_id(std::uint64_t host, std::uint64_t segment, std::uint32_t lane) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const std::uint64_t word : {host, segment, std::uint64_t{lane}})
+    for (int byte = 0; byte < 8; ++byte) hash = (hash ^ (word >> (8 * byte) & 0xFFU)) * 0x100000001b3U;
+  return hash == 0 ? 1 : hash;
+}
+
+std::uint64_t next_event_of(std::uint64_t progress, std::uint64_t pushed, std::uint64_t near) {
+  const std::uint64_t next_low = progress >> 32;
+  const bool missing = low_word(pushed) == low_word(progress);  // stored, but not pushed
+  // The low 32 bits of the result are known; it is less than 2^31 away from `near`.
+  const auto distance = static_cast<std::int32_t>(static_cast<std::uint32_t>(next_low - low_word(near)));
+  const std::uint64_t next = near + static_cast<std::uint64_t>(std::int64_t{distance});
+  return missing ? next - 1 : next;
+}
+
+void EventExchange::send(Context& context) {
+  const auto machine = context.roles.source(Role::state_machine);
+  if (machine && context.link->writes(dds::Topic::input_events))
+    for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) send_waiting(context, lane, *machine);
+  release_lanes(context);
+  send_receipts(context);
+  send_applied(context);
+}
+
+// Sends the events of a lane that have no receipt yet. This gateway is the consumer of the lanes, because it holds the
+// role of the state machine. Events stay in the lane until the receipt, so that no death of a gateway loses one.
+void EventExchange::send_waiting(Context& context, std::size_t lane, std::uint64_t machine) {
+  auto& input = context.session.layout().input;
+  Sending& sending = sending_[lane];
+  const std::uint64_t popped = input.popped(lane);
+  const std::uint64_t end = input.pushed(lane);
+  const std::uint64_t segment = context.hosts.segment_of(machine);
+  const std::uint64_t start = context.hosts.start_of(machine);
+  const bool other_machine = sending.machine_segment != segment || sending.machine_start != start;
+  if (other_machine || sending.popped != popped || popped == end) {
+    sending.progress_ns = context.now_ns;
+    sending.popped = popped;
+  }
+  const bool stalled = context.now_ns - sending.progress_ns > kRepeatAfter_ns;
+  if (other_machine || stalled || sending.next < popped || sending.next > end) sending.next = popped;
+  if (stalled) sending.progress_ns = context.now_ns;
+  sending.machine_segment = segment;
+  sending.machine_start = start;
+  databuffer::InputEvent event{};
+  for (; sending.next != end; ++sending.next) {
+    if (!input.peek_at(lane, sending.next, event)) return;
+    yars_net_InputEventSample sample{};
+    context.hosts.stamp(sample);
+    sample.lane = static_cast<std::uint32_t>(lane);
+    sample.segment = context.hosts.identity().segment;
+    sample.event_number = sending.next;
+    sample.machine_segment = segment;
+    input.source(lane).copy(sample.source, sizeof sample.source - 1);
+    copy_record(sample.event, event);
+    if (!context.link->write(sample)) return;
+  }
+}
+
+void EventExchange::receive_inputs(Context& context) {
+  context.link->take<yars_net_InputEventSample>([&](const auto& sample) { receive(context, sample); });
+}
+
+void EventExchange::receive(Context& context) {
+  receive_inputs(context);
+  const auto take = [&](const auto& sample) { receive(context, sample); };
+  context.link->take<yars_net_EventReceiptSample>(take);
+  // Applied events wait in DDS until it is known which host has the state machine.
+  if (context.roles.holder(Role::state_machine)) context.link->take<yars_net_AppliedEventSample>(take);
+}
+
+void EventExchange::receive(Context& context, const yars_net_EventReceiptSample& sample) {
+  if (!context.hosts.is_new(sample)) return;
+  const std::uint64_t self = context.hosts.self().id;
+  if (sample.sender != self || sample.segment != context.hosts.identity().segment || sample.lane >= sending_.size() ||
+      context.roles.source(Role::state_machine) != sample.host)
+    return;
+  auto& input = context.session.layout().input;
+  const std::uint64_t waiting = input.pushed(sample.lane) - input.popped(sample.lane);
+  const std::uint64_t received = sample.next_event - input.popped(sample.lane);
+  if (received > waiting) return;  // also a receipt older than the last one
+  databuffer::InputEvent event{};
+  for (std::uint64_t i = 0; i < received; ++i) input.pop(sample.lane, event);
+}
+
+void EventExchange::receive(Context& context, const yars_net_InputEventSample& sample) {
+  context.hosts.is_new(sample);  // counted only: whether the event is new depends on its number in its lane
+  if (sample.machine_segment != context.hosts.identity().segment || sample.lane >= databuffer::kInputLanes ||
+      !context.roles.exports(Role::state_machine))
+    return;
+  Receiving* receiving = receiving_from(context, sample);
+  if (receiving == nullptr) return;
+  receiving->heard_ns = context.now_ns;
+  receiving->receipt_due = true;
+  if (sample.event_number < receiving->next_event) return;  // delivered before
+  if (receiving->blocked_at && sample.event_number > *receiving->blocked_at) return;
+  const bool has_lane = receiving->claim || take_lane(context, *receiving, sample);
+  if (has_lane && push(context, *receiving, sample))
+    receiving->blocked_at.reset();
+  else
+    receiving->blocked_at = sample.event_number;  // the sender repeats it
+}
+
+EventExchange::Receiving* EventExchange::receiving_from(Context& context, const yars_net_InputEventSample& sample) {
+  const std::uint64_t id = lane_id(sample.host, sample.segment, sample.lane);
+  const auto found = receiving_.find(id);
+  if (found != receiving_.end()) return &found->second;
+  constexpr std::size_t kMaxRemoteLanes = databuffer::kMaxHosts * databuffer::kInputLanes;
+  if (receiving_.size() >= kMaxRemoteLanes) return nullptr;
+  Receiving receiving;
+  receiving.sender = sample.host;
+  receiving.lane = sample.lane;
+  receiving.segment = sample.segment;
+  // An entry of this gateway's predecessor says what has been delivered. Without one this is the first event.
+  const auto& layout = std::as_const(context.session).layout();
+  for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
+    const databuffer::RemoteLane& entry = layout.network.remote_lanes[lane];
+    if (entry.sender.load() != id) continue;
+    const std::uint64_t next = next_event_of(entry.progress.load(), layout.input.pushed(lane), sample.event_number);
+    receiving.next_event = std::max(receiving.next_event, next);
+  }
+  return &receiving_.emplace(id, std::move(receiving)).first->second;
+}
+
+// Claims a local input lane and enters the remote lane's progress there: all events before the sample's are delivered.
+bool EventExchange::take_lane(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample) {
+  char source[sizeof sample.source + 1] = {};
+  std::memcpy(source, sample.source, sizeof sample.source);
+  std::replace_if(source, source + std::strlen(source), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  const HostView* host = context.hosts.find(sample.host);
+  const std::string name = (host == nullptr ? "?" : host->name) + "/" + source;
+  auto claim = context.session.claim_input_lane(name);
+  if (!claim) {
+    context.session.note(databuffer::NoteKind::loss, "events of " + name + " wait: " + claim.error().message());
+    return false;
+  }
+  const auto lane = static_cast<std::size_t>(claim->lane());
+  auto& layout = context.session.layout();
+  databuffer::RemoteLane& entry = layout.network.remote_lanes[lane];
+  const std::uint64_t pushed = layout.input.pushed(lane);
+  entry.sender.store(0);
+  entry.progress.store(low_word(sample.event_number) << 32 | low_word(pushed - 1));
+  entry.sender.store(lane_id(receiving.sender, receiving.segment, receiving.lane));
+  lanes_->input[lane] = RemoteName{receiving.sender, receiving.lane};
+  receiving.claim.emplace(std::move(*claim));
+  return true;
+}
+
+// False: the lane is full.
+bool EventExchange::push(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample) {
+  databuffer::InputEvent event{};
+  copy_record(event, sample.event);
+  if (const auto reason = validate(event)) {
+    context.hosts.refuse(sample.host, dds::Topic::input_events, *reason);
+    receiving.next_event = sample.event_number + 1;
+    return true;
+  }
+  event.monotonic_ns = local_time_ns(context, sample.host, event.monotonic_ns);
+  const auto lane = static_cast<std::size_t>(receiving.claim->lane());
+  auto& layout = context.session.layout();
+  const std::uint64_t pushed = layout.input.pushed(lane);
+  if (pushed - layout.input.popped(lane) >= databuffer::kInputLaneDepth) return false;
+  layout.network.remote_lanes[lane].progress.store(low_word(sample.event_number + 1) << 32 | low_word(pushed));
+  layout.input.push(lane, event);
+  receiving.next_event = sample.event_number + 1;
+  return true;
+}
+
+void EventExchange::send_receipts(Context& context) {
+  for (auto& [id, receiving] : receiving_) {
+    if (!receiving.receipt_due || receiving.next_event == 0) continue;
+    receiving.receipt_due = false;
+    yars_net_EventReceiptSample sample{};
+    context.hosts.stamp(sample);
+    sample.sender = receiving.sender;
+    sample.lane = receiving.lane;
+    sample.segment = receiving.segment;
+    sample.next_event = receiving.next_event;
+    context.link->write(sample);
+  }
+}
+
+// Releases all remote lanes when the state machine no longer runs here, and the lanes of hosts that have left.
+void EventExchange::release_lanes(Context& context) {
+  const bool here = context.roles.exports(Role::state_machine);
+  std::erase_if(receiving_, [&](const auto& item) {
+    const Receiving& receiving = item.second;
+    const bool gone = context.hosts.find(receiving.sender) == nullptr &&
+                      context.now_ns - receiving.heard_ns > kLaneSilence_ns;
+    if (here && !gone) return false;
+    if (receiving.claim) lanes_->input[static_cast<std::size_t>(receiving.claim->lane())].reset();
+    return true;
+  });
+}
+
+void EventExchange::send_applied(Context& context) {
+  const auto& ring = std::as_const(context.session).layout().applied_events;
+  if (!context.roles.exports(Role::state_machine)) {
+    applied_cursor_ = ring.next();
+    return;
+  }
+  // The gateway has just started: its predecessor may have missed the last events. Other hosts leave out what they have.
+  if (!applied_cursor_) applied_cursor_ = std::max(ring.oldest(), ring.next() - std::min(ring.next(), kRecentEvents));
+  yars_net_AppliedEventSample sample{};
+  databuffer::AppliedEvent applied{};
+  while (ring.read(*applied_cursor_, applied).delivered) {
+    sample.host = context.hosts.self().id;
+    sample.start = context.hosts.identity().segment;
+    sample.number = *applied_cursor_ - 1;
+    copy_record(sample.applied, applied);
+    const RemoteName name = lanes_->input_name(applied.lane, sample.host);
+    sample.sender = name.host;
+    sample.applied.lane = name.lane;
+    context.link->write(sample);
+  }
+  context.hosts.set_written(dds::Topic::applied_events, *applied_cursor_);
+}
+
+void EventExchange::receive(Context& context, const yars_net_AppliedEventSample& sample) {
+  if (context.roles.source(Role::state_machine) != sample.host || !context.hosts.is_new(sample)) return;
+  databuffer::AppliedEvent applied{};
+  copy_record(applied, sample.applied);
+  if (const auto reason = validate(applied.event))
+    return context.hosts.refuse(sample.host, dds::Topic::applied_events, *reason);
+  applied.monotonic_ns = local_time_ns(context, sample.host, applied.monotonic_ns);
+  if (sample.sender != context.hosts.self().id) applied.lane = kNoLane;
+  applied.event.monotonic_ns = local_time_ns(context, sample.host, applied.event.monotonic_ns);
+  context.session.layout().applied_events.publish(applied);
+}
+
+}  // namespace yars::gateway

@@ -1,0 +1,75 @@
+// Input events on their way to the host of the state machine, each delivered once; and the events that it applied.
+// Inputs: the local input lanes while the state machine runs on another host; events, receipts and applied events of
+//   other hosts.
+// Outputs: each waiting event as a sample until its receipt arrives; events of other hosts in local input lanes, one lane
+//   for each remote lane; the ring of applied events on every host.
+// Units: times [ns]; CLOCK_MONOTONIC times of other hosts are translated by the measured offset.
+// Errors: an invalid event is refused, counted and noted, and its receipt is given all the same. With no free input lane
+//   the events wait on their host.
+// Threads: one.
+// Source: docs/network.md#each-event-once.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "databuffer/session/session_layout.hpp"
+#include "gateway/exchange/context.hpp"
+#include "gateway/exchange/lane_names.hpp"
+
+namespace yars::gateway {
+
+// Name of an input lane in the whole session, for ever: FNV-1a over host, segment and lane.
+std::uint64_t lane_id(std::uint64_t host, std::uint64_t segment, std::uint32_t lane);
+
+// Number of the next event that a lane of another host may deliver, according to the entry that this gateway or its
+// predecessor left. `pushed`: of the entry's local lane. `near`: a number near the result, which gives the high 32 bits.
+std::uint64_t next_event_of(std::uint64_t progress, std::uint64_t pushed, std::uint64_t near);
+
+class EventExchange {
+ public:
+  explicit EventExchange(LaneNames& lanes) : lanes_(&lanes) {}
+  void send(Context& context);
+  void receive(Context& context);
+  void receive_inputs(Context& context);  // only input events: they are awaited
+
+  void receive(Context& context, const yars_net_InputEventSample& sample);
+  void receive(Context& context, const yars_net_EventReceiptSample& sample);
+  void receive(Context& context, const yars_net_AppliedEventSample& sample);
+
+ private:
+  struct Sending {
+    std::uint64_t next = 0;            // number of the next event to send
+    std::uint64_t popped = 0;          // when it last changed
+    std::int64_t progress_ns = 0;      // then
+    std::uint64_t machine_segment = 0, machine_start = 0;  // to which the events were sent
+  };
+  struct Receiving {
+    std::uint64_t sender = 0;
+    std::uint32_t lane = 0;
+    std::uint64_t segment = 0;
+    std::optional<databuffer::Claim> claim = std::nullopt;
+    std::uint64_t next_event = 0;
+    std::optional<std::uint64_t> blocked_at = std::nullopt;  // this event found no room; later ones wait for it
+    bool receipt_due = false;
+    std::int64_t heard_ns = 0;
+  };
+  void send_waiting(Context& context, std::size_t lane, std::uint64_t machine);
+  void send_receipts(Context& context);
+  void send_applied(Context& context);
+  Receiving* receiving_from(Context& context, const yars_net_InputEventSample& sample);
+  bool take_lane(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample);
+  bool push(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample);
+  void release_lanes(Context& context);
+
+  LaneNames* lanes_;
+  std::array<Sending, databuffer::kInputLanes> sending_;
+  std::map<std::uint64_t, Receiving> receiving_;  // by lane_id()
+  std::optional<std::uint64_t> applied_cursor_;
+};
+
+}  // namespace yars::gateway

@@ -1,0 +1,171 @@
+#include "gateway/exchange/history_exchange.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+#include "databuffer/messages/record_hashes.hpp"
+#include "databuffer/messages/validation.hpp"
+
+namespace yars::gateway {
+
+using databuffer::Role;
+
+namespace {
+
+// [ns] A record waits so long for its predecessor, which is several repairs of a lost packet.
+constexpr std::int64_t kPatience_ns = 200'000'000;
+constexpr std::size_t kMaxWaiting = 1024;        // the depth of the rings
+constexpr std::size_t kTrafficNumbers = 64;      // the depth of the ring of traffic
+constexpr std::uint64_t kRecentTicks = 200;      // 1 s: what a restarted gateway sends again
+constexpr std::size_t kSweepHeader_bytes = offsetof(databuffer::Sweep, video);
+
+// Cursor of a gateway that begins to send a ring.
+template <class Ring>
+std::uint64_t begin_of(const Ring& ring) {
+  return std::max(ring.oldest(), ring.next() - std::min(ring.next(), kRecentTicks));
+}
+
+}  // namespace
+
+void HistoryExchange::send(Context& context) {
+  const auto& layout = std::as_const(context.session).layout();
+  if (!context.roles.exports(Role::radar_model)) {
+    traffic_cursor_ = layout.traffic_latched.next();
+    tick_cursor_ = layout.model_ticks.next();
+    sweep_cursor_ = layout.sweeps.next();
+    return;
+  }
+  if (!tick_cursor_) {
+    traffic_cursor_ = layout.traffic_latched.oldest();
+    tick_cursor_ = begin_of(layout.model_ticks);
+    sweep_cursor_ = begin_of(layout.sweeps);
+  }
+  const auto stamp = [&context](auto& sample, std::uint64_t cursor) {
+    sample.host = context.hosts.self().id;
+    sample.start = context.hosts.identity().segment;
+    sample.number = cursor - 1;
+  };
+  yars_net_LatchedTrafficSample traffic{};
+  databuffer::Traffic latched{};
+  while (layout.traffic_latched.read(*traffic_cursor_, latched).delivered) {
+    stamp(traffic, *traffic_cursor_);
+    traffic.ring_number = traffic.number;
+    copy_record(traffic.traffic, latched);
+    context.link->write(traffic);
+  }
+  yars_net_ModelTickSample tick{};
+  databuffer::ModelTick record{};
+  while (layout.model_ticks.read(*tick_cursor_, record).delivered) {
+    stamp(tick, *tick_cursor_);
+    copy_record(tick.tick, record);
+    const RemoteName name = lanes_->ownship_name(record.ownship_lane, tick.host);
+    tick.ownship_host = name.host;
+    tick.tick.ownship_lane = name.lane;
+    context.link->write(tick);
+  }
+  yars_net_SweepSample sweep{};
+  databuffer::Sweep video{};
+  while (layout.sweeps.read(*sweep_cursor_, video).delivered) {
+    stamp(sweep, *sweep_cursor_);
+    static_assert(sizeof sweep.sweep == kSweepHeader_bytes);
+    std::memcpy(&sweep.sweep, &video, kSweepHeader_bytes);
+    sweep.video._length = sweep.video._maximum = std::min<std::uint32_t>(video.samples, radar::kMaxSamples);
+    sweep.video._buffer = video.video;
+    context.link->write(sweep);
+  }
+  context.hosts.set_written(dds::Topic::traffic_latched, *traffic_cursor_);
+  context.hosts.set_written(dds::Topic::model_ticks, *tick_cursor_);
+  context.hosts.set_written(dds::Topic::sweeps, *sweep_cursor_);
+}
+
+// Samples wait in DDS until it is known which host has the radar model.
+void HistoryExchange::receive(Context& context) {
+  if (!context.roles.holder(Role::radar_model)) return;
+  const auto take = [&](const auto& sample) { receive(context, sample); };
+  context.link->take<yars_net_LatchedTrafficSample>(take);
+  context.link->take<yars_net_ModelTickSample>(take);
+  context.link->take<yars_net_SweepSample>(take);
+}
+
+// After a partition the history of the part that yielded arrives, too. It has the epoch from before the meeting.
+bool HistoryExchange::is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch) {
+  epoch_ = context.session.clock().epoch;
+  return context.roles.source(Role::radar_model) == host && static_cast<std::int32_t>(epoch - epoch_) >= 0;
+}
+
+void HistoryExchange::receive(Context& context, const yars_net_LatchedTrafficSample& sample) {
+  if (context.roles.source(Role::radar_model) != sample.host || !context.hosts.is_new(sample)) return;
+  databuffer::Traffic traffic{};
+  copy_record(traffic, sample.traffic);
+  if (const auto reason = validate(traffic))
+    return context.hosts.refuse(sample.host, dds::Topic::traffic_latched, *reason);
+  if (traffic_host_ != sample.host) traffic_numbers_.clear();
+  traffic_host_ = sample.host;
+  const std::uint64_t ours = context.session.layout().traffic_latched.publish(traffic);
+  traffic_numbers_.push_back({sample.ring_number, ours});
+  if (traffic_numbers_.size() > kTrafficNumbers) traffic_numbers_.pop_front();
+}
+
+void HistoryExchange::receive(Context& context, const yars_net_ModelTickSample& sample) {
+  if (!is_wanted(context, sample.host, sample.tick.epoch) || !context.hosts.is_new(sample)) return;
+  databuffer::ModelTick tick{};
+  copy_record(tick, sample.tick);
+  if (const auto reason = validate(tick)) return context.hosts.refuse(sample.host, dds::Topic::model_ticks, *reason);
+  tick.ownship_lane = lanes_->local_ownship_lane({sample.ownship_host, tick.ownship_lane}, context.hosts.self().id,
+                                                 kNoLane);
+  if (ticks_.size() < kMaxWaiting) ticks_.push_back({tick, context.now_ns});
+}
+
+void HistoryExchange::receive(Context& context, const yars_net_SweepSample& sample) {
+  if (!is_wanted(context, sample.host, sample.sweep.epoch) || !context.hosts.is_new(sample)) return;
+  databuffer::Sweep sweep{};
+  std::memcpy(&sweep, &sample.sweep, kSweepHeader_bytes);
+  if (sweep.samples != sample.video._length)
+    return context.hosts.refuse(sample.host, dds::Topic::sweeps,
+                                "samples: expected " + std::to_string(sample.video._length) +
+                                    ", the length of the video, found " + std::to_string(sweep.samples));
+  if (sweep.samples > 0 && sweep.samples <= radar::kMaxSamples)
+    std::memcpy(sweep.video, sample.video._buffer, sweep.samples);
+  if (const auto reason = validate(sweep)) return context.hosts.refuse(sample.host, dds::Topic::sweeps, *reason);
+  if (databuffer::sweep_hash(sweep) != sweep.hash)
+    return context.hosts.refuse(sample.host, dds::Topic::sweeps, "hash: expected that of the video, found another");
+  if (sweeps_.size() < kMaxWaiting) sweeps_.push_back({sweep, context.now_ns});
+}
+
+// Number of records in the local ring of traffic up to the one that the other host's count names; nullopt: it has not
+// arrived.
+std::optional<std::uint64_t> HistoryExchange::local_traffic(std::uint64_t theirs) const {
+  if (theirs == 0) return 0;
+  const auto found = std::ranges::find(traffic_numbers_, theirs - 1, &TrafficNumber::theirs);
+  if (found == traffic_numbers_.end()) return std::nullopt;
+  return found->ours + 1;
+}
+
+void HistoryExchange::publish(Context& context) {
+  auto& layout = context.session.layout();
+  if (!context.roles.source(Role::radar_model)) {
+    ticks_.clear();
+    sweeps_.clear();
+    last_tick_ = -1;
+    return;
+  }
+  const auto is_late = [&context](std::int64_t arrived_ns) { return context.now_ns - arrived_ns > kPatience_ns; };
+  while (!ticks_.empty()) {
+    WaitingTick& waiting = ticks_.front();
+    const auto traffic = local_traffic(waiting.tick.traffic);
+    if (!traffic && !is_late(waiting.arrived_ns)) break;
+    waiting.tick.traffic = traffic.value_or(layout.traffic_latched.next());
+    layout.model_ticks.publish(waiting.tick);
+    last_tick_ = waiting.tick.tick;
+    ticks_.pop_front();
+  }
+  while (!sweeps_.empty()) {
+    const WaitingSweep& waiting = sweeps_.front();
+    if (waiting.sweep.tick > last_tick_ && !is_late(waiting.arrived_ns)) break;
+    layout.sweeps.publish(waiting.sweep);
+    sweeps_.pop_front();
+  }
+}
+
+}  // namespace yars::gateway

@@ -1,0 +1,61 @@
+// Histories of the radar model on every host: latched traffic, ticks and sweeps, in the order in which a replay needs
+// them.
+// Inputs: rings of the local segment while the radar model runs here; samples of the host where it runs.
+// Outputs: a sample for each record; the records in the local rings: traffic before the tick that names it, a tick before
+//   its sweep.
+// Errors: an invalid record, or a sweep whose hash is wrong, is refused, counted and noted. Records of an earlier epoch
+//   are left out. Lost samples are counted by their numbers.
+// Units: times [ns].
+// Threads: one.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+
+#include "databuffer/session/session_layout.hpp"
+#include "gateway/exchange/context.hpp"
+#include "gateway/exchange/lane_names.hpp"
+
+namespace yars::gateway {
+
+class HistoryExchange {
+ public:
+  explicit HistoryExchange(LaneNames& lanes) : lanes_(&lanes) {}
+  void send(Context& context);
+  void receive(Context& context);
+  // Publishes what has arrived and is in order.
+  void publish(Context& context);
+  bool is_empty() const { return ticks_.empty() && sweeps_.empty(); }  // nothing waits for its predecessor
+
+  void receive(Context& context, const yars_net_LatchedTrafficSample& sample);
+  void receive(Context& context, const yars_net_ModelTickSample& sample);
+  void receive(Context& context, const yars_net_SweepSample& sample);
+
+ private:
+  struct WaitingTick {
+    databuffer::ModelTick tick;
+    std::int64_t arrived_ns;
+  };
+  struct WaitingSweep {
+    databuffer::Sweep sweep;
+    std::int64_t arrived_ns;
+  };
+  struct TrafficNumber {
+    std::uint64_t theirs, ours;
+  };
+  bool is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch);
+  std::optional<std::uint64_t> local_traffic(std::uint64_t theirs) const;
+
+  LaneNames* lanes_;
+  // Next record of each local ring to send; nullopt: this gateway has not sent any.
+  std::optional<std::uint64_t> traffic_cursor_, tick_cursor_, sweep_cursor_;
+  std::deque<WaitingTick> ticks_;
+  std::deque<WaitingSweep> sweeps_;
+  std::deque<TrafficNumber> traffic_numbers_;
+  std::uint64_t traffic_host_ = 0;
+  std::int64_t last_tick_ = -1;
+  std::uint32_t epoch_ = 0;  // of the local clock
+};
+
+}  // namespace yars::gateway

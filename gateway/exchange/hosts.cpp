@@ -1,0 +1,329 @@
+#include "gateway/exchange/hosts.hpp"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstring>
+
+#include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
+
+namespace yars::gateway {
+
+namespace {
+
+using databuffer::NoteKind;
+
+constexpr std::int64_t kAnnounceInterval_ns = 100'000'000;  // a fifth of the lease, so that four may be lost
+constexpr std::int64_t kProbeInterval_ns = 250'000'000;
+constexpr std::int64_t kFirstProbeInterval_ns = 25'000'000;  // of the first kFirstProbes, so that a host joins quickly
+constexpr std::size_t kFirstProbes = 8;
+constexpr std::int64_t kGroupDelay_ns = 1'000'000'000;
+constexpr std::int64_t kGhost_ns = 3'000'000'000;  // a predecessor of this process may be heard for the lease
+
+template <std::size_t N>
+std::string text_of(const char (&text)[N]) {
+  return std::string(text, strnlen(text, N));
+}
+
+template <std::size_t N>
+void set_text(char (&to)[N], std::string_view text) {
+  std::memset(to, 0, N);
+  text.copy(to, N - 1);
+}
+
+template <std::size_t N>
+bool is_text(const char (&text)[N]) {
+  const auto* end = std::find(text, text + N, '\0');
+  return end != text + N && std::all_of(text, end, [](char letter) { return letter >= ' ' && letter <= '~'; });
+}
+
+std::optional<std::string> fault_of(const yars_net_HostSample& sample) {
+  if (!is_text(sample.name) || !is_text(sample.version)) return "name and version: expected printable ASCII";
+  if (sample.name[0] == '\0' || host_id(text_of(sample.name)) != sample.host)
+    return "host: expected the hash of its name, found another number";
+  if (sample.priority > databuffer::kMaxHostPriority)
+    return "priority: expected at most " + std::to_string(databuffer::kMaxHostPriority) + ", found " +
+           std::to_string(sample.priority);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::uint64_t host_id(std::string_view name) {
+  std::uint64_t hash = 0xcbf29ce484222325U;
+  for (const char letter : name) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+  return hash;
+}
+
+Hosts::Hosts(databuffer::Session& session, dds::Link* link, Identity identity)
+    : session_(&session), link_(link), identity_(std::move(identity)) {
+  HostView self;
+  self.id = host_id(identity_.name);
+  self.name = identity_.name;
+  self.priority = identity_.priority;
+  views_.push_back(std::move(self));
+}
+
+void Hosts::exchange(std::int64_t now_ns) {
+  link_->take_hosts([&](const yars_net_HostSample& sample, bool alive) { receive(sample, alive, now_ns); });
+  update_group(now_ns);
+  announce(now_ns);
+  ask(now_ns);
+}
+
+void Hosts::set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t epoch) {
+  HostView& self = views_.front();
+  if (self.held_roles != held_roles || self.owns_clock != owns_clock || epoch_ != epoch) changed_ = true;
+  self.held_roles = held_roles;
+  self.owns_clock = owns_clock;
+  epoch_ = epoch;
+}
+
+void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns) {
+  if (!alive) {
+    Host* host = host_of(sample.host, false);
+    if (host == nullptr || !host->alive) return;
+    host->alive = false;
+    log::warning("host " + host->view.name + " is no longer heard");
+    session_->note(NoteKind::loss, "host " + host->view.name + " is no longer heard");
+    update_views();
+    return;
+  }
+  if (sample.host == self().id) return report_same_name(sample, now_ns);
+  if (const auto fault = fault_of(sample)) return refuse(sample.host, dds::Topic::hosts, *fault);
+  Host* host = host_of(sample.host, true);
+  if (host == nullptr) return;
+  if (!host->numbers[dds::index_of(dds::Topic::hosts)].is_new(sample.start, sample.number)) return;
+  const bool is_news = !host->alive || host->said.start != sample.start;
+  host->said = sample;
+  host->heard_ns = now_ns;
+  if (is_news) begin(*host, sample, now_ns);
+  host->view.priority = sample.priority;
+  host->view.group = std::clamp<std::uint32_t>(sample.group, 1, databuffer::kMaxHosts);
+  host->view.held_roles = sample.held_roles;
+  host->view.owns_clock = sample.owns_clock != 0;
+  report_differences(*host);
+  update_views();
+}
+
+// A host that is heard for the first time, again after silence, or with a new gateway.
+void Hosts::begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns) {
+  host.alive = true;
+  host.view.name = text_of(sample.name);
+  host.offset = {};
+  host.next_probe_ns = now_ns;
+  host.differences = 0;
+  log::info("hears host " + host.view.name);
+  session_->note(NoteKind::restart, "hears host " + host.view.name);
+}
+
+void Hosts::report_differences(Host& host) {
+  const yars_net_HostSample& said = host.said;
+  const std::string other = "host " + host.view.name;
+  char hash[20];
+  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(said.layout_hash));
+  host.other_layout =
+      said.layout_hash != databuffer::kLayoutIdentity.hash || said.protocol != yars_net_kProtocol;
+  report(host, databuffer::kHostOtherLayout, host.other_layout,
+         other + " has another layout of the records (" + text_of(said.version) + ", layout " + hash +
+             "): nothing is exchanged with it; install the same version on both");
+  const auto differ = [](std::uint64_t mine, std::uint64_t theirs) { return mine != 0 && theirs != 0 && mine != theirs; };
+  report(host, databuffer::kHostOtherConfiguration, differ(identity_.configuration_hash, said.configuration_hash),
+         other + " has another configuration; start both with the same --config");
+  report(host, databuffer::kHostOtherTerrain, differ(identity_.terrain_hash, said.terrain_hash),
+         other + " has another terrain; start both with the same --terrain");
+}
+
+// Says a difference once while it lasts.
+void Hosts::report(Host& host, std::uint32_t flag, bool differs, const std::string& line) {
+  if (!differs) {
+    host.differences &= ~flag;
+    return;
+  }
+  if ((host.differences & flag) != 0) return;
+  host.differences |= flag;
+  log::warning(line);
+  session_->note(NoteKind::refusal, line);
+}
+
+void Hosts::report_same_name(const yars_net_HostSample& sample, std::int64_t now_ns) {
+  if (sample.start == identity_.start) return;
+  if (same_name_since_ns_ == 0) same_name_since_ns_ = now_ns;
+  if (same_name_ || now_ns - same_name_since_ns_ < kGhost_ns) return;
+  same_name_ = true;
+  const std::string line = "another host is also called " + identity_.name + "; give each host a `name` of its own";
+  log::error(line);
+  session_->note(NoteKind::refusal, line);
+}
+
+void Hosts::announce(std::int64_t now_ns) {
+  if (!changed_ && now_ns < next_announcement_ns_) return;
+  changed_ = false;
+  next_announcement_ns_ = now_ns + kAnnounceInterval_ns;
+  yars_net_HostSample sample{};
+  stamp(sample);
+  sample.segment = identity_.segment;
+  sample.monotonic_ns = now_ns;
+  sample.layout_hash = databuffer::kLayoutIdentity.hash;
+  sample.configuration_hash = identity_.configuration_hash;
+  sample.terrain_hash = identity_.terrain_hash;
+  sample.held_roles = self().held_roles;
+  sample.priority = identity_.priority;
+  sample.owns_clock = self().owns_clock ? 1 : 0;
+  sample.epoch = epoch_;
+  sample.protocol = yars_net_kProtocol;
+  sample.group = self().group;
+  set_text(sample.name, identity_.name);
+  set_text(sample.version, YARS_VERSION);
+  link_->write(sample);
+}
+
+void Hosts::ask(std::int64_t now_ns) {
+  for (Host& host : hosts_) {
+    if (!host.alive || now_ns < host.next_probe_ns) continue;
+    host.next_probe_ns = now_ns + (host.offset.count() < kFirstProbes ? kFirstProbeInterval_ns : kProbeInterval_ns);
+    yars_net_ProbeSample question{};
+    question.from = self().id;
+    question.to = host.view.id;
+    question.asked_ns = databuffer::monotonic_ns();
+    link_->write(question);
+  }
+}
+
+void Hosts::exchange_probes() {
+  link_->take<yars_net_ProbeSample>(
+      [this](const yars_net_ProbeSample& sample) { receive(sample, databuffer::monotonic_ns()); });
+}
+
+void Hosts::receive(const yars_net_ProbeSample& sample, std::int64_t now_ns) {
+  if (sample.stage == 0 && sample.to == self().id && link_ != nullptr) {
+    yars_net_ProbeSample answer = sample;
+    answer.stage = 1;
+    answer.received_ns = now_ns;
+    answer.answered_ns = databuffer::monotonic_ns();
+    link_->write(answer);
+  } else if (sample.stage == 1 && sample.from == self().id) {
+    if (Host* host = host_of(sample.to, false); host != nullptr)
+      host->offset.add({sample.asked_ns, sample.received_ns, sample.answered_ns, now_ns});
+  }
+}
+
+Hosts::Host* Hosts::host_of(std::uint64_t id, bool add) {
+  for (Host& host : hosts_)
+    if (host.view.id == id) return &host;
+  if (!add || id == self().id) return nullptr;
+  if (hosts_.size() + 1 >= databuffer::kMaxHosts) {
+    const std::string line = "expected at most " + std::to_string(databuffer::kMaxHosts) + " hosts, found another";
+    log::warning(line);
+    return nullptr;
+  }
+  Host host;
+  host.view.id = id;
+  hosts_.push_back(std::move(host));
+  return &hosts_.back();
+}
+
+const Hosts::Host* Hosts::host_of(std::uint64_t id) const {
+  for (const Host& host : hosts_)
+    if (host.view.id == id) return &host;
+  return nullptr;
+}
+
+void Hosts::update_views() {
+  views_.resize(1);
+  for (const Host& host : hosts_)
+    if (host.alive && !host.other_layout) views_.push_back(host.view);
+}
+
+// Number of hosts that were heard kGroupDelay_ns ago, so that two hosts that meet again say how many each had with it.
+void Hosts::update_group(std::int64_t now_ns) {
+  const auto heard = static_cast<std::uint32_t>(views_.size());
+  if (group_sizes_.empty() || group_sizes_.back().second != heard) group_sizes_.emplace_back(now_ns, heard);
+  while (group_sizes_.size() > 1 && group_sizes_[1].first <= now_ns - kGroupDelay_ns) group_sizes_.pop_front();
+  const bool is_old = group_sizes_.front().first <= now_ns - kGroupDelay_ns;
+  views_.front().group = is_old ? group_sizes_.front().second : 1;
+}
+
+const HostView* Hosts::find(std::uint64_t id) const {
+  const auto found = std::ranges::find(views_, id, &HostView::id);
+  return found == views_.end() ? nullptr : &*found;
+}
+
+std::optional<std::int64_t> Hosts::offset_ns(std::uint64_t id) const {
+  if (id == self().id) return 0;
+  const Host* host = host_of(id);
+  if (host == nullptr || !host->offset.best()) return std::nullopt;
+  return host->offset.best()->offset_ns;
+}
+
+std::uint64_t Hosts::segment_of(std::uint64_t id) const {
+  const Host* host = host_of(id);
+  return host == nullptr ? 0 : host->said.segment;
+}
+
+std::uint64_t Hosts::start_of(std::uint64_t id) const {
+  const Host* host = host_of(id);
+  return host == nullptr ? 0 : host->said.start;
+}
+
+std::uint32_t Hosts::epoch_of(std::uint64_t id) const {
+  const Host* host = host_of(id);
+  return host == nullptr ? 0 : host->said.epoch;
+}
+
+bool Hosts::is_new(dds::Topic topic, std::uint64_t id, std::uint64_t start, std::uint64_t number) {
+  Host* host = host_of(id, true);
+  return host != nullptr && host->numbers[dds::index_of(topic)].is_new(start, number);
+}
+
+std::uint64_t Hosts::next_from(dds::Topic topic, std::uint64_t id) const {
+  const Host* host = host_of(id);
+  return host == nullptr ? 0 : host->numbers[dds::index_of(topic)].next();
+}
+
+void Hosts::refuse(std::uint64_t id, dds::Topic topic, const std::string& reason) {
+  Host* host = host_of(id, false);
+  if (host != nullptr) ++host->refused;
+  session_->note(NoteKind::refusal, (host == nullptr ? "unknown host" : "host " + host->view.name) + ", " +
+                                        std::string(settings_of(topic).name) + ": " + reason);
+}
+
+void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) const {
+  // Losses count where each sample matters. In the other topics a newer state replaces an older one.
+  constexpr std::array kHistories{dds::Topic::applied_events, dds::Topic::model_ticks, dds::Topic::sweeps,
+                                  dds::Topic::traffic_latched};
+  auto& own = status.hosts[0];
+  set_text(own.name, identity_.name);
+  set_text(own.version, YARS_VERSION);
+  own.heard_ns = now_ns;
+  own.held_roles = self().held_roles;
+  own.priority = identity_.priority;
+  own.flags = databuffer::kHostSelf | databuffer::kHostPresent | databuffer::kHostOffsetKnown |
+              (self().owns_clock ? databuffer::kHostOwnsClock : 0U) | (same_name_ ? databuffer::kHostSameName : 0U);
+  status.host_count = 1;
+  for (const Host& host : hosts_) {
+    if (host.view.name.empty() || status.host_count >= databuffer::kMaxHosts) continue;
+    auto& to = status.hosts[status.host_count++];
+    set_text(to.name, host.view.name);
+    set_text(to.version, text_of(host.said.version));
+    to.heard_ns = host.heard_ns;
+    if (const auto best = host.offset.best()) {
+      to.offset_ns = best->offset_ns;
+      to.offset_error_ns = best->round_trip_ns / 2;
+      to.flags |= databuffer::kHostOffsetKnown;
+    }
+    to.latency_ns = host.offset.latency_ns();
+    for (const SampleNumbers& numbers : host.numbers) {
+      to.received += numbers.received();
+      to.repeated += numbers.repeated();
+    }
+    for (const dds::Topic topic : kHistories) to.lost += host.numbers[dds::index_of(topic)].lost();
+    to.refused = host.refused;
+    to.held_roles = host.view.held_roles;
+    to.priority = host.view.priority;
+    to.flags |= host.differences | (host.alive ? databuffer::kHostPresent : 0U) |
+                (host.alive && host.view.owns_clock ? databuffer::kHostOwnsClock : 0U);
+  }
+}
+
+}  // namespace yars::gateway

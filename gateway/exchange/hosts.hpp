@@ -1,0 +1,130 @@
+// The hosts of a session: who is heard, what they say about themselves, and the offsets of their clocks.
+// Inputs: samples of the topics hosts and probes.
+// Outputs: this host's announcements and probes; the hosts that are heard; whether a sample is new.
+// Units: times [ns], CLOCK_MONOTONIC of this host unless stated.
+// Errors: an announcement with damaged texts or numbers is refused. Differences between hosts (layout, configuration,
+//   terrain, equal names) are said in one line each, by both hosts.
+// Threads: one.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "databuffer/messages/network_status.hpp"
+#include "databuffer/session/session.hpp"
+#include "gateway/authority.hpp"
+#include "gateway/clock_offset.hpp"
+#include "gateway/dds/link.hpp"
+#include "gateway/sample_numbers.hpp"
+
+namespace yars::gateway {
+
+// What this host says about itself.
+struct Identity {
+  std::string name;
+  std::uint32_t priority = 0;
+  std::uint64_t start = 0;    // random number of this process
+  std::uint64_t segment = 0;  // random number of the session's segment
+  std::uint64_t configuration_hash = 0, terrain_hash = 0;  // 0: unknown
+};
+
+// Number of a host: FNV-1a (64 bits) of its name.
+std::uint64_t host_id(std::string_view name);
+
+class Hosts {
+ public:
+  // `session` receives notes. `link`: null only in tests that hand samples to receive().
+  Hosts(databuffer::Session& session, dds::Link* link, Identity identity);
+
+  // One pass: takes announcements, announces this host (10 Hz, and at once after a change), asks for clock offsets.
+  void exchange(std::int64_t now_ns);
+  // Answers probes and takes answers. Call as soon as possible after their arrival, because the delay is an error.
+  void exchange_probes();
+  void set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t epoch);
+
+  void receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns);
+  void receive(const yars_net_ProbeSample& sample, std::int64_t now_ns);
+
+  // This host, first, and every host that is heard and has the same layout.
+  std::span<const HostView> views() const { return views_; }
+  const HostView& self() const { return views_.front(); }
+  const Identity& identity() const { return identity_; }
+  const HostView* find(std::uint64_t id) const;  // among views(); nullptr: none
+
+  // Offset of a host's clock; nullopt: not measured yet. 0 for this host.
+  std::optional<std::int64_t> offset_ns(std::uint64_t id) const;
+  std::uint64_t segment_of(std::uint64_t id) const;  // 0: unknown
+  std::uint64_t start_of(std::uint64_t id) const;    // 0: unknown
+  std::uint32_t epoch_of(std::uint64_t id) const;
+
+  // Writes host, start and number into a sample. Numbers count up by topic.
+  template <class Sample>
+  void stamp(Sample& sample) {
+    sample.host = self().id;
+    sample.start = identity_.start;
+    sample.number = written_[dds::index_of(dds::kTopicOf<Sample>)]++;
+  }
+  // Numbers of the next samples that this host writes, by topic. Histories are numbered by their rings.
+  void set_written(dds::Topic topic, std::uint64_t next) { written_[dds::index_of(topic)] = next; }
+  std::span<const std::uint64_t> written() const { return written_; }
+
+  // True if the sample has not arrived before. Also counts it for its host.
+  template <class Sample>
+  bool is_new(const Sample& sample) {
+    return is_new(dds::kTopicOf<Sample>, sample.host, sample.start, sample.number);
+  }
+  bool is_new(dds::Topic topic, std::uint64_t host, std::uint64_t start, std::uint64_t number);
+  // Number of the next sample that is expected from the host.
+  std::uint64_t next_from(dds::Topic topic, std::uint64_t host) const;
+  // Counts and notes an invalid sample of a host.
+  void refuse(std::uint64_t host, dds::Topic topic, const std::string& reason);
+
+  void describe(databuffer::NetworkStatus& status, std::int64_t now_ns) const;
+
+ private:
+  struct Host {
+    HostView view;
+    yars_net_HostSample said{};
+    bool alive = false;
+    bool other_layout = false;
+    std::uint32_t differences = 0;  // HostFlags that have been reported
+    std::int64_t heard_ns = 0;
+    std::int64_t next_probe_ns = 0;
+    OffsetEstimator offset;
+    std::array<SampleNumbers, dds::kTopicCount> numbers;
+    std::uint64_t refused = 0;
+  };
+  Host* host_of(std::uint64_t id, bool add);
+  const Host* host_of(std::uint64_t id) const;
+  void begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns);
+  void report_differences(Host& host);
+  void report(Host& host, std::uint32_t flag, bool differs, const std::string& line);
+  void report_same_name(const yars_net_HostSample& sample, std::int64_t now_ns);
+  void announce(std::int64_t now_ns);
+  void ask(std::int64_t now_ns);
+  void update_views();
+  void update_group(std::int64_t now_ns);
+
+  databuffer::Session* session_;
+  dds::Link* link_;
+  Identity identity_;
+  std::deque<Host> hosts_;  // without this one; references stay valid
+  std::vector<HostView> views_;
+  std::array<std::uint64_t, dds::kTopicCount> written_{};
+  std::uint32_t epoch_ = 0;
+  bool changed_ = true;
+  std::int64_t next_announcement_ns_ = 0;
+  std::deque<std::pair<std::int64_t, std::uint32_t>> group_sizes_;  // time of each change, number of hosts from then on
+  std::int64_t same_name_since_ns_ = 0;
+  bool same_name_ = false;
+};
+
+}  // namespace yars::gateway

@@ -1,0 +1,66 @@
+#include "gateway/exchange/lockstep_exchange.hpp"
+
+#include <algorithm>
+
+#include "databuffer/runtime/tick_loop.hpp"
+
+namespace yars::gateway {
+
+void LockstepExchange::begin_pass(Context& context) {
+  const auto& lockstep = std::as_const(context.session).layout().lockstep;
+  for (std::size_t role = 0; role < done_.size(); ++role)
+    done_[role] = lockstep.done_tick[role].load(std::memory_order_acquire);
+}
+
+void LockstepExchange::send(Context& context) {
+  for (std::size_t role = 0; role < done_.size(); ++role) {
+    const bool is_ours = done_[role] > known_[role];
+    if (!is_ours) continue;
+    known_[role] = done_[role];
+    yars_net_LockstepSample sample{};
+    context.hosts.stamp(sample);
+    sample.role = static_cast<std::uint32_t>(role);
+    sample.done_tick = done_[role];
+    for (std::size_t i = 0; i < dds::kTopicCount; ++i)
+      if (context.link->writes(static_cast<dds::Topic>(i))) sample.written[i] = context.hosts.written()[i];
+    context.link->write(sample);
+  }
+}
+
+void LockstepExchange::receive(Context& context) {
+  context.link->take<yars_net_LockstepSample>([&](const auto& sample) { receive(context, sample); });
+}
+
+void LockstepExchange::receive(Context& context, const yars_net_LockstepSample& sample) {
+  if (!context.hosts.is_new(sample)) return;
+  if (sample.role >= databuffer::kLockstepRoles || sample.done_tick < 0 ||
+      sample.done_tick > databuffer::kLatestModelTick)
+    return context.hosts.refuse(sample.host, dds::Topic::lockstep, "role or done_tick: out of range");
+  if (context.hosts.find(sample.host) != nullptr) waiting_[{sample.host, sample.role}] = sample;
+}
+
+bool LockstepExchange::has_arrived(const Context& context, const yars_net_LockstepSample& sample) const {
+  for (std::size_t i = 0; i < dds::kTopicCount; ++i) {
+    const auto topic = static_cast<dds::Topic>(i);
+    // The first four do not carry records, and lockstep has no samples but its own before this one.
+    if (topic <= dds::Topic::clock_requests || topic == dds::Topic::lockstep || !context.link->reads(topic)) continue;
+    if (context.hosts.next_from(topic, sample.host) < sample.written[i]) return false;
+  }
+  return true;
+}
+
+void LockstepExchange::apply(Context& context, bool in_order) {
+  if (!in_order) return;
+  auto& lockstep = context.session.layout().lockstep;
+  std::erase_if(waiting_, [&](const auto& item) {
+    const yars_net_LockstepSample& sample = item.second;
+    if (!has_arrived(context, sample)) return false;
+    const std::size_t role = sample.role;
+    if (lockstep.done_tick[role].load(std::memory_order_acquire) >= sample.done_tick) return true;
+    known_[role] = sample.done_tick;
+    databuffer::complete_tick(lockstep, role, sample.done_tick);
+    return true;
+  });
+}
+
+}  // namespace yars::gateway

@@ -1,0 +1,38 @@
+// Lockstep over several hosts: carries the last done tick of each role to the other hosts.
+// Inputs: done ticks of local roles; those of other hosts, with the numbers of the samples written up to then.
+// Outputs: done ticks in the local segment, after everything that the role published in the tick has arrived here.
+// Errors: a done tick that goes back, or is out of range, is refused.
+// Threads: one. Wakes the roles that wait on the futexes of the segment.
+// Source: docs/architecture.md#time; TickLoop (databuffer/runtime/tick_loop.hpp).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "databuffer/session/session_layout.hpp"
+#include "gateway/exchange/context.hpp"
+
+namespace yars::gateway {
+
+class LockstepExchange {
+ public:
+  LockstepExchange() { known_.fill(-1); }
+  // Reads the done ticks before the records of the tick are sent.
+  void begin_pass(Context& context);
+  // Sends the done ticks that begin_pass() found, after the records.
+  void send(Context& context);
+  void receive(Context& context);
+  void receive(Context& context, const yars_net_LockstepSample& sample);
+  // Applies the done ticks whose samples have all arrived. `in_order`: no record that has arrived waits for another.
+  void apply(Context& context, bool in_order);
+
+ private:
+  bool has_arrived(const Context& context, const yars_net_LockstepSample& sample) const;
+
+  std::array<std::int64_t, databuffer::kLockstepRoles> done_{}, known_{};  // by local roles; sent or written here
+  std::map<std::pair<std::uint64_t, std::uint32_t>, yars_net_LockstepSample> waiting_;  // by host and role
+};
+
+}  // namespace yars::gateway

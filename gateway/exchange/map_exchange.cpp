@@ -1,0 +1,127 @@
+#include "gateway/exchange/map_exchange.hpp"
+
+#include <algorithm>
+#include <cstring>
+
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/validated.hpp"
+
+namespace yars::gateway {
+
+using databuffer::Role;
+
+void MapExchange::send(Context& context) {
+  const double elapsed_s = 1e-9 * static_cast<double>(context.now_ns - last_pass_ns_);
+  last_pass_ns_ = context.now_ns;
+  if (!context.roles.exports(Role::radar_model)) {
+    for (Sent& sent : sent_) sent.next_row = sent.size;
+    end_maps(context);
+    return;
+  }
+  end_maps(context);
+  begin_maps(context);
+  constexpr double kMaxBurst_s = 0.05;  // after a pause of this process
+  rows_due_ = std::min(rows_due_ + elapsed_s * rows_per_s_, kMaxBurst_s * rows_per_s_);
+  while ((rows_due_ >= 1.0 || context.lockstep) && send_row(context)) rows_due_ -= 1.0;
+}
+
+// Maps of the pool that are not sent yet, oldest first.
+void MapExchange::begin_maps(Context& context) {
+  const auto& layout = std::as_const(context.session).layout();
+  std::array<std::uint64_t, databuffer::kPatchSlots> ids{};
+  for (std::size_t i = 0; i < ids.size(); ++i) ids[i] = layout.patches[i].id.load(std::memory_order_acquire);
+  std::ranges::sort(ids);
+  for (const std::uint64_t id : ids) {
+    if (id == 0 || std::ranges::find(sent_, id, &Sent::id) != sent_.end()) continue;
+    Sent sent;
+    databuffer::PatchMap map{};
+    if (!databuffer::read_patch(layout, id, map, sent.pixels) || validate(map)) continue;
+    sent.id = id;
+    sent.hash = map.hash;
+    sent.size = map.size;
+    yars_net_PatchMapSample sample{};
+    context.hosts.stamp(sample);
+    sample.id = id;
+    copy_record(sample.map, map);
+    context.link->write(sample);
+    sent_.push_back(std::move(sent));
+  }
+}
+
+// Removes the rows of maps that are no longer in the pool from the history that hosts get when they join.
+void MapExchange::end_maps(Context& context) {
+  const auto& layout = std::as_const(context.session).layout();
+  const bool sends = context.roles.exports(Role::radar_model);
+  std::erase_if(sent_, [&](const Sent& sent) {
+    if (sends && databuffer::slot_of<shm::PlainAccess>(layout.patches, sent.id) != nullptr) return false;
+    yars_net_PatchRowSample row{};
+    row.host = context.hosts.self().id;
+    row.id = sent.id;
+    for (row.row = 0; row.row < sent.next_row; ++row.row) context.link->dispose(row);
+    yars_net_PatchMapSample map{};
+    map.host = row.host;
+    map.id = sent.id;
+    context.link->dispose(map);
+    return true;
+  });
+}
+
+bool MapExchange::send_row(Context& context) {
+  const auto next = std::ranges::find_if(sent_, [](const Sent& sent) { return !sent.pixels.empty(); });
+  if (next == sent_.end()) return false;
+  yars_net_PatchRowSample sample{};
+  context.hosts.stamp(sample);
+  sample.id = next->id;
+  sample.row = next->next_row;
+  sample.length = next->size;
+  std::memcpy(sample.pixels, next->pixels.data() + std::size_t{next->next_row} * next->size, next->size);
+  context.link->write(sample);
+  if (++next->next_row == next->size) next->pixels = {};
+  return true;
+}
+
+void MapExchange::receive(Context& context) {
+  if (!context.roles.holder(Role::radar_model)) return;
+  const auto take = [&](const auto& sample) { receive(context, sample); };
+  context.link->take<yars_net_PatchMapSample>(take);
+  context.link->take<yars_net_PatchRowSample>(take);
+}
+
+void MapExchange::receive(Context& context, const yars_net_PatchMapSample& sample) {
+  if (!context.hosts.is_new(sample)) return;
+  databuffer::PatchMap map{};
+  copy_record(map, sample.map);
+  if (const auto reason = validate(map)) return context.hosts.refuse(sample.host, dds::Topic::patch_maps, *reason);
+  if (map.id != sample.id || map.id == 0)
+    return context.hosts.refuse(sample.host, dds::Topic::patch_maps, "id: expected that of the sample, not 0");
+  assembly_.begin(sample.host, map);
+}
+
+void MapExchange::receive(Context& context, const yars_net_PatchRowSample& sample) {
+  if (!context.hosts.is_new(sample)) return;
+  if (sample.length > sizeof sample.pixels)
+    return context.hosts.refuse(sample.host, dds::Topic::patch_rows, "length: expected at most 1024, found more");
+  assembly_.add_row(sample.host, sample.id, sample.row, {sample.pixels, sample.length});
+}
+
+void MapExchange::publish(Context& context) {
+  if (!context.roles.source(Role::radar_model)) return;
+  auto& layout = context.session.layout();
+  while (const auto whole = assembly_.take_whole()) {
+    databuffer::PatchMap known{};
+    if (databuffer::read_patch(layout, whole->map.id, known)) {
+      if (known.hash == whole->map.hash) continue;
+      // The part of the session that yielded made another map with this number.
+      if (auto* slot = databuffer::slot_of<shm::PlainAccess>(layout.patches, whole->map.id)) slot->id.store(0);
+    }
+    std::array<std::uint64_t, 5> keep{};
+    if (const auto state = databuffer::read_valid(layout.radar_state))
+      keep = {state->map_newest, state->map_old, state->map_stored, state->map_shown, 0};
+    if (const auto status = databuffer::read_valid(layout.model_status)) keep.back() = status->map_newest;
+    if (!databuffer::publish_patch(layout, whole->map, whole->pixels, keep))
+      context.session.note(databuffer::NoteKind::loss, "no free slot for patch map " + std::to_string(whole->map.id));
+  }
+}
+
+}  // namespace yars::gateway

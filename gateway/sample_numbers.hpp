@@ -1,0 +1,46 @@
+// Numbers of the samples that arrive from one host on one topic: repeated samples and losses.
+// Inputs: start (random number of the sending gateway process) and number of each sample, in order of arrival.
+// Outputs: whether the sample is new; counts.
+// Use: after a partition DDS delivers the stored history of a topic again, and a lost sample is not reported by it.
+// Threads: one.
+#pragma once
+
+#include <cstdint>
+
+namespace yars::gateway {
+
+class SampleNumbers {
+ public:
+  // False: the sample has arrived before, or is older than one that has arrived.
+  bool is_new(std::uint64_t start, std::uint64_t number) {
+    if (begun_ && start != start_ && start == former_start_) {
+      ++repeated_;  // from a gateway process that has ended
+      return false;
+    }
+    if (start != start_ || !begun_) {
+      former_start_ = start_;
+      start_ = start;
+      begun_ = true;
+      next_ = number;
+    }
+    if (number < next_) {
+      ++repeated_;
+      return false;
+    }
+    lost_ += number - next_;
+    next_ = number + 1;
+    ++received_;
+    return true;
+  }
+  std::uint64_t start() const { return start_; }
+  std::uint64_t next() const { return next_; }  // number of the next expected sample; 0: none has arrived
+  std::uint64_t received() const { return received_; }
+  std::uint64_t repeated() const { return repeated_; }
+  std::uint64_t lost() const { return lost_; }  // also states that a newer state replaced before they were taken
+
+ private:
+  std::uint64_t start_ = 0, former_start_ = 0, next_ = 0, received_ = 0, repeated_ = 0, lost_ = 0;
+  bool begun_ = false;
+};
+
+}  // namespace yars::gateway

@@ -1,0 +1,138 @@
+// Tests of the GUF form Network: reading, errors, printing, a file of its own, and what it leaves alone.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "config/schema/slot_text.hpp"
+#include "lib/radar/network.hpp"
+#include "tests/config/support.hpp"
+
+namespace yars::config {
+namespace {
+
+using namespace testing;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+std::string network(const std::string& slots) {
+  return "( Network " + slots + " )";
+}
+
+TEST(NetworkForm, OpensNoNetworkByDefault) {
+  const radar::NetworkSettings settings;
+  EXPECT_THAT(settings.interfaces, ElementsAre("lo"));
+  EXPECT_THAT(settings.peers, ElementsAre("127.0.0.1"));
+  EXPECT_EQ(fields(loaded(network("")).network.value()), fields(settings));
+  EXPECT_EQ(fields(*load_network("")), fields(settings));
+}
+
+TEST(NetworkForm, IsReadSlotBySlot) {
+  const auto read = loaded(network(R"(:name "cockpit-2" :priority 20 :domain 7 :interfaces `( "eth0" "wg0" )
+    :peers `( "10.77.0.1" "fe80::1%eth0" "radar_host.lan" ) :topicsIn `( sweeps "outputs" ) :topicsOut input_events
+    :participants 8 :mapRowsPerSecond 500 :maxMessageBytes 9000 :security "/etc/yars/identity")"));
+  EXPECT_THAT(read.warnings, IsEmpty());
+  ASSERT_TRUE(read.network);
+  EXPECT_EQ(fields(*read.network), fields(radar::NetworkSettings{"cockpit-2",
+                                                                 20,
+                                                                 7,
+                                                                 {"eth0", "wg0"},
+                                                                 {"10.77.0.1", "fe80::1%eth0", "radar_host.lan"},
+                                                                 {"sweeps", "outputs"},
+                                                                 {"input_events"},
+                                                                 8,
+                                                                 500,
+                                                                 9000,
+                                                                 "/etc/yars/identity"}));
+}
+
+TEST(NetworkForm, ALaterFormReplacesSlotsOfAnEarlierOne) {
+  const auto read = loaded(network(":domain 3 :priority 5") + network(":domain 4"));
+  ASSERT_TRUE(read.network);
+  EXPECT_EQ(read.network->domain, 4);
+  EXPECT_EQ(read.network->priority, 5);
+}
+
+TEST(NetworkForm, TakesEveryTopicByItsName) {
+  std::string names;
+  for (const std::string_view name : radar::kTopicNames) names.append(name).append(" ");
+  const auto read = loaded(network(":topicsOut `( " + names + ")"));
+  EXPECT_EQ(read.network.value().topics_out.size(), radar::kTopicNames.size());
+}
+
+TEST(NetworkForm, ErrorsNameTheSlot) {
+  for (const char* name : {"two words", "a/b", "host.lan", "a123456789012345678901234567890x", "h\xc3\xb6st"})
+    EXPECT_THAT(refusal(network(std::string(":name \"") + name + "\"")),
+                HasSubstr("expected 1 to 31 letters, digits, - or _ for :name"));
+  EXPECT_THAT(refusal(network(":priority 1001")), HasSubstr("a whole number in [0, 1000] for :priority"));
+  EXPECT_THAT(refusal(network(":domain 233")), HasSubstr("[0, 232] for :domain"));
+  EXPECT_THAT(refusal(network(":domain 1.5")), HasSubstr(":domain"));
+  EXPECT_THAT(refusal(network(":interfaces `( )")), HasSubstr("a list of 1 to 8 strings for :interfaces"));
+  EXPECT_THAT(refusal(network(":interfaces `( 5 )")), HasSubstr(":interfaces"));
+  EXPECT_THAT(refusal(network(":participants 0")), HasSubstr("[1, 32] for :participants"));
+  EXPECT_THAT(refusal(network(":mapRowsPerSecond 9")), HasSubstr("[10, 20000] 1/s for :mapRowsPerSecond"));
+  EXPECT_THAT(refusal(network(":maxMessageBytes 65001")), HasSubstr("[512, 65000] bytes for :maxMessageBytes"));
+  EXPECT_THAT(refusal(network(":security 1")), HasSubstr(":security"));
+}
+
+// Names and addresses become XML, in which these characters would be markup.
+TEST(NetworkForm, RefusesWhatWouldBeMarkup) {
+  for (const char* word : {"", "a b", "<x>", "a\\\"b", "a'b", "a&b", "a/b", "0123456789abcdef"})
+    EXPECT_THAT(refusal(network(std::string(":interfaces `( \"lo\" \"") + word + "\" )")),
+                HasSubstr("expected names of network interfaces, as `ip link` lists them for :interfaces"))
+        << word;
+  for (const char* word : {"", "10.0.0.1 10.0.0.2", "<Peer/>", "a\\\"b", "a'b", "a&b", "udp/10.0.0.1"})
+    EXPECT_THAT(refusal(network(std::string(":peers `( \"") + word + "\" )")),
+                HasSubstr("expected IPv4 or IPv6 addresses or host names for :peers"))
+        << word;
+}
+
+TEST(NetworkForm, AMisspelledTopicHasItsNearestName) {
+  EXPECT_THAT(refusal(network(":topicsIn `( sweep )")),
+              HasSubstr("for :topicsIn, found \"sweep\"; did you mean 'sweeps'?"));
+  EXPECT_THAT(refusal(network(":topicsOut `( sweeps nonsense )")),
+              HasSubstr("topics, which are hosts, probes, clock, clock_requests"));
+}
+
+TEST(NetworkForm, PrintedReadsBackEqual) {
+  const radar::NetworkSettings settings{"a", 1, 2, {"eth0"}, {}, {"sweeps"}, {"outputs", "hosts"}, 3, 20, 600, "/x"};
+  EXPECT_EQ(fields(loaded(print_network(settings)).network.value()), fields(settings));
+}
+
+// The text of the radar's configuration stays what it was: computers of a session compare it, and each has its Network.
+TEST(NetworkForm, IsNoPartOfTheRadar) {
+  const auto with = loaded(network(":domain 9"));
+  EXPECT_EQ(print_configuration(with.radar), print_configuration(radar::RadarConfiguration{}));
+  EXPECT_FALSE(loaded("( Apg70 )").network);
+}
+
+TEST(NetworkFile, MayHoldOtherForms) {
+  const Folder folder;
+  const auto path =
+      folder.write("set.guf", "( Apg70 :ranges `( 10 20 ) )\n( Network :domain 5 :security \"identity\" )\n");
+  const auto settings = load_network(path);
+  ASSERT_TRUE(settings) << settings.error().message();
+  EXPECT_EQ(settings->domain, 5);
+  EXPECT_EQ(settings->security, (folder.path() / "identity").string());
+}
+
+TEST(NetworkFile, WithoutTheFormIsRefused) {
+  const Folder folder;
+  const auto settings = load_network(folder.write("set.guf", "( Apg70 )\n"));
+  ASSERT_FALSE(settings);
+  EXPECT_THAT(settings.error().message(), HasSubstr("expected a form Network"));
+  EXPECT_FALSE(load_network(folder.path() / "none.guf"));
+}
+
+TEST(NetworkFile, TheExampleShowsTheDefaults) {
+  auto example = load_network(std::string(YARS_SOURCE_DIR) + "/config/network.guf");
+  ASSERT_TRUE(example) << example.error().message();
+  const radar::NetworkSettings defaults;
+  EXPECT_NE(example->interfaces, defaults.interfaces);
+  EXPECT_EQ(example->peers.size(), 2U);
+  example->interfaces = defaults.interfaces;
+  example->peers = defaults.peers;
+  EXPECT_EQ(fields(*example), fields(defaults));
+}
+
+}  // namespace
+}  // namespace yars::config
