@@ -32,6 +32,13 @@ class SampleNumbers {
     ++received_;
     return true;
   }
+  // Continues where a predecessor of this process stopped: `next` is the number of the next sample to take.
+  void resume(std::uint64_t start, std::uint64_t next) {
+    start_ = start;
+    next_ = next;
+    begun_ = true;
+  }
+  bool knows(std::uint64_t start) const { return begun_ && start_ == start; }  // samples of this process have arrived
   std::uint64_t start() const { return start_; }
   std::uint64_t next() const { return next_; }  // number of the next expected sample; 0: none has arrived
   std::uint64_t received() const { return received_; }

@@ -49,20 +49,23 @@ void add_standby_option(CommandLine& app, bool& standby) {
 
 error::Expected<std::optional<HeldRole>> take_role(const std::string& session_name, Role role, std::string_view program,
                                                    bool standby) {
-  std::optional<Session> waiting;
+  if (!standby) {
+    auto held = open_and_claim(session_name, role, program);
+    if (!held) return tl::unexpected(held.error());
+    return std::optional<HeldRole>(std::move(*held));
+  }
+  auto waiting = Session::open(session_name, std::string(program) + " standby");
+  if (!waiting) return tl::unexpected(waiting.error());
   Occupation occupation;
+  bool reported = false;
   while (!stop_requested()) {
-    if (!waiting || !occupation.lasts(std::as_const(*waiting), role)) {
+    if (!occupation.lasts(std::as_const(*waiting), role)) {
       auto held = open_and_claim(session_name, role, program);
       if (held) return std::optional<HeldRole>(std::move(*held));
-      if (!standby || !held.error().bad_usage) return tl::unexpected(held.error());
+      if (!held.error().bad_usage) return tl::unexpected(held.error());
     }
-    if (!waiting) {
-      auto session = Session::open(session_name, std::string(program) + " standby");
-      if (!session) return tl::unexpected(session.error());
-      waiting.emplace(std::move(*session));
+    if (!std::exchange(reported, true))
       log::info("stands by: another process holds the role " + std::string(name_of(role)));
-    }
     waiting->heartbeat();
     std::this_thread::sleep_for(kStandbyInterval);
   }

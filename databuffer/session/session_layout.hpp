@@ -121,21 +121,24 @@ struct SkippedTicks {
   }
 };
 
-// Input lane that a gateway fills with the events of a lane of another host. Its entry outlives the gateway, so that the
-// next gateway delivers each event once.
-struct RemoteLane {
-  std::atomic<std::uint64_t> sender;  // number of host, segment and lane; 0: no remote sender
-  // Low 32 bits: `pushed` of this lane before the last event. High 32 bits: number of the event after the last one.
-  // Stored before the event is pushed. If `pushed` has not changed since, the last event is still missing.
+// Progress of records that a gateway copies from another host to a container of this segment. It outlives the gateway,
+// so that the next gateway copies each record once.
+struct RemoteProgress {
+  std::atomic<std::uint64_t> source;  // hash of host, segment and container there; 0: none
+  // High 32 bits: number of the next record of the source. Low 32 bits: number of records in the container here before
+  // the last one. Stored before a record is written. If the number has not changed since, the last record is missing.
   std::atomic<std::uint64_t> progress;
 };
 
 // State of the gateway that joins this segment to the segments of other hosts (gateway/README.md).
 struct Network {
+  static constexpr std::size_t kHistories = 4, kHistorySources = 4;
   std::atomic<std::uint64_t> segment;         // random number of this segment; 0: no gateway has joined it
   std::atomic<std::uint32_t> yielding_roles;  // bit n: role n is held on another host; its holder here must release it
   std::atomic<std::uint32_t> mirrored_roles;  // bit n: the gateway holds role n for another host
-  std::array<RemoteLane, kInputLanes> remote_lanes;  // of the input lanes, in their order
+  std::array<RemoteProgress, kInputLanes> input;  // of the input lanes, in their order
+  // Of the rings applied_events, traffic_latched, model_ticks and sweeps, for the last hosts that wrote them.
+  std::array<std::array<RemoteProgress, kHistorySources>, kHistories> histories;
 };
 
 // Slot of a patch map. The writer clears the id, writes, and stores the new id last. A reader copies between two loads

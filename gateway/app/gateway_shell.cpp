@@ -58,7 +58,9 @@ void GatewayShell::pass() {
   lockstep_.begin_pass(context_);
   receive();
   send();
-  if (context_.now_ns >= next_report_ns_) report();
+  const bool has_joined = context_.joined && !std::exchange(reported_joined_, true);
+  if (has_joined) log::info("joined the session clock");
+  if (has_joined || context_.now_ns >= next_report_ns_) report();
 }
 
 void GatewayShell::receive() {
@@ -84,11 +86,10 @@ void GatewayShell::send() {
 
 void GatewayShell::report() {
   next_report_ns_ = context_.now_ns + kReportInterval_ns;
-  if (context_.joined && !std::exchange(reported_joined_, true)) log::info("joined the session clock");
   for (const std::string& message : link_.take_messages()) log::warning("Cyclone DDS: " + message);
   const double cpu_s = process_time_s();
   const double elapsed_s = 1e-9 * static_cast<double>(context_.now_ns - last_report_ns_);
-  if (last_report_ns_ != 0) load_ = (cpu_s - last_cpu_s_) / elapsed_s;
+  if (last_report_ns_ != 0 && elapsed_s > 0.1) load_ = (cpu_s - last_cpu_s_) / elapsed_s;
   last_cpu_s_ = cpu_s;
   last_report_ns_ = context_.now_ns;
   databuffer::NetworkStatus status{};

@@ -4,6 +4,8 @@
 #include <cstring>
 
 #include "databuffer/messages/validation.hpp"
+#include "gateway/exchange/history_progress.hpp"
+#include "gateway/exchange/progress.hpp"
 #include "lib/log/log.hpp"
 
 namespace yars::gateway {
@@ -17,10 +19,6 @@ constexpr std::int64_t kRepeatAfter_ns = 1'000'000'000;
 constexpr std::int64_t kLaneSilence_ns = 30'000'000'000;  // then a lane of a host that is not heard is released
 constexpr std::uint64_t kRecentEvents = 256;              // applied events that a restarted gateway sends again
 
-std::uint64_t low_word(std::uint64_t value) {
-  return value & 0xFFFF'FFFFU;
-}
-
 // Translates a CLOCK_MONOTONIC time of another host; without a measured offset the result is the present time.
 std::int64_t local_time_ns(const Context& context, std::uint64_t host, std::int64_t time_ns) {
   const auto offset_ns = context.hosts.offset_ns(host);
@@ -32,19 +30,7 @@ std::int64_t local_time_ns(const Context& context, std::uint64_t host, std::int6
 }  // namespace
 
 std::uint64_t lane_id(std::uint64_t host, std::uint64_t segment, std::uint32_t lane) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const std::uint64_t word : {host, segment, std::uint64_t{lane}})
-    for (int byte = 0; byte < 8; ++byte) hash = (hash ^ (word >> (8 * byte) & 0xFFU)) * 0x100000001b3U;
-  return hash == 0 ? 1 : hash;
-}
-
-std::uint64_t next_event_of(std::uint64_t progress, std::uint64_t pushed, std::uint64_t near) {
-  const std::uint64_t next_low = progress >> 32;
-  const bool missing = low_word(pushed) == low_word(progress);  // stored, but not pushed
-  // The low 32 bits of the result are known; it is less than 2^31 away from `near`.
-  const auto distance = static_cast<std::int32_t>(static_cast<std::uint32_t>(next_low - low_word(near)));
-  const std::uint64_t next = near + static_cast<std::uint64_t>(std::int64_t{distance});
-  return missing ? next - 1 : next;
+  return source_id({host, segment, lane});
 }
 
 void EventExchange::send(Context& context) {
@@ -147,9 +133,9 @@ EventExchange::Receiving* EventExchange::receiving_from(Context& context, const 
   // An entry of this gateway's predecessor says what has been delivered. Without one this is the first event.
   const auto& layout = std::as_const(context.session).layout();
   for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
-    const databuffer::RemoteLane& entry = layout.network.remote_lanes[lane];
-    if (entry.sender.load() != id) continue;
-    const std::uint64_t next = next_event_of(entry.progress.load(), layout.input.pushed(lane), sample.event_number);
+    const databuffer::RemoteProgress& entry = layout.network.input[lane];
+    if (entry.source.load() != id) continue;
+    const std::uint64_t next = next_of(entry.progress.load(), layout.input.pushed(lane), sample.event_number);
     receiving.next_event = std::max(receiving.next_event, next);
   }
   return &receiving_.emplace(id, std::move(receiving)).first->second;
@@ -169,11 +155,10 @@ bool EventExchange::take_lane(Context& context, Receiving& receiving, const yars
   }
   const auto lane = static_cast<std::size_t>(claim->lane());
   auto& layout = context.session.layout();
-  databuffer::RemoteLane& entry = layout.network.remote_lanes[lane];
-  const std::uint64_t pushed = layout.input.pushed(lane);
-  entry.sender.store(0);
-  entry.progress.store(low_word(sample.event_number) << 32 | low_word(pushed - 1));
-  entry.sender.store(lane_id(receiving.sender, receiving.segment, receiving.lane));
+  databuffer::RemoteProgress& entry = layout.network.input[lane];
+  entry.source.store(0);
+  entry.progress.store(progress_of(sample.event_number, layout.input.pushed(lane) - 1));
+  entry.source.store(lane_id(receiving.sender, receiving.segment, receiving.lane));
   lanes_->input[lane] = RemoteName{receiving.sender, receiving.lane};
   receiving.claim.emplace(std::move(*claim));
   return true;
@@ -193,7 +178,7 @@ bool EventExchange::push(Context& context, Receiving& receiving, const yars_net_
   auto& layout = context.session.layout();
   const std::uint64_t pushed = layout.input.pushed(lane);
   if (pushed - layout.input.popped(lane) >= databuffer::kInputLaneDepth) return false;
-  layout.network.remote_lanes[lane].progress.store(low_word(sample.event_number + 1) << 32 | low_word(pushed));
+  layout.network.input[lane].progress.store(progress_of(sample.event_number + 1, pushed));
   layout.input.push(lane, event);
   receiving.next_event = sample.event_number + 1;
   return true;
@@ -249,16 +234,32 @@ void EventExchange::send_applied(Context& context) {
   context.hosts.set_written(dds::Topic::applied_events, *applied_cursor_);
 }
 
+// An event that is seen as applied needs no receipt. So it is not sent to another host if that host takes the role now.
+void EventExchange::pop_applied(Context& context, const databuffer::AppliedEvent& applied) {
+  auto& input = context.session.layout().input;
+  databuffer::InputEvent oldest{};
+  if (applied.lane >= databuffer::kInputLanes || !input.peek(applied.lane, oldest)) return;
+  const databuffer::InputEvent& event = applied.event;
+  if (oldest.number == event.number && oldest.kind == event.kind && oldest.session_time_ns == event.session_time_ns)
+    input.pop(applied.lane, oldest);
+}
+
 void EventExchange::receive(Context& context, const yars_net_AppliedEventSample& sample) {
-  if (context.roles.source(Role::state_machine) != sample.host || !context.hosts.is_new(sample)) return;
+  auto& ring = context.session.layout().applied_events;
+  if (context.roles.source(Role::state_machine) != sample.host || !is_new_in_history(context, sample, ring.next()))
+    return;
   databuffer::AppliedEvent applied{};
   copy_record(applied, sample.applied);
   if (const auto reason = validate(applied.event))
     return context.hosts.refuse(sample.host, dds::Topic::applied_events, *reason);
   applied.monotonic_ns = local_time_ns(context, sample.host, applied.monotonic_ns);
-  if (sample.sender != context.hosts.self().id) applied.lane = kNoLane;
+  if (sample.sender != context.hosts.self().id)
+    applied.lane = kNoLane;
+  else
+    pop_applied(context, applied);
   applied.event.monotonic_ns = local_time_ns(context, sample.host, applied.event.monotonic_ns);
-  context.session.layout().applied_events.publish(applied);
+  keep_progress<yars_net_AppliedEventSample>(context, sample, ring.next());
+  ring.publish(applied);
 }
 
 }  // namespace yars::gateway

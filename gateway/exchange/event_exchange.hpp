@@ -23,12 +23,8 @@
 
 namespace yars::gateway {
 
-// Name of an input lane in the whole session, for ever: FNV-1a over host, segment and lane.
+// Name of an input lane in the whole session, for ever.
 std::uint64_t lane_id(std::uint64_t host, std::uint64_t segment, std::uint32_t lane);
-
-// Number of the next event that a lane of another host may deliver, according to the entry that this gateway or its
-// predecessor left. `pushed`: of the entry's local lane. `near`: a number near the result, which gives the high 32 bits.
-std::uint64_t next_event_of(std::uint64_t progress, std::uint64_t pushed, std::uint64_t near);
 
 class EventExchange {
  public:
@@ -65,6 +61,7 @@ class EventExchange {
   bool take_lane(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample);
   bool push(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample);
   void release_lanes(Context& context);
+  void pop_applied(Context& context, const databuffer::AppliedEvent& applied);
 
   LaneNames* lanes_;
   std::array<Sending, databuffer::kInputLanes> sending_;

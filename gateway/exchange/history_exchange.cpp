@@ -6,6 +6,7 @@
 
 #include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "gateway/exchange/history_progress.hpp"
 
 namespace yars::gateway {
 
@@ -95,30 +96,35 @@ bool HistoryExchange::is_wanted(Context& context, std::uint64_t host, std::uint3
 }
 
 void HistoryExchange::receive(Context& context, const yars_net_LatchedTrafficSample& sample) {
-  if (context.roles.source(Role::radar_model) != sample.host || !context.hosts.is_new(sample)) return;
+  auto& ring = context.session.layout().traffic_latched;
+  if (context.roles.source(Role::radar_model) != sample.host || !is_new_in_history(context, sample, ring.next())) return;
   databuffer::Traffic traffic{};
   copy_record(traffic, sample.traffic);
   if (const auto reason = validate(traffic))
     return context.hosts.refuse(sample.host, dds::Topic::traffic_latched, *reason);
   if (traffic_host_ != sample.host) traffic_numbers_.clear();
   traffic_host_ = sample.host;
-  const std::uint64_t ours = context.session.layout().traffic_latched.publish(traffic);
+  keep_progress<yars_net_LatchedTrafficSample>(context, sample, ring.next());
+  const std::uint64_t ours = ring.publish(traffic);
   traffic_numbers_.push_back({sample.ring_number, ours});
   if (traffic_numbers_.size() > kTrafficNumbers) traffic_numbers_.pop_front();
 }
 
 void HistoryExchange::receive(Context& context, const yars_net_ModelTickSample& sample) {
-  if (!is_wanted(context, sample.host, sample.tick.epoch) || !context.hosts.is_new(sample)) return;
+  const auto& ring = std::as_const(context.session).layout().model_ticks;
+  if (!is_wanted(context, sample.host, sample.tick.epoch) || !is_new_in_history(context, sample, ring.next())) return;
   databuffer::ModelTick tick{};
   copy_record(tick, sample.tick);
   if (const auto reason = validate(tick)) return context.hosts.refuse(sample.host, dds::Topic::model_ticks, *reason);
   tick.ownship_lane = lanes_->local_ownship_lane({sample.ownship_host, tick.ownship_lane}, context.hosts.self().id,
                                                  kNoLane);
-  if (ticks_.size() < kMaxWaiting) ticks_.push_back({tick, context.now_ns});
+  if (ticks_.size() < kMaxWaiting)
+    ticks_.push_back({tick, context.now_ns, sample.host, sample.start, sample.number});
 }
 
 void HistoryExchange::receive(Context& context, const yars_net_SweepSample& sample) {
-  if (!is_wanted(context, sample.host, sample.sweep.epoch) || !context.hosts.is_new(sample)) return;
+  const auto& ring = std::as_const(context.session).layout().sweeps;
+  if (!is_wanted(context, sample.host, sample.sweep.epoch) || !is_new_in_history(context, sample, ring.next())) return;
   databuffer::Sweep sweep{};
   std::memcpy(&sweep, &sample.sweep, kSweepHeader_bytes);
   if (sweep.samples != sample.video._length)
@@ -130,7 +136,8 @@ void HistoryExchange::receive(Context& context, const yars_net_SweepSample& samp
   if (const auto reason = validate(sweep)) return context.hosts.refuse(sample.host, dds::Topic::sweeps, *reason);
   if (databuffer::sweep_hash(sweep) != sweep.hash)
     return context.hosts.refuse(sample.host, dds::Topic::sweeps, "hash: expected that of the video, found another");
-  if (sweeps_.size() < kMaxWaiting) sweeps_.push_back({sweep, context.now_ns});
+  if (sweeps_.size() < kMaxWaiting)
+    sweeps_.push_back({sweep, context.now_ns, sample.host, sample.start, sample.number});
 }
 
 // Number of records in the local ring of traffic up to the one that the other host's count names; nullopt: it has not
@@ -152,18 +159,21 @@ void HistoryExchange::publish(Context& context) {
   }
   const auto is_late = [&context](std::int64_t arrived_ns) { return context.now_ns - arrived_ns > kPatience_ns; };
   while (!ticks_.empty()) {
-    WaitingTick& waiting = ticks_.front();
-    const auto traffic = local_traffic(waiting.tick.traffic);
+    auto& waiting = ticks_.front();
+    databuffer::ModelTick& tick = waiting.record;
+    const auto traffic = local_traffic(tick.traffic);
     if (!traffic && !is_late(waiting.arrived_ns)) break;
-    waiting.tick.traffic = traffic.value_or(layout.traffic_latched.next());
-    layout.model_ticks.publish(waiting.tick);
-    last_tick_ = waiting.tick.tick;
+    tick.traffic = traffic.value_or(layout.traffic_latched.next());
+    keep_progress<yars_net_ModelTickSample>(context, waiting, layout.model_ticks.next());
+    layout.model_ticks.publish(tick);
+    last_tick_ = tick.tick;
     ticks_.pop_front();
   }
   while (!sweeps_.empty()) {
-    const WaitingSweep& waiting = sweeps_.front();
-    if (waiting.sweep.tick > last_tick_ && !is_late(waiting.arrived_ns)) break;
-    layout.sweeps.publish(waiting.sweep);
+    const auto& waiting = sweeps_.front();
+    if (waiting.record.tick > last_tick_ && !is_late(waiting.arrived_ns)) break;
+    keep_progress<yars_net_SweepSample>(context, waiting, layout.sweeps.next());
+    layout.sweeps.publish(waiting.record);
     sweeps_.pop_front();
   }
 }

@@ -33,13 +33,11 @@ class HistoryExchange {
   void receive(Context& context, const yars_net_SweepSample& sample);
 
  private:
-  struct WaitingTick {
-    databuffer::ModelTick tick;
+  template <class Record>
+  struct Waiting {
+    Record record;
     std::int64_t arrived_ns;
-  };
-  struct WaitingSweep {
-    databuffer::Sweep sweep;
-    std::int64_t arrived_ns;
+    std::uint64_t host, start, number;  // of its sample
   };
   struct TrafficNumber {
     std::uint64_t theirs, ours;
@@ -50,8 +48,8 @@ class HistoryExchange {
   LaneNames* lanes_;
   // Next record of each local ring to send; nullopt: this gateway has not sent any.
   std::optional<std::uint64_t> traffic_cursor_, tick_cursor_, sweep_cursor_;
-  std::deque<WaitingTick> ticks_;
-  std::deque<WaitingSweep> sweeps_;
+  std::deque<Waiting<databuffer::ModelTick>> ticks_;
+  std::deque<Waiting<databuffer::Sweep>> sweeps_;
   std::deque<TrafficNumber> traffic_numbers_;
   std::uint64_t traffic_host_ = 0;
   std::int64_t last_tick_ = -1;

@@ -235,8 +235,11 @@ void Hosts::update_views() {
     if (host.alive && !host.other_layout) views_.push_back(host.view);
 }
 
-// Number of hosts that were heard kGroupDelay_ns ago, so that two hosts that meet again say how many each had with it.
+// Number of hosts that were heard kGroupDelay_ns ago, so that two hosts that meet again say how many each had with it. A
+// process that was stopped for longer than the lease was alone.
 void Hosts::update_group(std::int64_t now_ns) {
+  constexpr std::int64_t kLease_ns = std::chrono::nanoseconds(dds::kLease).count();
+  if (now_ns - std::exchange(last_pass_ns_, now_ns) > kLease_ns) group_sizes_ = {{now_ns - kGroupDelay_ns, 1}};
   const auto heard = static_cast<std::uint32_t>(views_.size());
   if (group_sizes_.empty() || group_sizes_.back().second != heard) group_sizes_.emplace_back(now_ns, heard);
   while (group_sizes_.size() > 1 && group_sizes_[1].first <= now_ns - kGroupDelay_ns) group_sizes_.pop_front();
@@ -274,6 +277,15 @@ std::uint32_t Hosts::epoch_of(std::uint64_t id) const {
 bool Hosts::is_new(dds::Topic topic, std::uint64_t id, std::uint64_t start, std::uint64_t number) {
   Host* host = host_of(id, true);
   return host != nullptr && host->numbers[dds::index_of(topic)].is_new(start, number);
+}
+
+bool Hosts::knows(dds::Topic topic, std::uint64_t id, std::uint64_t start) const {
+  const Host* host = host_of(id);
+  return host != nullptr && host->numbers[dds::index_of(topic)].knows(start);
+}
+
+void Hosts::resume(dds::Topic topic, std::uint64_t id, std::uint64_t start, std::uint64_t next) {
+  if (Host* host = host_of(id, true); host != nullptr) host->numbers[dds::index_of(topic)].resume(start, next);
 }
 
 std::uint64_t Hosts::next_from(dds::Topic topic, std::uint64_t id) const {

@@ -82,6 +82,9 @@ class Hosts {
     return is_new(dds::kTopicOf<Sample>, sample.host, sample.start, sample.number);
   }
   bool is_new(dds::Topic topic, std::uint64_t host, std::uint64_t start, std::uint64_t number);
+  // True if a sample of this process (`start`) has arrived. resume() says where a predecessor of this gateway stopped.
+  bool knows(dds::Topic topic, std::uint64_t host, std::uint64_t start) const;
+  void resume(dds::Topic topic, std::uint64_t host, std::uint64_t start, std::uint64_t next);
   // Number of the next sample that is expected from the host.
   std::uint64_t next_from(dds::Topic topic, std::uint64_t host) const;
   // Counts and notes an invalid sample of a host.
@@ -122,6 +125,7 @@ class Hosts {
   std::uint32_t epoch_ = 0;
   bool changed_ = true;
   std::int64_t next_announcement_ns_ = 0;
+  std::int64_t last_pass_ns_ = 0;
   std::deque<std::pair<std::int64_t, std::uint32_t>> group_sizes_;  // time of each change, number of hosts from then on
   std::int64_t same_name_since_ns_ = 0;
   bool same_name_ = false;
