@@ -33,7 +33,7 @@ complete -c yars-start -l input -x -a '(__yars_source auto evdev: terminal)' -d 
 complete -c yars-start -l no-flight -d 'attach your own flight model'
 complete -c yars-start -l no-input -d 'attach your own input'
 complete -c yars-start -l roles -x -d 'roles of this computer'
-complete -c yars-start -l network -r -F -d 'joins other computers: GUF form Network; the gateway starts first'
+complete -c yars-start -l network -r -F -d 'joins other computers: GUF form Network; the gateway starts first, see docs/network.md'
 complete -c yars-start -l record -r -F -d 'record ticks and events; refused when FILE is there already'
 complete -c yars-start -l overwrite -d 'of --record: write over FILE'
 complete -c yars-start -l keep-recording -x -d 'the recording takes at most so much of the disk: the newest, in FILE.before and FILE'
