@@ -1,7 +1,8 @@
 // Patch maps that arrive row by row.
 // Inputs: the record of a map and its rows, in any order, each any number of times.
 // Outputs: the map and its pixels once all rows are there and the hash is right.
-// Errors: rows that do not fit the map are left out. A whole map with a wrong hash is dropped, so that its rows are taken
+// Errors: rows that do not fit the map are left out. A whole map with a wrong hash is dropped, so that its rows are
+// taken
 //   again when they arrive again.
 // Threads: one.
 #pragma once
@@ -46,8 +47,9 @@ class PatchAssembly {
     for (auto pending = pending_.begin(); pending != pending_.end(); ++pending) {
       if (!pending->map || pending->rows.size() < pending->map->size) continue;
       const std::size_t size = pending->map->size;
-      const bool is_whole = std::all_of(pending->rows.begin(), pending->rows.begin() + static_cast<std::ptrdiff_t>(size),
-                                        [size](const auto& row) { return row.size() == size; });
+      const bool is_whole =
+          std::all_of(pending->rows.begin(), pending->rows.begin() + static_cast<std::ptrdiff_t>(size),
+                      [size](const auto& row) { return row.size() == size; });
       if (!is_whole) continue;
       Whole whole{*pending->map, {}};
       whole.pixels.reserve(size * size);

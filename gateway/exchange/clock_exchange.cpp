@@ -46,9 +46,7 @@ void ClockExchange::exchange(Context& context) {
 }
 
 void ClockExchange::choose_owner(Context& context) {
-  const auto owns = [&](const HostView& host) {
-    return host.id == context.hosts.self().id ? owns_ : host.owns_clock;
-  };
+  const auto owns = [&](const HostView& host) { return host.id == context.hosts.self().id ? owns_ : host.owns_clock; };
   const HostView* owner = preceding(context.hosts.views(), owns);
   resolve_conflicts(context);
   const bool listened = context.now_ns - first_pass_ns_ >= kListening_ns;
