@@ -17,6 +17,7 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copy
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/start DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-start)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/supervise ${PROJECT_SOURCE_DIR}/scripts/nearest_word.py DESTINATION libexec/yars)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/plot_trade DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-plot-trade)
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/network_identities DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-network-identities)
 
 # Completions of commands and options, where Debian's shells look for them.
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/packaging/completion/bash/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)

@@ -22,7 +22,8 @@ SOURCES_ONLY = re.compile(r"<!-- sources -->\n.*?<!-- installed\n(.*?)-->\n", re
 WORDS = [('"databuffer/client/yars.h"', "<yars/yars.h>"), ("PYTHONPATH=examples ", ""), ("cc -I. ", "cc "),
          ("-I. examples/", "")]
 PLACES = {
-    "scripts/start": "yars-start", "scripts/plot_trade": "yars-plot-trade", "build/release/bin": "bin",
+    "scripts/start": "yars-start", "scripts/plot_trade": "yars-plot-trade",
+    "scripts/network_identities": "yars-network-identities", "build/release/bin": "bin",
     "scripts/supervise": "libexec/yars/supervise", "scripts/nearest_word.py": "libexec/yars/nearest_word.py",
     "build/terrain/default": "~/.cache/yars/terrain", "build/start.log": "yars-start's log",
     "packaging/systemd": "lib/systemd/user", "examples/yars.py": "yars.py", "databuffer/client/yars.h": "yars/yars.h",

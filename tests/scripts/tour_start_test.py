@@ -41,6 +41,7 @@ class Place:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.log = self.folder / "log"
+        self.options = ["--log-dir", "", "--frames", self.folder / "frames"]
         for name in ("state-machine", "radar-model", "flight-model", "input-monitor", "radar-display"):
             self.write(f"bin/{name}", ROLE)
         self.write("bin/yars", YARS)
@@ -60,9 +61,8 @@ class Place:
         environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
         environment.update(XDG_CACHE_HOME=str(self.folder / "cache"), YARS_TEST_LOG=str(self.log), YARS_TEST_CODE=code)
         self.log.unlink(missing_ok=True)
-        return subprocess.Popen([self.folder / "bin/yars-start", "--log-dir", "", "--frames", self.folder / "frames",
-                                 *arguments], env=environment, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, text=True)
+        return subprocess.Popen([self.folder / "bin/yars-start", *self.options, *arguments], env=environment, stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
 
     def run(self, *arguments, code="0"):
         process = self.start(*arguments, code=code)

@@ -25,3 +25,4 @@ complete -c state-machine -l lockstep -x -d 'roles that step together on sim tim
 complete -c state-machine -l log-dir -x -a '(__fish_complete_directories)' -d 'folder for a rotated log file'
 complete -c state-machine -l realtime -d 'lock memory, run the tick loop under SCHED_FIFO; a refusal is logged'
 complete -c state-machine -l cpus -x -d 'CPUs to run on, as in 2,3 or 2-3'
+complete -c state-machine -l standby -d 'waits while another process or another computer of the session holds the role'
