@@ -20,6 +20,15 @@
 
 namespace yars::gateway {
 
+// The owner's clock as it was last received, and as it was last written here.
+struct FollowedClock {
+  std::uint64_t owner = 0;
+  databuffer::ClockState theirs{};
+  databuffer::ClockState written{};
+  SlewedOffset offset;
+  std::int64_t changed_ns = 0;  // last pass
+};
+
 class ClockExchange {
  public:
   void exchange(Context& context);
@@ -31,14 +40,6 @@ class ClockExchange {
   bool joined() const { return owns_ || followed_.has_value(); }
 
  private:
-  // The owner's clock as it was last received, and as it was last written here.
-  struct Followed {
-    std::uint64_t owner = 0;
-    databuffer::ClockState theirs{};
-    databuffer::ClockState written{};
-    SlewedOffset offset;
-    std::int64_t changed_ns = 0;  // last pass
-  };
   void choose_owner(Context& context);
   void resolve_conflicts(Context& context);
   void raise_epoch(Context& context, std::uint32_t above);
@@ -60,7 +61,7 @@ class ClockExchange {
   databuffer::ClockState published_{};
   std::int64_t next_publish_ns_ = 0;
   std::map<std::uint64_t, yars_net_ClockSample> clocks_;  // newest of each host
-  std::optional<Followed> followed_;
+  std::optional<FollowedClock> followed_;
   std::int64_t request_pending_until_ns_ = 0;
 };
 

@@ -141,6 +141,8 @@ std::vector<OverlaidSession::Part> OverlaidSession::parts() {
   for (const auto& slot : whole.frames) add(slot);
   add(whole.counters);
   add(whole.caption);
+  add(whole.network_status);
+  add(whole.network);
   return parts;
 }
 
@@ -225,6 +227,7 @@ void OverlaidSession::put_back() {
   remember(offsetof(SessionLayout, lockstep), rings - offsetof(SessionLayout, lockstep));
   remember(input, patches - input);
   remember(traffic, latched - traffic);
+  remember(offsetof(SessionLayout, counters), offsetof(SessionLayout, spare) - offsetof(SessionLayout, counters));
   for (std::size_t slot = 0; slot < kPatchSlots; ++slot)
     remember(patches + slot * sizeof(PatchSlot), offsetof(PatchSlot, pixels));
   for (std::size_t slot = 0; slot < kFrameSlots; ++slot)

@@ -1,0 +1,428 @@
+// Any samples from the network, into a segment with any bytes: the exchanges of a gateway take or refuse each, and
+// publish no record out of range. DDS itself, which reads the packets, is not part of this target.
+// The input consists of two parts. The first two bytes are the length of the first part, the third its mode: bit 0: this
+// host has the state machine; bit 1: lockstep. The first part consists of pieces of (topic and host, offset in two
+// bytes, length, bytes): a well-formed sample that the bytes overwrite. An even offset makes the sample's hash or number
+// right again. The second part changes the segment (tests/fuzz/overlaid_session.hpp); each beat takes some samples.
+#include <unistd.h>
+
+#include <cmath>
+#include <tuple>
+
+#include "databuffer/messages/record_hashes.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "gateway/exchange/clock_exchange.hpp"
+#include "gateway/exchange/event_exchange.hpp"
+#include "gateway/exchange/history_exchange.hpp"
+#include "gateway/exchange/lockstep_exchange.hpp"
+#include "gateway/exchange/map_exchange.hpp"
+#include "gateway/exchange/state_exchange.hpp"
+#include "lib/error/error.hpp"
+#include "lib/log/log.hpp"
+#include "tests/fuzz/overlaid_session.hpp"
+
+namespace {
+
+using namespace yars;
+using namespace yars::gateway;
+using databuffer::Role;
+
+constexpr std::uint64_t kSegment = 2002, kOtherSegment = 3003;
+constexpr std::size_t kSamplesOfABeat = 8;
+constexpr std::array<const char*, 3> kHostNames{"beta", "gamma", "aaron"};
+
+void require_good(const databuffer::Refusal& refusal) {
+  YARS_REQUIRE(refusal.value_or(""), ==, "");
+}
+
+databuffer::Ownship good_ownship() {
+  databuffer::Ownship own{};
+  own.latitude_deg = 36.6;
+  own.longitude_deg = -121.9;
+  own.altitude_msl_m = 5000.0;
+  own.radar_altitude_m = std::nan("");
+  return own;
+}
+
+constexpr std::uint32_t bit(Role role) {
+  return 1U << static_cast<unsigned>(role);
+}
+
+// Pixels of the patch maps, and video of the sweeps.
+const std::vector<std::uint8_t>& bytes() {
+  static const std::vector<std::uint8_t> all(radar::kMaxSamples, 7);
+  return all;
+}
+
+// What makes an empty sample valid. One function for each structure that needs more than zeros.
+template <class Sample>
+void fill(Sample& /*sample*/, std::size_t /*host*/) {}
+void fill(yars_net_HostSample& sample, std::size_t host) {
+  std::strcpy(sample.name, kHostNames[host]);
+  sample.segment = kOtherSegment;
+  sample.layout_hash = databuffer::kLayoutIdentity.hash;
+  sample.protocol = yars_net_kProtocol;
+  sample.held_roles = host == 0 ? bit(Role::radar_model) | bit(Role::traffic) | bit(Role::recorder) | bit(Role::tour) |
+                                      bit(Role::state_machine)
+                                : 0;
+  sample.owns_clock = host == 0 ? 1 : 0;
+}
+void fill(yars_net_ProbeSample& sample, std::size_t host) {
+  sample.from = host_id("alpha");
+  sample.to = host_id(kHostNames[host]);
+  sample.stage = 1;
+  sample.asked_ns = databuffer::monotonic_ns() - 200'000;
+  sample.received_ns = sample.answered_ns = sample.asked_ns + 5'000'100'000;
+}
+databuffer::ClockState good_clock() {
+  databuffer::ClockState clock{};
+  clock.base_sim_ns = 60'000'000'000;
+  clock.base_monotonic_ns = databuffer::monotonic_ns();
+  clock.rate = 1.0;
+  clock.running = 1;
+  clock.reposition_latitude_deg = std::nan("");
+  return clock;
+}
+void fill(yars_net_ClockSample& sample, std::size_t /*host*/) { copy_record(sample.clock, good_clock()); }
+void fill(yars_net_ClockRequestSample& sample, std::size_t /*host*/) {
+  copy_record(sample.clock, good_clock());
+  sample.owner = host_id("alpha");
+}
+void fill(yars_net_OwnshipSample& sample, std::size_t /*host*/) {
+  copy_record(sample.ownship, good_ownship());
+  sample.nav.mission_latitude_deg = std::nan("");
+  sample.priority = 10;
+}
+databuffer::InputEvent good_event() {
+  databuffer::InputEvent event{};
+  event.kind = static_cast<std::uint16_t>(databuffer::EventKind::push_button);
+  event.argument = 1;
+  return event;
+}
+void fill(yars_net_InputEventSample& sample, std::size_t /*host*/) {
+  copy_record(sample.event, good_event());
+  sample.segment = kOtherSegment;
+  sample.machine_segment = kSegment;
+  sample.event_number = sample.number;
+}
+void fill(yars_net_EventReceiptSample& sample, std::size_t /*host*/) {
+  sample.sender = host_id("alpha");
+  sample.segment = kSegment;
+  sample.next_event = 1;
+}
+void fill(yars_net_AppliedEventSample& sample, std::size_t /*host*/) {
+  copy_record(sample.applied.event, good_event());
+  sample.sender = host_id("alpha");
+}
+void fill(yars_net_ModelStatusSample& sample, std::size_t /*host*/) {
+  copy_record(sample.status.ownship, good_ownship());
+}
+void fill(yars_net_ModelTickSample& sample, std::size_t /*host*/) {
+  copy_record(sample.tick.ownship, good_ownship());
+  sample.tick.tick = 12'000;
+}
+void fill(yars_net_SweepSample& sample, std::size_t /*host*/) {
+  sample.sweep.tick = 12'000;
+  sample.sweep.azimuth_right_deg = 1.0;
+  sample.sweep.range_m = 74'080.0;
+  sample.sweep.scan = 1;
+  sample.sweep.samples = 480;
+  sample.video._length = 480;
+}
+void fill(yars_net_PatchMapSample& sample, std::size_t /*host*/) {
+  databuffer::PatchMap map{};
+  map.id = sample.id = 7;
+  map.window_nm = 4.7;
+  map.distance_m = 33'000.0;
+  map.resolution_m = 20.0;
+  map.size = 4;
+  copy_record(sample.map, map);
+}
+void fill(yars_net_PatchRowSample& sample, std::size_t /*host*/) {
+  sample.id = 7;
+  sample.row = static_cast<std::uint32_t>(sample.number % 4);
+  sample.length = 4;
+  std::memset(sample.pixels, 7, sizeof sample.pixels);
+}
+void fill(yars_net_CaptionSample& sample, std::size_t /*host*/) { sample.caption.step = sample.caption.steps = 1; }
+
+// Makes the numbers right that a random change makes wrong.
+template <class Sample>
+void mend(Sample& /*sample*/) {}
+void mend(yars_net_HostSample& sample) {
+  sample.host = host_id(std::string_view(sample.name, strnlen(sample.name, sizeof sample.name)));
+}
+void mend(yars_net_SweepSample& sample) {
+  sample.video._length = std::min<std::uint32_t>(sample.sweep.samples, radar::kMaxSamples);
+  databuffer::Sweep sweep{};
+  std::memcpy(&sweep, &sample.sweep, sizeof sample.sweep);
+  std::memcpy(sweep.video, bytes().data(), sample.video._length);
+  sweep.samples = sample.video._length;
+  sample.sweep.hash = databuffer::sweep_hash(sweep);
+}
+void mend(yars_net_PatchMapSample& sample) {
+  databuffer::PatchMap map{};
+  copy_record(map, sample.map);
+  map.id = sample.id;
+  const std::size_t pixels = std::size_t{std::min<std::uint32_t>(map.size, 32)} * std::min<std::uint32_t>(map.size, 32);
+  map.hash = databuffer::map_hash(map, std::span(bytes()).first(pixels));
+  copy_record(sample.map, map);
+}
+
+// What stands in the containers that a gateway writes, to see what one beat has published.
+class Published {
+ public:
+  explicit Published(const databuffer::SessionLayout& layout) : layout_(&layout), before_(numbers()), ids_(ids()) {
+    for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) pushed_[lane] = layout.input.pushed(lane);
+  }
+  void check() const {
+    const auto after = numbers();
+    std::size_t index = 0;
+    const auto slot = [&](const auto& from, auto record) {
+      const bool changed = before_[index] != after[index];
+      ++index;
+      if (changed && from.read(record)) require_good(databuffer::validate(record));
+    };
+    slot(layout_->radar_state, databuffer::RadarState{});
+    slot(layout_->outputs, databuffer::Outputs{});
+    slot(layout_->advice, databuffer::PilotAdvice{});
+    slot(layout_->model_status, databuffer::ModelStatus{});
+    slot(layout_->traffic, databuffer::Traffic{});
+    slot(layout_->caption, databuffer::Caption{});
+    slot(layout_->recorder_status, databuffer::RecorderStatus{});
+    for (const auto& lane : layout_->ownship) slot(lane, databuffer::Ownship{});
+    for (const auto& lane : layout_->nav) slot(lane, databuffer::Nav{});
+    const auto ring = [&](const auto& from, auto record, const auto& validate) {
+      for (std::uint64_t cursor = before_[index]; cursor != after[index];) {
+        const std::uint64_t number = cursor;
+        if (!from.read(cursor, record).delivered || cursor == number) break;
+        require_good(validate(record));
+      }
+      ++index;
+    };
+    const auto any = [](const auto& record) { return databuffer::validate(record); };
+    ring(layout_->model_ticks, databuffer::ModelTick{}, any);
+    ring(layout_->sweeps, databuffer::Sweep{}, any);
+    ring(layout_->traffic_latched, databuffer::Traffic{}, any);
+    ring(layout_->applied_events, databuffer::AppliedEvent{},
+         [](const auto& record) { return databuffer::validate(record.event); });
+    check_lanes();
+    check_maps();
+  }
+
+ private:
+  static constexpr std::size_t kContainers = 7 + 2 * databuffer::kOwnshipLanes + 4;
+  std::array<std::uint64_t, kContainers> numbers() const {
+    std::array<std::uint64_t, kContainers> all{layout_->radar_state.version(), layout_->outputs.version(),
+                                               layout_->advice.version(),      layout_->model_status.version(),
+                                               layout_->traffic.version(),     layout_->caption.version(),
+                                               layout_->recorder_status.version()};
+    std::size_t index = 7;
+    for (const auto& lane : layout_->ownship) all[index++] = lane.version();
+    for (const auto& lane : layout_->nav) all[index++] = lane.version();
+    for (const std::uint64_t next : {layout_->model_ticks.next(), layout_->sweeps.next(),
+                                     layout_->traffic_latched.next(), layout_->applied_events.next()})
+      all[index++] = next;
+    return all;
+  }
+  std::array<std::uint64_t, databuffer::kPatchSlots> ids() const {
+    std::array<std::uint64_t, databuffer::kPatchSlots> all{};
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = layout_->patches[i].id.load();
+    return all;
+  }
+  // A lane gets valid events, and no more than it has room for.
+  void check_lanes() const {
+    for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
+      const std::uint64_t pushed = layout_->input.pushed(lane);
+      if (pushed == pushed_[lane]) continue;
+      YARS_REQUIRE(pushed - pushed_[lane], <=, kSamplesOfABeat);
+      YARS_REQUIRE(pushed - layout_->input.popped(lane), <=, databuffer::kInputLaneDepth);
+      databuffer::InputEvent event{};
+      for (std::uint64_t number = pushed_[lane]; number != pushed; ++number)
+        if (layout_->input.peek_at(lane, number, event)) require_good(databuffer::validate(event));
+    }
+  }
+  void check_maps() const {
+    const auto after = ids();
+    databuffer::PatchMap map{};
+    std::vector<std::uint8_t> pixels;
+    for (std::size_t i = 0; i < after.size(); ++i)
+      if (after[i] != ids_[i] && databuffer::read_patch(*layout_, after[i], map, pixels)) {
+        require_good(databuffer::validate(map));
+        YARS_REQUIRE(databuffer::map_hash(map, pixels), ==, map.hash);
+      }
+  }
+
+  const databuffer::SessionLayout* layout_;
+  std::array<std::uint64_t, kContainers> before_;
+  std::array<std::uint64_t, databuffer::kPatchSlots> ids_;
+  std::array<std::uint64_t, databuffer::kInputLanes> pushed_{};
+};
+
+class Gateway {
+ public:
+  Gateway(databuffer::Session session, const std::string& name, std::uint8_t mode)
+      : session_(std::move(session)),
+        hosts_(session_, nullptr, {"alpha", 0, 1001, kSegment, 0, 0}),
+        roles_(session_, name),
+        context_{session_, nullptr, hosts_, roles_} {
+    context_.now_ns = databuffer::monotonic_ns();
+    context_.lockstep = (mode & 2U) != 0;
+    if ((mode & 1U) == 0) return;
+    if (auto machine = databuffer::Session::open(name, "state-machine")) machine_.emplace(std::move(*machine));
+    if (!machine_) return;
+    if (auto claim = machine_->claim(Role::state_machine)) machine_role_.emplace(std::move(*claim));
+  }
+
+  void beat(std::span<const std::uint8_t>& input) {
+    const Published published(session_.layout());
+    for (std::size_t i = 0; i < kSamplesOfABeat && input.size() >= 4; ++i) {
+      const std::size_t length = std::min<std::size_t>(input[3], input.size() - 4);
+      receive(input[0], input[1] * 256U + input[2], input.subspan(4, length));
+      input = input.subspan(4 + length);
+    }
+    pass();
+    published.check();
+    require_good(databuffer::validate(session_.clock()));
+    YARS_REQUIRE(hosts_.views().size(), <=, databuffer::kMaxHosts);
+    databuffer::NetworkStatus status{};
+    hosts_.describe(status, context_.now_ns);
+    require_good(databuffer::validate(status));
+  }
+
+ private:
+  template <class Exchange>
+  auto to(Exchange& exchange) {
+    return [this, &exchange](const auto& sample) { exchange.receive(context_, sample); };
+  }
+  template <class Sample, class Take>
+  void take(std::size_t host, std::size_t offset, std::span<const std::uint8_t> bytes, const Take& take) {
+    Sample sample{};
+    if constexpr (requires { sample.host; }) {
+      sample.host = host_id(kHostNames[host]);
+      sample.start = 77;
+      sample.number = numbers_[host][dds::index_of(dds::kTopicOf<Sample>)]++;
+    }
+    fill(sample, host);
+    const bool mends = offset % 2 == 0;
+    offset = offset / 2 % sizeof sample;
+    std::memcpy(reinterpret_cast<char*>(&sample) + offset, bytes.data(), std::min(bytes.size(), sizeof sample - offset));
+    if constexpr (std::is_same_v<Sample, yars_net_SweepSample>) {
+      sample.video._length = std::min<std::uint32_t>(sample.video._length, radar::kMaxSamples);
+      sample.video._buffer = const_cast<std::uint8_t*>(::bytes().data());
+    }
+    if (mends) mend(sample);
+    take(sample);
+  }
+
+  void receive(std::size_t what, std::size_t offset, std::span<const std::uint8_t> bytes) {
+    const std::size_t host = what / dds::kTopicCount % kHostNames.size();
+    switch (static_cast<dds::Topic>(what % dds::kTopicCount)) {
+      case dds::Topic::hosts:
+        return take<yars_net_HostSample>(host, offset, bytes, [this](const auto& sample) {
+          hosts_.receive(sample, sample.version[31] != 'e', context_.now_ns);
+        });
+      case dds::Topic::probes:
+        return take<yars_net_ProbeSample>(host, offset, bytes, [this](const auto& sample) {
+          hosts_.receive(sample, databuffer::monotonic_ns());
+        });
+      case dds::Topic::clock:
+        return take<yars_net_ClockSample>(host, offset, bytes, to(clock_));
+      case dds::Topic::clock_requests:
+        return take<yars_net_ClockRequestSample>(host, offset, bytes, to(clock_));
+      case dds::Topic::ownship:
+        return take<yars_net_OwnshipSample>(host, offset, bytes, to(states_));
+      case dds::Topic::input_events:
+        return take<yars_net_InputEventSample>(host, offset, bytes, to(events_));
+      case dds::Topic::event_receipts:
+        return take<yars_net_EventReceiptSample>(host, offset, bytes, to(events_));
+      case dds::Topic::applied_events:
+        return take<yars_net_AppliedEventSample>(host, offset, bytes, to(events_));
+      case dds::Topic::radar_state:
+        return take<yars_net_RadarStateSample>(host, offset, bytes, to(states_));
+      case dds::Topic::outputs:
+        return take<yars_net_OutputsSample>(host, offset, bytes, to(states_));
+      case dds::Topic::advice:
+        return take<yars_net_AdviceSample>(host, offset, bytes, to(states_));
+      case dds::Topic::model_status:
+        return take<yars_net_ModelStatusSample>(host, offset, bytes, to(states_));
+      case dds::Topic::model_ticks:
+        return take<yars_net_ModelTickSample>(host, offset, bytes, to(history_));
+      case dds::Topic::sweeps:
+        return take<yars_net_SweepSample>(host, offset, bytes, to(history_));
+      case dds::Topic::traffic:
+        return take<yars_net_TrafficSample>(host, offset, bytes, to(states_));
+      case dds::Topic::traffic_latched:
+        return take<yars_net_LatchedTrafficSample>(host, offset, bytes, to(history_));
+      case dds::Topic::patch_maps:
+        return take<yars_net_PatchMapSample>(host, offset, bytes, to(maps_));
+      case dds::Topic::patch_rows:
+        return take<yars_net_PatchRowSample>(host, offset, bytes, to(maps_));
+      case dds::Topic::captions:
+        return take<yars_net_CaptionSample>(host, offset, bytes, to(states_));
+      case dds::Topic::recorder_status:
+        return take<yars_net_RecorderStatusSample>(host, offset, bytes, to(states_));
+      case dds::Topic::lockstep:
+        return take<yars_net_LockstepSample>(host, offset, bytes, to(lockstep_));
+    }
+  }
+  // As GatewayShell::pass(), without the link.
+  void pass() {
+    context_.now_ns += pass_ns_;
+    pass_ns_ = pass_ns_ > 20'000'000'000 ? 5'000'000 : pass_ns_ * 6;
+    hosts_.set_claims(roles_.held_roles(), clock_.owns(), session_.clock().epoch);
+    hosts_.exchange(context_.now_ns);
+    roles_.update(hosts_, context_.now_ns);
+    roles_.heartbeat();
+    clock_.exchange(context_);
+    lockstep_.begin_pass(context_);
+    states_.keep_lane(context_);
+    history_.publish(context_);
+    maps_.publish(context_);
+    lockstep_.apply(context_, history_.is_empty());
+    events_.send(context_);
+    lockstep_.send(context_);
+  }
+
+  databuffer::Session session_;
+  std::optional<databuffer::Session> machine_;
+  std::optional<databuffer::Claim> machine_role_;
+  Hosts hosts_;
+  Roles roles_;
+  Context context_;
+  LaneNames lanes_;
+  ClockExchange clock_;
+  StateExchange states_{lanes_};
+  EventExchange events_{lanes_};
+  HistoryExchange history_{lanes_};
+  MapExchange maps_{500};
+  LockstepExchange lockstep_;
+  std::array<std::array<std::uint64_t, dds::kTopicCount>, kHostNames.size()> numbers_{};
+  std::int64_t pass_ns_ = 5'000'000;
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerInitialize(int* /*count*/, char*** /*arguments*/) {
+  log::start("fuzz", "off");
+  return 0;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static fuzz::OverlaidSession session("fuzz-" + std::to_string(getpid()));
+  if (size < 3) return 0;
+  const std::span<const std::uint8_t> rest(data + 3, size - 3);
+  const std::size_t split = std::min<std::size_t>(data[0] * 256U + data[1], rest.size());
+  std::span<const std::uint8_t> samples = rest.first(split);
+  std::optional<Gateway> gateway;
+  session.play(rest.subspan(split), [&] {
+    // A session with an invalid clock cannot be opened.
+    if (!gateway)
+      if (auto opened = databuffer::Session::open(session.name(), "gateway"))
+        gateway.emplace(std::move(*opened), session.name(), data[2]);
+    if (gateway) gateway->beat(samples);
+  });
+  gateway.reset();
+  session.put_back();
+  return 0;
+}
