@@ -150,12 +150,21 @@ void Hosts::report(Host& host, std::uint32_t flag, bool differs, const std::stri
 
 void Hosts::report_same_name(const yars_net_HostSample& sample, std::int64_t now_ns) {
   if (sample.start == identity_.start) return;
-  if (same_name_since_ns_ == 0) same_name_since_ns_ = now_ns;
+  if (!has_same_name(now_ns)) {
+    same_name_since_ns_ = now_ns;
+    same_name_ = false;
+  }
+  same_name_heard_ns_ = now_ns;
   if (same_name_ || now_ns - same_name_since_ns_ < kGhost_ns) return;
   same_name_ = true;
   const std::string line = "another host is also called " + identity_.name + "; give each host a `name` of its own";
   log::error(line);
   session_->note(NoteKind::refusal, line);
+}
+
+// True if another host with this name has been heard a short time ago.
+bool Hosts::has_same_name(std::int64_t now_ns) const {
+  return same_name_heard_ns_ != 0 && now_ns - same_name_heard_ns_ <= kGhost_ns;
 }
 
 void Hosts::announce(std::int64_t now_ns) {
@@ -324,7 +333,7 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
   own.held_roles = self().held_roles;
   own.priority = identity_.priority;
   own.flags = databuffer::kHostSelf | databuffer::kHostPresent | databuffer::kHostOffsetKnown |
-              (self().owns_clock ? databuffer::kHostOwnsClock : 0U) | (same_name_ ? databuffer::kHostSameName : 0U);
+              (self().owns_clock ? databuffer::kHostOwnsClock : 0U) | (same_name_ && has_same_name(now_ns) ? databuffer::kHostSameName : 0U);
   status.host_count = 1;
   for (const Host& host : hosts_) {
     if (host.view.name.empty() || status.host_count >= databuffer::kMaxHosts) continue;

@@ -112,6 +112,7 @@ class Hosts {
   void report_differences(Host& host);
   void report(Host& host, std::uint32_t flag, bool differs, const std::string& line);
   void report_same_name(const yars_net_HostSample& sample, std::int64_t now_ns);
+  bool has_same_name(std::int64_t now_ns) const;
   void announce(std::int64_t now_ns);
   void ask(std::int64_t now_ns);
   void update_views();
@@ -128,7 +129,7 @@ class Hosts {
   std::int64_t next_announcement_ns_ = 0;
   std::int64_t last_pass_ns_ = 0;
   std::deque<std::pair<std::int64_t, std::uint32_t>> group_sizes_;  // time of each change, number of hosts from then on
-  std::int64_t same_name_since_ns_ = 0;
+  std::int64_t same_name_since_ns_ = 0, same_name_heard_ns_ = 0;
   bool same_name_ = false;
 };
 
