@@ -70,7 +70,7 @@ class TwoHosts : public databuffer::testing::OpenSessionTest {
     sample.owns_clock = owns_clock;
     sample.epoch = epoch;
     sample.protocol = yars_net_kProtocol;
-    sample.group = 2;
+    sample.group = 1;
     name.copy(sample.name, sizeof sample.name - 1);
     hosts_.receive(sample, true, context_.now_ns);
     roles_.update(hosts_, context_.now_ns);

@@ -1,0 +1,288 @@
+// The session clock of two hosts: one owns it, the other follows; requests; epochs.
+#include "gateway/exchange/clock_exchange.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+#include "gateway/exchange/lockstep_exchange.hpp"
+#include "tests/gateway/exchange/two_hosts.hpp"
+
+namespace yars::gateway {
+namespace {
+
+using databuffer::ClockState;
+using databuffer::Role;
+
+class ClockExchangeTest : public testing::TwoHosts {
+ protected:
+  static constexpr std::int64_t kOffset_ns = 700'000'000'000;  // of beta's CLOCK_MONOTONIC
+
+  void pass(std::int64_t elapsed_ns) {
+    TwoHosts::pass(elapsed_ns);
+    exchange_.exchange(context_);
+  }
+  void own() {
+    pass(0);
+    pass(kListening_ns);
+    ASSERT_TRUE(exchange_.owns());
+  }
+  // Beta owns the clock; its offset has been measured.
+  void follow(const ClockState& clock) {
+    announce("beta", 0, kBetaSegment, 1);
+    measure_offset(kOffset_ns);
+    receive(clock);
+    pass(0);
+    ASSERT_FALSE(exchange_.owns());
+    ASSERT_TRUE(exchange_.joined());
+  }
+  void measure_offset(std::int64_t offset_ns) {
+    const std::int64_t now_ns = databuffer::monotonic_ns();
+    yars_net_ProbeSample answer{};
+    answer.from = host_id("alpha");
+    answer.to = host_id("beta");
+    answer.stage = 1;
+    answer.asked_ns = now_ns - 200'000;
+    answer.received_ns = answer.answered_ns = now_ns - 100'000 + offset_ns;
+    hosts_.receive(answer, now_ns);
+  }
+  void receive(const ClockState& clock) {
+    auto sample = from<yars_net_ClockSample>("beta");
+    copy_record(sample.clock, clock);
+    exchange_.receive(context_, sample);
+  }
+  static ClockState clock(std::int64_t sim_ns, double rate = 1.0, std::uint32_t epoch = 5) {
+    ClockState state{};
+    state.base_sim_ns = sim_ns;
+    state.base_monotonic_ns = databuffer::monotonic_ns() + kOffset_ns;
+    state.rate = rate;
+    state.running = 1;
+    state.epoch = epoch;
+    state.reposition_latitude_deg = std::numeric_limits<double>::quiet_NaN();
+    return state;
+  }
+  bool request(const std::string& host, const ClockState& wanted, bool new_epoch) {
+    auto sample = from<yars_net_ClockRequestSample>(host);
+    sample.owner = host_id("alpha");
+    sample.new_epoch = new_epoch ? 1 : 0;
+    copy_record(sample.clock, wanted);
+    sample.clock.base_monotonic_ns = std::min(wanted.base_monotonic_ns, databuffer::monotonic_ns());
+    const ClockState before = session_.clock();
+    exchange_.receive(context_, sample);
+    const ClockState after = session_.clock();
+    return std::memcmp(&before, &after, sizeof before) != 0;
+  }
+  std::uint64_t requests() const { return hosts_.written()[dds::index_of(dds::Topic::clock_requests)]; }
+  ClockExchange exchange_;
+};
+
+TEST_F(ClockExchangeTest, AHostThatHearsNobodyOwnsTheClockAfterASecond) {
+  pass(0);
+  pass(kListening_ns / 2);
+  EXPECT_FALSE(exchange_.owns());
+  pass(kListening_ns / 2);
+  EXPECT_TRUE(exchange_.owns());
+}
+
+TEST_F(ClockExchangeTest, TheOwnersClockIsAdoptedWithItsOffset) {
+  follow(clock(60'000'000'000));
+  const ClockState mine = session_.clock();
+  EXPECT_EQ(mine.epoch, 5u);
+  EXPECT_NEAR(static_cast<double>(session_.sim_time_ns()), 60e9, 1e9) << "the test took less than a second";
+  EXPECT_LE(mine.base_monotonic_ns, databuffer::monotonic_ns());
+}
+
+TEST_F(ClockExchangeTest, AFrozenClockAndARateAreAdopted) {
+  follow(clock(60'000'000'000, 4.0));
+  EXPECT_EQ(session_.clock().rate, 4.0);
+  ClockState frozen = clock(70'000'000'000);
+  frozen.running = 0;
+  receive(frozen);
+  pass(5'000'000);
+  EXPECT_EQ(session_.clock().running, 0u);
+  EXPECT_EQ(session_.sim_time_ns(), 70'000'000'000);
+}
+
+TEST_F(ClockExchangeTest, AnInvalidClockIsRefused) {
+  follow(clock(60'000'000'000));
+  const ClockState before = session_.clock();
+  ClockState bad = clock(70'000'000'000);
+  bad.rate = -1.0;
+  receive(bad);
+  pass(5'000'000);
+  EXPECT_EQ(refusals(), 1u);
+  EXPECT_EQ(session_.clock().base_sim_ns, before.base_sim_ns);
+}
+
+TEST_F(ClockExchangeTest, ALocalChangeIsRequestedOfTheOwnerOnce) {
+  follow(clock(60'000'000'000));
+  ASSERT_TRUE(session_.change_clock([](ClockState state) {
+    state.running = 0;
+    return state;
+  }));
+  pass(5'000'000);
+  pass(5'000'000);
+  EXPECT_EQ(requests(), 1u);
+  EXPECT_EQ(session_.clock().running, 0u) << "kept until the owner answers";
+}
+
+TEST_F(ClockExchangeTest, ALocalChangeThatTheOwnerDoesNotMakeIsTakenBack) {
+  follow(clock(60'000'000'000));
+  ASSERT_TRUE(session_.change_clock([](ClockState state) {
+    state.running = 0;
+    return state;
+  }));
+  pass(5'000'000);
+  pass(600'000'000);
+  EXPECT_EQ(session_.clock().running, 1u);
+  pass(5'000'000);
+  EXPECT_EQ(requests(), 1u);
+}
+
+TEST_F(ClockExchangeTest, TheOffsetIsSlewedAndSimTimeNeverJumps) {
+  follow(clock(60'000'000'000));
+  for (int i = 0; i < 16; ++i) measure_offset(kOffset_ns + 3'000'000);
+  for (int i = 0; i < 200; ++i) {
+    const ClockState before = session_.clock();
+    pass(5'000'000);
+    const ClockState after = session_.clock();
+    const std::int64_t now_ns = databuffer::monotonic_ns();
+    EXPECT_LE(std::abs(databuffer::sim_time_at(after, now_ns) - databuffer::sim_time_at(before, now_ns)), 5'000);
+  }
+  EXPECT_EQ(requests(), 0u) << "the slewed clock is no change of a local program";
+}
+
+TEST_F(ClockExchangeTest, TheOwnerMakesARequestedChangeOnce) {
+  own();
+  announce("beta", 0);
+  ClockState wanted = session_.clock();
+  wanted.rate = 2.0;
+  EXPECT_TRUE(request("beta", wanted, true));
+  EXPECT_EQ(session_.clock().rate, 2.0);
+  const std::uint32_t epoch = session_.clock().epoch;
+  auto again = from<yars_net_ClockRequestSample>("beta");
+  again.number = 0;
+  again.owner = host_id("alpha");
+  again.new_epoch = 1;
+  copy_record(again.clock, wanted);
+  exchange_.receive(context_, again);
+  EXPECT_EQ(session_.clock().epoch, epoch);
+}
+
+TEST_F(ClockExchangeTest, RequestsOfUnknownHostsAndInvalidOnesAreNotMade) {
+  own();
+  ClockState wanted = session_.clock();
+  wanted.rate = 2.0;
+  EXPECT_FALSE(request("stranger", wanted, false));
+  announce("beta", 0);
+  wanted.rate = 200.0;
+  EXPECT_FALSE(request("beta", wanted, false));
+  EXPECT_EQ(refusals(), 1u);
+}
+
+TEST_F(ClockExchangeTest, WhenTwoOwnersMeetTheFirstBeginsALaterEpochThanBoth) {
+  own();
+  announce("beta", 0, kBetaSegment, 1, 40);
+  pass(1'000'000'000);
+  EXPECT_TRUE(exchange_.owns()) << "alpha precedes beta";
+  EXPECT_EQ(session_.clock().epoch, 41u);
+  pass(5'000'000);
+  EXPECT_EQ(session_.clock().epoch, 41u) << "once";
+}
+
+// Epochs are compared by their difference. A wrong one must not lead back to an early one.
+TEST_F(ClockExchangeTest, AnEpochFarFromThisOneIsAnEarlierOne) {
+  own();
+  const std::uint32_t epoch = session_.clock().epoch;
+  announce("beta", 0, kBetaSegment, 1, 0xFFFF'FFFFU);
+  pass(5'000'000);
+  EXPECT_EQ(session_.clock().epoch, epoch + 1);
+}
+
+TEST_F(ClockExchangeTest, TheOwnerGivesWayToAHostThatPrecedes) {
+  own();
+  announce("aaron", 0, 77, 1);
+  pass(5'000'000);
+  EXPECT_FALSE(exchange_.owns());
+}
+
+class LockstepExchangeTest : public testing::TwoHosts {
+ protected:
+  yars_net_LockstepSample done(const std::string& host, std::uint32_t role, std::int64_t tick) {
+    auto sample = from<yars_net_LockstepSample>(host);
+    sample.role = role;
+    sample.done_tick = tick;
+    return sample;
+  }
+  std::int64_t tick_of(std::size_t role) const { return layout().lockstep.done_tick[role].load(); }
+  LockstepExchange exchange_;
+};
+
+TEST_F(LockstepExchangeTest, ADoneTickIsAppliedAfterAllThatItsHostWrote) {
+  announce("beta", 0);
+  auto sample = done("beta", 3, 20);
+  sample.written[dds::index_of(dds::Topic::sweeps)] = 2;
+  exchange_.receive(context_, sample);
+  exchange_.apply(context_, true);
+  EXPECT_LT(tick_of(3), 20);
+  const auto take = [&] { return hosts_.is_new(from<yars_net_SweepSample>("beta")); };
+  EXPECT_TRUE(take());
+  exchange_.apply(context_, true);
+  EXPECT_LT(tick_of(3), 20);
+  EXPECT_TRUE(take());
+  exchange_.apply(context_, false);
+  EXPECT_LT(tick_of(3), 20) << "a record still waits for its predecessor";
+  exchange_.apply(context_, true);
+  EXPECT_EQ(tick_of(3), 20);
+}
+
+TEST_F(LockstepExchangeTest, ADoneTickDoesNotGoBack) {
+  announce("beta", 0);
+  exchange_.receive(context_, done("beta", 3, 20));
+  exchange_.apply(context_, true);
+  exchange_.receive(context_, done("beta", 3, 10));
+  exchange_.apply(context_, true);
+  EXPECT_EQ(tick_of(3), 20);
+  EXPECT_EQ(refusals(), 0u);
+}
+
+TEST_F(LockstepExchangeTest, ADoneTickOrRoleOutOfRangeIsRefused) {
+  announce("beta", 0);
+  exchange_.receive(context_, done("beta", databuffer::kLockstepRoles, 1));
+  exchange_.receive(context_, done("beta", 0, -1));
+  exchange_.receive(context_, done("beta", 0, databuffer::kLatestModelTick + 1));
+  exchange_.apply(context_, true);
+  EXPECT_EQ(refusals(), 3u);
+}
+
+// Else the run would stand still: nobody sends the tick again.
+TEST_F(LockstepExchangeTest, ADoneTickThatArrivesBeforeItsHostIsKnownIsKept) {
+  exchange_.receive(context_, done("beta", 3, 20));
+  exchange_.apply(context_, true);
+  EXPECT_LT(tick_of(3), 20);
+  announce("beta", 0);
+  exchange_.apply(context_, true);
+  EXPECT_EQ(tick_of(3), 20);
+}
+
+TEST_F(LockstepExchangeTest, ATickOfAnotherHostIsNotSentBack) {
+  announce("beta", 0);
+  exchange_.receive(context_, done("beta", 3, 20));
+  exchange_.apply(context_, true);
+  const auto sent = [&] { return hosts_.written()[dds::index_of(dds::Topic::lockstep)]; };
+  exchange_.begin_pass(context_);
+  const std::uint64_t before = sent();
+  exchange_.send(context_);
+  exchange_.begin_pass(context_);
+  exchange_.send(context_);
+  const std::uint64_t others = sent() - before;  // roles other than 3, once at the start
+  EXPECT_LE(others, databuffer::kLockstepRoles - 1);
+  session_.layout().lockstep.done_tick[2].store(21);
+  exchange_.begin_pass(context_);
+  exchange_.send(context_);
+  EXPECT_EQ(sent() - before, others + 1);
+}
+
+}  // namespace
+}  // namespace yars::gateway

@@ -1,0 +1,149 @@
+// The hosts that a gateway hears, and the roles that it holds for them.
+#include "gateway/exchange/hosts.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/gateway/exchange/two_hosts.hpp"
+
+namespace yars::gateway {
+namespace {
+
+using databuffer::Role;
+using ::testing::HasSubstr;
+using testing::bit;
+
+class HostsTest : public testing::TwoHosts {
+ protected:
+  yars_net_HostSample sample(const std::string& name) {
+    auto sample = from<yars_net_HostSample>(name);
+    sample.segment = kBetaSegment;
+    sample.layout_hash = databuffer::kLayoutIdentity.hash;
+    sample.protocol = yars_net_kProtocol;
+    name.copy(sample.name, sizeof sample.name - 1);
+    return sample;
+  }
+  void receive(const yars_net_HostSample& sample) { hosts_.receive(sample, true, context_.now_ns); }
+  databuffer::NetworkStatus status() const {
+    databuffer::NetworkStatus status{};
+    hosts_.describe(status, context_.now_ns);
+    return status;
+  }
+};
+
+TEST_F(HostsTest, AHostIsHeardUntilItEnds) {
+  announce("beta", bit(Role::traffic));
+  ASSERT_NE(hosts_.find(host_id("beta")), nullptr);
+  EXPECT_EQ(hosts_.find(host_id("beta"))->held_roles, bit(Role::traffic));
+  end("beta");
+  EXPECT_EQ(hosts_.find(host_id("beta")), nullptr);
+  EXPECT_TRUE(hosts_.has_announced(host_id("beta")));
+  EXPECT_THAT(last_note(session_), HasSubstr("host beta is no longer heard"));
+  EXPECT_EQ(status().host_count, 2u);
+  EXPECT_EQ(status().hosts[1].flags & databuffer::kHostPresent, 0u);
+  EXPECT_FALSE(databuffer::validate(status()));
+}
+
+TEST_F(HostsTest, AnAnnouncementWithDamagedFieldsIsRefused) {
+  auto bad = sample("beta");
+  bad.name[1] = '\x1b';
+  receive(bad);
+  bad = sample("beta");
+  std::fill(std::begin(bad.version), std::end(bad.version), 'x');
+  receive(bad);
+  bad = sample("beta");
+  bad.host ^= 1;
+  receive(bad);
+  bad = sample("beta");
+  bad.priority = databuffer::kMaxHostPriority + 1;
+  receive(bad);
+  bad = sample("");
+  receive(bad);
+  EXPECT_EQ(refusals(), 5u);
+  EXPECT_EQ(hosts_.views().size(), 1u);
+}
+
+TEST_F(HostsTest, AnotherLayoutIsSaidAndNothingIsExchanged) {
+  auto other = sample("beta");
+  other.layout_hash ^= 1;
+  receive(other);
+  EXPECT_THAT(last_note(session_), HasSubstr("host beta has another layout"));
+  EXPECT_EQ(hosts_.views().size(), 1u);
+  EXPECT_FALSE(hosts_.has_announced(host_id("beta")));
+  EXPECT_NE(status().hosts[1].flags & databuffer::kHostOtherLayout, 0u);
+}
+
+TEST_F(HostsTest, SamplesOfManyUnknownHostsLeaveRoomForAHost) {
+  for (std::uint64_t host = 1; host <= 100; ++host) hosts_.is_new(dds::Topic::sweeps, host, 1, 0);
+  announce("beta", 0);
+  EXPECT_NE(hosts_.find(host_id("beta")), nullptr);
+  for (std::uint64_t host = 1; host <= 100; ++host) hosts_.is_new(dds::Topic::sweeps, host, 1, 0);
+  EXPECT_NE(hosts_.find(host_id("beta")), nullptr) << "a host that is heard stays";
+}
+
+TEST_F(HostsTest, AHostThatLeftMakesRoomForTheSeventeenth) {
+  for (int i = 0; i < 15; ++i) announce("h" + std::to_string(i), 0);
+  EXPECT_EQ(hosts_.views().size(), databuffer::kMaxHosts);
+  announce("beta", 0);
+  EXPECT_EQ(hosts_.find(host_id("beta")), nullptr);
+  end("h3");
+  announce("beta", 0);
+  EXPECT_NE(hosts_.find(host_id("beta")), nullptr);
+  EXPECT_EQ(hosts_.find(host_id("h3")), nullptr);
+  EXPECT_FALSE(databuffer::validate(status()));
+}
+
+TEST_F(HostsTest, AnotherHostWithThisNameIsSaidWhenItStays) {
+  auto ghost = sample("alpha");
+  receive(ghost);
+  EXPECT_EQ(status().hosts[0].flags & databuffer::kHostSameName, 0u) << "perhaps this gateway's predecessor";
+  pass(4 * kSecond_ns);
+  receive(ghost);
+  EXPECT_THAT(last_note(session_), HasSubstr("another host is also called alpha"));
+  EXPECT_NE(status().hosts[0].flags & databuffer::kHostSameName, 0u);
+}
+
+using RolesTest = HostsTest;
+
+TEST_F(RolesTest, ARoleOfAnotherHostIsHeldForIt) {
+  announce("beta", bit(Role::radar_model));
+  EXPECT_TRUE(session_.role_is_held(Role::radar_model));
+  EXPECT_TRUE(session_.is_mirrored(Role::radar_model));
+  EXPECT_EQ(roles_.source(Role::radar_model), host_id("beta"));
+  EXPECT_EQ(roles_.held_roles(), 0u) << "a mirrored role is not announced as this host's";
+  EXPECT_FALSE(roles_.exports(Role::radar_model));
+}
+
+TEST_F(RolesTest, ARoleOfAHostThatLeftIsReleased) {
+  announce("beta", bit(Role::radar_model));
+  pass(kListening_ns);
+  end("beta");
+  pass(kSecond_ns);
+  EXPECT_FALSE(session_.role_is_held(Role::radar_model));
+  EXPECT_FALSE(session_.is_mirrored(Role::radar_model));
+  EXPECT_EQ(roles_.source(Role::radar_model), std::nullopt);
+}
+
+TEST_F(RolesTest, ALocalHolderYieldsOnlyToAHostThatPrecedes) {
+  hold(Role::state_machine);
+  announce("beta", bit(Role::state_machine));
+  EXPECT_FALSE(session_.must_yield(Role::state_machine));
+  EXPECT_EQ(roles_.conflicts(), 1u);
+  announce("aaron", bit(Role::state_machine));
+  EXPECT_TRUE(session_.must_yield(Role::state_machine));
+  EXPECT_FALSE(roles_.exports(Role::state_machine));
+  end("aaron");
+  EXPECT_FALSE(session_.must_yield(Role::state_machine));
+  EXPECT_TRUE(roles_.exports(Role::state_machine));
+}
+
+TEST_F(RolesTest, UnknownBitsOfHeldRolesChangeNothing) {
+  announce("beta", 0xFFFF'FFFFU & ~bit(Role::gateway));
+  EXPECT_EQ(roles_.source(Role::radar_model), host_id("beta"));
+  EXPECT_FALSE(session_.role_is_held(Role::clock));
+}
+
+}  // namespace
+}  // namespace yars::gateway
