@@ -1,9 +1,8 @@
 // Patch maps that arrive row by row.
 // Inputs: the record of a map and its rows, in any order, each any number of times.
 // Outputs: the map and its pixels once all rows are there and the hash is right.
-// Errors: rows that do not fit the map are left out. A whole map with a wrong hash is dropped, so that its rows are
-// taken
-//   again when they arrive again.
+// Errors: rows that do not fit the map are left out. A whole map with a wrong hash waits: rows of an earlier map with its
+//   number may be among its own, and are replaced when these arrive.
 // Threads: one.
 #pragma once
 
@@ -31,7 +30,7 @@ class PatchAssembly {
     Pending& pending = pending_of(host, map.id);
     if (pending.map && pending.map->hash == map.hash) return;
     pending.map = map;
-    pending.rows.resize(map.size);
+    pending.changed = true;
   }
 
   // A row may arrive before its map.
@@ -40,23 +39,25 @@ class PatchAssembly {
     Pending& pending = pending_of(host, id);
     if (pending.rows.size() <= row) pending.rows.resize(row + 1);
     pending.rows[row].assign(pixels.begin(), pixels.end());
+    pending.changed = true;
   }
 
-  // A map that has become whole, and is forgotten here; nullopt: none.
-  std::optional<Whole> take_whole() {
+  // A map of the host that has become whole, and is forgotten here; nullopt: none.
+  std::optional<Whole> take_whole(std::uint64_t host) {
     for (auto pending = pending_.begin(); pending != pending_.end(); ++pending) {
+      if (pending->host != host || !pending->changed) continue;
       if (!pending->map || pending->rows.size() < pending->map->size) continue;
       const std::size_t size = pending->map->size;
-      const bool is_whole =
-          std::all_of(pending->rows.begin(), pending->rows.begin() + static_cast<std::ptrdiff_t>(size),
-                      [size](const auto& row) { return row.size() == size; });
+      const bool is_whole = std::all_of(pending->rows.begin(), pending->rows.begin() + static_cast<std::ptrdiff_t>(size),
+                                        [size](const auto& row) { return row.size() == size; });
       if (!is_whole) continue;
+      pending->changed = false;
       Whole whole{*pending->map, {}};
       whole.pixels.reserve(size * size);
       for (std::size_t row = 0; row < size; ++row)
         whole.pixels.insert(whole.pixels.end(), pending->rows[row].begin(), pending->rows[row].end());
+      if (databuffer::map_hash(whole.map, whole.pixels) != whole.map.hash) continue;
       pending_.erase(pending);
-      if (databuffer::map_hash(whole.map, whole.pixels) != whole.map.hash) return std::nullopt;
       return whole;
     }
     return std::nullopt;
@@ -69,6 +70,7 @@ class PatchAssembly {
     std::uint64_t host = 0, id = 0;
     std::optional<databuffer::PatchMap> map = std::nullopt;
     std::vector<std::vector<std::uint8_t>> rows = {};
+    bool changed = false;  // since take_whole() last looked at the whole map
   };
   static constexpr std::size_t kMaxPending = 8;  // as many as the segment has
 

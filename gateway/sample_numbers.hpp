@@ -23,7 +23,8 @@ class SampleNumbers {
       begun_ = true;
       next_ = number;
     }
-    if (number < next_) {
+    constexpr std::uint64_t kNone = ~std::uint64_t{0};  // no sender counts so far; the number after it would be 0
+    if (number < next_ || number == kNone) {
       ++repeated_;
       return false;
     }

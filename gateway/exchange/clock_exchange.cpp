@@ -1,6 +1,7 @@
 #include "gateway/exchange/clock_exchange.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -46,7 +47,9 @@ void ClockExchange::exchange(Context& context) {
 }
 
 void ClockExchange::choose_owner(Context& context) {
-  const auto owns = [&](const HostView& host) { return host.id == context.hosts.self().id ? owns_ : host.owns_clock; };
+  const auto owns = [&](const HostView& host) {
+    return host.id == context.hosts.self().id ? owns_ : host.owns_clock;
+  };
   const HostView* owner = preceding(context.hosts.views(), owns);
   resolve_conflicts(context);
   const bool listened = context.now_ns - first_pass_ns_ >= kListening_ns;
@@ -147,13 +150,25 @@ void ClockExchange::follow(Context& context) {
   if (first) followed_.emplace();
   followed_->owner = owner_;
   followed_->theirs = theirs;
-  if (first) followed_->offset.set(*offset_ns);
   const ClockState before = context.session.clock();
+  if (first) followed_->offset.set(continuous_offset(before, theirs, *offset_ns, context.now_ns));
   adopt(context, followed_->offset.offset_ns());
   // Local roles that are ahead in the same epoch would wait until the owner's sim time reaches theirs.
   const std::int64_t ahead_ns = databuffer::sim_time_at(before, context.now_ns) - context.session.sim_time_ns();
   if (first && before.epoch == theirs.epoch && ahead_ns > kMaxBehind_ns && !context.lockstep)
     request(context, followed_->written, true);
+}
+
+// Offset with which the owner's clock continues the local one. After a change of the owner both show nearly the same time,
+// and the rest is slewed. Otherwise the measured offset.
+std::int64_t ClockExchange::continuous_offset(const ClockState& mine, const ClockState& theirs, std::int64_t measured_ns,
+                                              std::int64_t now_ns) {
+  if (mine.epoch != theirs.epoch || mine.running != theirs.running || mine.rate != theirs.rate || !(mine.rate > 0.0))
+    return measured_ns;
+  const std::int64_t ahead_ns =
+      databuffer::sim_time_at(mine, now_ns) - databuffer::sim_time_at(theirs, now_ns + measured_ns);
+  if (std::abs(ahead_ns) > kMaxBehind_ns) return measured_ns;
+  return measured_ns + static_cast<std::int64_t>(static_cast<double>(ahead_ns) / mine.rate);
 }
 
 // Writes the owner's clock to the local segment, with its base at the present time.

@@ -44,6 +44,8 @@ class ClockExchange {
   void raise_epoch(Context& context, std::uint32_t above);
   void publish(Context& context);
   void follow(Context& context);
+  static std::int64_t continuous_offset(const databuffer::ClockState& mine, const databuffer::ClockState& theirs,
+                                        std::int64_t measured_ns, std::int64_t now_ns);
   void adopt(Context& context, std::int64_t offset_ns);
   bool forward_local_change(Context& context);
   void request(Context& context, const databuffer::ClockState& wanted, bool new_epoch);

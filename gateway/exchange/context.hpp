@@ -19,6 +19,14 @@ struct Context {
   std::int64_t now_ns = 0;  // CLOCK_MONOTONIC at the begin of the pass
   bool lockstep = false;    // the session runs in lockstep: every tick is exchanged
   bool joined = false;      // the session clock is known
+
+  // As Link::write() and Link::writes(). Without a link every sample counts as written.
+  template <class Sample>
+  bool write(const Sample& sample) {
+    return link == nullptr || link->write(sample);
+  }
+  bool writes(dds::Topic topic) const { return link == nullptr || link->writes(topic); }
+  bool reads(dds::Topic topic) const { return link == nullptr || link->reads(topic); }
 };
 
 // A record and its structure in a sample have the same bytes (checked when yars_gateway_types is built).

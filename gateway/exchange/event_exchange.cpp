@@ -16,15 +16,14 @@ namespace {
 
 // [ns] Without a receipt for so long, the waiting events are sent again: the receiver leaves out what it has.
 constexpr std::int64_t kRepeatAfter_ns = 1'000'000'000;
-constexpr std::int64_t kLaneSilence_ns = 30'000'000'000;  // then a lane of a host that is not heard is released
+constexpr std::int64_t kLaneSilence_ns = 30'000'000'000;  // then the local lane of a remote lane is free for others
 constexpr std::uint64_t kRecentEvents = 256;              // applied events that a restarted gateway sends again
 
 // Translates a CLOCK_MONOTONIC time of another host; without a measured offset the result is the present time.
 std::int64_t local_time_ns(const Context& context, std::uint64_t host, std::int64_t time_ns) {
   const auto offset_ns = context.hosts.offset_ns(host);
   if (!offset_ns) return context.now_ns;
-  const auto local =
-      static_cast<std::int64_t>(static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(*offset_ns));
+  const auto local = static_cast<std::int64_t>(static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(*offset_ns));
   return std::clamp<std::int64_t>(local, 0, databuffer::monotonic_ns());
 }
 
@@ -36,7 +35,7 @@ std::uint64_t lane_id(std::uint64_t host, std::uint64_t segment, std::uint32_t l
 
 void EventExchange::send(Context& context) {
   const auto machine = context.roles.source(Role::state_machine);
-  if (machine && context.link->writes(dds::Topic::input_events))
+  if (machine && context.writes(dds::Topic::input_events))
     for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) send_waiting(context, lane, *machine);
   release_lanes(context);
   send_receipts(context);
@@ -70,10 +69,11 @@ void EventExchange::send_waiting(Context& context, std::size_t lane, std::uint64
     sample.lane = static_cast<std::uint32_t>(lane);
     sample.segment = context.hosts.identity().segment;
     sample.event_number = sending.next;
+    sample.preceding = static_cast<std::uint32_t>(sending.next - popped);
     sample.machine_segment = segment;
     input.source(lane).copy(sample.source, sizeof sample.source - 1);
     copy_record(sample.event, event);
-    if (!context.link->write(sample)) return;
+    if (!context.write(sample)) return;
   }
 }
 
@@ -106,19 +106,17 @@ void EventExchange::receive(Context& context, const yars_net_EventReceiptSample&
 void EventExchange::receive(Context& context, const yars_net_InputEventSample& sample) {
   context.hosts.is_new(sample);  // counted only: whether the event is new depends on its number in its lane
   if (sample.machine_segment != context.hosts.identity().segment || sample.lane >= databuffer::kInputLanes ||
-      !context.roles.exports(Role::state_machine))
+      !context.roles.exports(Role::state_machine) || !context.hosts.has_announced(sample.host))
     return;
   Receiving* receiving = receiving_from(context, sample);
   if (receiving == nullptr) return;
   receiving->heard_ns = context.now_ns;
   receiving->receipt_due = true;
-  if (sample.event_number < receiving->next_event) return;  // delivered before
-  if (receiving->blocked_at && sample.event_number > *receiving->blocked_at) return;
-  const bool has_lane = receiving->claim || take_lane(context, *receiving, sample);
-  if (has_lane && push(context, *receiving, sample))
-    receiving->blocked_at.reset();
-  else
-    receiving->blocked_at = sample.event_number;  // the sender repeats it
+  // A stored history of DDS may begin in the middle: then an earlier event comes later. The sender says how many have no
+  // receipt. Those before them have reached a state machine on another host.
+  const std::uint64_t first = sample.event_number - std::min<std::uint64_t>(sample.preceding, sample.event_number);
+  if (sample.event_number != std::max(first, receiving->next_event)) return;
+  if (receiving->claim || take_lane(context, *receiving, sample)) push(context, *receiving, sample);
 }
 
 EventExchange::Receiving* EventExchange::receiving_from(Context& context, const yars_net_InputEventSample& sample) {
@@ -146,8 +144,7 @@ EventExchange::Receiving* EventExchange::receiving_from(Context& context, const 
 bool EventExchange::take_lane(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample) {
   char source[sizeof sample.source + 1] = {};
   std::memcpy(source, sample.source, sizeof sample.source);
-  std::replace_if(
-      source, source + std::strlen(source), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  std::replace_if(source, source + std::strlen(source), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
   const HostView* host = context.hosts.find(sample.host);
   const std::string name = (host == nullptr ? "?" : host->name) + "/" + source;
   auto claim = context.session.claim_input_lane(name);
@@ -166,24 +163,23 @@ bool EventExchange::take_lane(Context& context, Receiving& receiving, const yars
   return true;
 }
 
-// False: the lane is full.
-bool EventExchange::push(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample) {
+// An event that finds no room is repeated by its sender.
+void EventExchange::push(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample) {
   databuffer::InputEvent event{};
   copy_record(event, sample.event);
   if (const auto reason = validate(event)) {
     context.hosts.refuse(sample.host, dds::Topic::input_events, *reason);
     receiving.next_event = sample.event_number + 1;
-    return true;
+    return;
   }
   event.monotonic_ns = local_time_ns(context, sample.host, event.monotonic_ns);
   const auto lane = static_cast<std::size_t>(receiving.claim->lane());
   auto& layout = context.session.layout();
   const std::uint64_t pushed = layout.input.pushed(lane);
-  if (pushed - layout.input.popped(lane) >= databuffer::kInputLaneDepth) return false;
+  if (pushed - layout.input.popped(lane) >= databuffer::kInputLaneDepth) return;
   layout.network.input[lane].progress.store(progress_of(sample.event_number + 1, pushed));
   layout.input.push(lane, event);
   receiving.next_event = sample.event_number + 1;
-  return true;
 }
 
 void EventExchange::send_receipts(Context& context) {
@@ -196,20 +192,22 @@ void EventExchange::send_receipts(Context& context) {
     sample.lane = receiving.lane;
     sample.segment = receiving.segment;
     sample.next_event = receiving.next_event;
-    context.link->write(sample);
+    context.write(sample);
   }
 }
 
-// Releases all remote lanes when the state machine no longer runs here, and the lanes of hosts that have left.
+// Releases all remote lanes when the state machine no longer runs here, and lanes that have been silent. A lane of a
+// host that has left, or of an earlier segment there, is forgotten.
 void EventExchange::release_lanes(Context& context) {
   const bool here = context.roles.exports(Role::state_machine);
-  std::erase_if(receiving_, [&](const auto& item) {
-    const Receiving& receiving = item.second;
-    const bool gone =
-        context.hosts.find(receiving.sender) == nullptr && context.now_ns - receiving.heard_ns > kLaneSilence_ns;
-    if (here && !gone) return false;
+  std::erase_if(receiving_, [&](auto& item) {
+    Receiving& receiving = item.second;
+    const bool silent = context.now_ns - receiving.heard_ns > kLaneSilence_ns;
+    if (here && !silent) return false;
     if (receiving.claim) lanes_->input[static_cast<std::size_t>(receiving.claim->lane())].reset();
-    return true;
+    receiving.claim.reset();
+    return !here || context.hosts.find(receiving.sender) == nullptr ||
+           context.hosts.segment_of(receiving.sender) != receiving.segment;
   });
 }
 
@@ -219,8 +217,7 @@ void EventExchange::send_applied(Context& context) {
     applied_cursor_ = ring.next();
     return;
   }
-  // The gateway has just started: its predecessor may have missed the last events. Other hosts leave out what they
-  // have.
+  // The gateway has just started: its predecessor may have missed the last events. Other hosts leave out what they have.
   if (!applied_cursor_) applied_cursor_ = std::max(ring.oldest(), ring.next() - std::min(ring.next(), kRecentEvents));
   yars_net_AppliedEventSample sample{};
   databuffer::AppliedEvent applied{};
@@ -232,7 +229,7 @@ void EventExchange::send_applied(Context& context) {
     const RemoteName name = lanes_->input_name(applied.lane, sample.host);
     sample.sender = name.host;
     sample.applied.lane = name.lane;
-    context.link->write(sample);
+    context.write(sample);
   }
   context.hosts.set_written(dds::Topic::applied_events, *applied_cursor_);
 }
@@ -249,7 +246,8 @@ void EventExchange::pop_applied(Context& context, const databuffer::AppliedEvent
 
 void EventExchange::receive(Context& context, const yars_net_AppliedEventSample& sample) {
   auto& ring = context.session.layout().applied_events;
-  if (context.roles.source(Role::state_machine) != sample.host || !is_new_in_history(context, sample, ring.next()))
+  if (context.roles.source(Role::state_machine) != sample.host ||
+      !is_new_in_history(context, sample, ring.next(), sample.applied.tick))
     return;
   databuffer::AppliedEvent applied{};
   copy_record(applied, sample.applied);

@@ -1,12 +1,10 @@
 // Input events on their way to the host of the state machine, each delivered once; and the events that it applied.
 // Inputs: the local input lanes while the state machine runs on another host; events, receipts and applied events of
 //   other hosts.
-// Outputs: each waiting event as a sample until its receipt arrives; events of other hosts in local input lanes, one
-// lane
+// Outputs: each waiting event as a sample until its receipt arrives; events of other hosts in local input lanes, one lane
 //   for each remote lane; the ring of applied events on every host.
 // Units: times [ns]; CLOCK_MONOTONIC times of other hosts are translated by the measured offset.
-// Errors: an invalid event is refused, counted and noted, and its receipt is given all the same. With no free input
-// lane
+// Errors: an invalid event is refused, counted and noted, and its receipt is given all the same. With no free input lane
 //   the events wait on their host.
 // Threads: one.
 // Source: docs/network.md#each-event-once.
@@ -41,9 +39,9 @@ class EventExchange {
 
  private:
   struct Sending {
-    std::uint64_t next = 0;                                // number of the next event to send
-    std::uint64_t popped = 0;                              // when it last changed
-    std::int64_t progress_ns = 0;                          // then
+    std::uint64_t next = 0;            // number of the next event to send
+    std::uint64_t popped = 0;          // when it last changed
+    std::int64_t progress_ns = 0;      // then
     std::uint64_t machine_segment = 0, machine_start = 0;  // to which the events were sent
   };
   struct Receiving {
@@ -52,7 +50,6 @@ class EventExchange {
     std::uint64_t segment = 0;
     std::optional<databuffer::Claim> claim = std::nullopt;
     std::uint64_t next_event = 0;
-    std::optional<std::uint64_t> blocked_at = std::nullopt;  // this event found no room; later ones wait for it
     bool receipt_due = false;
     std::int64_t heard_ns = 0;
   };
@@ -61,7 +58,7 @@ class EventExchange {
   void send_applied(Context& context);
   Receiving* receiving_from(Context& context, const yars_net_InputEventSample& sample);
   bool take_lane(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample);
-  bool push(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample);
+  void push(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample);
   void release_lanes(Context& context);
   void pop_applied(Context& context, const databuffer::AppliedEvent& applied);
 

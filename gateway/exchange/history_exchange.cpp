@@ -16,9 +16,9 @@ namespace {
 
 // [ns] A record waits so long for its predecessor, which is several repairs of a lost packet.
 constexpr std::int64_t kPatience_ns = 200'000'000;
-constexpr std::size_t kMaxWaiting = 1024;    // the depth of the rings
-constexpr std::size_t kTrafficNumbers = 64;  // the depth of the ring of traffic
-constexpr std::uint64_t kRecentTicks = 200;  // 1 s: what a restarted gateway sends again
+constexpr std::size_t kMaxWaiting = 1024;        // the depth of the rings
+constexpr std::size_t kTrafficNumbers = 64;      // the depth of the ring of traffic
+constexpr std::uint64_t kRecentTicks = 200;      // 1 s: what a restarted gateway sends again
 constexpr std::size_t kSweepHeader_bytes = offsetof(databuffer::Sweep, video);
 
 // Cursor of a gateway that begins to send a ring.
@@ -97,7 +97,9 @@ bool HistoryExchange::is_wanted(Context& context, std::uint64_t host, std::uint3
 
 void HistoryExchange::receive(Context& context, const yars_net_LatchedTrafficSample& sample) {
   auto& ring = context.session.layout().traffic_latched;
-  if (context.roles.source(Role::radar_model) != sample.host || !is_new_in_history(context, sample, ring.next()))
+  // Traffic is valid until the next record, so that also an old one is taken.
+  const std::int64_t tick = context.session.sim_time_ns() / radar::kTickNanoseconds;
+  if (context.roles.source(Role::radar_model) != sample.host || !is_new_in_history(context, sample, ring.next(), tick))
     return;
   databuffer::Traffic traffic{};
   copy_record(traffic, sample.traffic);
@@ -113,18 +115,23 @@ void HistoryExchange::receive(Context& context, const yars_net_LatchedTrafficSam
 
 void HistoryExchange::receive(Context& context, const yars_net_ModelTickSample& sample) {
   const auto& ring = std::as_const(context.session).layout().model_ticks;
-  if (!is_wanted(context, sample.host, sample.tick.epoch) || !is_new_in_history(context, sample, ring.next())) return;
+  if (!is_wanted(context, sample.host, sample.tick.epoch) ||
+      !is_new_in_history(context, sample, ring.next(), sample.tick.tick))
+    return;
   databuffer::ModelTick tick{};
   copy_record(tick, sample.tick);
   if (const auto reason = validate(tick)) return context.hosts.refuse(sample.host, dds::Topic::model_ticks, *reason);
-  tick.ownship_lane =
-      lanes_->local_ownship_lane({sample.ownship_host, tick.ownship_lane}, context.hosts.self().id, kNoLane);
-  if (ticks_.size() < kMaxWaiting) ticks_.push_back({tick, context.now_ns, sample.host, sample.start, sample.number});
+  tick.ownship_lane = lanes_->local_ownship_lane({sample.ownship_host, tick.ownship_lane}, context.hosts.self().id,
+                                                 kNoLane);
+  if (ticks_.size() < kMaxWaiting)
+    ticks_.push_back({tick, context.now_ns, sample.host, sample.start, sample.number});
 }
 
 void HistoryExchange::receive(Context& context, const yars_net_SweepSample& sample) {
   const auto& ring = std::as_const(context.session).layout().sweeps;
-  if (!is_wanted(context, sample.host, sample.sweep.epoch) || !is_new_in_history(context, sample, ring.next())) return;
+  if (!is_wanted(context, sample.host, sample.sweep.epoch) ||
+      !is_new_in_history(context, sample, ring.next(), sample.sweep.tick))
+    return;
   databuffer::Sweep sweep{};
   std::memcpy(&sweep, &sample.sweep, kSweepHeader_bytes);
   if (sweep.samples != sample.video._length)

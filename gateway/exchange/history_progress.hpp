@@ -2,11 +2,13 @@
 // Threads: one.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/progress.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::gateway {
 
@@ -24,15 +26,24 @@ constexpr std::size_t history_of(dds::Topic topic) {
   }
 }
 
-// True if neither this gateway nor its predecessor has taken the sample. `local`: number of records in the local ring.
+// [ns] sim time. A host that hears a history for the first time begins with records of this age. Without a limit its
+// recorder would take the last 5 s of the session for new.
+inline constexpr std::int64_t kMaxFirstAge_ns = 500'000'000;
+
+// True if neither this gateway nor its predecessor has taken the sample, and it is not from before the host joined.
+// `local`: number of records in the local ring. `tick`: of the record.
 template <class Sample>
-bool is_new_in_history(Context& context, const Sample& sample, std::uint64_t local) {
+bool is_new_in_history(Context& context, const Sample& sample, std::uint64_t local, std::int64_t tick) {
   constexpr dds::Topic kTopic = dds::kTopicOf<Sample>;
   if (!context.hosts.knows(kTopic, sample.host, sample.start)) {
     const std::uint64_t source = source_id({sample.host, sample.start});
-    for (const databuffer::RemoteProgress& entry : context.session.layout().network.histories[history_of(kTopic)])
-      if (entry.source.load() == source)
-        context.hosts.resume(kTopic, sample.host, sample.start, next_of(entry.progress.load(), local, sample.number));
+    const auto& entries = context.session.layout().network.histories[history_of(kTopic)];
+    const auto entry = std::ranges::find_if(entries, [source](const auto& one) { return one.source.load() == source; });
+    if (entry != entries.end())
+      context.hosts.resume(kTopic, sample.host, sample.start, next_of(entry->progress.load(), local, sample.number));
+    else if (!context.lockstep && context.session.sim_time_ns() / radar::kTickNanoseconds - tick >
+                                      kMaxFirstAge_ns / radar::kTickNanoseconds)
+      return false;
   }
   return context.hosts.is_new(sample);
 }

@@ -65,7 +65,8 @@ Hosts::Hosts(databuffer::Session& session, dds::Link* link, Identity identity)
 }
 
 void Hosts::exchange(std::int64_t now_ns) {
-  link_->take_hosts([&](const yars_net_HostSample& sample, bool alive) { receive(sample, alive, now_ns); });
+  if (link_ != nullptr)
+    link_->take_hosts([&](const yars_net_HostSample& sample, bool alive) { receive(sample, alive, now_ns); });
   update_group(now_ns);
   announce(now_ns);
   ask(now_ns);
@@ -122,13 +123,12 @@ void Hosts::report_differences(Host& host) {
   const std::string other = "host " + host.view.name;
   char hash[20];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(said.layout_hash));
-  host.other_layout = said.layout_hash != databuffer::kLayoutIdentity.hash || said.protocol != yars_net_kProtocol;
+  host.other_layout =
+      said.layout_hash != databuffer::kLayoutIdentity.hash || said.protocol != yars_net_kProtocol;
   report(host, databuffer::kHostOtherLayout, host.other_layout,
          other + " has another layout of the records (" + text_of(said.version) + ", layout " + hash +
              "): nothing is exchanged with it; install the same version on both");
-  const auto differ = [](std::uint64_t mine, std::uint64_t theirs) {
-    return mine != 0 && theirs != 0 && mine != theirs;
-  };
+  const auto differ = [](std::uint64_t mine, std::uint64_t theirs) { return mine != 0 && theirs != 0 && mine != theirs; };
   report(host, databuffer::kHostOtherConfiguration, differ(identity_.configuration_hash, said.configuration_hash),
          other + " has another configuration; start both with the same --config");
   report(host, databuffer::kHostOtherTerrain, differ(identity_.terrain_hash, said.terrain_hash),
@@ -176,7 +176,7 @@ void Hosts::announce(std::int64_t now_ns) {
   sample.group = self().group;
   set_text(sample.name, identity_.name);
   set_text(sample.version, YARS_VERSION);
-  link_->write(sample);
+  if (link_ != nullptr) link_->write(sample);
 }
 
 void Hosts::ask(std::int64_t now_ns) {
@@ -187,7 +187,7 @@ void Hosts::ask(std::int64_t now_ns) {
     question.from = self().id;
     question.to = host.view.id;
     question.asked_ns = databuffer::monotonic_ns();
-    link_->write(question);
+    if (link_ != nullptr) link_->write(question);
   }
 }
 
@@ -213,15 +213,21 @@ Hosts::Host* Hosts::host_of(std::uint64_t id, bool add) {
   for (Host& host : hosts_)
     if (host.view.id == id) return &host;
   if (!add || id == self().id) return nullptr;
-  if (hosts_.size() + 1 >= databuffer::kMaxHosts) {
-    const std::string line = "expected at most " + std::to_string(databuffer::kMaxHosts) + " hosts, found another";
-    log::warning(line);
-    return nullptr;
-  }
   Host host;
   host.view.id = id;
-  hosts_.push_back(std::move(host));
-  return &hosts_.back();
+  if (hosts_.size() + 1 < databuffer::kMaxHosts) {
+    hosts_.push_back(std::move(host));
+    return &hosts_.back();
+  }
+  // A host that has left makes room, one that never announced itself first.
+  const auto oldest = std::ranges::min_element(
+      hosts_, {}, [](const Host& known) { return std::pair(known.alive, known.heard_ns); });
+  if (oldest->alive) {
+    log::warning("expected at most " + std::to_string(databuffer::kMaxHosts) + " hosts, found another");
+    return nullptr;
+  }
+  *oldest = std::move(host);
+  return &*oldest;
 }
 
 const Hosts::Host* Hosts::host_of(std::uint64_t id) const {
@@ -236,8 +242,8 @@ void Hosts::update_views() {
     if (host.alive && !host.other_layout) views_.push_back(host.view);
 }
 
-// Number of hosts that were heard kGroupDelay_ns ago, so that two hosts that meet again say how many each had with it.
-// A process that was stopped for longer than the lease was alone.
+// Number of hosts that were heard kGroupDelay_ns ago, so that two hosts that meet again say how many each had with it. A
+// process that was stopped for longer than the lease was alone.
 void Hosts::update_group(std::int64_t now_ns) {
   constexpr std::int64_t kLease_ns = std::chrono::nanoseconds(dds::kLease).count();
   if (now_ns - std::exchange(last_pass_ns_, now_ns) > kLease_ns) group_sizes_ = {{now_ns - kGroupDelay_ns, 1}};
@@ -251,6 +257,11 @@ void Hosts::update_group(std::int64_t now_ns) {
 const HostView* Hosts::find(std::uint64_t id) const {
   const auto found = std::ranges::find(views_, id, &HostView::id);
   return found == views_.end() ? nullptr : &*found;
+}
+
+bool Hosts::has_announced(std::uint64_t id) const {
+  const Host* host = host_of(id);
+  return host != nullptr && !host->view.name.empty() && !host->other_layout;
 }
 
 std::optional<std::int64_t> Hosts::offset_ns(std::uint64_t id) const {

@@ -31,8 +31,8 @@ namespace yars::gateway {
 struct Identity {
   std::string name;
   std::uint32_t priority = 0;
-  std::uint64_t start = 0;                                 // random number of this process
-  std::uint64_t segment = 0;                               // random number of the session's segment
+  std::uint64_t start = 0;    // random number of this process
+  std::uint64_t segment = 0;  // random number of the session's segment
   std::uint64_t configuration_hash = 0, terrain_hash = 0;  // 0: unknown
 };
 
@@ -58,6 +58,7 @@ class Hosts {
   const HostView& self() const { return views_.front(); }
   const Identity& identity() const { return identity_; }
   const HostView* find(std::uint64_t id) const;  // among views(); nullptr: none
+  bool has_announced(std::uint64_t id) const;    // another host with the same layout, also one that is silent now
 
   // Offset of a host's clock; nullopt: not measured yet. 0 for this host.
   std::optional<std::int64_t> offset_ns(std::uint64_t id) const;
@@ -119,7 +120,7 @@ class Hosts {
   databuffer::Session* session_;
   dds::Link* link_;
   Identity identity_;
-  std::deque<Host> hosts_;  // without this one; references stay valid
+  std::deque<Host> hosts_;  // without this one
   std::vector<HostView> views_;
   std::array<std::uint64_t, dds::kTopicCount> written_{};
   std::uint32_t epoch_ = 0;

@@ -22,8 +22,8 @@ void LockstepExchange::send(Context& context) {
     sample.role = static_cast<std::uint32_t>(role);
     sample.done_tick = done_[role];
     for (std::size_t i = 0; i < dds::kTopicCount; ++i)
-      if (context.link->writes(static_cast<dds::Topic>(i))) sample.written[i] = context.hosts.written()[i];
-    context.link->write(sample);
+      if (context.writes(static_cast<dds::Topic>(i))) sample.written[i] = context.hosts.written()[i];
+    context.write(sample);
   }
 }
 
@@ -36,14 +36,17 @@ void LockstepExchange::receive(Context& context, const yars_net_LockstepSample& 
   if (sample.role >= databuffer::kLockstepRoles || sample.done_tick < 0 ||
       sample.done_tick > databuffer::kLatestModelTick)
     return context.hosts.refuse(sample.host, dds::Topic::lockstep, "role or done_tick: out of range");
-  if (context.hosts.find(sample.host) != nullptr) waiting_[{sample.host, sample.role}] = sample;
+  // It may arrive before the host's first announcement, and is not sent again.
+  const std::pair key{sample.host, sample.role};
+  if (waiting_.contains(key) || waiting_.size() < databuffer::kMaxHosts * databuffer::kLockstepRoles)
+    waiting_[key] = sample;
 }
 
 bool LockstepExchange::has_arrived(const Context& context, const yars_net_LockstepSample& sample) const {
   for (std::size_t i = 0; i < dds::kTopicCount; ++i) {
     const auto topic = static_cast<dds::Topic>(i);
     // The first four do not carry records, and lockstep has no samples but its own before this one.
-    if (topic <= dds::Topic::clock_requests || topic == dds::Topic::lockstep || !context.link->reads(topic)) continue;
+    if (topic <= dds::Topic::clock_requests || topic == dds::Topic::lockstep || !context.reads(topic)) continue;
     if (context.hosts.next_from(topic, sample.host) < sample.written[i]) return false;
   }
   return true;
@@ -54,7 +57,7 @@ void LockstepExchange::apply(Context& context, bool in_order) {
   auto& lockstep = context.session.layout().lockstep;
   std::erase_if(waiting_, [&](const auto& item) {
     const yars_net_LockstepSample& sample = item.second;
-    if (!has_arrived(context, sample)) return false;
+    if (context.hosts.find(sample.host) == nullptr || !has_arrived(context, sample)) return false;
     const std::size_t role = sample.role;
     if (lockstep.done_tick[role].load(std::memory_order_acquire) >= sample.done_tick) return true;
     known_[role] = sample.done_tick;

@@ -106,9 +106,10 @@ void MapExchange::receive(Context& context, const yars_net_PatchRowSample& sampl
 }
 
 void MapExchange::publish(Context& context) {
-  if (!context.roles.source(Role::radar_model)) return;
+  const auto source = context.roles.source(Role::radar_model);
+  if (!source) return;
   auto& layout = context.session.layout();
-  while (const auto whole = assembly_.take_whole()) {
+  while (const auto whole = assembly_.take_whole(*source)) {
     databuffer::PatchMap known{};
     if (databuffer::read_patch(layout, whole->map.id, known)) {
       if (known.hash == whole->map.hash) continue;

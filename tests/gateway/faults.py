@@ -31,7 +31,9 @@ class Campaign:
         self.spread, self.random = spread, random.Random(seed)
         self.number = 0
         self.pressed = {}      # number -> host, time
-        self.applied = {}      # host -> {number: times}
+        self.applied = {}      # host, life of its segment -> {number: times}
+        self.lives = dict.fromkeys(spread.layout, 0)
+        self.done = set()      # numbers that their sender saw applied
         self.excused = set()   # numbers whose sender or receiver failed
         self.machine = None    # host of the state machine
         self.latencies_ms = []
@@ -50,13 +52,14 @@ class Campaign:
         for host in hosts:
             answer = self.spread.ask(host, "applied")
             for number, latency_ms in answer["applied"] if answer else ():
-                seen = self.applied.setdefault(host, {})
+                seen = self.applied.setdefault((host, self.lives[host]), {})
                 seen[number] = seen.get(number, 0) + 1
                 if self.pressed.get(number, (None,))[0] == host:
+                    self.done.add(number)
                     self.latencies_ms.append(latency_ms)
 
     def is_applied(self, number):
-        return number in self.applied.get(self.pressed[number][0], {})
+        return number in self.done
 
     def excuse(self, host):
         """Events of a host that fails, and all under way when the state machine's host fails."""
@@ -123,12 +126,14 @@ class Campaign:
             spread.lab.kill_host(host)
             self.excuse(host)
             times = [self.recover(others, begin)]
+            self.lives[host] += 1
             spread.start_host(host)
         elif kind == "other clock":
             spread.observers[host].end()
             spread.lab.restart(host, self.random.choice(OFFSETS_S))
             self.excuse(host)
             times = [self.recover(others, begin)]
+            self.lives[host] += 1
             spread.start_host(host)
         elif kind == "stop host":
             spread.lab.stop_host(host)
@@ -152,7 +157,8 @@ class Campaign:
             if not lost:
                 break
             time.sleep(0.1)
-        twice = [n for n, (host, _) in self.pressed.items() if self.applied.get(host, {}).get(n, 0) > 1]
+        twice = [[n, host] for (host, _), seen in self.applied.items() for n, times in seen.items()
+                 if times > 1 and self.pressed[n][0] == host]
         return {"pressed": len(self.pressed), "excused": len(self.excused), "lost": lost, "twice": twice}
 
 

@@ -16,15 +16,17 @@
 #include "databuffer/session/validated.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
+#include "tools/session/network_json.hpp"
 #include "tools/session/watch_json.hpp"
 
 namespace yars::tools {
 
 // All entries of the process table, and the needed roles that do not run. The roles come first, in the order of kSet.
-// [{name, pid (0: not running), heartbeat_ms (age of the last heartbeat; null: not running), hangs, restarts,
-// restarts_last_minute}].
+// [{name, pid (0: not running here), heartbeat_ms (age of the last heartbeat; null: not running), hangs, host (where it
+// runs; null: nowhere, or unknown), restarts, restarts_last_minute}]. pid of a role of another host: the gateway's.
 // A role of kSet hangs if its heartbeat is older than 2 s. Only restarts by the supervisor count.
-nlohmann::ordered_json roles_json(const databuffer::Session& session);
+// `network`: of network_json().
+nlohmann::ordered_json roles_json(const databuffer::Session& session, const nlohmann::ordered_json& network);
 
 // How far each role of kLockstepRoleNames lags behind the clock: {ROLE: {"skipped": ticks, "share": of the ticks that
 // were due, "seconds": in which ticks were skipped}}, over the last kLag_s. Roles that skipped none, and a frozen
@@ -32,7 +34,7 @@ nlohmann::ordered_json roles_json(const databuffer::Session& session);
 nlohmann::ordered_json lag_json(const databuffer::Session& session);
 
 // {"state": "OK", "DEGRADED" or "NOTHING RUNS", "reasons": [texts]}. `status` must have watch, model, roles, recorder,
-// lag, ownship_lanes, frames_failing, input, refusals, clock_problem and named.
+// lag, ownship_lanes, frames_failing, input, refusals, clock_problem, named and network.
 nlohmann::ordered_json health_json(const nlohmann::ordered_json& status);
 
 namespace {
@@ -52,12 +54,13 @@ struct SetRole {
   const char* name;
   bool needed;  // the radar does not work without this role
 };
-constexpr std::array<SetRole, 6> kSet{{{"state-machine", true},
+constexpr std::array<SetRole, 7> kSet{{{"state-machine", true},
                                        {"radar-model", true},
                                        {"flight-model", false},
                                        {"input-monitor", false},
                                        {"radar-display", false},
-                                       {"recorder", false}}};
+                                       {"recorder", false},
+                                       {"gateway", false}}};
 
 // Index in kSet; kSet.size() for another process.
 std::size_t set_index(std::string_view name) {
@@ -72,6 +75,18 @@ ordered_json role_json(const databuffer::ProcessInfo& process, std::int64_t now_
   return {{"name", process.name}, {"pid", process.pid}, {"heartbeat_ms", heartbeat_ms}, {"hangs", hangs}};
 }
 
+// True if the role runs, on this host or another one.
+bool runs(const ordered_json& role) {
+  return role["pid"] != 0 || !role["host"].is_null();
+}
+
+// True if a gateway has died that kept roles for other hosts, and nobody has taken them since.
+bool misses_gateway(const databuffer::Session& session) {
+  if (session.role_is_held(databuffer::Role::gateway)) return false;
+  return std::ranges::any_of(std::array{databuffer::Role::radar_model, databuffer::Role::state_machine},
+                             [&](auto role) { return session.is_mirrored(role) && !session.role_is_held(role); });
+}
+
 // Restarts have counters in the segment, because the flight recorder keeps only its last 1,000 lines.
 void add_restarts(ordered_json& role, const databuffer::Session& session, std::int64_t now_ns) {
   const auto index = databuffer::counted_role(role["name"].get<std::string>());
@@ -84,7 +99,7 @@ void add_restarts(ordered_json& role, const databuffer::Session& session, std::i
 void add_role_reasons(const ordered_json& roles, std::vector<std::string>& reasons) {
   for (const auto& role : roles) {
     const auto name = role["name"].get<std::string>();
-    if (role["pid"] == 0) reasons.push_back(name + " is not running");
+    if (!runs(role)) reasons.push_back(name + " is not running");
     if (role["hangs"].get<bool>())
       reasons.push_back((name == "radar-display" ? "the display" : name) + " hangs (heartbeat " +
                         std::to_string(static_cast<int>(role["heartbeat_ms"].get<double>() / 1000.0)) + " s old)");
@@ -120,7 +135,7 @@ void add_lag_reasons(const ordered_json& status, std::vector<std::string>& reaso
 }
 
 bool runs(const ordered_json& roles, std::string_view name) {
-  return std::ranges::any_of(roles, [name](const auto& role) { return role["name"] == name && role["pid"] != 0; });
+  return std::ranges::any_of(roles, [name](const auto& role) { return role["name"] == name && runs(role); });
 }
 
 void add_radar_reasons(const ordered_json& status, std::vector<std::string>& reasons) {
@@ -154,7 +169,7 @@ void add_input_reasons(const ordered_json& status, std::vector<std::string>& rea
 
 }  // namespace
 
-ordered_json roles_json(const databuffer::Session& session) {
+ordered_json roles_json(const databuffer::Session& session, const ordered_json& network) {
   const std::int64_t now_ns = databuffer::monotonic_ns();
   const auto processes = session.processes();
   ordered_json roles = ordered_json::array();
@@ -166,9 +181,12 @@ ordered_json roles_json(const databuffer::Session& session) {
       roles.push_back(role_json(process, now_ns));
       found = true;
     }
-    if (!found && index < kSet.size() && kSet[index].needed)
+    const bool is_needed =
+        index < kSet.size() && (kSet[index].needed || (set_index("gateway") == index && misses_gateway(session)));
+    if (!found && is_needed)
       roles.push_back({{"name", kSet[index].name}, {"pid", 0}, {"heartbeat_ms", nullptr}, {"hangs", false}});
   }
+  add_hosts(roles, network, session);
   for (auto& role : roles) add_restarts(role, session, now_ns);
   return roles;
 }
@@ -199,6 +217,7 @@ ordered_json health_json(const ordered_json& status) {
     return {{"state", "NOTHING RUNS"}, {"reasons", {"the session exists, but no program takes part"}}};
   std::vector<std::string> reasons;
   add_role_reasons(roles, reasons);
+  add_network_reasons(status["network"], reasons);
   add_lag_reasons(status, reasons);
   add_radar_reasons(status, reasons);
   if (const auto& recorder = status["recorder"]; !recorder.is_null() && !recorder["problem"].is_null())
@@ -339,7 +358,8 @@ ordered_json status_json(const databuffer::Session& session, const std::string& 
                      {"text", text::text_of(note.text)}});
   object["notes"] = notes;
   object["named"] = session.has_name();
-  object["roles"] = roles_json(session);
+  object["network"] = network_json(session);
+  object["roles"] = roles_json(session, object["network"]);
   object["input"] = input_json(session);
   object["refusals"] = refusals_json(session, lines);
   object["frames_failing"] = session.layout().counters.frames_failing.load() != 0;

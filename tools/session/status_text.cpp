@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -57,17 +59,71 @@ void print_verdict(const ordered_json& status) {
               watch["rate"].get<double>(), watch["epoch"].get<unsigned>());
 }
 
-void print_roles(const ordered_json& roles, const std::map<int, double>& loads) {
+// [ms] with the unit that suits.
+std::string interval_text(double interval_ms) {
+  std::array<char, 32> buffer;
+  if (std::abs(interval_ms) < 1.0)
+    std::snprintf(buffer.data(), buffer.size(), "%.0f us", 1000.0 * interval_ms);
+  else if (std::abs(interval_ms) < 1000.0)
+    std::snprintf(buffer.data(), buffer.size(), "%.1f ms", interval_ms);
+  else
+    std::snprintf(buffer.data(), buffer.size(), "%.3f s", interval_ms / 1000.0);
+  return buffer.data();
+}
+
+// Pid 0 and heartbeat stand for a role of another host that this host's gateway does not keep.
+void print_roles(const ordered_json& status, const std::map<int, double>& loads) {
+  const auto& roles = status["roles"];
+  const auto& network = status["network"];
+  const auto self = network.is_null() || network["hosts"].empty() ? ordered_json(nullptr) : network["hosts"][0]["name"];
   std::printf("  %-20s %8s %10s %8s %9s\n", "role", "pid", "heartbeat", "load", "restarts");
   for (const auto& role : roles) {
     const int pid = role["pid"];
-    const auto load = loads.find(pid);
+    const bool is_remote = !role["host"].is_null() && role["host"] != self;
+    const auto load = is_remote ? loads.end() : loads.find(pid);
     const std::string beat = pid == 0 ? "none" : age_text(role["heartbeat_ms"].get<double>() / 1000.0);
-    std::printf("  %-20s %8s %10s %8s %9d%s\n", text(role["name"]).c_str(),
+    std::printf("  %-20s %8s %10s %8s %9d%s%s\n", text(role["name"]).c_str(),
                 pid == 0 ? "-" : std::to_string(pid).c_str(), beat.c_str(),
                 load == loads.end() ? "-" : load_text(load->second).c_str(), role["restarts"].get<int>(),
-                role["hangs"].get<bool>() ? "  hangs" : "");
+                role["hangs"].get<bool>() ? "  hangs" : "", is_remote ? ("  on " + text(role["host"])).c_str() : "");
   }
+}
+
+std::string joined_text(const ordered_json& words) {
+  std::string joined;
+  for (const auto& word : words) joined += (joined.empty() ? "" : ", ") + text(word);
+  return joined;
+}
+
+void print_host(const ordered_json& host) {
+  const bool self = host["self"];
+  std::string more = joined_text(host["roles"]);
+  const auto add = [&more](const std::string& words) { more += (more.empty() ? "" : "; ") + words; };
+  if (host["owns_clock"].get<bool>()) add("sets the clock");
+  if (!host["differences"].empty()) add(joined_text(host["differences"]));
+  const std::string heard = host["present"].get<bool>() ? "yes" : "silent " + age_text(host["silent_s"].get<double>());
+  const auto& offset = host["offset_ms"];
+  const auto number = [&host](const char* field) { return std::to_string(host[field].get<std::uint64_t>()); };
+  std::printf("  %-31s %-14s %14s %10s %10s %8s %8s %9s  %s\n", (text(host["name"]) + (self ? " *" : "")).c_str(),
+              self ? "this host" : heard.c_str(),
+              self               ? "-"
+              : offset.is_null() ? "unknown"
+                                 : interval_text(offset.get<double>()).c_str(),
+              self || offset.is_null() ? "-" : interval_text(host["offset_error_ms"].get<double>()).c_str(),
+              self ? "-" : interval_text(host["latency_ms"].get<double>()).c_str(), number("lost").c_str(),
+              number("refused").c_str(), number("repeated").c_str(), more.c_str());
+}
+
+void print_network(const ordered_json& network) {
+  if (network.is_null()) return;
+  std::printf("hosts:\n  %-31s %-14s %14s %10s %10s %8s %8s %9s  %s\n", "name", "heard", "offset", "error", "latency",
+              "lost", "refused", "repeated", "roles");
+  for (const auto& host : network["hosts"]) print_host(host);
+  std::printf("gateway: DDS domain %u, %s, %s of a core, %s, %s\n", network["domain"].get<unsigned>(),
+              network["secured"].get<bool>() ? "encrypted" : "not encrypted",
+              load_text(network["load"].get<double>()).c_str(),
+              text::counted(network["takeovers"].get<std::uint64_t>(), "takeover").c_str(),
+              text::counted(network["conflicts"].get<std::uint64_t>(), "conflict").c_str());
 }
 
 void print_ownship(const ordered_json& status) {
@@ -86,7 +142,9 @@ void print_ownship(const ordered_json& status) {
 }
 
 bool takes_part(const ordered_json& roles, std::string_view name) {
-  return std::ranges::any_of(roles, [name](const auto& role) { return role["name"] == name && role["pid"] != 0; });
+  return std::ranges::any_of(roles, [name](const auto& role) {
+    return role["name"] == name && (role["pid"] != 0 || !role["host"].is_null());
+  });
 }
 
 // What the display says, each with its remedy. Power OFF shows NO STATE MACHINE alone.
@@ -166,7 +224,8 @@ void print_notes(const ordered_json& status) {
 
 void print_status(const ordered_json& status, const std::map<int, double>& loads) {
   print_verdict(status);
-  print_roles(status["roles"], loads);
+  print_roles(status, loads);
+  print_network(status["network"]);
   print_ownship(status);
   print_radar(status);
   print_frames(status["glass_frames"]);

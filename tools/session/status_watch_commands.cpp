@@ -113,7 +113,7 @@ void status(const CommonOptions& common, const StatusOptions& options) {
 }  // namespace
 
 void add_status_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command command = app.subcommand("status", "health of a session");
+  databuffer::Command command = app.subcommand("status", "health of a session and of the hosts that share it");
   auto options = std::make_shared<StatusOptions>();
   add_json_flag(command, options->json);
   command.flag("--layout", options->layout, "offsets of every record in the segment, as JSON; needs no session");

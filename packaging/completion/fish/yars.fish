@@ -54,7 +54,7 @@ complete -c yars -n "__yars_at ''" -a config -d 'check, print and convert config
 complete -c yars -n "__yars_at ''" -a sim -d 'the session\'s clock and the aircraft\'s position'
 complete -c yars -n "__yars_at ''" -a inject -d 'send events, e.g. yars inject \'power opr\' \'pb 13\' \'elevation -5\''
 complete -c yars -n "__yars_at ''" -a note -d 'write a note into the session\'s flight recorder'
-complete -c yars -n "__yars_at ''" -a status -d 'health of a session'
+complete -c yars -n "__yars_at ''" -a status -d 'health of a session and of the hosts that share it'
 complete -c yars -n "__yars_at ''" -a watch -d 'print the session\'s state: one line per change, at least one per second'
 complete -c yars -n "__yars_at ''" -a record -d 'record the session\'s ticks and events until Ctrl-C'
 complete -c yars -n "__yars_at ''" -a replay -d 'play a recording into its own session (--session, else \'replay\'), for a radar-display in that session'
