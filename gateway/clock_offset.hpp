@@ -86,7 +86,7 @@ class SlewedOffset {
   std::int64_t offset_ns() const { return offset_ns_; }
 
  private:
-  static constexpr std::int64_t kMaxSlew = 1000;    // 1 ms per second. The drift of two computers is below 0.2 ms/s
+  static constexpr std::int64_t kMaxSlew = 1000;     // 1 ms per second. The drift of two computers is below 0.2 ms/s
   static constexpr std::int64_t kBegin_ns = 50'000;  // smaller errors are noise of the measurement
   static constexpr std::int64_t kEnd_ns = 5'000;
   std::int64_t offset_ns_ = 0;

@@ -1,7 +1,8 @@
 // Patch maps that arrive row by row.
 // Inputs: the record of a map and its rows, in any order, each any number of times.
 // Outputs: the map and its pixels once all rows are there and the hash is right.
-// Errors: rows that do not fit the map are left out. A whole map with a wrong hash waits: rows of an earlier map with its
+// Errors: rows that do not fit the map are left out. A whole map with a wrong hash waits: rows of an earlier map with
+// its
 //   number may be among its own, and are replaced when these arrive.
 // Threads: one.
 #pragma once
@@ -48,8 +49,9 @@ class PatchAssembly {
       if (pending->host != host || !pending->changed) continue;
       if (!pending->map || pending->rows.size() < pending->map->size) continue;
       const std::size_t size = pending->map->size;
-      const bool is_whole = std::all_of(pending->rows.begin(), pending->rows.begin() + static_cast<std::ptrdiff_t>(size),
-                                        [size](const auto& row) { return row.size() == size; });
+      const bool is_whole =
+          std::all_of(pending->rows.begin(), pending->rows.begin() + static_cast<std::ptrdiff_t>(size),
+                      [size](const auto& row) { return row.size() == size; });
       if (!is_whole) continue;
       pending->changed = false;
       Whole whole{*pending->map, {}};

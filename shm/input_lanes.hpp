@@ -25,8 +25,8 @@ class InputLanes {
   // False: the lane is empty, or its damaged cursors were reset. `out` is then unchanged.
   bool peek(std::size_t lane, T& out);
   bool pop(std::size_t lane, T& out);
-  // Called by the consumer. Copies the record with this number, counted from 0 since the segment was created, and leaves
-  // it in the lane. False: the lane does not hold the record. `out` is then unchanged.
+  // Called by the consumer. Copies the record with this number, counted from 0 since the segment was created, and
+  // leaves it in the lane. False: the lane does not hold the record. `out` is then unchanged.
   bool peek_at(std::size_t lane, std::uint64_t number, T& out) const;
 
   // pushed(), popped() and dropped() count the records since the segment was created.

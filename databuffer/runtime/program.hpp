@@ -29,8 +29,8 @@ struct ProgramOptions {
 // A command; a program that runs for the time of a session; such a program that also runs the tick loop.
 enum class ProgramKind : std::uint8_t { command, service, role };
 
-// Adds --session, --config, --log-level and --version; for services and roles also --log-dir, --realtime and --cpus; for
-// roles --lockstep.
+// Adds --session, --config, --log-level and --version; for services and roles also --log-dir, --realtime and --cpus;
+// for roles --lockstep.
 void add_common_options(CommandLine& app, ProgramOptions& options, ProgramKind kind);
 
 // Main function of a program. Parses the command line, sets a private umask, starts the log, installs signal handlers

@@ -14,8 +14,8 @@ namespace {
 // [ms] A standby takes over within this time after the role is free. Each look is one system call.
 constexpr std::chrono::milliseconds kStandbyInterval(10);
 
-// [ns] Time for which a standby leaves the role to a gateway that has died. A supervisor starts the gateway again within
-// 1 s; input events that wait for another host then still reach that host.
+// [ns] Time for which a standby leaves the role to a gateway that has died. A supervisor starts the gateway again
+// within 1 s; input events that wait for another host then still reach that host.
 constexpr std::int64_t kGatewayReturn_ns = 1'200'000'000;
 
 // True while the role is not free for a standby.

@@ -160,10 +160,9 @@ struct FrameSlot {
 
 // [bytes] Part of the reserve that containers occupy: Counters with padding to a cache line, Caption, PilotAdvice,
 // SkippedTicks, NetworkStatus, Network with padding to a cache line. The assertions below SessionLayout hold the value.
-inline constexpr std::size_t kUsedSpareBytes = 680 + sizeof(shm::LatestValue<Caption>) +
-                                               sizeof(shm::LatestValue<PilotAdvice>) +
-                                               kLockstepRoles * sizeof(SkippedTicks) +
-                                               sizeof(shm::LatestValue<NetworkStatus>) + sizeof(Network);
+inline constexpr std::size_t kUsedSpareBytes =
+    680 + sizeof(shm::LatestValue<Caption>) + sizeof(shm::LatestValue<PilotAdvice>) +
+    kLockstepRoles * sizeof(SkippedTicks) + sizeof(shm::LatestValue<NetworkStatus>) + sizeof(Network);
 
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is the layout, and cache lines need the padding
 struct SessionLayout {

@@ -37,10 +37,11 @@ std::uint64_t configuration_hash(radar::RadarConfiguration configuration) {
 std::uint64_t terrain_hash(const std::string& folder) {
   std::vector<std::string> lines;
   std::error_code code;
-  for (std::filesystem::recursive_directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code))
+  for (std::filesystem::recursive_directory_iterator entry(folder, code), end; !code && entry != end;
+       entry.increment(code))
     if (entry->is_regular_file(code))
-      lines.push_back(entry->path().lexically_relative(folder).string() + ' ' +
-                      std::to_string(entry->file_size(code)) + '\n');
+      lines.push_back(entry->path().lexically_relative(folder).string() + ' ' + std::to_string(entry->file_size(code)) +
+                      '\n');
   std::ranges::sort(lines);
   std::string text;
   for (const std::string& line : lines) text += line;
@@ -96,7 +97,8 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Gatew
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::CommandLine app("YARS gateway: joins the session of this computer to those of other computers", "gateway");
+  databuffer::CommandLine app("YARS gateway: joins the session of this computer to those of other computers",
+                              "gateway");
   databuffer::ProgramOptions options;
   databuffer::add_common_options(app, options, databuffer::ProgramKind::service);
   GatewayOptions gateway_options;

@@ -11,8 +11,8 @@ namespace yars::gateway {
 
 namespace {
 
-constexpr std::int64_t kPass_ns = 5'000'000;          // a tick at rate 1
-constexpr std::int64_t kLockstepPass_ns = 250'000;    // the roles of a lockstep run wait for each pass
+constexpr std::int64_t kPass_ns = 5'000'000;        // a tick at rate 1
+constexpr std::int64_t kLockstepPass_ns = 250'000;  // the roles of a lockstep run wait for each pass
 constexpr std::int64_t kReportInterval_ns = 500'000'000;
 
 // Processor time of this process, with the threads of Cyclone DDS.

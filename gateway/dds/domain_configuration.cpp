@@ -23,12 +23,11 @@ std::string security(const std::filesystem::path& folder) {
   const auto file = [&folder](const std::string& element, const char* name) {
     return "<" + element + ">file:" + (folder / name).string() + "</" + element + ">";
   };
-  return "<Security>" + plugin("Authentication", "auth", "authentication") +
-         file("IdentityCA", "identity_ca.pem") + file("IdentityCertificate", "certificate.pem") +
-         file("PrivateKey", "key.pem") + "</Authentication>" + plugin("AccessControl", "ac", "access_control") +
-         file("PermissionsCA", "permissions_ca.pem") + file("Governance", "governance.p7s") +
-         file("Permissions", "permissions.p7s") + "</AccessControl>" + plugin("Cryptographic", "crypto", "crypto") +
-         "</Cryptographic></Security>";
+  return "<Security>" + plugin("Authentication", "auth", "authentication") + file("IdentityCA", "identity_ca.pem") +
+         file("IdentityCertificate", "certificate.pem") + file("PrivateKey", "key.pem") + "</Authentication>" +
+         plugin("AccessControl", "ac", "access_control") + file("PermissionsCA", "permissions_ca.pem") +
+         file("Governance", "governance.p7s") + file("Permissions", "permissions.p7s") + "</AccessControl>" +
+         plugin("Cryptographic", "crypto", "crypto") + "</Cryptographic></Security>";
 }
 
 }  // namespace
@@ -40,9 +39,10 @@ std::string domain_configuration(const radar::NetworkSettings& settings) {
     text += "<NetworkInterface name=\"" + name + "\" multicast=\"false\"/>";
   text += "</Interfaces><AllowMulticast>false</AllowMulticast><MaxMessageSize>" +
           std::to_string(settings.max_message_bytes) + "B</MaxMessageSize><FragmentSize>" +
-          std::to_string(settings.max_message_bytes - kFragmentHeaders_bytes) + "B</FragmentSize></General><Discovery>" +
-          "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" +
-          std::to_string(settings.participants) + "</MaxAutoParticipantIndex><Peers>";
+          std::to_string(settings.max_message_bytes - kFragmentHeaders_bytes) +
+          "B</FragmentSize></General><Discovery>" +
+          "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>" + std::to_string(settings.participants) +
+          "</MaxAutoParticipantIndex><Peers>";
   for (const std::string& peer : settings.peers) text += "<Peer Address=\"" + peer + "\"/>";
   text += "</Peers><LeaseDuration>1000ms</LeaseDuration><SPDPInterval>200ms</SPDPInterval></Discovery>";
   text += kInternal;

@@ -18,8 +18,8 @@ namespace yars::gateway::dds {
 
 namespace {
 
-constexpr std::uint32_t kMaxLanes = 16;        // ownship lanes with writers of their own
-constexpr std::size_t kMaxMessages = 100;      // kept for take_messages()
+constexpr std::uint32_t kMaxLanes = 16;         // ownship lanes with writers of their own
+constexpr std::size_t kMaxMessages = 100;       // kept for take_messages()
 constexpr std::size_t kMaxSample_bytes = 8192;  // the greatest structure of a topic
 
 // Messages of Cyclone DDS, which arrive on its own threads. One object for the process, as Cyclone has one sink.
@@ -148,8 +148,7 @@ error::Expected<Link> Link::open(const radar::NetworkSettings& settings, const s
   dds_set_log_sink(&Messages::receive, &Messages::instance());
   const auto id = static_cast<dds_domainid_t>(settings.domain);
   state->domain = dds_create_domain(id, domain_configuration(settings).c_str());
-  if (state->domain < 0)
-    return fail_link("a configuration that Cyclone DDS accepts", dds_strretcode(-state->domain));
+  if (state->domain < 0) return fail_link("a configuration that Cyclone DDS accepts", dds_strretcode(-state->domain));
   state->participant = dds_create_participant(id, nullptr, nullptr);
   if (state->participant < 0)
     return fail_link("a DDS participant on interface " + settings.interfaces.front(),

@@ -44,27 +44,69 @@ constexpr std::size_t index_of(Topic topic) {
   return static_cast<std::size_t>(topic);
 }
 
-constexpr Topic topic_of(const yars_net_HostSample*) { return Topic::hosts; }
-constexpr Topic topic_of(const yars_net_ProbeSample*) { return Topic::probes; }
-constexpr Topic topic_of(const yars_net_ClockSample*) { return Topic::clock; }
-constexpr Topic topic_of(const yars_net_ClockRequestSample*) { return Topic::clock_requests; }
-constexpr Topic topic_of(const yars_net_OwnshipSample*) { return Topic::ownship; }
-constexpr Topic topic_of(const yars_net_InputEventSample*) { return Topic::input_events; }
-constexpr Topic topic_of(const yars_net_EventReceiptSample*) { return Topic::event_receipts; }
-constexpr Topic topic_of(const yars_net_AppliedEventSample*) { return Topic::applied_events; }
-constexpr Topic topic_of(const yars_net_RadarStateSample*) { return Topic::radar_state; }
-constexpr Topic topic_of(const yars_net_OutputsSample*) { return Topic::outputs; }
-constexpr Topic topic_of(const yars_net_AdviceSample*) { return Topic::advice; }
-constexpr Topic topic_of(const yars_net_ModelStatusSample*) { return Topic::model_status; }
-constexpr Topic topic_of(const yars_net_ModelTickSample*) { return Topic::model_ticks; }
-constexpr Topic topic_of(const yars_net_SweepSample*) { return Topic::sweeps; }
-constexpr Topic topic_of(const yars_net_TrafficSample*) { return Topic::traffic; }
-constexpr Topic topic_of(const yars_net_LatchedTrafficSample*) { return Topic::traffic_latched; }
-constexpr Topic topic_of(const yars_net_PatchMapSample*) { return Topic::patch_maps; }
-constexpr Topic topic_of(const yars_net_PatchRowSample*) { return Topic::patch_rows; }
-constexpr Topic topic_of(const yars_net_CaptionSample*) { return Topic::captions; }
-constexpr Topic topic_of(const yars_net_RecorderStatusSample*) { return Topic::recorder_status; }
-constexpr Topic topic_of(const yars_net_LockstepSample*) { return Topic::lockstep; }
+constexpr Topic topic_of(const yars_net_HostSample*) {
+  return Topic::hosts;
+}
+constexpr Topic topic_of(const yars_net_ProbeSample*) {
+  return Topic::probes;
+}
+constexpr Topic topic_of(const yars_net_ClockSample*) {
+  return Topic::clock;
+}
+constexpr Topic topic_of(const yars_net_ClockRequestSample*) {
+  return Topic::clock_requests;
+}
+constexpr Topic topic_of(const yars_net_OwnshipSample*) {
+  return Topic::ownship;
+}
+constexpr Topic topic_of(const yars_net_InputEventSample*) {
+  return Topic::input_events;
+}
+constexpr Topic topic_of(const yars_net_EventReceiptSample*) {
+  return Topic::event_receipts;
+}
+constexpr Topic topic_of(const yars_net_AppliedEventSample*) {
+  return Topic::applied_events;
+}
+constexpr Topic topic_of(const yars_net_RadarStateSample*) {
+  return Topic::radar_state;
+}
+constexpr Topic topic_of(const yars_net_OutputsSample*) {
+  return Topic::outputs;
+}
+constexpr Topic topic_of(const yars_net_AdviceSample*) {
+  return Topic::advice;
+}
+constexpr Topic topic_of(const yars_net_ModelStatusSample*) {
+  return Topic::model_status;
+}
+constexpr Topic topic_of(const yars_net_ModelTickSample*) {
+  return Topic::model_ticks;
+}
+constexpr Topic topic_of(const yars_net_SweepSample*) {
+  return Topic::sweeps;
+}
+constexpr Topic topic_of(const yars_net_TrafficSample*) {
+  return Topic::traffic;
+}
+constexpr Topic topic_of(const yars_net_LatchedTrafficSample*) {
+  return Topic::traffic_latched;
+}
+constexpr Topic topic_of(const yars_net_PatchMapSample*) {
+  return Topic::patch_maps;
+}
+constexpr Topic topic_of(const yars_net_PatchRowSample*) {
+  return Topic::patch_rows;
+}
+constexpr Topic topic_of(const yars_net_CaptionSample*) {
+  return Topic::captions;
+}
+constexpr Topic topic_of(const yars_net_RecorderStatusSample*) {
+  return Topic::recorder_status;
+}
+constexpr Topic topic_of(const yars_net_LockstepSample*) {
+  return Topic::lockstep;
+}
 
 template <class Sample>
 inline constexpr Topic kTopicOf = topic_of(static_cast<const Sample*>(nullptr));

@@ -47,9 +47,7 @@ void ClockExchange::exchange(Context& context) {
 }
 
 void ClockExchange::choose_owner(Context& context) {
-  const auto owns = [&](const HostView& host) {
-    return host.id == context.hosts.self().id ? owns_ : host.owns_clock;
-  };
+  const auto owns = [&](const HostView& host) { return host.id == context.hosts.self().id ? owns_ : host.owns_clock; };
   const HostView* owner = preceding(context.hosts.views(), owns);
   resolve_conflicts(context);
   const bool listened = context.now_ns - first_pass_ns_ >= kListening_ns;
@@ -159,10 +157,10 @@ void ClockExchange::follow(Context& context) {
     request(context, followed_->written, true);
 }
 
-// Offset with which the owner's clock continues the local one. After a change of the owner both show nearly the same time,
-// and the rest is slewed. Otherwise the measured offset.
-std::int64_t ClockExchange::continuous_offset(const ClockState& mine, const ClockState& theirs, std::int64_t measured_ns,
-                                              std::int64_t now_ns) {
+// Offset with which the owner's clock continues the local one. After a change of the owner both show nearly the same
+// time, and the rest is slewed. Otherwise the measured offset.
+std::int64_t ClockExchange::continuous_offset(const ClockState& mine, const ClockState& theirs,
+                                              std::int64_t measured_ns, std::int64_t now_ns) {
   if (mine.epoch != theirs.epoch || mine.running != theirs.running || mine.rate != theirs.rate || !(mine.rate > 0.0))
     return measured_ns;
   const std::int64_t ahead_ns =

@@ -23,7 +23,8 @@ constexpr std::uint64_t kRecentEvents = 256;              // applied events that
 std::int64_t local_time_ns(const Context& context, std::uint64_t host, std::int64_t time_ns) {
   const auto offset_ns = context.hosts.offset_ns(host);
   if (!offset_ns) return context.now_ns;
-  const auto local = static_cast<std::int64_t>(static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(*offset_ns));
+  const auto local =
+      static_cast<std::int64_t>(static_cast<std::uint64_t>(time_ns) - static_cast<std::uint64_t>(*offset_ns));
   return std::clamp<std::int64_t>(local, 0, databuffer::monotonic_ns());
 }
 
@@ -112,8 +113,8 @@ void EventExchange::receive(Context& context, const yars_net_InputEventSample& s
   if (receiving == nullptr) return;
   receiving->heard_ns = context.now_ns;
   receiving->receipt_due = true;
-  // A stored history of DDS may begin in the middle: then an earlier event comes later. The sender says how many have no
-  // receipt. Those before them have reached a state machine on another host.
+  // A stored history of DDS may begin in the middle: then an earlier event comes later. The sender says how many have
+  // no receipt. Those before them have reached a state machine on another host.
   const std::uint64_t first = sample.event_number - std::min<std::uint64_t>(sample.preceding, sample.event_number);
   if (sample.event_number != std::max(first, receiving->next_event)) return;
   if (receiving->claim || take_lane(context, *receiving, sample)) push(context, *receiving, sample);
@@ -144,7 +145,8 @@ EventExchange::Receiving* EventExchange::receiving_from(Context& context, const 
 bool EventExchange::take_lane(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample) {
   char source[sizeof sample.source + 1] = {};
   std::memcpy(source, sample.source, sizeof sample.source);
-  std::replace_if(source, source + std::strlen(source), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  std::replace_if(
+      source, source + std::strlen(source), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
   const HostView* host = context.hosts.find(sample.host);
   const std::string name = (host == nullptr ? "?" : host->name) + "/" + source;
   auto claim = context.session.claim_input_lane(name);
@@ -217,7 +219,8 @@ void EventExchange::send_applied(Context& context) {
     applied_cursor_ = ring.next();
     return;
   }
-  // The gateway has just started: its predecessor may have missed the last events. Other hosts leave out what they have.
+  // The gateway has just started: its predecessor may have missed the last events. Other hosts leave out what they
+  // have.
   if (!applied_cursor_) applied_cursor_ = std::max(ring.oldest(), ring.next() - std::min(ring.next(), kRecentEvents));
   yars_net_AppliedEventSample sample{};
   databuffer::AppliedEvent applied{};

@@ -1,10 +1,12 @@
 // Input events on their way to the host of the state machine, each delivered once; and the events that it applied.
 // Inputs: the local input lanes while the state machine runs on another host; events, receipts and applied events of
 //   other hosts.
-// Outputs: each waiting event as a sample until its receipt arrives; events of other hosts in local input lanes, one lane
+// Outputs: each waiting event as a sample until its receipt arrives; events of other hosts in local input lanes, one
+// lane
 //   for each remote lane; the ring of applied events on every host.
 // Units: times [ns]; CLOCK_MONOTONIC times of other hosts are translated by the measured offset.
-// Errors: an invalid event is refused, counted and noted, and its receipt is given all the same. With no free input lane
+// Errors: an invalid event is refused, counted and noted, and its receipt is given all the same. With no free input
+// lane
 //   the events wait on their host.
 // Threads: one.
 // Source: docs/network.md#each-event-once.
@@ -39,9 +41,9 @@ class EventExchange {
 
  private:
   struct Sending {
-    std::uint64_t next = 0;            // number of the next event to send
-    std::uint64_t popped = 0;          // when it last changed
-    std::int64_t progress_ns = 0;      // then
+    std::uint64_t next = 0;                                // number of the next event to send
+    std::uint64_t popped = 0;                              // when it last changed
+    std::int64_t progress_ns = 0;                          // then
     std::uint64_t machine_segment = 0, machine_start = 0;  // to which the events were sent
   };
   struct Receiving {

@@ -16,9 +16,9 @@ namespace {
 
 // [ns] A record waits so long for its predecessor, which is several repairs of a lost packet.
 constexpr std::int64_t kPatience_ns = 200'000'000;
-constexpr std::size_t kMaxWaiting = 1024;        // the depth of the rings
-constexpr std::size_t kTrafficNumbers = 64;      // the depth of the ring of traffic
-constexpr std::uint64_t kRecentTicks = 200;      // 1 s: what a restarted gateway sends again
+constexpr std::size_t kMaxWaiting = 1024;    // the depth of the rings
+constexpr std::size_t kTrafficNumbers = 64;  // the depth of the ring of traffic
+constexpr std::uint64_t kRecentTicks = 200;  // 1 s: what a restarted gateway sends again
 constexpr std::size_t kSweepHeader_bytes = offsetof(databuffer::Sweep, video);
 
 // Cursor of a gateway that begins to send a ring.
@@ -121,10 +121,9 @@ void HistoryExchange::receive(Context& context, const yars_net_ModelTickSample& 
   databuffer::ModelTick tick{};
   copy_record(tick, sample.tick);
   if (const auto reason = validate(tick)) return context.hosts.refuse(sample.host, dds::Topic::model_ticks, *reason);
-  tick.ownship_lane = lanes_->local_ownship_lane({sample.ownship_host, tick.ownship_lane}, context.hosts.self().id,
-                                                 kNoLane);
-  if (ticks_.size() < kMaxWaiting)
-    ticks_.push_back({tick, context.now_ns, sample.host, sample.start, sample.number});
+  tick.ownship_lane =
+      lanes_->local_ownship_lane({sample.ownship_host, tick.ownship_lane}, context.hosts.self().id, kNoLane);
+  if (ticks_.size() < kMaxWaiting) ticks_.push_back({tick, context.now_ns, sample.host, sample.start, sample.number});
 }
 
 void HistoryExchange::receive(Context& context, const yars_net_SweepSample& sample) {

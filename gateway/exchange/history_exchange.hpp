@@ -1,7 +1,8 @@
 // Histories of the radar model on every host: latched traffic, ticks and sweeps, in the order in which a replay needs
 // them.
 // Inputs: rings of the local segment while the radar model runs here; samples of the host where it runs.
-// Outputs: a sample for each record; the records in the local rings: traffic before the tick that names it, a tick before
+// Outputs: a sample for each record; the records in the local rings: traffic before the tick that names it, a tick
+// before
 //   its sweep.
 // Errors: an invalid record, or a sweep whose hash is wrong, is refused, counted and noted. Records of an earlier epoch
 //   are left out. Lost samples are counted by their numbers.

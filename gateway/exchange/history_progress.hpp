@@ -41,8 +41,8 @@ bool is_new_in_history(Context& context, const Sample& sample, std::uint64_t loc
     const auto entry = std::ranges::find_if(entries, [source](const auto& one) { return one.source.load() == source; });
     if (entry != entries.end())
       context.hosts.resume(kTopic, sample.host, sample.start, next_of(entry->progress.load(), local, sample.number));
-    else if (!context.lockstep && context.session.sim_time_ns() / radar::kTickNanoseconds - tick >
-                                      kMaxFirstAge_ns / radar::kTickNanoseconds)
+    else if (!context.lockstep &&
+             context.session.sim_time_ns() / radar::kTickNanoseconds - tick > kMaxFirstAge_ns / radar::kTickNanoseconds)
       return false;
   }
   return context.hosts.is_new(sample);

@@ -123,12 +123,13 @@ void Hosts::report_differences(Host& host) {
   const std::string other = "host " + host.view.name;
   char hash[20];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(said.layout_hash));
-  host.other_layout =
-      said.layout_hash != databuffer::kLayoutIdentity.hash || said.protocol != yars_net_kProtocol;
+  host.other_layout = said.layout_hash != databuffer::kLayoutIdentity.hash || said.protocol != yars_net_kProtocol;
   report(host, databuffer::kHostOtherLayout, host.other_layout,
          other + " has another layout of the records (" + text_of(said.version) + ", layout " + hash +
              "): nothing is exchanged with it; install the same version on both");
-  const auto differ = [](std::uint64_t mine, std::uint64_t theirs) { return mine != 0 && theirs != 0 && mine != theirs; };
+  const auto differ = [](std::uint64_t mine, std::uint64_t theirs) {
+    return mine != 0 && theirs != 0 && mine != theirs;
+  };
   report(host, databuffer::kHostOtherConfiguration, differ(identity_.configuration_hash, said.configuration_hash),
          other + " has another configuration; start both with the same --config");
   report(host, databuffer::kHostOtherTerrain, differ(identity_.terrain_hash, said.terrain_hash),
@@ -220,8 +221,8 @@ Hosts::Host* Hosts::host_of(std::uint64_t id, bool add) {
     return &hosts_.back();
   }
   // A host that has left makes room, one that never announced itself first.
-  const auto oldest = std::ranges::min_element(
-      hosts_, {}, [](const Host& known) { return std::pair(known.alive, known.heard_ns); });
+  const auto oldest =
+      std::ranges::min_element(hosts_, {}, [](const Host& known) { return std::pair(known.alive, known.heard_ns); });
   if (oldest->alive) {
     log::warning("expected at most " + std::to_string(databuffer::kMaxHosts) + " hosts, found another");
     return nullptr;
@@ -242,8 +243,8 @@ void Hosts::update_views() {
     if (host.alive && !host.other_layout) views_.push_back(host.view);
 }
 
-// Number of hosts that were heard kGroupDelay_ns ago, so that two hosts that meet again say how many each had with it. A
-// process that was stopped for longer than the lease was alone.
+// Number of hosts that were heard kGroupDelay_ns ago, so that two hosts that meet again say how many each had with it.
+// A process that was stopped for longer than the lease was alone.
 void Hosts::update_group(std::int64_t now_ns) {
   constexpr std::int64_t kLease_ns = std::chrono::nanoseconds(dds::kLease).count();
   if (now_ns - std::exchange(last_pass_ns_, now_ns) > kLease_ns) group_sizes_ = {{now_ns - kGroupDelay_ns, 1}};

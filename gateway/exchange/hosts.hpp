@@ -31,8 +31,8 @@ namespace yars::gateway {
 struct Identity {
   std::string name;
   std::uint32_t priority = 0;
-  std::uint64_t start = 0;    // random number of this process
-  std::uint64_t segment = 0;  // random number of the session's segment
+  std::uint64_t start = 0;                                 // random number of this process
+  std::uint64_t segment = 0;                               // random number of the session's segment
   std::uint64_t configuration_hash = 0, terrain_hash = 0;  // 0: unknown
 };
 

@@ -1,5 +1,6 @@
 // Patch maps on every host: sent row by row at a limited rate, published when whole.
-// Inputs: the pool of patch maps of the local segment while the radar model runs here; maps and rows of the host where it
+// Inputs: the pool of patch maps of the local segment while the radar model runs here; maps and rows of the host where
+// it
 //   runs.
 // Outputs: a sample for each map and each row; whole maps in the local pool.
 // Errors: an invalid map is refused, counted and noted. A map without a free slot is noted.

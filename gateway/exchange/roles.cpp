@@ -29,8 +29,7 @@ void Roles::update(const Hosts& hosts, std::int64_t now_ns) {
 void Roles::update(State& state, const Hosts& hosts, std::int64_t now_ns) {
   // This host's announced claims may be one pass old; what counts here is the present.
   const auto holds = [&](const HostView& host) {
-    return host.id == hosts.self().id ? state.local
-                                      : (host.held_roles >> static_cast<unsigned>(state.role) & 1U) != 0;
+    return host.id == hosts.self().id ? state.local : (host.held_roles >> static_cast<unsigned>(state.role) & 1U) != 0;
   };
   const HostView* holder = preceding(hosts.views(), holds);
   const bool is_self = holder != nullptr && holder->id == hosts.self().id;
@@ -111,7 +110,8 @@ std::optional<std::uint64_t> Roles::source(Role role) const {
 bool Roles::exports(Role role) const {
   const State& state = state_of(role);
   if (!state.local) return false;
-  return !state.exclusive || (session_->layout().network.yielding_roles.load() >> static_cast<unsigned>(role) & 1U) == 0;
+  return !state.exclusive ||
+         (session_->layout().network.yielding_roles.load() >> static_cast<unsigned>(role) & 1U) == 0;
 }
 
 std::optional<std::uint64_t> Roles::holder(Role role) const {

@@ -18,8 +18,8 @@
 
 namespace yars::gateway {
 
-// [ns] Time for which a gateway that starts only listens, before it takes what no host has. Hosts hear each other within
-// 0.3 s, also on a line with 20 ms delay that loses 1 %.
+// [ns] Time for which a gateway that starts only listens, before it takes what no host has. Hosts hear each other
+// within 0.3 s, also on a line with 20 ms delay that loses 1 %.
 inline constexpr std::int64_t kListening_ns = 1'000'000'000;
 
 class Roles {

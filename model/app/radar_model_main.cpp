@@ -50,8 +50,8 @@ error::Expected<Stores> open_stores(const radar::RadarConfiguration& configurati
   if (!terrain) return tl::unexpected(terrain.error());
   auto patches = open_patch_stores(configuration);
   if (!patches) return tl::unexpected(patches.error());
-  auto scenes = model::scene::open_scenes(configuration.world.scenes, configuration.terrain,
-                                          model::scene::SceneUse::scatterers);
+  auto scenes =
+      model::scene::open_scenes(configuration.world.scenes, configuration.terrain, model::scene::SceneUse::scatterers);
   if (!scenes) return tl::unexpected(scenes.error());
   return Stores{std::move(*terrain), std::move(*patches), std::move(*scenes)};
 }
@@ -84,8 +84,8 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Model
   while (true) {
     auto stores = open_stores(*configuration);
     if (!stores) return tl::unexpected(stores.error());
-    auto held = databuffer::take_role(options.session, databuffer::Role::radar_model, "radar-model",
-                                      model_options.standby);
+    auto held =
+        databuffer::take_role(options.session, databuffer::Role::radar_model, "radar-model", model_options.standby);
     if (!held) return tl::unexpected(held.error());
     if (!*held) return {};
     const auto yielded = run_as_holder((*held)->session, options, *configuration, std::move(*stores));

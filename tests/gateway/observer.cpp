@@ -78,12 +78,15 @@ class Observer {
     json hosts = json::object();
     for (std::uint32_t i = 0; i < network.host_count; ++i) {
       const auto& host = network.hosts[i];
-      hosts[host.name] = {{"flags", host.flags},   {"roles", host.held_roles}, {"offset_ns", host.offset_ns},
-                          {"lost", host.lost},     {"refused", host.refused},  {"error_ns", host.offset_error_ns},
+      hosts[host.name] = {{"flags", host.flags},      {"roles", host.held_roles}, {"offset_ns", host.offset_ns},
+                          {"lost", host.lost},        {"refused", host.refused},  {"error_ns", host.offset_error_ns},
                           {"repeated", host.repeated}};
     }
-    return {{"joined", network.joined}, {"load", network.load},           {"hosts", hosts},
-            {"takeovers", network.takeovers}, {"conflicts", network.conflicts}};
+    return {{"joined", network.joined},
+            {"load", network.load},
+            {"hosts", hosts},
+            {"takeovers", network.takeovers},
+            {"conflicts", network.conflicts}};
   }
 
   // The TDC's deflection says nothing; the number is what the driver looks for.
@@ -126,7 +129,7 @@ class Observer {
 
 json verdict_of(const endtoend::fault_injection::Watch& watch) {
   const auto verdict = watch.verdict();
-  return {{"records", verdict.records}, {"torn", verdict.torn},          {"out_of_range", verdict.out_of_range},
+  return {{"records", verdict.records},     {"torn", verdict.torn},   {"out_of_range", verdict.out_of_range},
           {"time_back", verdict.time_back}, {"first", verdict.first}, {"sweeps", watch.sweeps()}};
 }
 

@@ -57,7 +57,8 @@ TEST(PatchAssembly, RowsInAnyOrderAndAnyNumberOfTimesMakeTheMapOnce) {
       if (step < 0)
         assembly.begin(kHost, made.map);
       else
-        assembly.add_row(kHost, made.map.id, static_cast<std::uint32_t>(step), made.row(static_cast<std::uint32_t>(step)));
+        assembly.add_row(kHost, made.map.id, static_cast<std::uint32_t>(step),
+                         made.row(static_cast<std::uint32_t>(step)));
       has_map = has_map || step < 0;
       if (step >= 0) has_arrived[static_cast<std::size_t>(step)] = true;
       const auto whole = assembly.take_whole(kHost);
