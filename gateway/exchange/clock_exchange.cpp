@@ -25,6 +25,11 @@ bool equal(const ClockState& first, const ClockState& second) {
   return std::memcmp(&first, &second, sizeof first) == 0;
 }
 
+// The later of two epochs, which count on from 0 after the greatest number.
+std::uint32_t later(std::uint32_t first, std::uint32_t second) {
+  return static_cast<std::int32_t>(second - first) > 0 ? second : first;
+}
+
 // The clock with its base moved to `now_ns`; sim time does not change.
 ClockState rebased(ClockState clock, std::int64_t now_ns) {
   clock.base_sim_ns = databuffer::sim_time_at(clock, now_ns);
@@ -36,8 +41,10 @@ ClockState rebased(ClockState clock, std::int64_t now_ns) {
 
 void ClockExchange::exchange(Context& context) {
   if (first_pass_ns_ == 0) first_pass_ns_ = context.now_ns;
-  context.link->take<yars_net_ClockSample>([&](const auto& sample) { receive(context, sample); });
-  context.link->take<yars_net_ClockRequestSample>([&](const auto& sample) { receive(context, sample); });
+  if (context.link != nullptr) {
+    context.link->take<yars_net_ClockSample>([&](const auto& sample) { receive(context, sample); });
+    context.link->take<yars_net_ClockRequestSample>([&](const auto& sample) { receive(context, sample); });
+  }
   choose_owner(context);
   if (owns_)
     publish(context);
@@ -73,9 +80,9 @@ void ClockExchange::choose_owner(Context& context) {
 void ClockExchange::resolve_conflicts(Context& context) {
   bool conflict = context.roles.in_conflict();
   bool precedes_all = owns_;
-  std::uint32_t epoch = 0;
+  std::uint32_t epoch = context.session.clock().epoch;
   for (const HostView& host : context.hosts.views().subspan(1)) {
-    epoch = std::max(epoch, context.hosts.epoch_of(host.id));
+    epoch = later(epoch, context.hosts.epoch_of(host.id));
     if (!owns_ || !host.owns_clock) continue;
     conflict = true;
     precedes_all = precedes_all && precedes(context.hosts.self(), host);
@@ -87,7 +94,7 @@ void ClockExchange::resolve_conflicts(Context& context) {
 void ClockExchange::raise_epoch(Context& context, std::uint32_t above) {
   const auto raised = context.session.change_clock([&](const ClockState& clock) {
     ClockState next = rebased(clock, databuffer::monotonic_ns());
-    next.epoch = std::max(clock.epoch, above) + 1;
+    next.epoch = later(clock.epoch, above) + 1;
     next.reposition_latitude_deg = std::numeric_limits<double>::quiet_NaN();
     return next;
   });
@@ -105,7 +112,7 @@ void ClockExchange::publish(Context& context) {
   yars_net_ClockSample sample{};
   context.hosts.stamp(sample);
   copy_record(sample.clock, clock);
-  context.link->write(sample);
+  context.write(sample);
 }
 
 void ClockExchange::receive(Context& context, const yars_net_ClockSample& sample) {
@@ -113,12 +120,16 @@ void ClockExchange::receive(Context& context, const yars_net_ClockSample& sample
   ClockState clock{};
   copy_record(clock, sample.clock);
   if (const auto reason = validate(clock)) return context.hosts.refuse(sample.host, dds::Topic::clock, *reason);
+  if (clocks_.size() >= databuffer::kMaxHosts)
+    std::erase_if(clocks_, [&](const auto& known) { return context.hosts.find(known.first) == nullptr; });
   if (clocks_.size() < databuffer::kMaxHosts || clocks_.contains(sample.host)) clocks_[sample.host] = sample;
 }
 
 // Applies a change that another host asks for. Each request is applied once.
 void ClockExchange::receive(Context& context, const yars_net_ClockRequestSample& sample) {
-  if (!context.hosts.is_new(sample) || sample.owner != context.hosts.self().id || !owns_) return;
+  if (!context.hosts.is_new(sample) || sample.owner != context.hosts.self().id || !owns_ ||
+      context.hosts.find(sample.host) == nullptr)
+    return;
   ClockState wanted{};
   copy_record(wanted, sample.clock);
   if (const auto reason = validate(wanted))
@@ -142,8 +153,8 @@ void ClockExchange::follow(Context& context) {
   copy_record(theirs, found->second.clock);
   if (followed_ && forward_local_change(context)) return;
   if (context.now_ns < request_pending_until_ns_ && followed_ && equal(theirs, followed_->theirs)) return;
-  request_pending_until_ns_ = 0;
-  if (followed_ && equal(theirs, followed_->theirs)) return slew(context);
+  const bool unanswered = std::exchange(request_pending_until_ns_, 0) != 0;
+  if (followed_ && !unanswered && equal(theirs, followed_->theirs)) return slew(context);
   const bool first = !followed_.has_value();
   if (first) followed_.emplace();
   followed_->owner = owner_;
@@ -152,6 +163,7 @@ void ClockExchange::follow(Context& context) {
   if (first) followed_->offset.set(continuous_offset(before, theirs, *offset_ns, context.now_ns));
   adopt(context, followed_->offset.offset_ns());
   // Local roles that are ahead in the same epoch would wait until the owner's sim time reaches theirs.
+  if (!followed_) return;
   const std::int64_t ahead_ns = databuffer::sim_time_at(before, context.now_ns) - context.session.sim_time_ns();
   if (first && before.epoch == theirs.epoch && ahead_ns > kMaxBehind_ns && !context.lockstep)
     request(context, followed_->written, true);
@@ -177,7 +189,10 @@ void ClockExchange::adopt(Context& context, std::int64_t offset_ns) {
   mine.base_monotonic_ns = now_ns;
   followed_->changed_ns = context.now_ns;
   const auto changed = context.session.change_clock([&mine](const ClockState&) { return mine; });
-  if (changed) followed_->written = mine;
+  if (changed)
+    followed_->written = mine;
+  else
+    followed_.reset();  // the next pass begins again
 }
 
 // A program of this host has changed the clock (`yars sim`, a jump of the aircraft): the owner is asked to change it.
@@ -198,7 +213,7 @@ void ClockExchange::request(Context& context, const ClockState& wanted, bool new
   const ClockState moved = rebased(wanted, context.now_ns);
   copy_record(sample.clock, moved);
   sample.clock.base_monotonic_ns = std::max<std::int64_t>(context.now_ns + followed_->offset.offset_ns(), 0);
-  context.link->write(sample);
+  context.write(sample);
 }
 
 // Moves the clock towards the measured offset, at most 1 ms per second. The base moves; sim time has no step greater

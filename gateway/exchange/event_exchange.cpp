@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 
 #include "databuffer/messages/validation.hpp"
 #include "gateway/exchange/history_progress.hpp"
@@ -202,15 +203,17 @@ void EventExchange::send_receipts(Context& context) {
 // host that has left, or of an earlier segment there, is forgotten.
 void EventExchange::release_lanes(Context& context) {
   const bool here = context.roles.exports(Role::state_machine);
-  std::erase_if(receiving_, [&](auto& item) {
-    Receiving& receiving = item.second;
+  for (auto item = receiving_.begin(); item != receiving_.end();) {
+    Receiving& receiving = item->second;
     const bool silent = context.now_ns - receiving.heard_ns > kLaneSilence_ns;
-    if (here && !silent) return false;
-    if (receiving.claim) lanes_->input[static_cast<std::size_t>(receiving.claim->lane())].reset();
-    receiving.claim.reset();
-    return !here || context.hosts.find(receiving.sender) == nullptr ||
-           context.hosts.segment_of(receiving.sender) != receiving.segment;
-  });
+    const bool forgotten = !here || (silent && (context.hosts.find(receiving.sender) == nullptr ||
+                                                context.hosts.segment_of(receiving.sender) != receiving.segment));
+    if (receiving.claim && (forgotten || silent)) {
+      lanes_->input[static_cast<std::size_t>(receiving.claim->lane())].reset();
+      receiving.claim.reset();
+    }
+    item = forgotten ? receiving_.erase(item) : std::next(item);
+  }
 }
 
 void EventExchange::send_applied(Context& context) {

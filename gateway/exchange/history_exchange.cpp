@@ -80,9 +80,10 @@ void HistoryExchange::send(Context& context) {
   context.hosts.set_written(dds::Topic::sweeps, *sweep_cursor_);
 }
 
-// Samples wait in DDS until it is known which host has the radar model.
+// Samples wait in DDS until it is known which host has the radar model, and until this gateway mirrors it.
 void HistoryExchange::receive(Context& context) {
-  if (!context.roles.holder(Role::radar_model)) return;
+  const auto holder = context.roles.holder(Role::radar_model);
+  if (!holder || (*holder != context.hosts.self().id && !context.roles.source(Role::radar_model))) return;
   const auto take = [&](const auto& sample) { receive(context, sample); };
   context.link->take<yars_net_LatchedTrafficSample>(take);
   context.link->take<yars_net_ModelTickSample>(take);
@@ -160,7 +161,7 @@ void HistoryExchange::publish(Context& context) {
   if (!context.roles.source(Role::radar_model)) {
     ticks_.clear();
     sweeps_.clear();
-    last_tick_ = -1;
+    last_tick_ = {};
     return;
   }
   const auto is_late = [&context](std::int64_t arrived_ns) { return context.now_ns - arrived_ns > kPatience_ns; };
@@ -172,12 +173,12 @@ void HistoryExchange::publish(Context& context) {
     tick.traffic = traffic.value_or(layout.traffic_latched.next());
     keep_progress<yars_net_ModelTickSample>(context, waiting, layout.model_ticks.next());
     layout.model_ticks.publish(tick);
-    last_tick_ = tick.tick;
+    last_tick_ = {tick.epoch, tick.tick};
     ticks_.pop_front();
   }
   while (!sweeps_.empty()) {
     const auto& waiting = sweeps_.front();
-    if (waiting.record.tick > last_tick_ && !is_late(waiting.arrived_ns)) break;
+    if (last_tick_.precedes(waiting.record) && !is_late(waiting.arrived_ns)) break;
     keep_progress<yars_net_SweepSample>(context, waiting, layout.sweeps.next());
     layout.sweeps.publish(waiting.record);
     sweeps_.pop_front();

@@ -40,6 +40,15 @@ class HistoryExchange {
     std::int64_t arrived_ns;
     std::uint64_t host, start, number;  // of its sample
   };
+  // The last tick that was published. Ticks count from 0 again in a new epoch.
+  struct LastTick {
+    std::uint32_t epoch = 0;
+    std::int64_t tick = -1;
+    bool precedes(const databuffer::Sweep& sweep) const {
+      const auto newer = static_cast<std::int32_t>(sweep.epoch - epoch);
+      return tick < 0 || newer > 0 || (newer == 0 && sweep.tick > tick);
+    }
+  };
   struct TrafficNumber {
     std::uint64_t theirs, ours;
   };
@@ -53,7 +62,7 @@ class HistoryExchange {
   std::deque<Waiting<databuffer::Sweep>> sweeps_;
   std::deque<TrafficNumber> traffic_numbers_;
   std::uint64_t traffic_host_ = 0;
-  std::int64_t last_tick_ = -1;
+  LastTick last_tick_;
   std::uint32_t epoch_ = 0;  // of the local clock
 };
 

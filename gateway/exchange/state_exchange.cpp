@@ -118,18 +118,19 @@ void StateExchange::receive(Context& context) {
 // Publishes the record of the host that has the role. Samples of other hosts are left out.
 template <class Record, class Sample, class Field>
 void StateExchange::receive_state(Context& context, Role role, const Sample& sample, const Field& field,
-                                  shm::LatestValue<Record>& slot, Record& last) {
+                                  shm::LatestValue<Record>& slot) {
   if (!context.hosts.is_new(sample) || context.roles.source(role) != sample.host) return;
   Record record{};
   copy_record(record, field);
   if (const auto reason = validate(record)) return context.hosts.refuse(sample.host, dds::kTopicOf<Sample>, *reason);
-  if (equal(record, last) && slot.has_value()) return;
-  last = record;
+  // A repeated state is no new version. What stands in the slot counts: a local process may have written there since.
+  Record present{};
+  if (slot.read(present) && equal(record, present)) return;
   slot.publish(record);
 }
 
 void StateExchange::receive(Context& context, const yars_net_OwnshipSample& sample) {
-  if (!context.hosts.is_new(sample)) return;
+  if (!context.hosts.is_new(sample) || context.hosts.find(sample.host) == nullptr) return;
   databuffer::Ownship ownship{};
   databuffer::Nav nav{};
   copy_record(ownship, sample.ownship);
@@ -168,39 +169,36 @@ void StateExchange::keep_lane(Context& context) {
 }
 
 void StateExchange::receive(Context& context, const yars_net_RadarStateSample& sample) {
-  receive_state(context, Role::state_machine, sample, sample.state, context.session.layout().radar_state,
-                last_radar_state_);
+  receive_state(context, Role::state_machine, sample, sample.state, context.session.layout().radar_state);
 }
 
 void StateExchange::receive(Context& context, const yars_net_OutputsSample& sample) {
-  receive_state(context, Role::state_machine, sample, sample.outputs, context.session.layout().outputs, last_outputs_);
+  receive_state(context, Role::state_machine, sample, sample.outputs, context.session.layout().outputs);
 }
 
 void StateExchange::receive(Context& context, const yars_net_AdviceSample& sample) {
   yars_net_AdviceSample local = sample;
   if (sample.sender != context.hosts.self().id) local.advice.idle_lane = kNoLane;
-  receive_state(context, Role::state_machine, local, local.advice, context.session.layout().advice, last_advice_);
+  receive_state(context, Role::state_machine, local, local.advice, context.session.layout().advice);
 }
 
 void StateExchange::receive(Context& context, const yars_net_ModelStatusSample& sample) {
   yars_net_ModelStatusSample local = sample;
   local.status.ownship_lane =
       lanes_->local_ownship_lane({sample.ownship_host, sample.status.ownship_lane}, context.hosts.self().id, kNoLane);
-  receive_state(context, Role::radar_model, local, local.status, context.session.layout().model_status,
-                last_model_status_);
+  receive_state(context, Role::radar_model, local, local.status, context.session.layout().model_status);
 }
 
 void StateExchange::receive(Context& context, const yars_net_TrafficSample& sample) {
-  receive_state(context, Role::traffic, sample, sample.traffic, context.session.layout().traffic, last_traffic_);
+  receive_state(context, Role::traffic, sample, sample.traffic, context.session.layout().traffic);
 }
 
 void StateExchange::receive(Context& context, const yars_net_CaptionSample& sample) {
-  receive_state(context, Role::tour, sample, sample.caption, context.session.layout().caption, last_caption_);
+  receive_state(context, Role::tour, sample, sample.caption, context.session.layout().caption);
 }
 
 void StateExchange::receive(Context& context, const yars_net_RecorderStatusSample& sample) {
-  receive_state(context, Role::recorder, sample, sample.status, context.session.layout().recorder_status,
-                last_recorder_status_);
+  receive_state(context, Role::recorder, sample, sample.status, context.session.layout().recorder_status);
 }
 
 }  // namespace yars::gateway

@@ -63,7 +63,7 @@ class StateExchange {
                   databuffer::Validated<Record>& reader, Pace& pace, const Fill& fill);
   template <class Record, class Sample, class Field>
   void receive_state(Context& context, databuffer::Role role, const Sample& sample, const Field& field,
-                     shm::LatestValue<Record>& slot, Record& last);
+                     shm::LatestValue<Record>& slot);
   void send_ownship(Context& context);
   void send_model_status(Context& context);
 
@@ -89,14 +89,6 @@ class StateExchange {
   databuffer::Validated<databuffer::RecorderStatus> recorder_status_;
   Pace radar_state_pace_{0}, outputs_pace_{kTick_ns}, advice_pace_{0}, model_status_pace_{kTick_ns}, traffic_pace_{0},
       caption_pace_{0}, recorder_status_pace_{kTick_ns};
-  // Last records written here, so that a repeated state is not a new version.
-  databuffer::RadarState last_radar_state_{};
-  databuffer::Outputs last_outputs_{};
-  databuffer::PilotAdvice last_advice_{};
-  databuffer::ModelStatus last_model_status_{};
-  databuffer::Traffic last_traffic_{};
-  databuffer::Caption last_caption_{};
-  databuffer::RecorderStatus last_recorder_status_{};
 };
 
 }  // namespace yars::gateway

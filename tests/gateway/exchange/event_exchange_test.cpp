@@ -1,0 +1,383 @@
+// Input events of other hosts: each is delivered once, in order, also across restarts of the gateway.
+#include "gateway/exchange/event_exchange.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "gateway/exchange/progress.hpp"
+#include "tests/gateway/exchange/two_hosts.hpp"
+#include "tests/gateway/random_seed.hpp"
+
+namespace yars::gateway {
+namespace {
+
+using databuffer::InputEvent;
+using databuffer::Role;
+using testing::bit;
+using testing::good_event;
+
+class EventExchangeTest : public testing::TwoHosts {
+ protected:
+  void restart() { exchange_.emplace(*lanes_ = LaneNames{}); }
+  void SetUp() override {
+    lanes_.emplace();
+    restart();
+  }
+  // Event `number` of a lane of beta. `preceding`: events before it without a receipt.
+  yars_net_InputEventSample event(std::uint64_t number, std::uint32_t preceding = 0, std::uint32_t lane = 2) {
+    auto sample = from<yars_net_InputEventSample>("beta");
+    sample.lane = lane;
+    sample.preceding = preceding;
+    sample.segment = kBetaSegment;
+    sample.event_number = number;
+    sample.machine_segment = kSegment;
+    std::strcpy(sample.source, "keyboard");
+    copy_record(sample.event, good_event(static_cast<std::uint32_t>(number)));
+    return sample;
+  }
+  void receive(std::uint64_t number, std::uint32_t preceding = 0, std::uint32_t lane = 2) {
+    exchange_->receive(context_, event(number, preceding, lane));
+  }
+  // Takes all events of all lanes as the state machine does.
+  std::vector<std::uint32_t> take() {
+    std::vector<std::uint32_t> numbers;
+    InputEvent event{};
+    for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane)
+      while (session_.layout().input.pop(lane, event)) numbers.push_back(event.number);
+    return numbers;
+  }
+  std::uint64_t receipts() const { return hosts_.written()[dds::index_of(dds::Topic::event_receipts)]; }
+  std::size_t held_lanes() const {
+    std::size_t held = 0;
+    for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) held += session_.input_lane_is_held(lane) ? 1 : 0;
+    return held;
+  }
+  using Numbers = std::vector<std::uint32_t>;
+
+  std::optional<LaneNames> lanes_;
+  std::optional<EventExchange> exchange_;
+};
+
+TEST_F(EventExchangeTest, EventsOfAnotherHostReachTheStateMachineOnceAndInOrder) {
+  hold(Role::state_machine);
+  announce("beta", 0);
+  for (std::uint32_t number = 0; number < 3; ++number) receive(number, number);
+  receive(1, 1);
+  EXPECT_EQ(take(), (Numbers{0, 1, 2}));
+  receive(2);
+  EXPECT_EQ(take(), Numbers{});
+  EXPECT_EQ(layout().input.source(0), "beta/keyboard");
+  EXPECT_EQ(lanes_->input[0]->host, host_id("beta"));
+  EXPECT_EQ(lanes_->input[0]->lane, 2u);
+  exchange_->send(context_);
+  EXPECT_EQ(receipts(), 1u) << "one receipt a lane and pass";
+}
+
+TEST_F(EventExchangeTest, WithoutTheStateMachineNothingIsTaken) {
+  announce("beta", 0);
+  receive(0);
+  EXPECT_EQ(take(), Numbers{});
+  exchange_->send(context_);
+  EXPECT_EQ(receipts(), 0u);
+}
+
+TEST_F(EventExchangeTest, EventsForAnotherMachineOrOfAnUnknownHostAreLeftOut) {
+  hold(Role::state_machine);
+  receive(0);
+  announce("beta", 0);
+  auto sample = event(0);
+  sample.machine_segment = kSegment + 1;
+  exchange_->receive(context_, sample);
+  sample = event(0);
+  sample.lane = databuffer::kInputLanes;
+  exchange_->receive(context_, sample);
+  EXPECT_EQ(take(), Numbers{});
+}
+
+TEST_F(EventExchangeTest, AnInvalidEventIsRefusedAndDoesNotStopTheLane) {
+  hold(Role::state_machine);
+  announce("beta", 0);
+  auto sample = event(0);
+  sample.event.kind = 0xFFFF;
+  exchange_->receive(context_, sample);
+  receive(1);
+  EXPECT_EQ(refusals(), 1u);
+  EXPECT_EQ(take(), Numbers{1});
+}
+
+// DDS delivers the last samples of its history when two hosts meet again. They may begin within a repetition.
+TEST_F(EventExchangeTest, AHistoryThatBeginsInTheMiddleLosesNoEvent) {
+  hold(Role::state_machine);
+  announce("beta", 0);
+  for (std::uint32_t number = 7; number < 10; ++number) receive(number, number);
+  EXPECT_EQ(take(), Numbers{}) << "0 to 6 are still missing";
+  for (std::uint32_t number = 0; number < 10; ++number) receive(number, number);
+  EXPECT_EQ(take(), (Numbers{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}));
+}
+
+TEST_F(EventExchangeTest, ALaneMayBeginWithAnyEvent) {
+  hold(Role::state_machine);
+  announce("beta", 0);
+  receive(50, 1);
+  receive(49, 0);
+  receive(50, 1);
+  EXPECT_EQ(take(), (Numbers{49, 50})) << "0 to 48 were applied by an earlier state machine";
+  receive(80, 0);
+  EXPECT_EQ(take(), Numbers{80}) << "51 to 79 reached another machine";
+}
+
+TEST_F(EventExchangeTest, EventsBeyondTheRoomOfALaneAreTakenWhenTheyAreRepeated) {
+  hold(Role::state_machine);
+  announce("beta", 0);
+  constexpr std::uint32_t kDepth = databuffer::kInputLaneDepth;
+  for (std::uint32_t number = 0; number < kDepth + 5; ++number) receive(number);
+  EXPECT_EQ(take().size(), kDepth);
+  receive(kDepth + 4, 4);
+  EXPECT_EQ(take(), Numbers{}) << "its predecessors come first";
+  for (std::uint32_t i = 0; i < 5; ++i) receive(kDepth + i, i);
+  EXPECT_EQ(take().size(), 5u);
+  EXPECT_EQ(layout().input.dropped(0), 0u);
+}
+
+TEST_F(EventExchangeTest, RandomRepetitionsRestartsAndLocalEventsDeliverEachEventOnce) {
+  const std::uint64_t seed = testing::random_seed();
+  SCOPED_TRACE("YARS_SEED=" + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  hold(Role::state_machine);
+  announce("beta", 0);
+  const auto local = session_.claim_input_lane("local");
+  ASSERT_TRUE(local);
+  constexpr std::uint32_t kEvents = 400, kLocal = 1'000'000;
+  std::uint32_t receipt = 0;  // the sender's; it may be old
+  Numbers delivered;
+  std::uint32_t local_events = 0;
+  for (int step = 0; step < 6000; ++step) {
+    const std::uint32_t number = receipt + static_cast<std::uint32_t>(random() % 8);
+    if (number < kEvents) receive(number, number - receipt);
+    if (random() % 20 == 0) {
+      // A restarted gateway may have another lane, and lanes have no common order.
+      for (const std::uint32_t event : take())
+        if (event < kLocal) delivered.push_back(event);
+      restart();
+      // A local program may take the lane that the gateway had.
+      if (auto other = session_.claim_input_lane("inject"); other && random() % 2 == 0)
+        session_.layout().input.push(static_cast<std::size_t>(other->lane()), good_event(kLocal + local_events++));
+    }
+    if (random() % 10 == 0) {
+      for (const std::uint32_t event : take())
+        if (event < kLocal) delivered.push_back(event);
+      if (random() % 2 == 0) receipt = static_cast<std::uint32_t>(delivered.size());
+    }
+  }
+  for (const std::uint32_t event : take())
+    if (event < kLocal) delivered.push_back(event);
+  Numbers expected(delivered.size());
+  for (std::uint32_t i = 0; i < expected.size(); ++i) expected[i] = i;
+  EXPECT_EQ(delivered, expected);
+  EXPECT_EQ(delivered.size(), kEvents);
+}
+
+// The gateway is killed after the entry and before the push: what it leaves is written here by hand.
+TEST_F(EventExchangeTest, AnEventOfWhichOnlyTheEntryWasWrittenIsDelivered) {
+  hold(Role::state_machine);
+  announce("beta", 0);
+  receive(0);
+  EXPECT_EQ(take(), Numbers{0});
+  restart();
+  auto& network = session_.layout().network;
+  network.input[0].progress.store(progress_of(2, layout().input.pushed(0)));
+  receive(1);
+  EXPECT_EQ(take(), Numbers{1});
+  restart();
+  receive(1);
+  EXPECT_EQ(take(), Numbers{});
+  receive(2);
+  EXPECT_EQ(take(), Numbers{2});
+}
+
+TEST_F(EventExchangeTest, AGatewayKilledBeforeTheEntryDeliversTheEventAgain) {
+  hold(Role::state_machine);
+  announce("beta", 0);
+  receive(0);
+  receive(1);
+  EXPECT_EQ(take(), (Numbers{0, 1}));
+  restart();
+  receive(2, 2);
+  EXPECT_EQ(take(), Numbers{2}) << "0 and 1 are known from the entry";
+}
+
+TEST_F(EventExchangeTest, LanesOfASilentHostAreFreeForOthersAndRemembered) {
+  hold(Role::state_machine);
+  announce("beta", 0);
+  receive(0);
+  EXPECT_EQ(held_lanes(), 1u);
+  take();
+  pass(31 * kSecond_ns);
+  announce("beta", 0);
+  exchange_->send(context_);
+  EXPECT_EQ(held_lanes(), 0u);
+  EXPECT_FALSE(lanes_->input[0]);
+  receive(0);
+  EXPECT_EQ(take(), Numbers{}) << "still known";
+  receive(1);
+  EXPECT_EQ(take(), Numbers{1});
+  EXPECT_EQ(held_lanes(), 1u);
+}
+
+// A host that starts its set again and again has new segments. Their lanes must not use up those of this host.
+TEST_F(EventExchangeTest, LanesOfEarlierSegmentsAreForgotten) {
+  hold(Role::state_machine);
+  for (std::uint64_t segment = 1; segment <= 40; ++segment) {
+    announce("beta", 0, segment);
+    auto sample = event(0);
+    sample.segment = segment;
+    exchange_->receive(context_, sample);
+    EXPECT_EQ(take(), Numbers{0});
+    pass(31 * kSecond_ns);
+    exchange_->send(context_);
+    EXPECT_EQ(held_lanes(), 0u);
+  }
+}
+
+TEST_F(EventExchangeTest, LanesEndWithTheRole) {
+  announce("beta", 0);
+  {
+    databuffer::Session machine = open("state-machine");
+    const auto role = machine.claim(Role::state_machine);
+    pass(0);
+    receive(0);
+    EXPECT_EQ(held_lanes(), 1u);
+  }
+  pass(0);
+  exchange_->send(context_);
+  EXPECT_EQ(held_lanes(), 0u);
+}
+
+class SendingTest : public EventExchangeTest {
+ protected:
+  void SetUp() override {
+    EventExchangeTest::SetUp();
+    announce("beta", bit(Role::state_machine));
+    ASSERT_EQ(roles_.source(Role::state_machine), host_id("beta"));
+    lane_.emplace(*session_.claim_input_lane("keyboard"));
+    for (std::uint32_t number = 0; number < 5; ++number) session_.layout().input.push(lane(), good_event(number));
+  }
+  std::size_t lane() const { return static_cast<std::size_t>(lane_->lane()); }
+  std::uint64_t sent() const { return hosts_.written()[dds::index_of(dds::Topic::input_events)]; }
+  void receipt(const std::string& host, std::uint64_t next_event) {
+    auto sample = from<yars_net_EventReceiptSample>(host);
+    sample.sender = host_id("alpha");
+    sample.segment = kSegment;
+    sample.lane = static_cast<std::uint32_t>(lane());
+    sample.next_event = next_event;
+    exchange_->receive(context_, sample);
+  }
+  std::optional<databuffer::Claim> lane_;
+};
+
+TEST_F(SendingTest, EventsStayInTheirLaneUntilTheReceipt) {
+  exchange_->send(context_);
+  exchange_->send(context_);
+  EXPECT_EQ(sent(), 5u);
+  EXPECT_EQ(layout().input.popped(lane()), 0u);
+  receipt("beta", 3);
+  EXPECT_EQ(layout().input.popped(lane()), 3u);
+  receipt("beta", 2);
+  EXPECT_EQ(layout().input.popped(lane()), 3u) << "an old receipt";
+  receipt("beta", 6);
+  EXPECT_EQ(layout().input.popped(lane()), 3u) << "for an event that was never sent";
+  receipt("beta", 5);
+  EXPECT_EQ(layout().input.popped(lane()), 5u);
+}
+
+TEST_F(SendingTest, AReceiptOfAHostWithoutTheRoleIsLeftOut) {
+  announce("gamma", 0);
+  receipt("gamma", 5);
+  EXPECT_EQ(layout().input.popped(lane()), 0u);
+}
+
+TEST_F(SendingTest, WithoutAReceiptTheEventsAreSentAgainEachSecond) {
+  exchange_->send(context_);
+  pass(900'000'000);
+  exchange_->send(context_);
+  EXPECT_EQ(sent(), 5u);
+  pass(200'000'000);
+  exchange_->send(context_);
+  EXPECT_EQ(sent(), 10u);
+}
+
+TEST_F(SendingTest, AnotherMachineGetsWhatHasNoReceipt) {
+  exchange_->send(context_);
+  receipt("beta", 2);
+  announce("beta", 0);
+  announce("gamma", bit(Role::state_machine), 4004);
+  ASSERT_EQ(roles_.source(Role::state_machine), host_id("gamma"));
+  exchange_->send(context_);
+  EXPECT_EQ(sent(), 8u);
+}
+
+class AppliedTest : public EventExchangeTest {
+ protected:
+  void SetUp() override {
+    EventExchangeTest::SetUp();
+    announce("beta", bit(Role::state_machine));
+  }
+  yars_net_AppliedEventSample applied(const std::string& host, const std::string& sender) {
+    auto sample = from<yars_net_AppliedEventSample>(host);
+    sample.sender = host_id(sender);
+    databuffer::AppliedEvent record{};
+    record.lane = 3;
+    record.event = good_event(9);
+    copy_record(sample.applied, record);
+    return sample;
+  }
+  std::uint64_t published() const { return layout().applied_events.next(); }
+  databuffer::AppliedEvent last() const {
+    databuffer::AppliedEvent record{};
+    std::uint64_t cursor = published() - 1;
+    EXPECT_TRUE(layout().applied_events.read(cursor, record).delivered);
+    return record;
+  }
+};
+
+TEST_F(AppliedTest, EventsOfTheHolderAreTakenOnce) {
+  const auto sample = applied("beta", "beta");
+  exchange_->receive(context_, sample);
+  exchange_->receive(context_, sample);
+  EXPECT_EQ(published(), 1u);
+}
+
+TEST_F(AppliedTest, OnlyEventsOfThisHostHaveALaneHere) {
+  exchange_->receive(context_, applied("beta", "beta"));
+  EXPECT_EQ(last().lane, kNoLane);
+  exchange_->receive(context_, applied("beta", "alpha"));
+  EXPECT_EQ(last().lane, 3u);
+}
+
+TEST_F(AppliedTest, EventsOfAHostWithoutTheRoleAreLeftOut) {
+  announce("gamma", 0);
+  exchange_->receive(context_, applied("gamma", "gamma"));
+  EXPECT_EQ(published(), 0u);
+}
+
+TEST_F(AppliedTest, AnInvalidEventIsRefused) {
+  auto sample = applied("beta", "beta");
+  sample.applied.event.kind = 0xFFFF;
+  exchange_->receive(context_, sample);
+  EXPECT_EQ(published(), 0u);
+  EXPECT_EQ(refusals(), 1u);
+}
+
+TEST(LaneId, NamesEachLaneOfEachSegmentOfEachHost) {
+  EXPECT_EQ(lane_id(1, 2, 3), lane_id(1, 2, 3));
+  EXPECT_NE(lane_id(1, 2, 3), lane_id(2, 1, 3));
+  EXPECT_NE(lane_id(1, 2, 3), lane_id(1, 2, 4));
+  EXPECT_NE(lane_id(0, 0, 0), 0u);
+}
+
+}  // namespace
+}  // namespace yars::gateway

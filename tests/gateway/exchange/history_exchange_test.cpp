@@ -1,0 +1,294 @@
+// Ticks, sweeps, latched traffic and patch maps of the host that has the radar model.
+#include "gateway/exchange/history_exchange.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "databuffer/session/picture_pool.hpp"
+#include "gateway/exchange/map_exchange.hpp"
+#include "tests/gateway/exchange/two_hosts.hpp"
+
+namespace yars::gateway {
+namespace {
+
+using databuffer::Role;
+using testing::bit;
+using testing::good_ownship;
+
+class HistoryExchangeTest : public testing::TwoHosts {
+ protected:
+  void SetUp() override { announce("beta", bit(Role::radar_model)); }
+  std::uint32_t epoch() const { return session_.clock().epoch; }
+  yars_net_ModelTickSample tick(std::int64_t number, std::uint64_t traffic = 0, const std::string& host = "beta") {
+    auto sample = from<yars_net_ModelTickSample>(host);
+    databuffer::ModelTick record{};
+    record.tick = number;
+    record.epoch = epoch();
+    record.ownship = good_ownship();
+    record.traffic = traffic;
+    record.ownship_lane = 1;
+    copy_record(sample.tick, record);
+    sample.ownship_host = host_id(host);
+    return sample;
+  }
+  // The video is that of video_.
+  yars_net_SweepSample sweep(std::int64_t tick, const std::string& host = "beta") {
+    auto sample = from<yars_net_SweepSample>(host);
+    databuffer::Sweep record{};
+    record.tick = tick;
+    record.epoch = epoch();
+    record.apex_latitude_deg = 36.6;
+    record.apex_longitude_deg = -121.9;
+    record.azimuth_left_deg = 10.0;
+    record.azimuth_right_deg = 10.5;
+    record.range_m = 74'080.0;
+    record.scan = 1;
+    record.samples = static_cast<std::uint32_t>(video_.size());
+    std::copy(video_.begin(), video_.end(), record.video);
+    record.hash = databuffer::sweep_hash(record);
+    std::memcpy(&sample.sweep, &record, sizeof sample.sweep);
+    sample.video._buffer = video_.data();
+    sample.video._length = sample.video._maximum = record.samples;
+    return sample;
+  }
+  yars_net_LatchedTrafficSample traffic(std::uint64_t ring_number) {
+    auto sample = from<yars_net_LatchedTrafficSample>("beta");
+    sample.ring_number = ring_number;
+    return sample;
+  }
+  template <class Sample>
+  void receive(const Sample& sample) {
+    exchange_.receive(context_, sample);
+    exchange_.publish(context_);
+  }
+  std::uint64_t ticks() const { return layout().model_ticks.next(); }
+  std::uint64_t sweeps() const { return layout().sweeps.next(); }
+  databuffer::ModelTick last_tick() const {
+    databuffer::ModelTick record{};
+    std::uint64_t cursor = ticks() - 1;
+    EXPECT_TRUE(layout().model_ticks.read(cursor, record).delivered);
+    return record;
+  }
+  std::vector<std::uint8_t> video_ = std::vector<std::uint8_t>(512, 100);
+  LaneNames lanes_;
+  HistoryExchange exchange_{lanes_};
+};
+
+TEST_F(HistoryExchangeTest, ASweepWaitsForItsTick) {
+  receive(sweep(5));
+  EXPECT_EQ(sweeps(), 0u);
+  receive(tick(5));
+  EXPECT_EQ(ticks(), 1u);
+  EXPECT_EQ(sweeps(), 1u);
+  EXPECT_TRUE(exchange_.is_empty());
+  EXPECT_EQ(last_tick().ownship_lane, kNoLane) << "a lane of beta";
+}
+
+TEST_F(HistoryExchangeTest, ASweepWhoseTickWasLostComesAfterAWhile) {
+  receive(sweep(5));
+  pass(300'000'000);
+  exchange_.publish(context_);
+  EXPECT_EQ(sweeps(), 1u);
+}
+
+TEST_F(HistoryExchangeTest, ATickWaitsForTheTrafficThatItNames) {
+  receive(tick(5, 8));
+  EXPECT_EQ(ticks(), 0u);
+  receive(traffic(7));
+  EXPECT_EQ(ticks(), 1u);
+  EXPECT_EQ(last_tick().traffic, 1u) << "the first record of the ring here";
+}
+
+TEST_F(HistoryExchangeTest, ATickWhoseTrafficWasLostNamesTheNewestHere) {
+  receive(tick(5, 8));
+  pass(300'000'000);
+  exchange_.publish(context_);
+  ASSERT_EQ(ticks(), 1u);
+  EXPECT_EQ(last_tick().traffic, 0u);
+}
+
+TEST_F(HistoryExchangeTest, InANewEpochASweepWaitsForATickOfThatEpoch) {
+  receive(tick(1000));
+  ASSERT_TRUE(session_.change_clock([](auto clock) {
+    ++clock.epoch;
+    return clock;
+  }));
+  receive(sweep(3));
+  EXPECT_EQ(sweeps(), 0u) << "tick 3 of the new epoch is still to come";
+  receive(tick(3));
+  EXPECT_EQ(sweeps(), 1u);
+}
+
+TEST_F(HistoryExchangeTest, RecordsOfAnEarlierEpochAreLeftOut) {
+  const auto old_tick = tick(5);
+  const auto old_sweep = sweep(5);
+  ASSERT_TRUE(session_.change_clock([](auto clock) {
+    ++clock.epoch;
+    return clock;
+  }));
+  receive(old_tick);
+  receive(old_sweep);
+  pass(kSecond_ns);
+  exchange_.publish(context_);
+  EXPECT_EQ(ticks(), 0u);
+  EXPECT_EQ(sweeps(), 0u);
+}
+
+TEST_F(HistoryExchangeTest, RepeatedSamplesAreLeftOutAlsoByANewGateway) {
+  const auto first = tick(1);
+  const auto second = sweep(1);
+  const auto third = traffic(0);
+  receive(first);
+  receive(second);
+  receive(third);
+  receive(first);
+  receive(second);
+  receive(third);
+  EXPECT_EQ(ticks(), 1u);
+  EXPECT_EQ(sweeps(), 1u);
+  EXPECT_EQ(layout().traffic_latched.next(), 1u);
+  Hosts hosts(session_, nullptr, {"alpha", 0, 9009, kSegment, 0, 0});
+  HistoryExchange next(lanes_);
+  Context context{session_, nullptr, hosts, roles_};
+  context.now_ns = context_.now_ns;
+  next.receive(context, first);
+  next.receive(context, second);
+  next.receive(context, third);
+  next.publish(context);
+  EXPECT_EQ(ticks(), 1u);
+  EXPECT_EQ(sweeps(), 1u);
+  EXPECT_EQ(layout().traffic_latched.next(), 1u);
+}
+
+TEST_F(HistoryExchangeTest, RecordsOfAHostWithoutTheRoleAreLeftOut) {
+  announce("gamma", 0);
+  receive(tick(5, 0, "gamma"));
+  receive(sweep(5, "gamma"));
+  EXPECT_EQ(ticks(), 0u);
+  EXPECT_TRUE(exchange_.is_empty());
+}
+
+TEST_F(HistoryExchangeTest, InvalidRecordsAreRefused) {
+  auto bad_tick = tick(5);
+  bad_tick.tick.ownship.latitude_deg = 100.0;
+  receive(bad_tick);
+  EXPECT_EQ(refusals(), 1u);
+  auto bad_sweep = sweep(5);
+  bad_sweep.sweep.range_m = -1.0;
+  receive(bad_sweep);
+  EXPECT_EQ(refusals(), 2u);
+  bad_sweep = sweep(5);
+  bad_sweep.sweep.hash ^= 1;
+  receive(bad_sweep);
+  EXPECT_EQ(refusals(), 3u);
+  bad_sweep = sweep(5);
+  bad_sweep.video._length -= 1;
+  receive(bad_sweep);
+  EXPECT_EQ(refusals(), 4u);
+  auto bad_traffic = traffic(0);
+  bad_traffic.traffic.count = 0xFFFF'FFFFU;
+  receive(bad_traffic);
+  EXPECT_EQ(refusals(), 5u);
+  EXPECT_TRUE(exchange_.is_empty());
+}
+
+TEST_F(HistoryExchangeTest, WhatWaitsIsLimited) {
+  for (int i = 0; i < 3000; ++i) exchange_.receive(context_, sweep(5));
+  pass(kSecond_ns);
+  exchange_.publish(context_);
+  EXPECT_EQ(sweeps(), 1024u);
+}
+
+class MapExchangeTest : public testing::TwoHosts {
+ protected:
+  databuffer::PatchMap map(std::uint64_t id) {
+    databuffer::PatchMap made{};
+    made.id = id;
+    made.latitude_deg = made.apex_latitude_deg = 36.6;
+    made.longitude_deg = made.apex_longitude_deg = -121.9;
+    made.window_nm = 4.7;
+    made.distance_m = 33'000.0;
+    made.resolution_m = 20.0;
+    made.size = 8;
+    made.hash = databuffer::map_hash(made, pixels_);
+    return made;
+  }
+  void receive(const std::string& host, const databuffer::PatchMap& record) {
+    auto sample = from<yars_net_PatchMapSample>(host);
+    sample.id = record.id;
+    copy_record(sample.map, record);
+    exchange_.receive(context_, sample);
+    for (std::uint32_t row = 0; row < record.size; ++row) {
+      auto line = from<yars_net_PatchRowSample>(host);
+      line.id = record.id;
+      line.row = row;
+      line.length = record.size;
+      std::copy_n(pixels_.begin() + row * record.size, record.size, line.pixels);
+      exchange_.receive(context_, line);
+    }
+    exchange_.publish(context_);
+  }
+  bool is_published(std::uint64_t id) {
+    databuffer::PatchMap found{};
+    return databuffer::read_patch(layout(), id, found);
+  }
+  std::vector<std::uint8_t> pixels_ = std::vector<std::uint8_t>(64, 7);
+  MapExchange exchange_{500};
+};
+
+TEST_F(MapExchangeTest, AMapIsPublishedWhenItIsWhole) {
+  announce("beta", bit(Role::radar_model));
+  receive("beta", map(3));
+  databuffer::PatchMap found{};
+  std::vector<std::uint8_t> pixels;
+  ASSERT_TRUE(databuffer::read_patch(layout(), 3, found, pixels));
+  EXPECT_EQ(pixels, pixels_);
+}
+
+TEST_F(MapExchangeTest, MapsOfAHostWithoutTheRoleAreNotPublished) {
+  announce("beta", bit(Role::radar_model));
+  announce("gamma", 0);
+  receive("gamma", map(3));
+  EXPECT_FALSE(is_published(3));
+}
+
+TEST_F(MapExchangeTest, InvalidMapsAreRefused) {
+  announce("beta", bit(Role::radar_model));
+  auto bad = map(3);
+  bad.size = databuffer::kMaxPatchPixels + 1;
+  auto sample = from<yars_net_PatchMapSample>("beta");
+  sample.id = 3;
+  copy_record(sample.map, bad);
+  exchange_.receive(context_, sample);
+  EXPECT_EQ(refusals(), 1u);
+  bad = map(3);
+  bad.hash ^= 1;
+  receive("beta", bad);
+  EXPECT_FALSE(is_published(3));
+  auto other = from<yars_net_PatchMapSample>("beta");
+  other.id = 4;
+  copy_record(other.map, map(3));
+  exchange_.receive(context_, other);
+  EXPECT_EQ(refusals(), 2u) << "the sample has another id than the map";
+  auto row = from<yars_net_PatchRowSample>("beta");
+  row.length = 1025;
+  exchange_.receive(context_, row);
+  EXPECT_EQ(refusals(), 3u);
+}
+
+TEST_F(MapExchangeTest, AMapOfThePartThatYieldedIsReplaced) {
+  std::vector<std::uint8_t> mine(64, 9);
+  auto own = map(3);
+  own.hash = databuffer::map_hash(own, mine);
+  ASSERT_TRUE(databuffer::publish_patch(session_.layout(), own, mine, {}));
+  announce("beta", bit(Role::radar_model));
+  receive("beta", map(3));
+  databuffer::PatchMap found{};
+  ASSERT_TRUE(databuffer::read_patch(layout(), 3, found));
+  EXPECT_EQ(found.hash, map(3).hash);
+}
+
+}  // namespace
+}  // namespace yars::gateway
