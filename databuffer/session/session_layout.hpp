@@ -139,6 +139,8 @@ struct Network {
   std::array<RemoteProgress, kInputLanes> input;  // of the input lanes, in their order
   // Of the rings applied_events, traffic_latched, model_ticks and sweeps, for the last hosts that wrote them.
   std::array<std::array<RemoteProgress, kHistorySources>, kHistories> histories;
+  // Number of records in each of these rings up to the last one that came from another host.
+  std::array<std::atomic<std::uint64_t>, kHistories> last_remote;
 };
 
 // Slot of a patch map. The writer clears the id, writes, and stores the new id last. A reader copies between two loads

@@ -31,7 +31,7 @@ class Link {
   Link& operator=(Link&&) noexcept;
   ~Link();  // other hosts learn at once that this one has left
 
-  // True if the form Network lets the topic out, or in.
+  // True if the form Network and the permissions of DDS Security let the topic out, or in.
   bool writes(Topic topic) const;
   bool reads(Topic topic) const;
 

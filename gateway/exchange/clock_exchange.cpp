@@ -222,7 +222,7 @@ void ClockExchange::slew(Context& context) {
   const auto measured_ns = context.hosts.offset_ns(owner_);
   const std::int64_t elapsed_ns = context.now_ns - std::exchange(followed_->changed_ns, context.now_ns);
   const std::int64_t before_ns = followed_->offset.offset_ns();
-  constexpr std::int64_t kMaxPause_ns = 100'000'000;  // after a pause of this process sim time must not jump
+  constexpr std::int64_t kMaxPause_ns = 10'000'000;  // after a pause of this process sim time must not jump
   if (!measured_ns || !followed_->offset.approach(*measured_ns, std::min(elapsed_ns, kMaxPause_ns))) return;
   ClockState mine = followed_->written;
   // sim time = base + rate x (now - base time): a greater offset is a later time, thus an earlier base.

@@ -222,9 +222,7 @@ void EventExchange::send_applied(Context& context) {
     applied_cursor_ = ring.next();
     return;
   }
-  // The gateway has just started: its predecessor may have missed the last events. Other hosts leave out what they
-  // have.
-  if (!applied_cursor_) applied_cursor_ = std::max(ring.oldest(), ring.next() - std::min(ring.next(), kRecentEvents));
+  if (!applied_cursor_) applied_cursor_ = first_to_send(context, dds::Topic::applied_events, ring, kRecentEvents);
   yars_net_AppliedEventSample sample{};
   databuffer::AppliedEvent applied{};
   while (ring.read(*applied_cursor_, applied).delivered) {
@@ -252,8 +250,9 @@ void EventExchange::pop_applied(Context& context, const databuffer::AppliedEvent
 
 void EventExchange::receive(Context& context, const yars_net_AppliedEventSample& sample) {
   auto& ring = context.session.layout().applied_events;
-  if (context.roles.source(Role::state_machine) != sample.host ||
-      !is_new_in_history(context, sample, ring.next(), sample.applied.tick))
+  // Also what a part of the session applied that yields is taken note of, so that it is not delivered later.
+  if (!is_new_in_history(context, sample, ring.next(), sample.applied.tick) ||
+      context.roles.source(Role::state_machine) != sample.host)
     return;
   databuffer::AppliedEvent applied{};
   copy_record(applied, sample.applied);

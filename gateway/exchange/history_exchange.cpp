@@ -6,6 +6,7 @@
 
 #include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "databuffer/runtime/tick_loop.hpp"
 #include "gateway/exchange/history_progress.hpp"
 
 namespace yars::gateway {
@@ -21,12 +22,6 @@ constexpr std::size_t kTrafficNumbers = 64;  // the depth of the ring of traffic
 constexpr std::uint64_t kRecentTicks = 200;  // 1 s: what a restarted gateway sends again
 constexpr std::size_t kSweepHeader_bytes = offsetof(databuffer::Sweep, video);
 
-// Cursor of a gateway that begins to send a ring.
-template <class Ring>
-std::uint64_t begin_of(const Ring& ring) {
-  return std::max(ring.oldest(), ring.next() - std::min(ring.next(), kRecentTicks));
-}
-
 }  // namespace
 
 void HistoryExchange::send(Context& context) {
@@ -38,9 +33,9 @@ void HistoryExchange::send(Context& context) {
     return;
   }
   if (!tick_cursor_) {
-    traffic_cursor_ = layout.traffic_latched.oldest();
-    tick_cursor_ = begin_of(layout.model_ticks);
-    sweep_cursor_ = begin_of(layout.sweeps);
+    traffic_cursor_ = first_to_send(context, dds::Topic::traffic_latched, layout.traffic_latched, kRecentTicks);
+    tick_cursor_ = first_to_send(context, dds::Topic::model_ticks, layout.model_ticks, kRecentTicks);
+    sweep_cursor_ = first_to_send(context, dds::Topic::sweeps, layout.sweeps, kRecentTicks);
   }
   const auto stamp = [&context](auto& sample, std::uint64_t cursor) {
     sample.host = context.hosts.self().id;
@@ -90,17 +85,22 @@ void HistoryExchange::receive(Context& context) {
   context.link->take<yars_net_SweepSample>(take);
 }
 
-// After a partition the history of the part that yielded arrives, too. It has the epoch from before the meeting.
-bool HistoryExchange::is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch) {
-  epoch_ = context.session.clock().epoch;
-  return context.roles.source(Role::radar_model) == host && static_cast<std::int32_t>(epoch - epoch_) >= 0;
+// After a partition the history of the part that yielded arrives, too. It has the epoch from before the meeting. A host
+// that takes the role over may be a few ticks behind its predecessor. Older ticks are from a time in which this host did
+// not hear it.
+bool HistoryExchange::is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch, std::int64_t tick) {
+  if (context.roles.source(Role::radar_model) != host) return false;
+  if (static_cast<std::int32_t>(epoch - context.session.clock().epoch) < 0) return false;
+  const bool goes_back = last_tick_.epoch == epoch && last_tick_.tick - tick > databuffer::kMaxTicksBehind;
+  return host == last_host_ || !goes_back;
 }
 
 void HistoryExchange::receive(Context& context, const yars_net_LatchedTrafficSample& sample) {
   auto& ring = context.session.layout().traffic_latched;
   // Traffic is valid until the next record, so that also an old one is taken.
   const std::int64_t tick = context.session.sim_time_ns() / radar::kTickNanoseconds;
-  if (context.roles.source(Role::radar_model) != sample.host || !is_new_in_history(context, sample, ring.next(), tick))
+  if (!is_new_in_history(context, sample, ring.next(), tick) ||
+      context.roles.source(Role::radar_model) != sample.host)
     return;
   databuffer::Traffic traffic{};
   copy_record(traffic, sample.traffic);
@@ -116,8 +116,8 @@ void HistoryExchange::receive(Context& context, const yars_net_LatchedTrafficSam
 
 void HistoryExchange::receive(Context& context, const yars_net_ModelTickSample& sample) {
   const auto& ring = std::as_const(context.session).layout().model_ticks;
-  if (!is_wanted(context, sample.host, sample.tick.epoch) ||
-      !is_new_in_history(context, sample, ring.next(), sample.tick.tick))
+  if (!is_new_in_history(context, sample, ring.next(), sample.tick.tick) ||
+      !is_wanted(context, sample.host, sample.tick.epoch, sample.tick.tick))
     return;
   databuffer::ModelTick tick{};
   copy_record(tick, sample.tick);
@@ -129,8 +129,8 @@ void HistoryExchange::receive(Context& context, const yars_net_ModelTickSample& 
 
 void HistoryExchange::receive(Context& context, const yars_net_SweepSample& sample) {
   const auto& ring = std::as_const(context.session).layout().sweeps;
-  if (!is_wanted(context, sample.host, sample.sweep.epoch) ||
-      !is_new_in_history(context, sample, ring.next(), sample.sweep.tick))
+  if (!is_new_in_history(context, sample, ring.next(), sample.sweep.tick) ||
+      !is_wanted(context, sample.host, sample.sweep.epoch, sample.sweep.tick))
     return;
   databuffer::Sweep sweep{};
   std::memcpy(&sweep, &sample.sweep, kSweepHeader_bytes);
@@ -174,6 +174,7 @@ void HistoryExchange::publish(Context& context) {
     keep_progress<yars_net_ModelTickSample>(context, waiting, layout.model_ticks.next());
     layout.model_ticks.publish(tick);
     last_tick_ = {tick.epoch, tick.tick};
+    last_host_ = waiting.host;
     ticks_.pop_front();
   }
   while (!sweeps_.empty()) {

@@ -52,7 +52,7 @@ class HistoryExchange {
   struct TrafficNumber {
     std::uint64_t theirs, ours;
   };
-  bool is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch);
+  bool is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch, std::int64_t tick);
   std::optional<std::uint64_t> local_traffic(std::uint64_t theirs) const;
 
   LaneNames* lanes_;
@@ -63,7 +63,7 @@ class HistoryExchange {
   std::deque<TrafficNumber> traffic_numbers_;
   std::uint64_t traffic_host_ = 0;
   LastTick last_tick_;
-  std::uint32_t epoch_ = 0;  // of the local clock
+  std::uint64_t last_host_ = 0;  // from which it came
 };
 
 }  // namespace yars::gateway

@@ -47,6 +47,15 @@ bool is_new_in_history(Context& context, const Sample& sample, std::uint64_t loc
   return context.hosts.is_new(sample);
 }
 
+// Where a gateway begins that finds a local process writing the ring: its predecessor may have missed the last `recent`
+// records. Records of other hosts are left out.
+template <class Ring>
+std::uint64_t first_to_send(Context& context, dds::Topic topic, const Ring& ring, std::uint64_t recent) {
+  const std::uint64_t next = ring.next();
+  const std::uint64_t own = std::min(next, context.session.layout().network.last_remote[history_of(topic)].load());
+  return std::max({ring.oldest(), next - std::min(next, recent), own});
+}
+
 // Call before the record is published in the local ring. `origin`: the sample, or what has its host, start and number.
 template <class Sample, class Origin>
 void keep_progress(Context& context, const Origin& origin, std::uint64_t local) {
@@ -55,6 +64,7 @@ void keep_progress(Context& context, const Origin& origin, std::uint64_t local) 
   if (entry.source.load() != source) entry.source.store(0);
   entry.progress.store(progress_of(origin.number + 1, local));
   entry.source.store(source);
+  context.session.layout().network.last_remote[history_of(dds::kTopicOf<Sample>)].store(local + 1);
 }
 
 }  // namespace yars::gateway

@@ -27,7 +27,7 @@ YARS = """#!/bin/bash
 while [ "${1#--}" != "$1" ]; do shift 2; done
 case "$1 $2" in
   "config user"|"config check") ;;
-  "status --json") [ ! -e "$YARS_TEST_LOG.joined" ] || { echo '{"network": {"joined": true}}'; exit 3; } ;;
+  "status --json") [ -e "$YARS_TEST_LOG.joined" ] && grep -q ^gateway "$YARS_TEST_LOG" && { echo '{"network": {"joined": true}}'; exit 3; } ;;
   *) exit 1 ;;
 esac
 """

@@ -10,6 +10,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
@@ -22,6 +23,7 @@ CELL_BYTES = 1201 * 1201 * 2  # of zeros: a plain at sea level
 FLIGHT = "fixed:37.5,-122.5,15000,90,480"
 OF_READER = "hosts probes clock clock_requests input_events lockstep"
 WITHIN_S = 60.0  # watchdog
+SUPERVISOR_LOOKS_S = 1.0  # between two tries of power-on
 
 
 class Set:
@@ -97,6 +99,28 @@ def fly(hosts, programs, folder, identities):
     one.end()
 
 
+def power_stays_as_the_pilot_set_it(hosts, programs, folder):
+    """A state-machine that stands by sends no power-on: neither while it waits nor when it takes over."""
+    one = Set(hosts, programs, folder, False)
+    for host, roles in (("a", "flight-model"), ("b", "state-machine"), ("c", "radar-model")):
+        one.start(host, roles)
+    one.await_on("abc", lambda seen: seen.get("power") == "OPR", "a radar that is on")
+    hosts.run("b", str(one.programs / "yars"), ["--session", SESSION, "inject", "power stby"])
+    one.await_on("abc", lambda seen: seen.get("power") == "STBY", "a radar in standby")
+    one.start("d", "state-machine")
+    one.await_on("d", lambda seen: "state-machine standby" in seen.get("processes", {}) and seen.get("power") == "STBY",
+                 "a second state-machine that waits")
+    applied = one.watch("d")["events_applied"]
+    time.sleep(2 * SUPERVISOR_LOOKS_S)
+    hosts.kill_host("b")
+    one.begun.pop("b")
+    one.begun["d"].wait_for("state-machine info: runs in session", WITHIN_S)
+    time.sleep(2 * SUPERVISOR_LOOKS_S)
+    seen = one.watch("d")
+    assert seen["power"] == "STBY" and seen["events_applied"] == applied, seen
+    one.end()
+
+
 def main():
     programs = pathlib.Path(sys.argv[1]).resolve()
     why_not = lab.can_run(str(programs / "wire"))
@@ -112,6 +136,9 @@ def main():
             hosts.set_line(loss=1, delay=5, jitter=2, duplicate=1, reorder=2)
             fly(hosts, programs, pathlib.Path(folder), identities)
         print(f"four hosts{' with identities' if identities else ''}: ok", flush=True)
+    with tempfile.TemporaryDirectory() as folder, lab.Lab(ROLES, wire=str(programs / "wire")) as hosts:
+        power_stays_as_the_pilot_set_it(hosts, programs, pathlib.Path(folder))
+    print("power stays as the pilot set it: ok")
     return 0
 
 
