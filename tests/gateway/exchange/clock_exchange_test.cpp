@@ -282,6 +282,16 @@ TEST_F(LockstepExchangeTest, ADoneTickThatArrivesBeforeItsHostIsKnownIsKept) {
   EXPECT_EQ(tick_of(3), 20);
 }
 
+TEST_F(LockstepExchangeTest, TicksOfManyUnknownHostsLeaveRoom) {
+  for (int host = 0; host < 200; ++host)
+    for (std::uint32_t role = 0; role < databuffer::kLockstepRoles; ++role)
+      exchange_.receive(context_, done("h" + std::to_string(host), role, 5));
+  announce("beta", 0);
+  exchange_.receive(context_, done("beta", 3, 20));
+  exchange_.apply(context_, true);
+  EXPECT_EQ(tick_of(3), 20);
+}
+
 TEST_F(LockstepExchangeTest, ATickOfAnotherHostIsNotSentBack) {
   announce("beta", 0);
   exchange_.receive(context_, done("beta", 3, 20));
