@@ -1,9 +1,10 @@
 // Any samples from the network, into a segment with any bytes: the exchanges of a gateway take or refuse each, and
 // publish no record out of range. DDS itself, which reads the packets, is not part of this target.
-// The input consists of two parts. The first two bytes are the length of the first part, the third its mode: bit 0: this
-// host has the state machine; bit 1: lockstep. The first part consists of pieces of (topic and host, offset in two
-// bytes, length, bytes): a well-formed sample that the bytes overwrite. An even offset makes the sample's hash or number
-// right again. The second part changes the segment (tests/fuzz/overlaid_session.hpp); each beat takes some samples.
+// The input consists of two parts. The first two bytes are the length of the first part, the third its mode: bit 0:
+// this host has the state machine; bit 1: lockstep. The first part consists of pieces of (topic and host, offset in two
+// bytes, length, bytes): a well-formed sample that the bytes overwrite. An even offset makes the sample's hash or
+// number right again. The second part changes the segment (tests/fuzz/overlaid_session.hpp); each beat takes some
+// samples.
 #include <unistd.h>
 
 #include <cmath>
@@ -83,7 +84,9 @@ databuffer::ClockState good_clock() {
   clock.reposition_latitude_deg = std::nan("");
   return clock;
 }
-void fill(yars_net_ClockSample& sample, std::size_t /*host*/) { copy_record(sample.clock, good_clock()); }
+void fill(yars_net_ClockSample& sample, std::size_t /*host*/) {
+  copy_record(sample.clock, good_clock());
+}
 void fill(yars_net_ClockRequestSample& sample, std::size_t /*host*/) {
   copy_record(sample.clock, good_clock());
   sample.owner = host_id("alpha");
@@ -144,7 +147,9 @@ void fill(yars_net_PatchRowSample& sample, std::size_t /*host*/) {
   sample.length = 4;
   std::memset(sample.pixels, 7, sizeof sample.pixels);
 }
-void fill(yars_net_CaptionSample& sample, std::size_t /*host*/) { sample.caption.step = sample.caption.steps = 1; }
+void fill(yars_net_CaptionSample& sample, std::size_t /*host*/) {
+  sample.caption.step = sample.caption.steps = 1;
+}
 
 // Makes the numbers right that a random change makes wrong.
 template <class Sample>
@@ -213,9 +218,9 @@ class Published {
  private:
   static constexpr std::size_t kContainers = 7 + 2 * databuffer::kOwnshipLanes + 4;
   std::array<std::uint64_t, kContainers> numbers() const {
-    std::array<std::uint64_t, kContainers> all{layout_->radar_state.version(), layout_->outputs.version(),
-                                               layout_->advice.version(),      layout_->model_status.version(),
-                                               layout_->traffic.version(),     layout_->caption.version(),
+    std::array<std::uint64_t, kContainers> all{layout_->radar_state.version(),    layout_->outputs.version(),
+                                               layout_->advice.version(),         layout_->model_status.version(),
+                                               layout_->traffic.version(),        layout_->caption.version(),
                                                layout_->recorder_status.version()};
     std::size_t index = 7;
     for (const auto& lane : layout_->ownship) all[index++] = lane.version();
@@ -306,7 +311,8 @@ class Gateway {
     fill(sample, host);
     const bool mends = offset % 2 == 0;
     offset = offset / 2 % sizeof sample;
-    std::memcpy(reinterpret_cast<char*>(&sample) + offset, bytes.data(), std::min(bytes.size(), sizeof sample - offset));
+    std::memcpy(reinterpret_cast<char*>(&sample) + offset, bytes.data(),
+                std::min(bytes.size(), sizeof sample - offset));
     if constexpr (std::is_same_v<Sample, yars_net_SweepSample>) {
       sample.video._length = std::min<std::uint32_t>(sample.video._length, radar::kMaxSamples);
       sample.video._buffer = const_cast<std::uint8_t*>(::bytes().data());
@@ -323,9 +329,8 @@ class Gateway {
           hosts_.receive(sample, sample.version[31] != 'e', context_.now_ns);
         });
       case dds::Topic::probes:
-        return take<yars_net_ProbeSample>(host, offset, bytes, [this](const auto& sample) {
-          hosts_.receive(sample, databuffer::monotonic_ns());
-        });
+        return take<yars_net_ProbeSample>(
+            host, offset, bytes, [this](const auto& sample) { hosts_.receive(sample, databuffer::monotonic_ns()); });
       case dds::Topic::clock:
         return take<yars_net_ClockSample>(host, offset, bytes, to(clock_));
       case dds::Topic::clock_requests:
