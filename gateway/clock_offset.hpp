@@ -60,7 +60,8 @@ class OffsetEstimator {
  private:
   static constexpr std::size_t kWindow = 16;  // 4 s. A longer window would follow a drifting clock too late
   static constexpr std::int64_t kMaxRoundTrip_ns = 2'000'000'000;
-  static constexpr std::int64_t kMaxTime_ns = std::int64_t{1} << 61;
+  // 18 years, as databuffer::kLatestClockBase_ns. Ten times an offset, at the greatest rate, is no overflow.
+  static constexpr std::int64_t kMaxTime_ns = std::int64_t{1} << 59;
   std::array<Estimate, kWindow> answers_{};
   std::size_t count_ = 0;
 };

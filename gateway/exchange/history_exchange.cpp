@@ -86,8 +86,8 @@ void HistoryExchange::receive(Context& context) {
 }
 
 // After a partition the history of the part that yielded arrives, too. It has the epoch from before the meeting. A host
-// that takes the role over may be a few ticks behind its predecessor. Older ticks are from a time in which this host did
-// not hear it.
+// that takes the role over may be a few ticks behind its predecessor. Older ticks are from a time in which this host
+// did not hear it.
 bool HistoryExchange::is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch, std::int64_t tick) {
   if (context.roles.source(Role::radar_model) != host) return false;
   if (static_cast<std::int32_t>(epoch - context.session.clock().epoch) < 0) return false;
@@ -99,8 +99,7 @@ void HistoryExchange::receive(Context& context, const yars_net_LatchedTrafficSam
   auto& ring = context.session.layout().traffic_latched;
   // Traffic is valid until the next record, so that also an old one is taken.
   const std::int64_t tick = context.session.sim_time_ns() / radar::kTickNanoseconds;
-  if (!is_new_in_history(context, sample, ring.next(), tick) ||
-      context.roles.source(Role::radar_model) != sample.host)
+  if (!is_new_in_history(context, sample, ring.next(), tick) || context.roles.source(Role::radar_model) != sample.host)
     return;
   databuffer::Traffic traffic{};
   copy_record(traffic, sample.traffic);

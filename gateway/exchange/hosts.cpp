@@ -333,7 +333,8 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
   own.held_roles = self().held_roles;
   own.priority = identity_.priority;
   own.flags = databuffer::kHostSelf | databuffer::kHostPresent | databuffer::kHostOffsetKnown |
-              (self().owns_clock ? databuffer::kHostOwnsClock : 0U) | (same_name_ && has_same_name(now_ns) ? databuffer::kHostSameName : 0U);
+              (self().owns_clock ? databuffer::kHostOwnsClock : 0U) |
+              (same_name_ && has_same_name(now_ns) ? databuffer::kHostSameName : 0U);
   status.host_count = 1;
   for (const Host& host : hosts_) {
     if (host.view.name.empty() || status.host_count >= databuffer::kMaxHosts) continue;

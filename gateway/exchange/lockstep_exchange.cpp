@@ -38,6 +38,8 @@ void LockstepExchange::receive(Context& context, const yars_net_LockstepSample& 
     return context.hosts.refuse(sample.host, dds::Topic::lockstep, "role or done_tick: out of range");
   // It may arrive before the host's first announcement, and is not sent again.
   const std::pair key{sample.host, sample.role};
+  if (waiting_.size() >= databuffer::kMaxHosts * databuffer::kLockstepRoles)
+    std::erase_if(waiting_, [&](const auto& item) { return context.hosts.find(item.first.first) == nullptr; });
   if (waiting_.contains(key) || waiting_.size() < databuffer::kMaxHosts * databuffer::kLockstepRoles)
     waiting_[key] = sample;
 }

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "lib/radar/fidelity.hpp"
+#include "lib/radar/world.hpp"
 #include "model/physics/sweep_geometry.hpp"
 
 namespace yars::model::physics {

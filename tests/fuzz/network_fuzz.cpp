@@ -1,13 +1,13 @@
 // Any samples from the network, into a segment with any bytes: the exchanges of a gateway take or refuse each, and
 // publish no record out of range. DDS itself, which reads the packets, is not part of this target.
-// The input consists of two parts. The first two bytes are the length of the first part, the third its mode: bit 0: this
-// host has the state machine; bit 1: lockstep. The first part consists of pieces of (topic and host, offset in two
-// bytes, length, bytes): a well-formed sample that the bytes overwrite. An even offset makes the sample's hash or number
-// right again. The second part changes the segment (tests/fuzz/overlaid_session.hpp); each beat takes some samples.
+// The input consists of two parts. The first two bytes are the length of the first part, the third its mode: bit 0:
+// this host has the state machine; bit 1: lockstep. The first part consists of pieces of (topic and host, offset in two
+// bytes, length, bytes): a well-formed sample that the bytes overwrite. An even offset makes the sample's hash or
+// number right again. The second part changes the segment (tests/fuzz/overlaid_session.hpp); each beat takes some
+// samples.
 #include <unistd.h>
 
 #include <cmath>
-#include <tuple>
 
 #include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
@@ -19,6 +19,7 @@
 #include "gateway/exchange/state_exchange.hpp"
 #include "lib/error/error.hpp"
 #include "lib/log/log.hpp"
+#include "tests/fuzz/network_samples.hpp"
 #include "tests/fuzz/overlaid_session.hpp"
 
 namespace {
@@ -26,147 +27,13 @@ namespace {
 using namespace yars;
 using namespace yars::gateway;
 using databuffer::Role;
+using fuzz::kHostNames;
+using fuzz::kSegment;
 
-constexpr std::uint64_t kSegment = 2002, kOtherSegment = 3003;
 constexpr std::size_t kSamplesOfABeat = 8;
-constexpr std::array<const char*, 3> kHostNames{"beta", "gamma", "aaron"};
 
 void require_good(const databuffer::Refusal& refusal) {
   YARS_REQUIRE(refusal.value_or(""), ==, "");
-}
-
-databuffer::Ownship good_ownship() {
-  databuffer::Ownship own{};
-  own.latitude_deg = 36.6;
-  own.longitude_deg = -121.9;
-  own.altitude_msl_m = 5000.0;
-  own.radar_altitude_m = std::nan("");
-  return own;
-}
-
-constexpr std::uint32_t bit(Role role) {
-  return 1U << static_cast<unsigned>(role);
-}
-
-// Pixels of the patch maps, and video of the sweeps.
-const std::vector<std::uint8_t>& bytes() {
-  static const std::vector<std::uint8_t> all(radar::kMaxSamples, 7);
-  return all;
-}
-
-// What makes an empty sample valid. One function for each structure that needs more than zeros.
-template <class Sample>
-void fill(Sample& /*sample*/, std::size_t /*host*/) {}
-void fill(yars_net_HostSample& sample, std::size_t host) {
-  std::strcpy(sample.name, kHostNames[host]);
-  sample.segment = kOtherSegment;
-  sample.layout_hash = databuffer::kLayoutIdentity.hash;
-  sample.protocol = yars_net_kProtocol;
-  sample.held_roles = host == 0 ? bit(Role::radar_model) | bit(Role::traffic) | bit(Role::recorder) | bit(Role::tour) |
-                                      bit(Role::state_machine)
-                                : 0;
-  sample.owns_clock = host == 0 ? 1 : 0;
-}
-void fill(yars_net_ProbeSample& sample, std::size_t host) {
-  sample.from = host_id("alpha");
-  sample.to = host_id(kHostNames[host]);
-  sample.stage = 1;
-  sample.asked_ns = databuffer::monotonic_ns() - 200'000;
-  sample.received_ns = sample.answered_ns = sample.asked_ns + 5'000'100'000;
-}
-databuffer::ClockState good_clock() {
-  databuffer::ClockState clock{};
-  clock.base_sim_ns = 60'000'000'000;
-  clock.base_monotonic_ns = databuffer::monotonic_ns();
-  clock.rate = 1.0;
-  clock.running = 1;
-  clock.reposition_latitude_deg = std::nan("");
-  return clock;
-}
-void fill(yars_net_ClockSample& sample, std::size_t /*host*/) { copy_record(sample.clock, good_clock()); }
-void fill(yars_net_ClockRequestSample& sample, std::size_t /*host*/) {
-  copy_record(sample.clock, good_clock());
-  sample.owner = host_id("alpha");
-}
-void fill(yars_net_OwnshipSample& sample, std::size_t /*host*/) {
-  copy_record(sample.ownship, good_ownship());
-  sample.nav.mission_latitude_deg = std::nan("");
-  sample.priority = 10;
-}
-databuffer::InputEvent good_event() {
-  databuffer::InputEvent event{};
-  event.kind = static_cast<std::uint16_t>(databuffer::EventKind::push_button);
-  event.argument = 1;
-  return event;
-}
-void fill(yars_net_InputEventSample& sample, std::size_t /*host*/) {
-  copy_record(sample.event, good_event());
-  sample.segment = kOtherSegment;
-  sample.machine_segment = kSegment;
-  sample.event_number = sample.number;
-}
-void fill(yars_net_EventReceiptSample& sample, std::size_t /*host*/) {
-  sample.sender = host_id("alpha");
-  sample.segment = kSegment;
-  sample.next_event = 1;
-}
-void fill(yars_net_AppliedEventSample& sample, std::size_t /*host*/) {
-  copy_record(sample.applied.event, good_event());
-  sample.sender = host_id("alpha");
-}
-void fill(yars_net_ModelStatusSample& sample, std::size_t /*host*/) {
-  copy_record(sample.status.ownship, good_ownship());
-}
-void fill(yars_net_ModelTickSample& sample, std::size_t /*host*/) {
-  copy_record(sample.tick.ownship, good_ownship());
-  sample.tick.tick = 12'000;
-}
-void fill(yars_net_SweepSample& sample, std::size_t /*host*/) {
-  sample.sweep.tick = 12'000;
-  sample.sweep.azimuth_right_deg = 1.0;
-  sample.sweep.range_m = 74'080.0;
-  sample.sweep.scan = 1;
-  sample.sweep.samples = 480;
-  sample.video._length = 480;
-}
-void fill(yars_net_PatchMapSample& sample, std::size_t /*host*/) {
-  databuffer::PatchMap map{};
-  map.id = sample.id = 7;
-  map.window_nm = 4.7;
-  map.distance_m = 33'000.0;
-  map.resolution_m = 20.0;
-  map.size = 4;
-  copy_record(sample.map, map);
-}
-void fill(yars_net_PatchRowSample& sample, std::size_t /*host*/) {
-  sample.id = 7;
-  sample.row = static_cast<std::uint32_t>(sample.number % 4);
-  sample.length = 4;
-  std::memset(sample.pixels, 7, sizeof sample.pixels);
-}
-void fill(yars_net_CaptionSample& sample, std::size_t /*host*/) { sample.caption.step = sample.caption.steps = 1; }
-
-// Makes the numbers right that a random change makes wrong.
-template <class Sample>
-void mend(Sample& /*sample*/) {}
-void mend(yars_net_HostSample& sample) {
-  sample.host = host_id(std::string_view(sample.name, strnlen(sample.name, sizeof sample.name)));
-}
-void mend(yars_net_SweepSample& sample) {
-  sample.video._length = std::min<std::uint32_t>(sample.sweep.samples, radar::kMaxSamples);
-  databuffer::Sweep sweep{};
-  std::memcpy(&sweep, &sample.sweep, sizeof sample.sweep);
-  std::memcpy(sweep.video, bytes().data(), sample.video._length);
-  sweep.samples = sample.video._length;
-  sample.sweep.hash = databuffer::sweep_hash(sweep);
-}
-void mend(yars_net_PatchMapSample& sample) {
-  databuffer::PatchMap map{};
-  copy_record(map, sample.map);
-  map.id = sample.id;
-  const std::size_t pixels = std::size_t{std::min<std::uint32_t>(map.size, 32)} * std::min<std::uint32_t>(map.size, 32);
-  map.hash = databuffer::map_hash(map, std::span(bytes()).first(pixels));
-  copy_record(sample.map, map);
 }
 
 // What stands in the containers that a gateway writes, to see what one beat has published.
@@ -213,9 +80,9 @@ class Published {
  private:
   static constexpr std::size_t kContainers = 7 + 2 * databuffer::kOwnshipLanes + 4;
   std::array<std::uint64_t, kContainers> numbers() const {
-    std::array<std::uint64_t, kContainers> all{layout_->radar_state.version(), layout_->outputs.version(),
-                                               layout_->advice.version(),      layout_->model_status.version(),
-                                               layout_->traffic.version(),     layout_->caption.version(),
+    std::array<std::uint64_t, kContainers> all{layout_->radar_state.version(),    layout_->outputs.version(),
+                                               layout_->advice.version(),         layout_->model_status.version(),
+                                               layout_->traffic.version(),        layout_->caption.version(),
                                                layout_->recorder_status.version()};
     std::size_t index = 7;
     for (const auto& lane : layout_->ownship) all[index++] = lane.version();
@@ -303,15 +170,16 @@ class Gateway {
       sample.start = 77;
       sample.number = numbers_[host][dds::index_of(dds::kTopicOf<Sample>)]++;
     }
-    fill(sample, host);
+    fuzz::fill(sample, host);
     const bool mends = offset % 2 == 0;
     offset = offset / 2 % sizeof sample;
-    std::memcpy(reinterpret_cast<char*>(&sample) + offset, bytes.data(), std::min(bytes.size(), sizeof sample - offset));
+    std::memcpy(reinterpret_cast<char*>(&sample) + offset, bytes.data(),
+                std::min(bytes.size(), sizeof sample - offset));
     if constexpr (std::is_same_v<Sample, yars_net_SweepSample>) {
       sample.video._length = std::min<std::uint32_t>(sample.video._length, radar::kMaxSamples);
-      sample.video._buffer = const_cast<std::uint8_t*>(::bytes().data());
+      sample.video._buffer = const_cast<std::uint8_t*>(fuzz::bytes().data());
     }
-    if (mends) mend(sample);
+    if (mends) fuzz::mend(sample);
     take(sample);
   }
 
@@ -323,9 +191,8 @@ class Gateway {
           hosts_.receive(sample, sample.version[31] != 'e', context_.now_ns);
         });
       case dds::Topic::probes:
-        return take<yars_net_ProbeSample>(host, offset, bytes, [this](const auto& sample) {
-          hosts_.receive(sample, databuffer::monotonic_ns());
-        });
+        return take<yars_net_ProbeSample>(
+            host, offset, bytes, [this](const auto& sample) { hosts_.receive(sample, databuffer::monotonic_ns()); });
       case dds::Topic::clock:
         return take<yars_net_ClockSample>(host, offset, bytes, to(clock_));
       case dds::Topic::clock_requests:

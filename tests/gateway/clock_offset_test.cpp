@@ -96,6 +96,13 @@ TEST(OffsetEstimator, ExtremeTimesDoNotOverflow) {
         }
 }
 
+TEST(OffsetEstimator, NoOffsetIsGreaterThan18Years) {
+  OffsetEstimator estimator;
+  EXPECT_FALSE(estimator.add({1000, (std::int64_t{1} << 59) + 1, (std::int64_t{1} << 59) + 1, 2000}));
+  ASSERT_TRUE(estimator.add({1000, std::int64_t{1} << 59, std::int64_t{1} << 59, 2000}));
+  EXPECT_LE(estimator.best()->offset_ns, std::int64_t{1} << 59);
+}
+
 TEST(OffsetEstimator, TimesThatContradictEachOtherAreLeftOut) {
   OffsetEstimator estimator;
   EXPECT_FALSE(estimator.add({1000, 5000, 6000, 900})) << "returned before it was asked";

@@ -104,7 +104,7 @@ void print_host(const ordered_json& host) {
   const std::string heard = host["present"].get<bool>() ? "yes" : "silent " + age_text(host["silent_s"].get<double>());
   const auto& offset = host["offset_ms"];
   const auto number = [&host](const char* field) { return std::to_string(host[field].get<std::uint64_t>()); };
-  std::printf("  %-31s %-14s %14s %10s %10s %8s %8s %9s  %s\n", (text(host["name"]) + (self ? " *" : "")).c_str(),
+  std::printf("  %-20s %-14s %14s %10s %10s %8s %8s %9s  %s\n", (text(host["name"]) + (self ? " *" : "")).c_str(),
               self ? "this host" : heard.c_str(),
               self               ? "-"
               : offset.is_null() ? "unknown"
@@ -116,7 +116,7 @@ void print_host(const ordered_json& host) {
 
 void print_network(const ordered_json& network) {
   if (network.is_null()) return;
-  std::printf("hosts:\n  %-31s %-14s %14s %10s %10s %8s %8s %9s  %s\n", "name", "heard", "offset", "error", "latency",
+  std::printf("hosts:\n  %-20s %-14s %14s %10s %10s %8s %8s %9s  %s\n", "name", "heard", "offset", "error", "latency",
               "lost", "refused", "repeated", "roles");
   for (const auto& host : network["hosts"]) print_host(host);
   std::printf("gateway: DDS domain %u, %s, %s of a core, %s, %s\n", network["domain"].get<unsigned>(),

@@ -153,6 +153,22 @@ TEST_F(ClockExchangeTest, TheOffsetIsSlewedAndSimTimeNeverJumps) {
   EXPECT_EQ(requests(), 0u) << "the slewed clock is no change of a local program";
 }
 
+// Run with -fsanitize=undefined this finds overflows.
+TEST_F(ClockExchangeTest, AnyOffsetAndClockThatPassTheChecksAreFollowedOrRefused) {
+  constexpr std::int64_t kLatest = databuffer::kLatestClockBase_ns;
+  announce("beta", 0, kBetaSegment, 1);
+  for (const std::int64_t offset_ns : {-began_ns_, std::int64_t{0}, kLatest - 2 * began_ns_})
+    for (const std::int64_t base_ns : {std::int64_t{0}, kLatest})
+      for (const double rate : {0.0, 1.0, 10.0}) {
+        for (int i = 0; i < 16; ++i) measure_offset(offset_ns);
+        ClockState extreme = clock(kLatest, rate);
+        extreme.base_monotonic_ns = base_ns;
+        receive(extreme);
+        for (int i = 0; i < 3; ++i) pass(5'000'000);
+        EXPECT_FALSE(databuffer::validate(session_.clock()));
+      }
+}
+
 TEST_F(ClockExchangeTest, TheOwnerMakesARequestedChangeOnce) {
   own();
   announce("beta", 0);
@@ -262,6 +278,16 @@ TEST_F(LockstepExchangeTest, ADoneTickThatArrivesBeforeItsHostIsKnownIsKept) {
   exchange_.apply(context_, true);
   EXPECT_LT(tick_of(3), 20);
   announce("beta", 0);
+  exchange_.apply(context_, true);
+  EXPECT_EQ(tick_of(3), 20);
+}
+
+TEST_F(LockstepExchangeTest, TicksOfManyUnknownHostsLeaveRoom) {
+  for (int host = 0; host < 200; ++host)
+    for (std::uint32_t role = 0; role < databuffer::kLockstepRoles; ++role)
+      exchange_.receive(context_, done("h" + std::to_string(host), role, 5));
+  announce("beta", 0);
+  exchange_.receive(context_, done("beta", 3, 20));
   exchange_.apply(context_, true);
   EXPECT_EQ(tick_of(3), 20);
 }

@@ -53,7 +53,8 @@ class EventExchangeTest : public testing::TwoHosts {
   std::uint64_t receipts() const { return hosts_.written()[dds::index_of(dds::Topic::event_receipts)]; }
   std::size_t held_lanes() const {
     std::size_t held = 0;
-    for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) held += session_.input_lane_is_held(lane) ? 1 : 0;
+    for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane)
+      held += session_.input_lane_is_held(lane) ? 1 : 0;
     return held;
   }
   using Numbers = std::vector<std::uint32_t>;

@@ -12,8 +12,8 @@ namespace yars::gateway {
 namespace {
 
 using databuffer::Role;
-using ::testing::HasSubstr;
 using testing::bit;
+using ::testing::HasSubstr;
 
 class HostsTest : public testing::TwoHosts {
  protected:
