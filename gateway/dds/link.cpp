@@ -69,9 +69,6 @@ Qos qos_of(const TopicSettings& settings) {
     dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
     dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, settings.depth, -1, -1, -1);
   }
-  if (settings.leased)
-    dds_qset_liveliness(qos.get(), DDS_LIVELINESS_MANUAL_BY_TOPIC,
-                        std::chrono::duration_cast<std::chrono::nanoseconds>(kLease).count());
   if (settings.exclusive) dds_qset_ownership(qos.get(), DDS_OWNERSHIP_EXCLUSIVE);
   return qos;
 }

@@ -59,7 +59,7 @@ class Link {
       take(taken);
     }
   }
-  // As take(). `alive` false: the host has left, or has not written within kLease; of the sample only `host` is valid.
+  // As take(). `alive` false: the host has left, or DDS has not heard it for 1 s; of the sample only `host` is valid.
   template <class Take>
   void take_hosts(const Take& take) {
     bool alive = false;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <array>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -111,18 +110,16 @@ constexpr Topic topic_of(const yars_net_LockstepSample*) {
 template <class Sample>
 inline constexpr Topic kTopicOf = topic_of(static_cast<const Sample*>(nullptr));
 
-// What a topic asks of DDS. KEEP_LAST everywhere: with KEEP_ALL a lost host would block the writer.
+// What a topic asks of DDS. KEEP_LAST everywhere: with KEEP_ALL a lost host would block the writer. No liveliness leases:
+// Cyclone DDS 0.10.2 ends with a segmentation fault when many of them expire (docs/decisions/0033).
 struct TopicSettings {
   std::string_view name;
   const dds_topic_descriptor_t* structure;
   bool reliable;
   bool transient_local;  // a host that joins later gets the last `depth` samples of each instance
   int depth;
-  // The writer must write within kLease, or its samples no longer count. Otherwise a dead host would keep its topics.
-  bool leased;
   bool exclusive;  // only the samples of the writer with the greatest strength arrive
 };
-inline constexpr std::chrono::milliseconds kLease(500);
 
 const TopicSettings& settings_of(Topic topic);
 

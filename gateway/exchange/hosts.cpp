@@ -67,6 +67,8 @@ Hosts::Hosts(databuffer::Session& session, dds::Link* link, Identity identity)
 void Hosts::exchange(std::int64_t now_ns) {
   if (link_ != nullptr)
     link_->take_hosts([&](const yars_net_HostSample& sample, bool alive) { receive(sample, alive, now_ns); });
+  for (Host& host : hosts_)
+    if (host.alive && now_ns - host.heard_ns > kLease_ns) lose(host);
   update_group(now_ns);
   announce(now_ns);
   ask(now_ns);
@@ -82,12 +84,7 @@ void Hosts::set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t 
 
 void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns) {
   if (!alive) {
-    Host* host = host_of(sample.host, false);
-    if (host == nullptr || !host->alive) return;
-    host->alive = false;
-    log::warning("host " + host->view.name + " is no longer heard");
-    session_->note(NoteKind::loss, "host " + host->view.name + " is no longer heard");
-    update_views();
+    if (Host* host = host_of(sample.host, false); host != nullptr && host->alive) lose(*host);
     return;
   }
   if (sample.host == self().id) return report_same_name(sample, now_ns);
@@ -104,6 +101,14 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
   host->view.held_roles = sample.held_roles;
   host->view.owns_clock = sample.owns_clock != 0;
   report_differences(*host);
+  update_views();
+}
+
+void Hosts::lose(Host& host) {
+  host.alive = false;
+  const std::string line = "host " + host.view.name + " is no longer heard";
+  log::warning(line);
+  session_->note(NoteKind::loss, line);
   update_views();
 }
 
@@ -255,7 +260,6 @@ void Hosts::update_views() {
 // Number of hosts that were heard kGroupDelay_ns ago, so that two hosts that meet again say how many each had with it.
 // A process that was stopped for longer than the lease was alone.
 void Hosts::update_group(std::int64_t now_ns) {
-  constexpr std::int64_t kLease_ns = std::chrono::nanoseconds(dds::kLease).count();
   if (now_ns - std::exchange(last_pass_ns_, now_ns) > kLease_ns) group_sizes_ = {{now_ns - kGroupDelay_ns, 1}};
   const auto heard = static_cast<std::uint32_t>(views_.size());
   if (group_sizes_.empty() || group_sizes_.back().second != heard) group_sizes_.emplace_back(now_ns, heard);

@@ -39,6 +39,10 @@ struct Identity {
 // Number of a host: FNV-1a (64 bits) of its name.
 std::uint64_t host_id(std::string_view name);
 
+// [ns] A host that has not announced itself for so long is lost: five announcements. With a shorter time a loaded machine
+// would lose its hosts. With a longer one a dead host would keep its roles.
+inline constexpr std::int64_t kLease_ns = 500'000'000;
+
 class Hosts {
  public:
   // `session` receives notes. `link`: null only in tests that hand samples to receive().
@@ -108,6 +112,7 @@ class Hosts {
   };
   Host* host_of(std::uint64_t id, bool add);
   const Host* host_of(std::uint64_t id) const;
+  void lose(Host& host);
   void begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns);
   void report_differences(Host& host);
   void report(Host& host, std::uint32_t flag, bool differs, const std::string& line);

@@ -71,7 +71,7 @@ void StateExchange::send(Context& context) {
       [](auto& sample, const auto& record) { copy_record(sample.status, record); });
 }
 
-// Each held lane has a writer of its own. A lane without new records loses its ownership after the lease, so that the
+// Each held lane has a writer of its own. The writer of a lane without new records ends after the lease, so that the
 // other hosts see the next lane. In lockstep a record is repeated, because a host that joins would wait for it.
 void StateExchange::send_ownship(Context& context) {
   const auto& layout = std::as_const(context.session).layout();
@@ -85,7 +85,10 @@ void StateExchange::send_ownship(Context& context) {
     sent.is_held = true;
     const std::uint64_t version = layout.ownship[lane].version();
     const bool repeats = context.lockstep && context.now_ns - sent.sent_ns > kLockstepRefresh_ns;
-    if (version == sent.version && !repeats) continue;
+    if (version == sent.version && !repeats) {
+      if (!context.lockstep && context.now_ns - sent.sent_ns > kLease_ns) context.link->end_ownship(number);
+      continue;
+    }
     const auto ownship = databuffer::read_valid(layout.ownship[lane]);
     if (!ownship) continue;
     sent.version = version;
