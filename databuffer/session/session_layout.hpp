@@ -125,18 +125,19 @@ struct SkippedTicks {
 // so that the next gateway copies each record once.
 struct RemoteProgress {
   std::atomic<std::uint64_t> source;  // hash of host, segment and container there; 0: none
-  // High 32 bits: number of the next record of the source. Low 32 bits: number of records in the container here before
-  // the last one. Stored before a record is written. If the number has not changed since, the last record is missing.
+  // High 32 bits: number of the next record of the source. 5 bits: lane of the container here. Low 27 bits: number of
+  // records in it before the last one. Stored before a record is written. If that number has not changed since, the last
+  // record is missing.
   std::atomic<std::uint64_t> progress;
 };
 
 // State of the gateway that joins this segment to the segments of other hosts (gateway/README.md).
 struct Network {
-  static constexpr std::size_t kHistories = 4, kHistorySources = 4;
+  static constexpr std::size_t kHistories = 4, kHistorySources = 4, kInputSources = 32;
   std::atomic<std::uint64_t> segment;         // random number of this segment; 0: no gateway has joined it
   std::atomic<std::uint32_t> yielding_roles;  // bit n: role n is held on another host; its holder here must release it
   std::atomic<std::uint32_t> mirrored_roles;  // bit n: the gateway holds role n for another host
-  std::array<RemoteProgress, kInputLanes> input;  // of the input lanes, in their order
+  std::array<RemoteProgress, kInputSources> input;  // of the last input lanes of other hosts
   // Of the rings applied_events, traffic_latched, model_ticks and sweeps, for the last hosts that wrote them.
   std::array<std::array<RemoteProgress, kHistorySources>, kHistories> histories;
   // Number of records in each of these rings up to the last one that came from another host.

@@ -37,11 +37,28 @@ std::uint64_t lane_id(std::uint64_t host, std::uint64_t segment, std::uint32_t l
 
 void EventExchange::send(Context& context) {
   const auto machine = context.roles.source(Role::state_machine);
+  if (machine) drop_remote_events(context);
   if (machine && context.writes(dds::Topic::input_events))
     for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) send_waiting(context, lane, *machine);
   release_lanes(context);
   send_receipts(context);
   send_applied(context);
+}
+
+// Events of other hosts that the state machine of this host has not taken before it yielded. They have no receipt, so
+// that their hosts send them to the state machine that stays.
+void EventExchange::drop_remote_events(Context& context) {
+  auto& layout = context.session.layout();
+  for (const databuffer::RemoteProgress& entry : layout.network.input) {
+    const std::uint64_t progress = entry.progress.load();
+    const std::size_t lane = lane_of(progress);
+    if (entry.source.load() == 0 || lane >= databuffer::kInputLanes) continue;
+    // A local source claims a lane only when it is empty. So a lane with a remote event at its end has no others.
+    if (!ends_with(progress, layout.input.pushed(lane))) continue;
+    databuffer::InputEvent event{};
+    while (layout.input.pop(lane, event)) {
+    }
+  }
 }
 
 // Sends the events of a lane that have no receipt yet. This gateway is the consumer of the lanes, because it holds the
@@ -133,11 +150,13 @@ EventExchange::Receiving* EventExchange::receiving_from(Context& context, const 
   receiving.segment = sample.segment;
   // An entry of this gateway's predecessor says what has been delivered. Without one this is the first event.
   const auto& layout = std::as_const(context.session).layout();
-  for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
-    const databuffer::RemoteProgress& entry = layout.network.input[lane];
+  for (const databuffer::RemoteProgress& entry : layout.network.input) {
     if (entry.source.load() != id) continue;
-    const std::uint64_t next = next_of(entry.progress.load(), layout.input.pushed(lane), sample.event_number);
-    receiving.next_event = std::max(receiving.next_event, next);
+    const std::uint64_t progress = entry.progress.load();
+    const std::size_t lane = lane_of(progress);
+    if (lane >= databuffer::kInputLanes) continue;
+    receiving.next_event = next_of(progress, layout.input.pushed(lane), sample.event_number);
+    if (ends_with(progress, layout.input.pushed(lane))) receiving.local_lane = lane;
   }
   return &receiving_.emplace(id, std::move(receiving)).first->second;
 }
@@ -157,10 +176,12 @@ bool EventExchange::take_lane(Context& context, Receiving& receiving, const yars
   }
   const auto lane = static_cast<std::size_t>(claim->lane());
   auto& layout = context.session.layout();
-  databuffer::RemoteProgress& entry = layout.network.input[lane];
-  entry.source.store(0);
-  entry.progress.store(progress_of(sample.event_number, layout.input.pushed(lane) - 1));
-  entry.source.store(lane_id(receiving.sender, receiving.segment, receiving.lane));
+  const std::uint64_t id = lane_id(receiving.sender, receiving.segment, receiving.lane);
+  databuffer::RemoteProgress& entry = entry_of(layout.network.input, id);
+  if (entry.source.load() != id) entry.source.store(0);
+  entry.progress.store(progress_of(sample.event_number, layout.input.pushed(lane) - 1, lane));
+  entry.source.store(id);
+  receiving.local_lane = lane;
   lanes_->input[lane] = RemoteName{receiving.sender, receiving.lane};
   receiving.claim.emplace(std::move(*claim));
   return true;
@@ -180,21 +201,28 @@ void EventExchange::push(Context& context, Receiving& receiving, const yars_net_
   auto& layout = context.session.layout();
   const std::uint64_t pushed = layout.input.pushed(lane);
   if (pushed - layout.input.popped(lane) >= databuffer::kInputLaneDepth) return;
-  layout.network.input[lane].progress.store(progress_of(sample.event_number + 1, pushed));
+  const std::uint64_t id = lane_id(receiving.sender, receiving.segment, receiving.lane);
+  entry_of(layout.network.input, id).progress.store(progress_of(sample.event_number + 1, pushed, lane));
   layout.input.push(lane, event);
   receiving.next_event = sample.event_number + 1;
 }
 
+// An event has its receipt when the state machine has taken it from the lane.
 void EventExchange::send_receipts(Context& context) {
+  const auto& input = std::as_const(context.session).layout().input;
   for (auto& [id, receiving] : receiving_) {
-    if (!receiving.receipt_due || receiving.next_event == 0) continue;
+    const std::uint64_t waiting =
+        receiving.local_lane ? input.pushed(*receiving.local_lane) - input.popped(*receiving.local_lane) : 0;
+    const std::uint64_t taken = receiving.next_event - std::min(waiting, receiving.next_event);
+    if (taken == 0 || (taken == receiving.receipted && !receiving.receipt_due)) continue;
     receiving.receipt_due = false;
+    receiving.receipted = taken;
     yars_net_EventReceiptSample sample{};
     context.hosts.stamp(sample);
     sample.sender = receiving.sender;
     sample.lane = receiving.lane;
     sample.segment = receiving.segment;
-    sample.next_event = receiving.next_event;
+    sample.next_event = taken;
     context.write(sample);
   }
 }

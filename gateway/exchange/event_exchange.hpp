@@ -52,10 +52,13 @@ class EventExchange {
     std::uint64_t segment = 0;
     std::optional<databuffer::Claim> claim = std::nullopt;
     std::uint64_t next_event = 0;
+    std::optional<std::size_t> local_lane = std::nullopt;  // in which its last events are, claimed or not
+    std::uint64_t receipted = 0;
     bool receipt_due = false;
     std::int64_t heard_ns = 0;
   };
   void send_waiting(Context& context, std::size_t lane, std::uint64_t machine);
+  void drop_remote_events(Context& context);
   void send_receipts(Context& context);
   void send_applied(Context& context);
   Receiving* receiving_from(Context& context, const yars_net_InputEventSample& sample);

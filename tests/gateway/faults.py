@@ -31,7 +31,7 @@ class Campaign:
         self.spread, self.random = spread, random.Random(seed)
         self.number = 0
         self.pressed = {}      # number -> host, time
-        self.applied = {}      # host, life of its segment -> {number: times}
+        self.applied = {}      # host, life of its segment -> {number: [[tick, lane], ...]}
         self.lives = dict.fromkeys(spread.layout, 0)
         self.done = set()      # numbers that their sender saw applied
         self.excused = set()   # numbers whose sender or receiver failed
@@ -51,9 +51,9 @@ class Campaign:
     def collect(self, hosts):
         for host in hosts:
             answer = self.spread.ask(host, "applied")
-            for number, latency_ms in answer["applied"] if answer else ():
+            for number, latency_ms, *place in answer["applied"] if answer else ():
                 seen = self.applied.setdefault((host, self.lives[host]), {})
-                seen[number] = seen.get(number, 0) + 1
+                seen.setdefault(number, []).append(place)
                 if self.pressed.get(number, (None,))[0] == host:
                     self.done.add(number)
                     self.latencies_ms.append(latency_ms)
@@ -157,8 +157,8 @@ class Campaign:
             if not lost:
                 break
             time.sleep(0.1)
-        twice = [[n, host] for (host, _), seen in self.applied.items() for n, times in seen.items()
-                 if times > 1 and self.pressed[n][0] == host]
+        twice = [[n, host, places] for (host, _), seen in self.applied.items() for n, places in seen.items()
+                 if len(places) > 1 and self.pressed[n][0] == host]
         return {"pressed": len(self.pressed), "excused": len(self.excused), "lost": lost, "twice": twice}
 
 
@@ -224,9 +224,12 @@ def part(spread, seed, options, report):
         for one in spread.layout:  # a host that fails takes the observer's verdict with it
             if one == host and kind in ("kill host", "other clock"):
                 add_verdict(records, spread.ask(one, "verdict"))
+        tick, machine = spread.ask(host, "state").get("model_tick"), campaign.machine
         times = campaign.fault(kind, host)
-        report["faults"].append({"kind": kind, "host": host, "times_s": [round(one, 3) for one in times]})
-        print(f"{len(report['faults']):5d}  {kind} {host}: " + ", ".join(f"{one:.2f} s" for one in times), flush=True)
+        report["faults"].append({"kind": kind, "host": host, "tick": tick, "machine": machine,
+                                 "times_s": [round(one, 3) for one in times]})
+        print(f"{len(report['faults']):5d}  tick {tick}, {kind} {host}, machine {machine} -> {campaign.machine}: " +
+              ", ".join(f"{one:.2f} s" for one in times), flush=True)
     events = campaign.judge()
     for host in spread.layout:
         add_verdict(records, spread.ask(host, "verdict"))
