@@ -126,8 +126,8 @@ struct SkippedTicks {
 struct RemoteProgress {
   std::atomic<std::uint64_t> source;  // hash of host, segment and container there; 0: none
   // High 32 bits: number of the next record of the source. 5 bits: lane of the container here. Low 27 bits: number of
-  // records in it before the last one. Stored before a record is written. If that number has not changed since, the last
-  // record is missing.
+  // records in it before the last one. Stored before a record is written. If that number has not changed since, the
+  // last record is missing.
   std::atomic<std::uint64_t> progress;
 };
 

@@ -49,12 +49,16 @@ void EventExchange::send(Context& context) {
 // that their hosts send them to the state machine that stays.
 void EventExchange::drop_remote_events(Context& context) {
   auto& layout = context.session.layout();
-  for (const databuffer::RemoteProgress& entry : layout.network.input) {
+  for (databuffer::RemoteProgress& entry : layout.network.input) {
     const std::uint64_t progress = entry.progress.load();
     const std::size_t lane = lane_of(progress);
-    if (entry.source.load() == 0 || lane >= databuffer::kInputLanes) continue;
+    if (entry.source.load() == 0 || lane >= databuffer::kInputLanes || layout.input.empty(lane)) continue;
     // A local source claims a lane only when it is empty. So a lane with a remote event at its end has no others.
-    if (!ends_with(progress, layout.input.pushed(lane))) continue;
+    const std::uint64_t pushed = layout.input.pushed(lane);
+    if (!ends_with(progress, pushed)) continue;
+    // If the role comes back, they are taken again. An entry that is too low is harmless: the sender names its oldest.
+    const std::uint64_t waiting = pushed - layout.input.popped(lane);
+    entry.progress.store(progress_of(next_of(progress, pushed, progress >> 32) - waiting, pushed - 1, lane));
     databuffer::InputEvent event{};
     while (layout.input.pop(lane, event)) {
     }
@@ -176,15 +180,27 @@ bool EventExchange::take_lane(Context& context, Receiving& receiving, const yars
   }
   const auto lane = static_cast<std::size_t>(claim->lane());
   auto& layout = context.session.layout();
-  const std::uint64_t id = lane_id(receiving.sender, receiving.segment, receiving.lane);
-  databuffer::RemoteProgress& entry = entry_of(layout.network.input, id);
-  if (entry.source.load() != id) entry.source.store(0);
-  entry.progress.store(progress_of(sample.event_number, layout.input.pushed(lane) - 1, lane));
-  entry.source.store(id);
+  store_progress(context, receiving, progress_of(sample.event_number, layout.input.pushed(lane) - 1, lane));
   receiving.local_lane = lane;
   lanes_->input[lane] = RemoteName{receiving.sender, receiving.lane};
   receiving.claim.emplace(std::move(*claim));
   return true;
+}
+
+// Writes the entry of a remote lane. A new entry replaces one of a lane that is no longer known.
+void EventExchange::store_progress(Context& context, const Receiving& receiving, std::uint64_t progress) {
+  const std::uint64_t id = lane_id(receiving.sender, receiving.segment, receiving.lane);
+  auto& entries = context.session.layout().network.input;
+  databuffer::RemoteProgress* entry = &entry_of(entries, id);
+  const std::uint64_t present = entry->source.load();
+  if (present != id && present != 0) {
+    const auto unknown =
+        std::ranges::find_if(entries, [this](const auto& other) { return !receiving_.contains(other.source.load()); });
+    if (unknown != entries.end()) entry = &*unknown;
+  }
+  if (entry->source.load() != id) entry->source.store(0);
+  entry->progress.store(progress);
+  entry->source.store(id);
 }
 
 // An event that finds no room is repeated by its sender.
@@ -201,8 +217,7 @@ void EventExchange::push(Context& context, Receiving& receiving, const yars_net_
   auto& layout = context.session.layout();
   const std::uint64_t pushed = layout.input.pushed(lane);
   if (pushed - layout.input.popped(lane) >= databuffer::kInputLaneDepth) return;
-  const std::uint64_t id = lane_id(receiving.sender, receiving.segment, receiving.lane);
-  entry_of(layout.network.input, id).progress.store(progress_of(sample.event_number + 1, pushed, lane));
+  store_progress(context, receiving, progress_of(sample.event_number + 1, pushed, lane));
   layout.input.push(lane, event);
   receiving.next_event = sample.event_number + 1;
 }
@@ -233,12 +248,15 @@ void EventExchange::release_lanes(Context& context) {
   const bool here = context.roles.exports(Role::state_machine);
   for (auto item = receiving_.begin(); item != receiving_.end();) {
     Receiving& receiving = item->second;
-    const bool silent = context.now_ns - receiving.heard_ns > kLaneSilence_ns;
+    // A lane with events that the state machine has not taken is kept, because they have no receipt yet.
+    const bool is_empty = !receiving.local_lane || context.session.layout().input.empty(*receiving.local_lane);
+    const bool silent = is_empty && context.now_ns - receiving.heard_ns > kLaneSilence_ns;
     const bool forgotten = !here || (silent && (context.hosts.find(receiving.sender) == nullptr ||
                                                 context.hosts.segment_of(receiving.sender) != receiving.segment));
     if (receiving.claim && (forgotten || silent)) {
       lanes_->input[static_cast<std::size_t>(receiving.claim->lane())].reset();
       receiving.claim.reset();
+      receiving.local_lane.reset();
     }
     item = forgotten ? receiving_.erase(item) : std::next(item);
   }

@@ -59,6 +59,7 @@ class EventExchange {
   };
   void send_waiting(Context& context, std::size_t lane, std::uint64_t machine);
   void drop_remote_events(Context& context);
+  void store_progress(Context& context, const Receiving& receiving, std::uint64_t progress);
   void send_receipts(Context& context);
   void send_applied(Context& context);
   Receiving* receiving_from(Context& context, const yars_net_InputEventSample& sample);

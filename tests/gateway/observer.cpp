@@ -117,7 +117,8 @@ class Observer {
       if (!read.delivered) break;
       const bool is_ours = event.event.kind == static_cast<std::uint16_t>(databuffer::EventKind::tdc);
       const double latency_ms = 1e-6 * static_cast<double>(event.monotonic_ns - event.event.monotonic_ns);
-      if (is_ours) numbers.push_back({event.event.number, latency_ms, event.tick, static_cast<std::int32_t>(event.lane)});
+      if (is_ours)
+        numbers.push_back({event.event.number, latency_ms, event.tick, static_cast<std::int32_t>(event.lane)});
     }
     return {{"applied", numbers}, {"lost", lost}};
   }

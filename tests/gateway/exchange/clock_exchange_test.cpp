@@ -13,7 +13,6 @@ namespace yars::gateway {
 namespace {
 
 using databuffer::ClockState;
-using databuffer::Role;
 
 class ClockExchangeTest : public testing::TwoHosts {
  protected:

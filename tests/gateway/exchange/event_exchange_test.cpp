@@ -244,6 +244,82 @@ TEST_F(EventExchangeTest, LanesOfEarlierSegmentsAreForgotten) {
   }
 }
 
+// The table of entries has room for 32 lanes. New lanes replace those that are no longer known.
+TEST_F(EventExchangeTest, ManySegmentsOfOneHostLeaveTheProgressOfAnother) {
+  hold(Role::state_machine);
+  announce("beta", 0);
+  constexpr std::uint32_t kSegments = 200;
+  for (std::uint32_t segment = 1; segment <= kSegments; ++segment) {
+    announce("gamma", 0, segment);
+    auto sample = event(0);
+    sample.host = host_id("gamma");
+    sample.segment = segment;
+    exchange_->receive(context_, sample);
+    pass(20 * kSecond_ns);
+    receive(segment - 1);  // beta keeps its lane
+    EXPECT_EQ(take().size(), 2u);
+    pass(11 * kSecond_ns);
+    exchange_->send(context_);
+    EXPECT_EQ(held_lanes(), 1u);
+  }
+  restart();
+  receive(kSegments - 1);
+  EXPECT_EQ(take(), Numbers{}) << "delivered before";
+}
+
+// The role goes to another host and comes back: what the state machine here had not taken, and nobody else, is not
+// lost.
+TEST_F(EventExchangeTest, EventsThatTheStateMachineHadNotTakenAreTakenAgain) {
+  announce("beta", 0);
+  for (const bool restarts : {false, true}) {
+    const std::uint64_t first = restarts ? 10 : 0;
+    {
+      databuffer::Session machine = open("state-machine");
+      const auto role = machine.claim(Role::state_machine);
+      pass(0);
+      for (std::uint32_t i = 0; i < 3; ++i) receive(first + i, i);
+      InputEvent taken{};
+      ASSERT_TRUE(session_.layout().input.pop(0, taken));
+      EXPECT_EQ(taken.number, first);
+    }
+    announce("gamma", bit(Role::state_machine), 4004);
+    ASSERT_EQ(roles_.source(Role::state_machine), host_id("gamma"));
+    exchange_->send(context_);
+    exchange_->send(context_);
+    EXPECT_TRUE(layout().input.empty(0)) << "gamma gets them";
+    announce("gamma", 0, 4004);
+    pass(2 * kSecond_ns);
+    pass(2 * kSecond_ns);
+    if (restarts) restart();
+    databuffer::Session machine = open("state-machine");
+    const auto role = machine.claim(Role::state_machine);
+    ASSERT_TRUE(role);
+    pass(0);
+    receive(first);
+    EXPECT_EQ(take(), Numbers{}) << "taken before; its receipt was lost";
+    receive(first + 1, 1);
+    receive(first + 2, 2);
+    EXPECT_EQ(take(), (Numbers{static_cast<std::uint32_t>(first + 1), static_cast<std::uint32_t>(first + 2)}));
+    exchange_->send(context_);
+  }
+}
+
+TEST_F(EventExchangeTest, AnEventHasItsReceiptWhenTheStateMachineHasTakenIt) {
+  hold(Role::state_machine);
+  announce("beta", 0);
+  receive(0);
+  exchange_->send(context_);
+  EXPECT_EQ(receipts(), 0u);
+  pass(31 * kSecond_ns);
+  announce("beta", 0);
+  exchange_->send(context_);
+  EXPECT_EQ(receipts(), 0u) << "the state machine stands still; the lane is kept";
+  EXPECT_EQ(held_lanes(), 1u);
+  take();
+  exchange_->send(context_);
+  EXPECT_EQ(receipts(), 1u);
+}
+
 TEST_F(EventExchangeTest, LanesEndWithTheRole) {
   announce("beta", 0);
   {
