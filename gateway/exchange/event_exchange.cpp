@@ -37,12 +37,21 @@ std::uint64_t lane_id(std::uint64_t host, std::uint64_t segment, std::uint32_t l
 
 void EventExchange::send(Context& context) {
   const auto machine = context.roles.source(Role::state_machine);
+  update_term(context);
   if (machine) drop_remote_events(context);
   if (machine && context.writes(dds::Topic::input_events))
     for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) send_waiting(context, lane, *machine);
   release_lanes(context);
   send_receipts(context);
   send_applied(context);
+}
+
+// Events that were sent to an earlier term may arrive after a partition, from the history that DDS keeps. By then their
+// host has sent them to another state machine, or again to this one.
+void EventExchange::update_term(Context& context) {
+  const bool here = context.roles.exports(Role::state_machine);
+  if (here == (context.hosts.machine_term() != 0)) return;
+  context.hosts.set_machine_term(here ? context.hosts.identity().start + ++terms_ : 0);
 }
 
 // Events of other hosts that the state machine of this host has not taken before it yielded. They have no receipt, so
@@ -72,9 +81,9 @@ void EventExchange::send_waiting(Context& context, std::size_t lane, std::uint64
   Sending& sending = sending_[lane];
   const std::uint64_t popped = input.popped(lane);
   const std::uint64_t end = input.pushed(lane);
-  const std::uint64_t segment = context.hosts.segment_of(machine);
-  const std::uint64_t start = context.hosts.start_of(machine);
-  const bool other_machine = sending.machine_segment != segment || sending.machine_start != start;
+  const std::uint64_t term = context.hosts.machine_term_of(machine);
+  if (term == 0) return;  // it has not announced the role yet
+  const bool other_machine = sending.machine_term != term;
   if (other_machine || sending.popped != popped || popped == end) {
     sending.progress_ns = context.now_ns;
     sending.popped = popped;
@@ -82,8 +91,7 @@ void EventExchange::send_waiting(Context& context, std::size_t lane, std::uint64
   const bool stalled = context.now_ns - sending.progress_ns > kRepeatAfter_ns;
   if (other_machine || stalled || sending.next < popped || sending.next > end) sending.next = popped;
   if (stalled) sending.progress_ns = context.now_ns;
-  sending.machine_segment = segment;
-  sending.machine_start = start;
+  sending.machine_term = term;
   databuffer::InputEvent event{};
   for (; sending.next != end; ++sending.next) {
     if (!input.peek_at(lane, sending.next, event)) return;
@@ -93,7 +101,7 @@ void EventExchange::send_waiting(Context& context, std::size_t lane, std::uint64
     sample.segment = context.hosts.identity().segment;
     sample.event_number = sending.next;
     sample.preceding = static_cast<std::uint32_t>(sending.next - popped);
-    sample.machine_segment = segment;
+    sample.machine_term = term;
     input.source(lane).copy(sample.source, sizeof sample.source - 1);
     copy_record(sample.event, event);
     if (!context.write(sample)) return;
@@ -128,7 +136,7 @@ void EventExchange::receive(Context& context, const yars_net_EventReceiptSample&
 
 void EventExchange::receive(Context& context, const yars_net_InputEventSample& sample) {
   context.hosts.is_new(sample);  // counted only: whether the event is new depends on its number in its lane
-  if (sample.machine_segment != context.hosts.identity().segment || sample.lane >= databuffer::kInputLanes ||
+  if (sample.machine_term != context.hosts.machine_term() || sample.lane >= databuffer::kInputLanes ||
       !context.roles.exports(Role::state_machine) || !context.hosts.has_announced(sample.host))
     return;
   Receiving* receiving = receiving_from(context, sample);

@@ -44,7 +44,7 @@ class EventExchange {
     std::uint64_t next = 0;                                // number of the next event to send
     std::uint64_t popped = 0;                              // when it last changed
     std::int64_t progress_ns = 0;                          // then
-    std::uint64_t machine_segment = 0, machine_start = 0;  // to which the events were sent
+    std::uint64_t machine_term = 0;    // to which the events were sent
   };
   struct Receiving {
     std::uint64_t sender = 0;
@@ -58,6 +58,7 @@ class EventExchange {
     std::int64_t heard_ns = 0;
   };
   void send_waiting(Context& context, std::size_t lane, std::uint64_t machine);
+  void update_term(Context& context);
   void drop_remote_events(Context& context);
   void store_progress(Context& context, const Receiving& receiving, std::uint64_t progress);
   void send_receipts(Context& context);
@@ -72,6 +73,7 @@ class EventExchange {
   std::array<Sending, databuffer::kInputLanes> sending_;
   std::map<std::uint64_t, Receiving> receiving_;  // by lane_id()
   std::optional<std::uint64_t> applied_cursor_;
+  std::uint64_t terms_ = 0;  // number of times that this gateway found the state machine here
 };
 
 }  // namespace yars::gateway

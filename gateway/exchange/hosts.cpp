@@ -189,6 +189,7 @@ void Hosts::announce(std::int64_t now_ns) {
   sample.epoch = epoch_;
   sample.protocol = yars_net_kProtocol;
   sample.group = self().group;
+  sample.machine_term = machine_term_;
   set_text(sample.name, identity_.name);
   set_text(sample.version, YARS_VERSION);
   if (link_ != nullptr) link_->write(sample);
@@ -293,6 +294,15 @@ std::uint64_t Hosts::segment_of(std::uint64_t id) const {
 std::uint64_t Hosts::start_of(std::uint64_t id) const {
   const Host* host = host_of(id);
   return host == nullptr ? 0 : host->said.start;
+}
+
+void Hosts::set_machine_term(std::uint64_t term) {
+  if (std::exchange(machine_term_, term) != term) changed_ = true;
+}
+
+std::uint64_t Hosts::machine_term_of(std::uint64_t id) const {
+  const Host* host = host_of(id);
+  return host == nullptr ? 0 : host->said.machine_term;
 }
 
 std::uint32_t Hosts::epoch_of(std::uint64_t id) const {

@@ -53,6 +53,10 @@ class Hosts {
   // Answers probes and takes answers. Call as soon as possible after their arrival, because the delay is an error.
   void exchange_probes();
   void set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t epoch);
+  // Events for the state machine of this host carry this number. 0: it runs elsewhere.
+  void set_machine_term(std::uint64_t term);
+  std::uint64_t machine_term() const { return machine_term_; }
+  std::uint64_t machine_term_of(std::uint64_t id) const;  // 0: unknown
 
   void receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns);
   void receive(const yars_net_ProbeSample& sample, std::int64_t now_ns);
@@ -130,6 +134,7 @@ class Hosts {
   std::vector<HostView> views_;
   std::array<std::uint64_t, dds::kTopicCount> written_{};
   std::uint32_t epoch_ = 0;
+  std::uint64_t machine_term_ = 0;
   bool changed_ = true;
   std::int64_t next_announcement_ns_ = 0;
   std::int64_t last_pass_ns_ = 0;

@@ -34,7 +34,8 @@ class EventExchangeTest : public testing::TwoHosts {
     sample.preceding = preceding;
     sample.segment = kBetaSegment;
     sample.event_number = number;
-    sample.machine_segment = kSegment;
+    if (roles_.exports(Role::state_machine)) hosts_.set_machine_term(kTerm);
+    sample.machine_term = kTerm;
     std::strcpy(sample.source, "keyboard");
     copy_record(sample.event, good_event(static_cast<std::uint32_t>(number)));
     return sample;
@@ -58,6 +59,7 @@ class EventExchangeTest : public testing::TwoHosts {
     return held;
   }
   using Numbers = std::vector<std::uint32_t>;
+  static constexpr std::uint64_t kTerm = 4004;
 
   std::optional<LaneNames> lanes_;
   std::optional<EventExchange> exchange_;
@@ -91,12 +93,36 @@ TEST_F(EventExchangeTest, EventsForAnotherMachineOrOfAnUnknownHostAreLeftOut) {
   receive(0);
   announce("beta", 0);
   auto sample = event(0);
-  sample.machine_segment = kSegment + 1;
+  sample.machine_term = kTerm + 1;
   exchange_->receive(context_, sample);
   sample = event(0);
   sample.lane = databuffer::kInputLanes;
   exchange_->receive(context_, sample);
   EXPECT_EQ(take(), Numbers{});
+}
+
+// After a partition DDS delivers events that were sent before it. Their host has sent them elsewhere meanwhile.
+TEST_F(EventExchangeTest, EventsOfAnEarlierTermAreLeftOut) {
+  hold(Role::state_machine);
+  announce("beta", 0);
+  exchange_->send(context_);
+  const std::uint64_t first_term = hosts_.machine_term();
+  EXPECT_NE(first_term, 0u);
+  release(Role::state_machine);
+  exchange_->send(context_);
+  EXPECT_EQ(hosts_.machine_term(), 0u);
+  hold(Role::state_machine);
+  auto sample = event(0);
+  exchange_->send(context_);
+  hosts_.set_machine_term(0);
+  exchange_->send(context_);
+  EXPECT_NE(hosts_.machine_term(), first_term);
+  sample.machine_term = first_term;
+  exchange_->receive(context_, sample);
+  EXPECT_EQ(take(), Numbers{});
+  sample.machine_term = hosts_.machine_term();
+  exchange_->receive(context_, sample);
+  EXPECT_EQ(take(), Numbers{0});
 }
 
 TEST_F(EventExchangeTest, AnInvalidEventIsRefusedAndDoesNotStopTheLane) {

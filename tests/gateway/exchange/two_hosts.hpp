@@ -71,6 +71,7 @@ class TwoHosts : public databuffer::testing::OpenSessionTest {
     sample.epoch = epoch;
     sample.protocol = yars_net_kProtocol;
     sample.group = 1;
+    sample.machine_term = (held_roles & bit(Role::state_machine)) != 0 ? sample.host ^ segment : 0;
     name.copy(sample.name, sizeof sample.name - 1);
     hosts_.receive(sample, true, context_.now_ns);
     roles_.update(hosts_, context_.now_ns);
@@ -89,6 +90,11 @@ class TwoHosts : public databuffer::testing::OpenSessionTest {
   void hold(Role role) {
     auto& holder = local_.emplace_back(open(std::string(databuffer::name_of(role))), std::nullopt);
     holder.second.emplace(*holder.first.claim(role));
+    roles_.update(hosts_, context_.now_ns);
+  }
+  void release(Role role) {
+    for (auto& [session, claim] : local_)
+      if (claim && session.role_is_held(role)) claim.reset();
     roles_.update(hosts_, context_.now_ns);
   }
   // An empty sample of a host, with the next number of its topic. Each host has one process.
