@@ -50,6 +50,7 @@ void GatewayShell::pass() {
   session_->heartbeat();
   context_.lockstep = std::as_const(*session_).layout().lockstep.enabled.load(std::memory_order_acquire) != 0;
   hosts_.set_claims(roles_.held_roles(), clock_.owns(), session_->clock().epoch);
+  hosts_.set_conflict(roles_.in_conflict());
   hosts_.exchange(context_.now_ns);
   roles_.update(hosts_, context_.now_ns);
   roles_.heartbeat();

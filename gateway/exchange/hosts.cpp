@@ -84,7 +84,10 @@ void Hosts::set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t 
 
 void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns) {
   if (!alive) {
-    if (Host* host = host_of(sample.host, false); host != nullptr && host->alive) lose(*host);
+    if (Host* host = host_of(sample.host, false); host != nullptr && host->alive) {
+      lose(*host);
+      host->left = now_ns - host->heard_ns < kLease_ns;
+    }
     return;
   }
   if (sample.host == self().id) return report_same_name(sample, now_ns);
@@ -115,6 +118,7 @@ void Hosts::lose(Host& host) {
 // A host that is heard for the first time, again after silence, or with a new gateway.
 void Hosts::begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns) {
   host.alive = true;
+  host.left = false;
   host.view.name = text_of(sample.name);
   host.offset = {};
   host.next_probe_ns = now_ns;
@@ -265,6 +269,7 @@ void Hosts::update_group(std::int64_t now_ns) {
   const auto heard = static_cast<std::uint32_t>(views_.size());
   if (group_sizes_.empty() || group_sizes_.back().second != heard) group_sizes_.emplace_back(now_ns, heard);
   while (group_sizes_.size() > 1 && group_sizes_[1].first <= now_ns - kGroupDelay_ns) group_sizes_.pop_front();
+  if (in_conflict_) return;
   const bool is_old = group_sizes_.front().first <= now_ns - kGroupDelay_ns;
   views_.front().group = is_old ? group_sizes_.front().second : 1;
 }
@@ -371,6 +376,7 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
     to.held_roles = host.view.held_roles;
     to.priority = host.view.priority;
     to.flags |= host.differences | (host.alive ? databuffer::kHostPresent : 0U) |
+                (host.left ? databuffer::kHostLeft : 0U) |
                 (host.alive && host.view.owns_clock ? databuffer::kHostOwnsClock : 0U);
   }
 }

@@ -53,6 +53,8 @@ class Hosts {
   // Answers probes and takes answers. Call as soon as possible after their arrival, because the delay is an error.
   void exchange_probes();
   void set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t epoch);
+  // While two hosts hold one role, the number of hosts that this host heard before stays as it is.
+  void set_conflict(bool in_conflict) { in_conflict_ = in_conflict; }
   // Events for the state machine of this host carry this number. 0: it runs elsewhere.
   void set_machine_term(std::uint64_t term);
   std::uint64_t machine_term() const { return machine_term_; }
@@ -106,6 +108,7 @@ class Hosts {
     HostView view;
     yars_net_HostSample said{};
     bool alive = false;
+    bool left = false;  // its gateway has ended in order
     bool other_layout = false;
     std::uint32_t differences = 0;  // HostFlags that have been reported
     std::int64_t heard_ns = 0;
@@ -136,6 +139,7 @@ class Hosts {
   std::uint32_t epoch_ = 0;
   std::uint64_t machine_term_ = 0;
   bool changed_ = true;
+  bool in_conflict_ = false;
   std::int64_t next_announcement_ns_ = 0;
   std::int64_t last_pass_ns_ = 0;
   std::deque<std::pair<std::int64_t, std::uint32_t>> group_sizes_;  // time of each change, number of hosts from then on

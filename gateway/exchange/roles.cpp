@@ -21,6 +21,10 @@ Roles::Roles(databuffer::Session& session, std::string session_name)
   session.layout().network.yielding_roles.store(0);
 }
 
+Roles::~Roles() {
+  for (State& state : states_) release(state);
+}
+
 void Roles::update(const Hosts& hosts, std::int64_t now_ns) {
   for (State& state : states_) state.local = !state.claim && std::as_const(*session_).role_is_held(state.role);
   for (State& state : states_) update(state, hosts, now_ns);

@@ -26,6 +26,9 @@ class Roles {
  public:
   // `session_name`: each mirrored role has an entry of its own in the process table, which takes a Session of its own.
   Roles(databuffer::Session& session, std::string session_name);
+  Roles(const Roles&) = delete;
+  Roles& operator=(const Roles&) = delete;
+  ~Roles();  // a standby of this host takes a released role at once
 
   // Compares who holds each role, claims, releases, and asks to yield.
   void update(const Hosts& hosts, std::int64_t now_ns);

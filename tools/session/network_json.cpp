@@ -58,6 +58,7 @@ ordered_json host_json(const databuffer::HostStatus& host, std::int64_t now_ns) 
           {"version", text::text_of(host.version)},
           {"self", has(databuffer::kHostSelf)},
           {"present", present},
+          {"left", has(databuffer::kHostLeft)},
           {"silent_s", number(!present, std::max(0.0, seconds(now_ns) - seconds(host.heard_ns)))},
           {"owns_clock", has(databuffer::kHostOwnsClock)},
           {"priority", host.priority},
@@ -143,7 +144,7 @@ void add_network_reasons(const ordered_json& network, std::vector<std::string>& 
   if (network.is_null()) return;
   for (const auto& host : network["hosts"]) {
     const auto name = "host " + host["name"].get<std::string>();
-    if (!host["present"].get<bool>())
+    if (!host["present"].get<bool>() && !host["left"].get<bool>())
       reasons.push_back(name + " has been silent for " +
                         std::to_string(static_cast<long>(std::min(host["silent_s"].get<double>(), 1e9))) + " s");
     for (const auto& difference : host["differences"])

@@ -101,7 +101,9 @@ void print_host(const ordered_json& host) {
   const auto add = [&more](const std::string& words) { more += (more.empty() ? "" : "; ") + words; };
   if (host["owns_clock"].get<bool>()) add("sets the clock");
   if (!host["differences"].empty()) add(joined_text(host["differences"]));
-  const std::string heard = host["present"].get<bool>() ? "yes" : "silent " + age_text(host["silent_s"].get<double>());
+  const std::string heard = host["present"].get<bool>() ? "yes"
+                                                        : (host["left"].get<bool>() ? "left " : "silent ") +
+                                                              age_text(host["silent_s"].get<double>());
   const auto& offset = host["offset_ms"];
   const auto number = [&host](const char* field) { return std::to_string(host[field].get<std::uint64_t>()); };
   std::printf("  %-20s %-14s %14s %10s %10s %8s %8s %9s  %s\n", (text(host["name"]) + (self ? " *" : "")).c_str(),
