@@ -89,11 +89,30 @@ bool Session::has_name() const {
   return state_->segment->has_name();
 }
 
+// True if the gateway holds a role of which each host may have a holder.
+bool Session::is_lent_to_gateway(Role role) const {
+  const bool is_shared = role == Role::traffic || role == Role::recorder || role == Role::tour;
+  return is_shared && role_holder(role) != 0 && role_holder(role) == role_holder(Role::gateway);
+}
+
+// Asks the gateway for a role that it holds for another host.
+std::optional<Claim> Session::take_back(Role role) {
+  constexpr int kAttempts = 200;  // 1 ms apart; the gateway looks every 5 ms
+  const auto byte = static_cast<std::size_t>(role);
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    layout().network.wanted_roles.fetch_or(1U << static_cast<unsigned>(role));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (auto claim = state_->take(byte, -1)) return claim;
+  }
+  return std::nullopt;
+}
+
 Expected<Claim> Session::claim(Role role) {
   if (!state_->segment->writable()) return fail_read_only(name_of(role));
   const auto byte = static_cast<std::size_t>(role);
   const std::int32_t previous = state_->segment->holder_pid(byte);
   auto claim = state_->take(byte, -1);
+  if (!claim && is_lent_to_gateway(role)) claim = take_back(role);
   if (!claim)
     return fail("role " + std::string(name_of(role)), "one process of this role in a session",
                 "held by " + state_->describe_holder(byte), "end that process, or choose another --session");

@@ -96,6 +96,8 @@ class Session {
 
  private:
   explicit Session(std::unique_ptr<SessionState> state);
+  bool is_lent_to_gateway(Role role) const;
+  std::optional<Claim> take_back(Role role);
   std::unique_ptr<SessionState> state_;
 };
 

@@ -10,6 +10,12 @@ namespace yars::gateway {
 
 using databuffer::Role;
 
+namespace {
+
+constexpr std::int64_t kLending_ns = 300'000'000;  // time for a local process to claim a role that it wants
+
+}  // namespace
+
 Roles::Roles(databuffer::Session& session, std::string session_name)
     : session_(&session),
       session_name_(std::move(session_name)),
@@ -51,6 +57,14 @@ void Roles::update(State& state, const Hosts& hosts, std::int64_t now_ns) {
   if (holder != nullptr) state.holder = holder->id;
   const bool may_release = state.vacancy.may_take(holder == nullptr, rank_of(hosts.views(), hosts.self()), now_ns);
   if (!state.exclusive && state.local) state.holder = hosts.self().id;
+  // A process of this host that wants a shared role gets it. It claims the role within some ms.
+  auto& wanted = session_->layout().network.wanted_roles;
+  if (!state.exclusive && (wanted.load() >> static_cast<unsigned>(state.role) & 1U) != 0) {
+    set_bit(wanted, state.role, false);
+    release(state);
+    state.lent_until_ns = now_ns + kLending_ns;
+  }
+  if (now_ns < state.lent_until_ns && !state.local) return;
   // The role is claimed before the request to yield ends, so that no standby of this host gets in between.
   if (holder != nullptr && !is_self && !state.local && !state.claim) mirror(state);
   if (state.exclusive)

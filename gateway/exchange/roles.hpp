@@ -55,6 +55,7 @@ class Roles {
     std::optional<databuffer::Claim> claim = std::nullopt;
     bool local = false;  // a local process holds it
     bool conflict = false;
+    std::int64_t lent_until_ns = 0;  // until then the role is left to a local process that wants it
     std::optional<std::uint64_t> holder = std::nullopt;
     Vacancy vacancy = {};
   };

@@ -4,6 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <chrono>
+#include <optional>
+#include <thread>
+#include <utility>
+
 #include <string>
 
 #include "tests/gateway/exchange/two_hosts.hpp"
@@ -143,6 +149,31 @@ TEST_F(RolesTest, ALocalHolderYieldsOnlyToAHostThatPrecedes) {
   end("aaron");
   EXPECT_FALSE(session_.must_yield(Role::state_machine));
   EXPECT_TRUE(roles_.exports(Role::state_machine));
+}
+
+// Each host may have a recorder of its own.
+TEST_F(RolesTest, AProcessOfThisHostGetsASharedRoleBack) {
+  announce("beta", bit(Role::recorder));
+  ASSERT_EQ(roles_.source(Role::recorder), host_id("beta"));
+  auto recorder = open("recorder");
+  std::optional<databuffer::Claim> claim;
+  std::atomic<bool> ended = false;
+  std::thread local([&] {
+    if (auto taken = recorder.claim(Role::recorder)) claim.emplace(std::move(*taken));
+    ended = true;
+  });
+  while (!ended) {
+    pass(5'000'000);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  local.join();
+  EXPECT_TRUE(claim.has_value());
+  pass(400'000'000);
+  EXPECT_EQ(roles_.source(Role::recorder), std::nullopt);
+  EXPECT_EQ(roles_.held_roles(), bit(Role::recorder));
+  claim.reset();
+  pass(5'000'000);
+  EXPECT_EQ(roles_.source(Role::recorder), host_id("beta")) << "mirrored again";
 }
 
 TEST_F(RolesTest, UnknownBitsOfHeldRolesChangeNothing) {
