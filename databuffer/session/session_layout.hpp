@@ -137,7 +137,8 @@ struct Network {
   std::atomic<std::uint64_t> segment;         // random number of this segment; 0: no gateway has joined it
   std::atomic<std::uint32_t> yielding_roles;  // bit n: role n is held on another host; its holder here must release it
   std::atomic<std::uint32_t> mirrored_roles;  // bit n: the gateway holds role n for another host
-  std::atomic<std::uint32_t> wanted_roles;    // bit n: a process here wants role n, which the gateway holds for another host
+  std::atomic<std::uint32_t>
+      wanted_roles;  // bit n: a process here wants role n, which the gateway holds for another host
   std::atomic<std::uint32_t> reserved;
   std::array<RemoteProgress, kInputSources> input;  // of the last input lanes of other hosts
   // Of the rings applied_events, traffic_latched, model_ticks and sweeps, for the last hosts that wrote them.

@@ -110,8 +110,8 @@ constexpr Topic topic_of(const yars_net_LockstepSample*) {
 template <class Sample>
 inline constexpr Topic kTopicOf = topic_of(static_cast<const Sample*>(nullptr));
 
-// What a topic asks of DDS. KEEP_LAST everywhere: with KEEP_ALL a lost host would block the writer. No liveliness leases:
-// Cyclone DDS 0.10.2 ends with a segmentation fault when many of them expire (docs/decisions/0033).
+// What a topic asks of DDS. KEEP_LAST everywhere: with KEEP_ALL a lost host would block the writer. No liveliness
+// leases: Cyclone DDS 0.10.2 ends with a segmentation fault when many of them expire (docs/decisions/0033).
 struct TopicSettings {
   std::string_view name;
   const dds_topic_descriptor_t* structure;

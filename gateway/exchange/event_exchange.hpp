@@ -41,10 +41,10 @@ class EventExchange {
 
  private:
   struct Sending {
-    std::uint64_t next = 0;                                // number of the next event to send
-    std::uint64_t popped = 0;                              // when it last changed
-    std::int64_t progress_ns = 0;                          // then
-    std::uint64_t machine_term = 0;    // to which the events were sent
+    std::uint64_t next = 0;          // number of the next event to send
+    std::uint64_t popped = 0;        // when it last changed
+    std::int64_t progress_ns = 0;    // then
+    std::uint64_t machine_term = 0;  // to which the events were sent
   };
   struct Receiving {
     std::uint64_t sender = 0;

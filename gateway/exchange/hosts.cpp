@@ -65,6 +65,11 @@ Hosts::Hosts(databuffer::Session& session, dds::Link* link, Identity identity)
 }
 
 void Hosts::exchange(std::int64_t now_ns) {
+  // After a pause of this process (SIGSTOP, a loaded machine) the silence is its own. The others get another lease.
+  if (last_pass_ns_ != 0 && now_ns - last_pass_ns_ > kLease_ns) {
+    paused_until_ns_ = now_ns + kLease_ns;
+    for (Host& host : hosts_) host.heard_ns = now_ns;
+  }
   if (link_ != nullptr)
     link_->take_hosts([&](const yars_net_HostSample& sample, bool alive) { receive(sample, alive, now_ns); });
   for (Host& host : hosts_)
@@ -84,7 +89,7 @@ void Hosts::set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t 
 
 void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns) {
   if (!alive) {
-    if (Host* host = host_of(sample.host, false); host != nullptr && host->alive) {
+    if (Host* host = host_of(sample.host, false); host != nullptr && host->alive && now_ns >= paused_until_ns_) {
       lose(*host);
       host->left = now_ns - host->heard_ns < kLease_ns;
     }

@@ -39,8 +39,8 @@ struct Identity {
 // Number of a host: FNV-1a (64 bits) of its name.
 std::uint64_t host_id(std::string_view name);
 
-// [ns] A host that has not announced itself for so long is lost: five announcements. With a shorter time a loaded machine
-// would lose its hosts. With a longer one a dead host would keep its roles.
+// [ns] A host that has not announced itself for so long is lost: five announcements. With a shorter time a loaded
+// machine would lose its hosts. With a longer one a dead host would keep its roles.
 inline constexpr std::int64_t kLease_ns = 500'000'000;
 
 class Hosts {
@@ -142,6 +142,7 @@ class Hosts {
   bool in_conflict_ = false;
   std::int64_t next_announcement_ns_ = 0;
   std::int64_t last_pass_ns_ = 0;
+  std::int64_t paused_until_ns_ = 0;  // ends of hosts that DDS reports until then follow from a pause of this process
   std::deque<std::pair<std::int64_t, std::uint32_t>> group_sizes_;  // time of each change, number of hosts from then on
   std::int64_t same_name_since_ns_ = 0, same_name_heard_ns_ = 0;
   bool same_name_ = false;

@@ -55,7 +55,7 @@ def main():
             if second % 60 == 0:
                 print(f"{second // 60:4d} min: " + ", ".join(f"{host} {kib[-1]} KiB" for host, kib in memory.items()), flush=True)
             time.sleep(max(0.0, begin + second - time.monotonic()))
-        events = campaign.judge()
+        events = campaign.judge([])
         states = spread.states()
         for recorder in recorders:
             recorder.terminate()

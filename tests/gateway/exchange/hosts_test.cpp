@@ -7,10 +7,9 @@
 #include <atomic>
 #include <chrono>
 #include <optional>
+#include <string>
 #include <thread>
 #include <utility>
-
-#include <string>
 
 #include "tests/gateway/exchange/two_hosts.hpp"
 
