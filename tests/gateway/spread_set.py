@@ -50,7 +50,7 @@ class Observer:
 
 
 class SpreadSet:
-    """hosts: roles and arguments by host. options: lines of the form Network for every host."""
+    """hosts: roles and arguments by host. options: slots of the form Network for every host; {host} is the host's name."""
 
     def __init__(self, programs, hosts=None, options="", seed=1, keep=False):
         self.programs = pathlib.Path(programs).resolve()
@@ -70,7 +70,8 @@ class SpreadSet:
     def network_file(self, host):
         peers = " ".join(f'"{self.lab.address(other)}"' for other in self.layout)
         path = self.lab.folder / f"{host}.guf"
-        path.write_text(f'( Network :name "{host}" :interfaces `( "eth0" ) :peers `( {peers} ) {self.options} )\n')
+        path.write_text(f'( Network :name "{host}" :interfaces `( "eth0" ) :peers `( {peers} ) '
+                        f'{self.options.replace("{host}", host)} )\n')
         return path
 
     def start_gateway(self, host, more=()):
