@@ -22,11 +22,11 @@ constexpr std::int64_t kGatewayReturn_ns = 1'200'000'000;
 class Occupation {
  public:
   bool lasts(const Session& session, Role role) {
-    if (session.role_is_held(role) || session.must_yield(role)) return true;
-    if (!session.is_mirrored(role)) return false;
+    const bool is_mirrored = session.is_mirrored(role);
     const std::int64_t now_ns = monotonic_ns();
-    if (session.role_is_held(Role::gateway)) gateway_seen_ns_ = now_ns;
-    return now_ns - gateway_seen_ns_ < kGatewayReturn_ns;
+    if (is_mirrored && session.role_is_held(Role::gateway)) gateway_seen_ns_ = now_ns;
+    if (session.role_is_held(role) || session.must_yield(role)) return true;
+    return is_mirrored && now_ns - gateway_seen_ns_ < kGatewayReturn_ns;
   }
 
  private:

@@ -209,7 +209,7 @@ def main():
     if options.report and options.report.exists():
         report = json.loads(options.report.read_text())
     bad = 0
-    while len(report["faults"]) < options.faults and not bad:
+    while len(report["faults"]) < options.faults:
         seed = options.seed + len(report["faults"])
         with spread_set.SpreadSet(options.programs, seed=seed) as spread:
             bad += part(spread, seed, options, report)
