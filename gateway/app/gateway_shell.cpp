@@ -36,7 +36,7 @@ GatewayShell::GatewayShell(databuffer::Session& session, const std::string& sess
       secured_(!settings.security.empty()) {}
 
 void GatewayShell::step() {
-  link_.wait(next_pass_ns_);
+  link_.wait(next_pass_ns_ - databuffer::monotonic_ns());
   hosts_.exchange_probes();
   context_.now_ns = databuffer::monotonic_ns();
   events_.receive_inputs(context_);

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <ctime>
 #include <mutex>
 #include <utility>
 
@@ -71,12 +70,6 @@ Qos qos_of(const TopicSettings& settings) {
   }
   if (settings.exclusive) dds_qset_ownership(qos.get(), DDS_OWNERSHIP_EXCLUSIVE);
   return qos;
-}
-
-std::int64_t now_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
 // Binds the UDP sockets of the domain to the only interface. Cyclone DDS sends there alone, but receives on all
@@ -267,8 +260,7 @@ void Link::count_received(Topic topic, std::size_t bytes) {
   state_->counts[index_of(topic)].received_bytes += bytes;
 }
 
-void Link::wait(std::int64_t until_ns) {
-  const std::int64_t time_ns = until_ns - now_ns();
+void Link::wait(std::int64_t time_ns) {
   if (time_ns > 0) dds_waitset_wait(state_->waitset, nullptr, 0, time_ns);
 }
 

@@ -70,9 +70,8 @@ class Link {
     }
   }
 
-  // Returns when a sample of a topic that is answered at once has arrived (probes, input events), or at `until_ns`
-  // (CLOCK_MONOTONIC).
-  void wait(std::int64_t until_ns);
+  // Returns when a sample of a topic that is answered at once has arrived (probes, input events), or after `time_ns`.
+  void wait(std::int64_t time_ns);
 
   const TopicCounts& counts(Topic topic) const;
   // Messages of Cyclone DDS since the last call.
