@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "gateway/exchange/progress.hpp"
-#include "tests/gateway/exchange/two_hosts.hpp"
+#include "tests/gateway/exchange/event_fixture.hpp"
 #include "tests/gateway/random_seed.hpp"
 
 namespace yars::gateway {
@@ -18,52 +18,8 @@ namespace {
 using databuffer::InputEvent;
 using databuffer::Role;
 using testing::bit;
+using testing::EventExchangeTest;
 using testing::good_event;
-
-class EventExchangeTest : public testing::TwoHosts {
- protected:
-  void restart() { exchange_.emplace(*lanes_ = LaneNames{}); }
-  void SetUp() override {
-    lanes_.emplace();
-    restart();
-  }
-  // Event `number` of a lane of beta. `preceding`: events before it without a receipt.
-  yars_net_InputEventSample event(std::uint64_t number, std::uint32_t preceding = 0, std::uint32_t lane = 2) {
-    auto sample = from<yars_net_InputEventSample>("beta");
-    sample.lane = lane;
-    sample.preceding = preceding;
-    sample.segment = kBetaSegment;
-    sample.event_number = number;
-    if (roles_.exports(Role::state_machine)) hosts_.set_machine_term(kTerm);
-    sample.machine_term = kTerm;
-    std::strcpy(sample.source, "keyboard");
-    copy_record(sample.event, good_event(static_cast<std::uint32_t>(number)));
-    return sample;
-  }
-  void receive(std::uint64_t number, std::uint32_t preceding = 0, std::uint32_t lane = 2) {
-    exchange_->receive(context_, event(number, preceding, lane));
-  }
-  // Takes all events of all lanes as the state machine does.
-  std::vector<std::uint32_t> take() {
-    std::vector<std::uint32_t> numbers;
-    InputEvent event{};
-    for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane)
-      while (session_.layout().input.pop(lane, event)) numbers.push_back(event.number);
-    return numbers;
-  }
-  std::uint64_t receipts() const { return hosts_.written()[dds::index_of(dds::Topic::event_receipts)]; }
-  std::size_t held_lanes() const {
-    std::size_t held = 0;
-    for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane)
-      held += session_.input_lane_is_held(lane) ? 1 : 0;
-    return held;
-  }
-  using Numbers = std::vector<std::uint32_t>;
-  static constexpr std::uint64_t kTerm = 4004;
-
-  std::optional<LaneNames> lanes_;
-  std::optional<EventExchange> exchange_;
-};
 
 TEST_F(EventExchangeTest, EventsOfAnotherHostReachTheStateMachineOnceAndInOrder) {
   hold(Role::state_machine);
@@ -358,128 +314,6 @@ TEST_F(EventExchangeTest, LanesEndWithTheRole) {
   pass(0);
   exchange_->send(context_);
   EXPECT_EQ(held_lanes(), 0u);
-}
-
-class SendingTest : public EventExchangeTest {
- protected:
-  void SetUp() override {
-    EventExchangeTest::SetUp();
-    announce("beta", bit(Role::state_machine));
-    ASSERT_EQ(roles_.source(Role::state_machine), host_id("beta"));
-    lane_.emplace(*session_.claim_input_lane("keyboard"));
-    for (std::uint32_t number = 0; number < 5; ++number) session_.layout().input.push(lane(), good_event(number));
-  }
-  std::size_t lane() const { return static_cast<std::size_t>(lane_->lane()); }
-  std::uint64_t sent() const { return hosts_.written()[dds::index_of(dds::Topic::input_events)]; }
-  void receipt(const std::string& host, std::uint64_t next_event) {
-    auto sample = from<yars_net_EventReceiptSample>(host);
-    sample.sender = host_id("alpha");
-    sample.segment = kSegment;
-    sample.lane = static_cast<std::uint32_t>(lane());
-    sample.next_event = next_event;
-    exchange_->receive(context_, sample);
-  }
-  std::optional<databuffer::Claim> lane_;
-};
-
-TEST_F(SendingTest, EventsStayInTheirLaneUntilTheReceipt) {
-  exchange_->send(context_);
-  exchange_->send(context_);
-  EXPECT_EQ(sent(), 5u);
-  EXPECT_EQ(layout().input.popped(lane()), 0u);
-  receipt("beta", 3);
-  EXPECT_EQ(layout().input.popped(lane()), 3u);
-  receipt("beta", 2);
-  EXPECT_EQ(layout().input.popped(lane()), 3u) << "an old receipt";
-  receipt("beta", 6);
-  EXPECT_EQ(layout().input.popped(lane()), 3u) << "for an event that was never sent";
-  receipt("beta", 5);
-  EXPECT_EQ(layout().input.popped(lane()), 5u);
-}
-
-TEST_F(SendingTest, AReceiptOfAHostWithoutTheRoleIsLeftOut) {
-  announce("gamma", 0);
-  receipt("gamma", 5);
-  EXPECT_EQ(layout().input.popped(lane()), 0u);
-}
-
-TEST_F(SendingTest, WithoutAReceiptTheEventsAreSentAgainEachSecond) {
-  exchange_->send(context_);
-  pass(900'000'000);
-  exchange_->send(context_);
-  EXPECT_EQ(sent(), 5u);
-  pass(200'000'000);
-  exchange_->send(context_);
-  EXPECT_EQ(sent(), 10u);
-}
-
-TEST_F(SendingTest, AnotherMachineGetsWhatHasNoReceipt) {
-  exchange_->send(context_);
-  receipt("beta", 2);
-  announce("beta", 0);
-  announce("gamma", bit(Role::state_machine), 4004);
-  ASSERT_EQ(roles_.source(Role::state_machine), host_id("gamma"));
-  exchange_->send(context_);
-  EXPECT_EQ(sent(), 8u);
-}
-
-class AppliedTest : public EventExchangeTest {
- protected:
-  void SetUp() override {
-    EventExchangeTest::SetUp();
-    announce("beta", bit(Role::state_machine));
-  }
-  yars_net_AppliedEventSample applied(const std::string& host, const std::string& sender) {
-    auto sample = from<yars_net_AppliedEventSample>(host);
-    sample.sender = host_id(sender);
-    databuffer::AppliedEvent record{};
-    record.lane = 3;
-    record.event = good_event(9);
-    copy_record(sample.applied, record);
-    return sample;
-  }
-  std::uint64_t published() const { return layout().applied_events.next(); }
-  databuffer::AppliedEvent last() const {
-    databuffer::AppliedEvent record{};
-    std::uint64_t cursor = published() - 1;
-    EXPECT_TRUE(layout().applied_events.read(cursor, record).delivered);
-    return record;
-  }
-};
-
-TEST_F(AppliedTest, EventsOfTheHolderAreTakenOnce) {
-  const auto sample = applied("beta", "beta");
-  exchange_->receive(context_, sample);
-  exchange_->receive(context_, sample);
-  EXPECT_EQ(published(), 1u);
-}
-
-TEST_F(AppliedTest, OnlyEventsOfThisHostHaveALaneHere) {
-  exchange_->receive(context_, applied("beta", "beta"));
-  EXPECT_EQ(last().lane, kNoLane);
-  exchange_->receive(context_, applied("beta", "alpha"));
-  EXPECT_EQ(last().lane, 3u);
-}
-
-TEST_F(AppliedTest, EventsOfAHostWithoutTheRoleAreLeftOut) {
-  announce("gamma", 0);
-  exchange_->receive(context_, applied("gamma", "gamma"));
-  EXPECT_EQ(published(), 0u);
-}
-
-TEST_F(AppliedTest, AnInvalidEventIsRefused) {
-  auto sample = applied("beta", "beta");
-  sample.applied.event.kind = 0xFFFF;
-  exchange_->receive(context_, sample);
-  EXPECT_EQ(published(), 0u);
-  EXPECT_EQ(refusals(), 1u);
-}
-
-TEST(LaneId, NamesEachLaneOfEachSegmentOfEachHost) {
-  EXPECT_EQ(lane_id(1, 2, 3), lane_id(1, 2, 3));
-  EXPECT_NE(lane_id(1, 2, 3), lane_id(2, 1, 3));
-  EXPECT_NE(lane_id(1, 2, 3), lane_id(1, 2, 4));
-  EXPECT_NE(lane_id(0, 0, 0), 0u);
 }
 
 }  // namespace
