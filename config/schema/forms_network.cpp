@@ -79,7 +79,7 @@ std::vector<SlotSchema> network_slots() {
            .purpose = "name of this computer: 1 to 31 letters, digits, - or _; left out: its host name"},
           whole_slot("priority", "", 0, 1000, {YARS_FIELD(network.priority)},
                      "when two computers hold one role, that with the higher priority keeps it"),
-          whole_slot("domain", "", 0, 232, {YARS_FIELD(network.domain)},
+          whole_slot("domain", "", 0, 230, {YARS_FIELD(network.domain)},
                      "DDS domain, the same on all computers; it sets the UDP ports, from 7400 + 250 domain"),
           words_slot("interfaces", {YARS_FIELD(network.interfaces), 1, radar::kMaxInterfaces},
                      "network interfaces of this computer; with lo alone nothing leaves the computer"),

@@ -68,9 +68,20 @@ std::uint64_t segment_number(databuffer::Session& session) {
   return number.load();
 }
 
+// Peers that the loopback interface alone does not reach.
+void warn_of_loopback(const radar::NetworkSettings& settings) {
+  const auto is_local = [](const std::string& peer) {
+    return peer.starts_with("127.") || peer == "::1" || peer == "localhost";
+  };
+  if (settings.interfaces != std::vector<std::string>{"lo"} || std::ranges::all_of(settings.peers, is_local)) return;
+  log::warning("Network: interfaces: expected an interface that reaches the peers, found `lo` alone; name one that "
+               "`ip link` lists");
+}
+
 error::Expected<void> run(const databuffer::ProgramOptions& options, const GatewayOptions& gateway_options) {
   const auto settings = config::load_network(gateway_options.network);
   if (!settings) return tl::unexpected(settings.error());
+  warn_of_loopback(*settings);
   auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return tl::unexpected(configuration.error());
   if (!gateway_options.terrain.empty()) configuration->terrain.directory = gateway_options.terrain;

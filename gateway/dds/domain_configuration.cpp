@@ -14,6 +14,20 @@ constexpr const char* kInternal =
     "<HeartbeatInterval min=\"5ms\" minsched=\"10ms\" max=\"1s\">20ms</HeartbeatInterval>"
     "<NackDelay>10ms</NackDelay><AckDelay>5ms</AckDelay></Internal>";
 
+// A text with the characters that have a meaning in XML replaced.
+std::string escaped(const std::string& text) {
+  std::string result;
+  for (const char letter : text) {
+    if (letter == '&')
+      result += "&amp;";
+    else if (letter == '<')
+      result += "&lt;";
+    else
+      result += letter;
+  }
+  return result;
+}
+
 std::string plugin(const std::string& element, const std::string& name, const std::string& function) {
   return "<" + element + "><Library initFunction=\"init_" + function + "\" finalizeFunction=\"finalize_" + function +
          "\" path=\"dds_security_" + name + "\"/>";
@@ -21,7 +35,7 @@ std::string plugin(const std::string& element, const std::string& name, const st
 
 std::string security(const std::filesystem::path& folder) {
   const auto file = [&folder](const std::string& element, const char* name) {
-    return "<" + element + ">file:" + (folder / name).string() + "</" + element + ">";
+    return "<" + element + ">file:" + escaped((folder / name).string()) + "</" + element + ">";
   };
   return "<Security>" + plugin("Authentication", "auth", "authentication") + file("IdentityCA", "identity_ca.pem") +
          file("IdentityCertificate", "certificate.pem") + file("PrivateKey", "key.pem") + "</Authentication>" +

@@ -24,7 +24,7 @@ inline constexpr std::size_t kMaxPeers = 64;      // maximum number of addresses
 struct NetworkSettings {
   std::string name;                             // of the computer; empty: its host name
   int priority = 0;                             // [0, 1000] when two computers hold one role, the higher one keeps it
-  int domain = 0;                               // [0, 232] DDS domain: ports from 7400 + 250 * domain
+  int domain = 0;                               // [0, 230] DDS domain: ports from 7400 + 250 * domain
   std::vector<std::string> interfaces{"lo"};    // network interfaces of this computer
   std::vector<std::string> peers{"127.0.0.1"};  // addresses and host names of the session's computers
   std::vector<std::string> topics_in;           // topics read from other computers; empty: all

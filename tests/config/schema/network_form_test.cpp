@@ -64,7 +64,7 @@ TEST(NetworkForm, ErrorsNameTheSlot) {
     EXPECT_THAT(refusal(network(std::string(":name \"") + name + "\"")),
                 HasSubstr("expected 1 to 31 letters, digits, - or _ for :name"));
   EXPECT_THAT(refusal(network(":priority 1001")), HasSubstr("a whole number in [0, 1000] for :priority"));
-  EXPECT_THAT(refusal(network(":domain 233")), HasSubstr("[0, 232] for :domain"));
+  EXPECT_THAT(refusal(network(":domain 231")), HasSubstr("[0, 230] for :domain"));
   EXPECT_THAT(refusal(network(":domain 1.5")), HasSubstr(":domain"));
   EXPECT_THAT(refusal(network(":interfaces `( )")), HasSubstr("a list of 1 to 8 strings for :interfaces"));
   EXPECT_THAT(refusal(network(":interfaces `( 5 )")), HasSubstr(":interfaces"));
