@@ -66,7 +66,8 @@ class OffsetEstimator {
   std::size_t count_ = 0;
 };
 
-// An offset in use that moves towards the measured one by at most kMaxSlew of the time that passes.
+// An offset in use that moves towards the measured one: by at most 1 ms per second, while it is wrong by more than 2 ms by
+// at most 10 ms per second.
 class SlewedOffset {
  public:
   void set(std::int64_t offset_ns) {
@@ -79,7 +80,7 @@ class SlewedOffset {
     const std::int64_t distance_ns = error_ns < 0 ? -error_ns : error_ns;
     if (distance_ns >= kBegin_ns) slewing_ = true;
     if (!slewing_) return false;
-    const std::int64_t step_ns = std::min(distance_ns, elapsed_ns / kMaxSlew);
+    const std::int64_t step_ns = std::min(distance_ns, elapsed_ns / (distance_ns > kFar_ns ? kFarSlew : kMaxSlew));
     offset_ns_ += error_ns < 0 ? -step_ns : step_ns;
     if (distance_ns - step_ns <= kEnd_ns) slewing_ = false;
     return step_ns != 0;
@@ -88,6 +89,8 @@ class SlewedOffset {
 
  private:
   static constexpr std::int64_t kMaxSlew = 1000;     // 1 ms per second. The drift of two computers is below 0.2 ms/s
+  static constexpr std::int64_t kFarSlew = 100;      // 10 ms per second, after a bad first measurement
+  static constexpr std::int64_t kFar_ns = 2'000'000;
   static constexpr std::int64_t kBegin_ns = 50'000;  // smaller errors are noise of the measurement
   static constexpr std::int64_t kEnd_ns = 5'000;
   std::int64_t offset_ns_ = 0;

@@ -11,8 +11,10 @@ namespace yars::gateway {
 
 class SampleNumbers {
  public:
-  // False: the sample has arrived before, or is older than one that has arrived.
-  bool is_new(std::uint64_t start, std::uint64_t number) {
+  // False: the sample has arrived before, or is older than one that has arrived. `max_repeats`: samples that DDS may
+  // deliver again in a row. After more of them, the highest number is taken for an error, and counting begins anew. So is
+  // a number far ahead, until kConfirmations samples have followed it.
+  bool is_new(std::uint64_t start, std::uint64_t number, std::uint64_t max_repeats = kDefaultRepeats) {
     if (begun_ && start != start_ && start == former_start_) {
       ++repeated_;  // from a gateway process that has ended
       return false;
@@ -24,11 +26,19 @@ class SampleNumbers {
       next_ = number;
     }
     constexpr std::uint64_t kNone = ~std::uint64_t{0};  // no sender counts so far; the number after it would be 0
-    if (number < next_ || number == kNone) {
+    const bool follows = run_ > 0 && number >= run_next_ && number - run_next_ < kFar;
+    run_ = follows ? run_ + 1 : 1;
+    run_next_ = number + 1;
+    if (number == kNone || (number < next_ && run_ <= max_repeats)) {
       ++repeated_;
       return false;
     }
-    lost_ += number - next_;
+    const bool is_far = number >= next_ && number - next_ >= kFar;
+    if (is_far && run_ < kConfirmations) {
+      ++repeated_;
+      return false;
+    }
+    if (number > next_ && !is_far) lost_ += number - next_;
     next_ = number + 1;
     ++received_;
     return true;
@@ -47,6 +57,10 @@ class SampleNumbers {
   std::uint64_t lost() const { return lost_; }  // also states that a newer state replaced before they were taken
 
  private:
+  static constexpr std::uint64_t kFar = 65536;  // 5 min of sweeps, the longest cut after which each sample is taken
+  static constexpr std::uint64_t kConfirmations = 3;
+  static constexpr std::uint64_t kDefaultRepeats = 4096;  // above the depth of every history
+  std::uint64_t run_ = 0, run_next_ = 0;  // samples in a row with rising numbers; the least number that continues it
   std::uint64_t start_ = 0, former_start_ = 0, next_ = 0, received_ = 0, repeated_ = 0, lost_ = 0;
   bool begun_ = false;
 };

@@ -16,7 +16,9 @@ using databuffer::NoteKind;
 constexpr std::int64_t kAnnounceInterval_ns = 100'000'000;  // a fifth of the lease, so that four may be lost
 constexpr std::int64_t kProbeInterval_ns = 250'000'000;
 constexpr std::int64_t kFirstProbeInterval_ns = 25'000'000;  // of the first kFirstProbes, so that a host joins quickly
-constexpr std::size_t kFirstProbes = 8;
+constexpr std::size_t kFirstProbes = 12;
+// Of a few answers one was on the way without a queue. A first offset by one answer was wrong by 50 ms on a bad line.
+constexpr std::size_t kEnoughAnswers = 6;
 constexpr std::int64_t kGroupDelay_ns = 1'000'000'000;
 constexpr std::int64_t kGhost_ns = 3'000'000'000;  // a predecessor of this process may be heard for the lease
 
@@ -45,6 +47,14 @@ std::optional<std::string> fault_of(const yars_net_HostSample& sample) {
     return "priority: expected at most " + std::to_string(databuffer::kMaxHostPriority) + ", found " +
            std::to_string(sample.priority);
   return std::nullopt;
+}
+
+// Number of samples that DDS may deliver again when two hosts meet: the stored history of all instances of a host.
+std::uint64_t max_repeats(dds::Topic topic) {
+  constexpr std::uint64_t kStates = 4, kMapRows = 16384, kLanes = databuffer::kInputLanes;
+  if (topic == dds::Topic::patch_rows || topic == dds::Topic::patch_maps) return kMapRows;
+  const auto depth = static_cast<std::uint64_t>(settings_of(topic).depth);
+  return depth == 1 ? kStates * kLanes : depth * (topic == dds::Topic::input_events ? kLanes : 1) + kStates;
 }
 
 }  // namespace
@@ -99,7 +109,9 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
   if (const auto fault = fault_of(sample)) return refuse(sample.host, dds::Topic::hosts, *fault);
   Host* host = host_of(sample.host, true);
   if (host == nullptr) return;
-  if (!host->numbers[dds::index_of(dds::Topic::hosts)].is_new(sample.start, sample.number)) return;
+  if (!host->numbers[dds::index_of(dds::Topic::hosts)].is_new(sample.start, sample.number,
+                                                               max_repeats(dds::Topic::hosts)))
+    return;
   const bool is_news = !host->alive || host->said.start != sample.start;
   host->said = sample;
   host->heard_ns = now_ns;
@@ -292,7 +304,7 @@ bool Hosts::has_announced(std::uint64_t id) const {
 std::optional<std::int64_t> Hosts::offset_ns(std::uint64_t id) const {
   if (id == self().id) return 0;
   const Host* host = host_of(id);
-  if (host == nullptr || !host->offset.best()) return std::nullopt;
+  if (host == nullptr || host->offset.count() < kEnoughAnswers) return std::nullopt;
   return host->offset.best()->offset_ns;
 }
 
@@ -322,7 +334,7 @@ std::uint32_t Hosts::epoch_of(std::uint64_t id) const {
 
 bool Hosts::is_new(dds::Topic topic, std::uint64_t id, std::uint64_t start, std::uint64_t number) {
   Host* host = host_of(id, true);
-  return host != nullptr && host->numbers[dds::index_of(topic)].is_new(start, number);
+  return host != nullptr && host->numbers[dds::index_of(topic)].is_new(start, number, max_repeats(topic));
 }
 
 bool Hosts::knows(dds::Topic topic, std::uint64_t id, std::uint64_t start) const {

@@ -50,7 +50,7 @@ TEST_F(OffsetProperty, TheErrorIsAtMostHalfOfTheRoundTrip) {
   }
 }
 
-TEST_F(OffsetProperty, ASlewedOffsetMovesAtMostOneMillisecondPerSecondAndArrives) {
+TEST_F(OffsetProperty, ASlewedOffsetMovesSlowlyAndArrives) {
   SlewedOffset slewed;
   std::int64_t measured_ns = 5'000'000;
   for (int pass = 0; pass < 40'000; ++pass) {
@@ -58,7 +58,8 @@ TEST_F(OffsetProperty, ASlewedOffsetMovesAtMostOneMillisecondPerSecondAndArrives
     const std::int64_t before_ns = slewed.offset_ns();
     const std::int64_t elapsed_ns = up_to(10'000'000);
     slewed.approach(measured_ns, elapsed_ns);
-    EXPECT_LE(std::abs(slewed.offset_ns() - before_ns), elapsed_ns / 1000);
+    const bool is_far = std::abs(measured_ns - before_ns) > 2'000'000;
+    EXPECT_LE(std::abs(slewed.offset_ns() - before_ns), elapsed_ns / (is_far ? 100 : 1000));
   }
   EXPECT_LE(std::abs(slewed.offset_ns() - measured_ns), 50'000);
 }
@@ -77,7 +78,7 @@ TEST(SlewedOffset, AnyMeasuredOffsetIsFollowedWithoutOverflow) {
   SlewedOffset slewed;
   slewed.set(-kMost_ns);
   EXPECT_TRUE(slewed.approach(kMost_ns, 5'000'000));
-  EXPECT_EQ(slewed.offset_ns(), -kMost_ns + 5'000);
+  EXPECT_EQ(slewed.offset_ns(), -kMost_ns + 50'000);
 }
 
 // Times of another host may be any numbers. Run with -fsanitize=undefined (preset asan) this finds overflows.

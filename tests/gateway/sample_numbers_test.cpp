@@ -87,5 +87,28 @@ TEST(SampleNumbers, NoSampleIsNewTwice) {
   }
 }
 
+// A forged or damaged number must not silence a host for ever.
+TEST(SampleNumbers, ANumberFarAheadCountsOnlyWhenOthersFollowIt) {
+  SampleNumbers numbers;
+  for (std::uint64_t number = 0; number < 10; ++number) EXPECT_TRUE(numbers.is_new(1, number));
+  EXPECT_FALSE(numbers.is_new(1, 1'000'000'000));
+  EXPECT_TRUE(numbers.is_new(1, 10)) << "the sequence goes on";
+  EXPECT_EQ(numbers.lost(), 0u);
+  EXPECT_FALSE(numbers.is_new(1, 5'000'000));
+  EXPECT_FALSE(numbers.is_new(1, 5'000'001));
+  EXPECT_TRUE(numbers.is_new(1, 5'000'002)) << "after a long cut";
+  EXPECT_EQ(numbers.next(), 5'000'003u);
+}
+
+TEST(SampleNumbers, AfterAForgedNumberTheTrueSequenceIsTakenAgain) {
+  SampleNumbers numbers;
+  constexpr std::uint64_t kRepeats = 8;
+  EXPECT_TRUE(numbers.is_new(1, 100, kRepeats));
+  EXPECT_TRUE(numbers.is_new(1, 60'000, kRepeats)) << "not far enough to be refused";
+  for (std::uint64_t number = 101; number < 101 + kRepeats; ++number) EXPECT_FALSE(numbers.is_new(1, number, kRepeats));
+  EXPECT_TRUE(numbers.is_new(1, 101 + kRepeats, kRepeats));
+  EXPECT_TRUE(numbers.is_new(1, 102 + kRepeats, kRepeats));
+}
+
 }  // namespace
 }  // namespace yars::gateway
