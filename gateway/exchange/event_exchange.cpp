@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cstring>
 #include <iterator>
+#include <optional>
+#include <utility>
 
 #include "databuffer/messages/validation.hpp"
+#include "databuffer/session/validated.hpp"
 #include "gateway/exchange/history_progress.hpp"
 #include "gateway/exchange/progress.hpp"
 #include "lib/log/log.hpp"
@@ -116,8 +119,12 @@ void EventExchange::receive(Context& context) {
   receive_inputs(context);
   const auto take = [&](const auto& sample) { receive(context, sample); };
   context.link->take<yars_net_EventReceiptSample>(take);
-  // Applied events wait in DDS until it is known which host has the state machine.
-  if (context.roles.holder(Role::state_machine)) context.link->take<yars_net_AppliedEventSample>(take);
+  // Applied events wait in DDS until it is known which host has the state machine, and until their age can be judged.
+  const auto holder = context.roles.holder(Role::state_machine);
+  const auto outputs = databuffer::read_valid(std::as_const(context.session).layout().outputs);
+  const auto newest = outputs ? std::optional(outputs->tick) : std::nullopt;
+  if (holder && may_begin(context, dds::Topic::applied_events, *holder, newest))
+    context.link->take<yars_net_AppliedEventSample>(take);
 }
 
 void EventExchange::receive(Context& context, const yars_net_EventReceiptSample& sample) {

@@ -7,6 +7,7 @@
 #include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
+#include "databuffer/session/validated.hpp"
 #include "gateway/exchange/history_progress.hpp"
 
 namespace yars::gateway {
@@ -75,10 +76,14 @@ void HistoryExchange::send(Context& context) {
   context.hosts.set_written(dds::Topic::sweeps, *sweep_cursor_);
 }
 
-// Samples wait in DDS until it is known which host has the radar model, and until this gateway mirrors it.
+// Samples wait in DDS until it is known which host has the radar model, until this gateway mirrors it, and until their
+// age can be judged.
 void HistoryExchange::receive(Context& context) {
   const auto holder = context.roles.holder(Role::radar_model);
   if (!holder || (*holder != context.hosts.self().id && !context.roles.source(Role::radar_model))) return;
+  const auto status = databuffer::read_valid(std::as_const(context.session).layout().model_status);
+  const auto newest = status ? std::optional(status->tick) : std::nullopt;
+  if (!may_begin(context, dds::Topic::model_ticks, *holder, newest)) return;
   const auto take = [&](const auto& sample) { receive(context, sample); };
   context.link->take<yars_net_LatchedTrafficSample>(take);
   context.link->take<yars_net_ModelTickSample>(take);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/progress.hpp"
@@ -45,6 +46,18 @@ bool is_new_in_history(Context& context, const Sample& sample, std::uint64_t loc
       return false;
   }
   return context.hosts.is_new(sample);
+}
+
+// True once the records of a history of another host may be taken. `newest`: tick of the state that the host last
+// published; nullopt: none has arrived. A lockstep run, whose ticks do not follow the session clock, is not known here
+// until a role of this host begins it. Its first records would be taken for old ones, and nobody would send them again.
+inline bool may_begin(const Context& context, dds::Topic topic, std::uint64_t host, std::optional<std::int64_t> newest) {
+  if (context.lockstep || host == context.hosts.self().id ||
+      context.hosts.knows(topic, host, context.hosts.segment_of(host)))
+    return true;
+  const double max_age_ns = 0.5 * static_cast<double>(kMaxFirstAge_ns) * std::max(1.0, context.session.clock().rate);
+  const std::int64_t oldest_ns = context.session.sim_time_ns() - static_cast<std::int64_t>(max_age_ns);
+  return newest && *newest >= oldest_ns / radar::kTickNanoseconds;
 }
 
 // Where a gateway begins that finds a local process writing the ring: its predecessor may have missed the last `recent`

@@ -54,18 +54,33 @@ bool LockstepExchange::has_arrived(const Context& context, const yars_net_Lockst
   return true;
 }
 
+// Role after role in the order of a tick, so that one done tick may admit the next in the same pass.
 void LockstepExchange::apply(Context& context, bool in_order) {
   if (!in_order) return;
   auto& lockstep = context.session.layout().lockstep;
-  std::erase_if(waiting_, [&](const auto& item) {
-    const yars_net_LockstepSample& sample = item.second;
-    if (context.hosts.find(sample.host) == nullptr || !has_arrived(context, sample)) return false;
-    const std::size_t role = sample.role;
-    if (lockstep.done_tick[role].load(std::memory_order_acquire) >= sample.done_tick) return true;
-    known_[role] = sample.done_tick;
-    databuffer::complete_tick(lockstep, role, sample.done_tick);
-    return true;
-  });
+  for (std::size_t role = 0; role < databuffer::kLockstepRoles; ++role)
+    std::erase_if(waiting_, [&](const auto& item) {
+      const yars_net_LockstepSample& sample = item.second;
+      if (sample.role != role) return false;
+      if (context.hosts.find(sample.host) == nullptr || !has_arrived(context, sample)) return false;
+      if (lockstep.done_tick[role].load(std::memory_order_acquire) >= sample.done_tick) return true;
+      if (!others_are_done(lockstep, role, sample.done_tick)) return false;
+      known_[role] = sample.done_tick;
+      databuffer::complete_tick(lockstep, role, sample.done_tick);
+      return true;
+    });
+}
+
+// A role waits for its predecessor alone. That one's done tick may arrive here before those of roles on further hosts
+// whose records it has read: of the roles before it in this tick, and of those after it in the last tick.
+bool LockstepExchange::others_are_done(const databuffer::Lockstep& lockstep, std::size_t role, std::int64_t tick) {
+  const std::uint32_t roles = lockstep.roles.load(std::memory_order_relaxed);
+  for (std::size_t other = 0; other < databuffer::kLockstepRoles; ++other) {
+    const bool takes_part = other != role && (roles >> other & 1U) != 0;
+    const std::int64_t needed = other < role ? tick : tick - 1;
+    if (takes_part && lockstep.done_tick[other].load(std::memory_order_acquire) < needed) return false;
+  }
+  return true;
 }
 
 }  // namespace yars::gateway

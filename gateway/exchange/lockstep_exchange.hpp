@@ -1,6 +1,7 @@
 // Lockstep over several hosts: carries the last done tick of each role to the other hosts.
 // Inputs: done ticks of local roles; those of other hosts, with the numbers of the samples written up to then.
-// Outputs: done ticks in the local segment, after everything that the role published in the tick has arrived here.
+// Outputs: done ticks in the local segment, after everything has arrived here that the role, and the roles before it,
+//   published in the tick.
 // Errors: a done tick that goes back, or is out of range, is refused.
 // Threads: one. Wakes the roles that wait on the futexes of the segment.
 // Source: docs/architecture.md#time; TickLoop (databuffer/runtime/tick_loop.hpp).
@@ -25,11 +26,13 @@ class LockstepExchange {
   void send(Context& context);
   void receive(Context& context);
   void receive(Context& context, const yars_net_LockstepSample& sample);
-  // Applies the done ticks whose samples have all arrived. `in_order`: no record that has arrived waits for another.
+  // Applies the done ticks whose samples have all arrived, after those of the roles before. `in_order`: no record that
+  // has arrived waits for another.
   void apply(Context& context, bool in_order);
 
  private:
   bool has_arrived(const Context& context, const yars_net_LockstepSample& sample) const;
+  static bool others_are_done(const databuffer::Lockstep& lockstep, std::size_t role, std::int64_t tick);
 
   std::array<std::int64_t, databuffer::kLockstepRoles> done_{}, known_{};  // by local roles; sent or written here
   std::map<std::pair<std::uint64_t, std::uint32_t>, yars_net_LockstepSample> waiting_;  // by host and role

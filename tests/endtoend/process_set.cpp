@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
@@ -86,6 +88,11 @@ bool eventually(const std::function<bool()>& condition, double timeout_s) {
 
 namespace {
 
+std::vector<std::string> words_of(const char* text) {
+  std::istringstream stream(text == nullptr ? "" : text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
 std::string in_bin(const std::string& name) {
   return std::string(YARS_BIN_DIR) + "/" + name;
 }
@@ -138,6 +145,8 @@ void ProcessSet::start(const std::string& name, std::vector<std::string> argumen
   std::vector<std::string> command{arguments.front(), "--session", session_};
   command.insert(command.end(), arguments.begin() + 1, arguments.end());
   command.front() = in_bin(command.front());
+  const std::vector<std::string> entry = words_of(std::getenv("YARS_TEST_HOSTS"));
+  command.insert(command.begin(), entry.begin(), entry.end());
   start_tool(name, command);
 }
 

@@ -41,7 +41,9 @@ class ProcessSet {
   const std::filesystem::path& folder() const { return folder_; }
 
   // Starts a program of the bin folder in the session. `arguments`: the program, then its arguments. `name` identifies
-  // the process in the calls below. Its standard error goes to folder()/NAME.log.
+  // the process in the calls below. Its standard error goes to folder()/NAME.log. The environment variable
+  // YARS_TEST_HOSTS, if set, is a command that is put before the program; it starts the program on another host
+  // (tests/gateway/network_lockstep_test.py).
   void start(const std::string& name, std::vector<std::string> arguments);
   // Starts any other program: a path, or a name that PATH has. No --session is added.
   void start_tool(const std::string& name, const std::vector<std::string>& command);

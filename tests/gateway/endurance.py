@@ -18,8 +18,8 @@ import spread_set
 
 
 def replayed(spread, host, recording):
-    lines = spread.lab.run(host, str(spread.programs / "yars"), ["replay", "--events", "--json", recording], within_s=1800).splitlines()
-    return {name: json.loads(lines[-1])[name] for name in ("ticks", "sweeps", "equal", "different", "ticks_lost", "run_hash")}
+    counts = spread.replayed(host, recording)
+    return {name: counts[name] for name in ("ticks", "sweeps", "equal", "different", "ticks_lost", "run_hash")}
 
 
 def main():

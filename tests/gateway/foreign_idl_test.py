@@ -10,7 +10,6 @@ import subprocess
 import sys
 import tempfile
 
-CMAKE, BUILD, CC = sys.argv[1:4]
 PROGRAM = pathlib.Path(__file__).resolve().with_name("foreign_sweeps.c")
 
 
@@ -25,29 +24,43 @@ def must(what, *command):
         sys.exit(f"{what}: expected success without a word, found exit {code}: {told}")
 
 
-def main():
+def why_not():
+    """Why the program cannot be built here; empty where it can."""
     if shutil.which("idlc") is None or shutil.which("pkg-config") is None or run("pkg-config", "--exists", "CycloneDDS")[0] != 0:
-        print("skipped: idlc or Cyclone DDS is not installed; scripts/setup --network installs both")
-        return 77
+        return "idlc or Cyclone DDS is not installed; scripts/setup --network installs both"
+    return ""
+
+
+def build(folder, cmake, tree, compiler):
+    """The program, made in a folder. tree: a build of YARS."""
     flags = run("pkg-config", "--cflags", "--libs", "CycloneDDS")[1].split()
+    code, told = run(cmake, "--install", tree, "--component", "idl", "--prefix", folder / "prefix")
+    if code != 0:
+        sys.exit(f"cmake --install: expected success, found exit {code}: {told}")
+    installed = folder / "prefix/share/yars/idl"
+    names = sorted(file.name for file in installed.iterdir())
+    if names != ["yars_network.idl", "yars_records.idl"]:
+        sys.exit(f"share/yars/idl: expected yars_network.idl and yars_records.idl, found {names}")
+    for name in names:
+        must(name, "idlc", "-o", folder, installed / name)
+    sources = [PROGRAM, *sorted(folder.glob("*.c"))]
+    must("foreign_sweeps.c", compiler, "-std=c11", "-Wall", "-Wextra", "-Werror", "-I", folder, *sources, *flags, "-o",
+         folder / "foreign")
+    return folder / "foreign"
+
+
+def main():
+    if reason := why_not():
+        print(f"skipped: {reason}")
+        return 77
     with tempfile.TemporaryDirectory() as folder:
-        folder = pathlib.Path(folder)
-        code, told = run(CMAKE, "--install", BUILD, "--component", "idl", "--prefix", folder / "prefix")
-        if code != 0:
-            sys.exit(f"cmake --install: expected success, found exit {code}: {told}")
-        installed = folder / "prefix/share/yars/idl"
-        names = sorted(file.name for file in installed.iterdir())
-        if names != ["yars_network.idl", "yars_records.idl"]:
-            sys.exit(f"share/yars/idl: expected yars_network.idl and yars_records.idl, found {names}")
-        for name in names:
-            must(name, "idlc", "-o", folder, installed / name)
-        sources = [PROGRAM, *sorted(folder.glob("*.c"))]
-        must("foreign_sweeps.c", CC, "-std=c11", "-Wall", "-Wextra", "-Werror", "-I", folder, *sources, *flags, "-o", folder / "foreign")
-        code, told = run(folder / "foreign")  # without arguments it opens no network
+        foreign = build(pathlib.Path(folder), *sys.argv[1:4])
+        code, told = run(foreign)  # without arguments it opens no network
         if code != 2 or "usage" not in told:
             sys.exit(f"foreign_sweeps: expected its usage and exit 2, found exit {code}: {told}")
     print("a foreign program of the .idl files compiles and links")
     return 0
 
 
-sys.exit(main())
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,19 +1,24 @@
 // Observer of one host's segment, for tests over several hosts. Reads commands from standard input, one a line, and
 // answers each with one JSON object.
 // Commands: `state` what the segment shows now; `press NUMBER` puts an event with this number into an input lane of the
-//   observer; `applied` numbers of the observers' events that were applied since the last call; `verdict` faults of
-//   all records so far (fault_injection::Watch).
+//   observer; `applied` numbers of the observers' events that were applied since the last call; `maps` patch maps with
+//   the hash that they state and the one of their pixels; `ships NUMBER` takes the role traffic and reports ships;
+//   `verdict` faults of all records so far (fault_injection::Watch).
 // Units: times [ms]; sim time [ns].
 #include <algorithm>
 #include <charconv>
 #include <cstdio>
 #include <iostream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/runtime/process.hpp"
+#include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "tests/endtoend/fault_injection/watch.hpp"
@@ -37,8 +42,10 @@ class Observer {
     const std::string word = command.substr(0, space);
     if (word == "state") return state();
     if (word == "applied") return applied();
+    if (word == "maps") return maps();
+    if (word == "ships" && space != std::string::npos) return ships(command.substr(space + 1));
     if (word == "press" && space != std::string::npos) return press(command.substr(space + 1));
-    return {{"error", "expected state, press NUMBER, applied or verdict, found " + command}};
+    return {{"error", "expected state, press NUMBER, applied, maps, ships NUMBER or verdict, found " + command}};
   }
 
  private:
@@ -59,12 +66,22 @@ class Observer {
     if (const auto status = databuffer::read_valid(layout().model_status)) {
       result["model_tick"] = status->tick;
       result["model_epoch"] = status->epoch;
+      result["model_sweeps"] = status->sweeps;
+      result["scan"] = status->scan;
       result["stale"] = (status->flags & databuffer::kModelStale) != 0;
       result["model_age_ms"] = static_cast<double>(now_ns - status->sim_time_ns) * 1e-6;
     }
     if (const auto outputs = databuffer::read_valid(layout().outputs)) result["machine_tick"] = outputs->tick;
+    if (const auto traffic = databuffer::read_valid(layout().traffic)) result["ships"] = traffic->count;
+    result["ships_latched"] = layout().traffic_latched.next();
     if (const auto network = databuffer::read_valid(layout().network_status)) result["network"] = describe(*network);
     return result;
+  }
+
+  static std::uint32_t number_in(const std::string& text) {
+    std::uint32_t number = 0;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+    return number;
   }
 
   // "none"; "here": a process of this host holds the role; "remote": the gateway holds it for another host.
@@ -91,8 +108,7 @@ class Observer {
 
   // The TDC's deflection says nothing; the number is what the driver looks for.
   json press(const std::string& text) {
-    std::uint32_t number = 0;
-    std::from_chars(text.data(), text.data() + text.size(), number);
+    const std::uint32_t number = number_in(text);
     if (!lane_) {
       auto claim = session_.claim_input_lane(kSource);
       if (!claim) return {{"error", claim.error().message()}};
@@ -123,8 +139,37 @@ class Observer {
     return {{"applied", numbers}, {"lost", lost}};
   }
 
+  // Maps by id: hash of the record, hash of what is there.
+  json maps() const {
+    json result = json::object();
+    databuffer::PatchMap map{};
+    std::vector<std::uint8_t> pixels;
+    for (const auto& slot : layout().patches) {
+      const std::uint64_t id = slot.id.load();
+      if (id != 0 && databuffer::read_patch(layout(), id, map, pixels))
+        result[std::to_string(id)] = {map.hash, databuffer::map_hash(map, pixels)};
+    }
+    return result;
+  }
+
+  json ships(const std::string& text) {
+    if (!traffic_) {
+      auto claim = session_.claim(databuffer::Role::traffic);
+      if (!claim) return {{"error", claim.error().message()}};
+      traffic_.emplace(std::move(*claim));
+    }
+    databuffer::Traffic traffic{};
+    traffic.count = std::min<std::uint32_t>(number_in(text), std::size(traffic.entities));
+    traffic.epoch = session_.clock().epoch;
+    for (std::uint32_t i = 0; i < traffic.count; ++i)
+      traffic.entities[i] = {37.5 + 0.05 * i, -122.8, 5.0, 8.0, 10.0, 1e6, i + 1, 0};
+    session_.layout().traffic.publish(traffic);
+    return {{"ships", traffic.count}};
+  }
+
   databuffer::Session session_;
   std::optional<databuffer::Claim> lane_;
+  std::optional<databuffer::Claim> traffic_;
   std::uint64_t applied_cursor_ = 0;
 };
 

@@ -8,6 +8,7 @@
 
 #include "databuffer/session/picture_pool.hpp"
 #include "gateway/exchange/map_exchange.hpp"
+#include "gateway/exchange/history_progress.hpp"
 #include "tests/gateway/exchange/two_hosts.hpp"
 
 namespace yars::gateway {
@@ -160,6 +161,30 @@ TEST_F(HistoryExchangeTest, RepeatedSamplesAreLeftOutAlsoByANewGateway) {
   EXPECT_EQ(ticks(), 1u);
   EXPECT_EQ(sweeps(), 1u);
   EXPECT_EQ(layout().traffic_latched.next(), 1u);
+}
+
+// Else the first tick of a lockstep run would be lost on a host whose roles start later.
+TEST_F(HistoryExchangeTest, AHistoryBeginsOnceTheAgeOfItsRecordsCanBeJudged) {
+  const auto beta = host_id("beta");
+  const auto begins = [&](std::optional<std::int64_t> newest) {
+    return may_begin(context_, dds::Topic::model_ticks, beta, newest);
+  };
+  databuffer::ClockState clock = session_.clock();
+  clock.base_sim_ns = 2 * kSecond_ns;
+  clock.base_monotonic_ns = databuffer::monotonic_ns();
+  clock.running = 0;
+  session_.layout().clock.publish(clock);
+  EXPECT_FALSE(begins(std::nullopt));
+  EXPECT_FALSE(begins(0)) << "a model that stands still, or a lockstep run";
+  EXPECT_TRUE(begins(399));
+  context_.lockstep = true;
+  EXPECT_TRUE(begins(0));
+  EXPECT_TRUE(begins(std::nullopt));
+  receive(tick(0));
+  context_.lockstep = false;
+  EXPECT_EQ(ticks(), 1u);
+  EXPECT_FALSE(begins(0)) << "another life of the model's segment";
+  EXPECT_TRUE(may_begin(context_, dds::Topic::model_ticks, hosts_.self().id, 0)) << "the model is here";
 }
 
 TEST_F(HistoryExchangeTest, RecordsOfAHostWithoutTheRoleAreLeftOut) {

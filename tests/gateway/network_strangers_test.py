@@ -1,0 +1,163 @@
+#!/usr/bin/env python3
+"""Hosts that differ, and who else is on the line: a foreign DDS program, hosts with identities, a stranger without one.
+
+usage: network_strangers_test.py BIN CMAKE BUILD CC     ends with 77 and a word where there is no lab
+"""
+import pathlib
+import shutil
+import subprocess
+import sys
+import tempfile
+
+sys.dont_write_bytecode = True
+import foreign_idl_test
+import spread_set
+from spread_set import FLIGHT, lab, runs
+
+WITHIN_S = 60.0
+ROLES = {"a": [("flight-model", FLIGHT)], "b": [("state-machine", [])], "c": [("radar-model", [])], "d": []}
+SWEEPS = 200
+FOREIGN = """<CycloneDDS><Domain Id="0">
+ <General><Interfaces><NetworkInterface name="eth0" multicast="false"/></Interfaces><AllowMulticast>false</AllowMulticast></General>
+ <Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>3</MaxAutoParticipantIndex>
+  <Peers>{peers}</Peers></Discovery>
+ <SharedMemory><Enable>false</Enable></SharedMemory>
+</Domain></CycloneDDS>
+"""
+# Counts the frames on eth0 for some seconds, and those that have a text.
+SNIFF = """
+import socket, sys, time
+tap = socket.socket(socket.AF_PACKET, socket.SOCK_RAW, socket.htons(3))
+tap.bind(("eth0", 0))
+tap.settimeout(0.1)
+frames, found, until = 0, 0, time.monotonic() + float(sys.argv[1])
+while time.monotonic() < until:
+    try:
+        frame = tap.recv(65536)
+    except TimeoutError:
+        continue
+    frames += 1
+    found += sys.argv[2].encode() in frame
+print(frames, found)
+"""
+SNIFF_S = 3.0
+
+
+def count_on_the_line(spread, host, text):
+    frames, found = spread.lab.run(host, sys.executable, ["-c", SNIFF, SNIFF_S, text]).split()
+    return int(frames), int(found)
+
+
+def count_lines(process, text):
+    return sum(text in line for line in process.text().splitlines())
+
+
+def await_status(spread, host, text):
+    lab.wait_until(lambda: text in spread.yars(host, "status", code=None), f"`yars status` on {host} that says {text!r}", WITHIN_S)
+
+
+# ---- Differences ----
+
+def hosts_with_another_configuration_or_terrain_are_named(programs, build):
+    with spread_set.SpreadSet(programs, {"a": (), "b": ()}) as spread:
+        folder = spread.lab.folder
+        for host, size in (("a", 10), ("b", 20)):
+            (folder / f"terrain_{host}").mkdir()
+            (folder / f"terrain_{host}" / "N37W123.hgt").write_bytes(bytes(size))
+        for host, configuration in (("a", "apg68.guf"), ("b", "apg70.guf")):
+            spread.start_gateway(host, ["--config", lab.TOP / "config" / configuration, "--terrain", folder / f"terrain_{host}"])
+        for host, other in (("a", "b"), ("b", "a")):
+            for what in ("configuration", "terrain"):
+                spread.gateways[host].wait_for(f"host {other} has another {what}", WITHIN_S)
+                await_status(spread, host, f"host {other} has another {what}")
+        for host, other in (("a", "b"), ("b", "a")):
+            for what in ("configuration", "terrain"):
+                assert count_lines(spread.gateways[host], f"host {other} has another {what}") == 1, spread.logs()
+
+
+def two_hosts_of_one_name_are_named(programs, build):
+    with spread_set.SpreadSet(programs, {"a": (), "b": (), "c": ()}) as spread:
+        spread.start_gateways(["a", "b"])
+        spread.start_gateway("c", name="a")
+        for host in ("a", "c"):
+            spread.gateways[host].wait_for("another host is also called a", WITHIN_S)
+            await_status(spread, host, "host a has the name of another host")
+        assert count_lines(spread.gateways["b"], "also called") == 0, spread.logs()
+
+
+# ---- Programs of others ----
+
+def a_foreign_program_made_from_the_idl_files_reads_sweeps(programs, build):
+    """It is alone on host d: no gateway is there. A text of the records is on the line."""
+    if reason := foreign_idl_test.why_not():
+        print(f"left out: {reason}")
+        return
+    with tempfile.TemporaryDirectory() as name, spread_set.SpreadSet(programs, ROLES) as spread:
+        foreign = foreign_idl_test.build(pathlib.Path(name), *build)
+        sweeping(spread)
+        peers = "".join(f'<Peer Address="{spread.lab.address(host)}"/>' for host in ROLES)
+        said = spread.lab.run("d", str(foreign), [spread.session, SWEEPS, int(WITHIN_S)],
+                              env={"CYCLONEDDS_URI": FOREIGN.format(peers=peers)}, within_s=2 * WITHIN_S)
+        lines = said.splitlines()
+        assert len(lines) == SWEEPS and all(line.startswith("sweep ") and " rbm, " in line for line in lines), said
+        numbers = [int(line.split()[1]) for line in lines]
+        assert numbers == sorted(set(numbers)), numbers
+        frames, found = count_on_the_line(spread, "c", TEXT)
+        assert found > 0, (frames, spread.logs())
+
+
+TEXT = "GAIN 3"  # a legend of the radar state
+
+
+def sweeping(spread, hosts="abc"):
+    spread.start(list(hosts))
+    spread.yars("a", "inject", "power opr")
+    states = spread.wait_for(lambda seen: runs(seen) and all(one["sweeps"] > 50 for one in seen.values()), "sweeps on all hosts",
+                             hosts=list(hosts), within_s=WITHIN_S)
+    return states
+
+
+# ---- Identities ----
+
+def a_stranger_sees_no_host_and_changes_nothing(programs, build):
+    if shutil.which("openssl") is None:
+        print("left out: expected openssl, found none")
+        return
+    with spread_set.SpreadSet(programs, {**ROLES, "e": [("state-machine", []), ("flight-model", FLIGHT)]},
+                              options=':security "net/{host}"') as spread:
+        subprocess.run([lab.TOP / "scripts/network_identities", spread.lab.folder / "net", *ROLES], check=True,
+                       stdout=subprocess.DEVNULL, timeout=60)
+        before = sweeping(spread, "abcd")
+        spread.start_gateway("e", options="").wait_for("joined", WITHIN_S)  # alone
+        spread.start_roles("e")
+        spread.start_observer("e")
+        spread.yars("e", "inject", "power stby")
+        spread.yars("e", "sim", "freeze")
+        spread.wait_for(lambda seen: seen["e"]["machine"] == "here" and not seen["e"]["running"], "a set of its own on e", hosts=["e"])
+        assert spread.ask("e", "press 7")["pushed"]
+        frames, found = count_on_the_line(spread, "d", TEXT)
+        assert frames > 100 and found == 0, (frames, found)
+        states = spread.wait_for(lambda seen: runs({host: seen[host] for host in ROLES}) and
+                                 all(seen[host]["sweeps"] > before[host]["sweeps"] + 50 for host in ROLES), "sweeps on a to d")
+        for host in ROLES:
+            assert set(states[host]["network"]["hosts"]) == set(ROLES) and states[host]["running"], states[host]
+            assert states[host]["epoch"] == before[host]["epoch"], (before, states)
+            assert spread.ask(host, "applied")["applied"] == []
+            assert spread.watch(host)["power"] == "OPR"
+        assert set(states["e"]["network"]["hosts"]) == {"e"} and states["e"]["model"] == "none", states["e"]
+
+
+def main():
+    programs, *build = sys.argv[1:]
+    programs = pathlib.Path(programs).resolve()
+    if reason := spread_set.why_skipped(programs):
+        print(f"skipped: {reason}")
+        return 77
+    spread_set.run_tests((hosts_with_another_configuration_or_terrain_are_named, two_hosts_of_one_name_are_named,
+                          a_foreign_program_made_from_the_idl_files_reads_sweeps, a_stranger_sees_no_host_and_changes_nothing),
+                         programs, build)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

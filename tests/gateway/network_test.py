@@ -1,0 +1,281 @@
+#!/usr/bin/env python3
+"""One session over four hosts in real time: a bad line, a partition, hosts that die, the clock, maps, ships.
+
+usage: network_test.py BIN [TEST...]       BIN: folder of the programs; ends with 77 and a word where there is no lab
+The tests are functions with one set after another; each leaves the set whole. No time is asserted but the limits of waiting.
+"""
+import json
+import signal
+import sys
+import time
+
+sys.dont_write_bytecode = True
+import faults
+import spread_set
+from spread_set import FLIGHT, runs
+
+# Each role that may stand by does so on b and c. a has an ownship, and so has each part of a network that falls apart.
+LAYOUT = {"a": [("flight-model", FLIGHT)],
+          "b": [("state-machine", ["--standby"]), ("radar-model", ["--standby"]), ("flight-model", FLIGHT)],
+          "c": [("radar-model", ["--standby"]), ("state-machine", ["--standby"]), ("flight-model", FLIGHT)],
+          "d": []}
+WITHIN_S = 60.0
+PILOTS = ("power", "mode", "range_nm", "scan", "gain", "brightness", "declutter", "master")  # what a new machine takes over
+
+
+class Flight:
+    """The set, and the events that the test presses on it."""
+
+    def __init__(self, spread):
+        self.spread = spread
+        self.campaign = faults.Campaign(spread, 1)
+
+    def await_whole(self):
+        """One machine and one model, seen alike by all."""
+        states = self.spread.wait_for(runs, "one machine and one model", within_s=WITHIN_S)
+        self.campaign.machine = self.host_of("machine", states)
+        return states
+
+    @staticmethod
+    def host_of(role, states):
+        return next(host for host, state in states.items() if state[role] == "here")
+
+    def await_watch(self, host, condition, what):
+        deadline = time.monotonic() + WITHIN_S
+        while not condition(seen := self.spread.watch(host)):
+            assert time.monotonic() < deadline, (what, seen, self.spread.logs())
+            time.sleep(0.05)
+        return seen
+
+    def await_applied(self, numbers, hosts):
+        deadline = time.monotonic() + WITHIN_S
+        while waiting := [one for one in numbers if not self.campaign.is_applied(one)]:
+            assert time.monotonic() < deadline, (waiting, self.spread.logs())
+            self.campaign.collect(hosts)
+            time.sleep(0.05)
+
+    def press_on(self, hosts, count):
+        """Numbers of events that have entered lanes; count on each host."""
+        numbers = []
+        for _ in range(count):
+            for host in hosts:
+                number = self.campaign.press(host)
+                assert number, (host, self.spread.logs())
+                numbers.append(number)
+            time.sleep(0.05)
+        return numbers
+
+    def assert_once(self):
+        events = self.campaign.judge(faults=[])
+        assert not events["lost"] and not events["twice"], (events, self.spread.logs())
+
+
+def lost(states):
+    return {host: {name: other["lost"] for name, other in state["network"]["hosts"].items()} for host, state in states.items()}
+
+
+def a_map_that_is_commanded_appears_on_all_hosts(flight):
+    spread = flight.spread
+    for event in ("power opr", "pb 14", "tdc 1 0"):
+        spread.yars("d", "inject", event)
+    time.sleep(0.6)  # the cursor leaves the blind zone ahead of the aircraft
+    for event in ("tdc 0 0", "tdc release"):
+        spread.yars("d", "inject", event)
+    deadline = time.monotonic() + WITHIN_S
+    while True:
+        maps = {host: spread.ask(host, "maps") for host in LAYOUT}
+        if all(maps.values()) and all(one == maps["a"] for one in maps.values()):
+            break
+        assert time.monotonic() < deadline, (maps, spread.watch("d"), spread.logs())
+        time.sleep(0.1)
+    for stated, computed in maps["d"].values():
+        assert stated == computed != 0, maps
+    flight.await_watch("d", lambda seen: seen.get("mode") == "PATCH", "the map on the display's host")
+    spread.yars("a", "inject", "pb 6")
+    flight.await_watch("d", lambda seen: seen.get("mode") != "PATCH", "a mode that sweeps")
+    flight.campaign.collect(LAYOUT)  # the deflections of the TDC are none of the campaign's events
+    flight.campaign.applied.clear()
+
+
+def ships_of_one_host_are_latched_by_the_model_of_another(flight):
+    spread = flight.spread
+    before = spread.states()
+    assert spread.ask("d", "ships 3") == {"ships": 3}
+    model = flight.host_of("model", before)
+    spread.wait_for(lambda states: states[model].get("ships") == 3 and
+                    all(states[host]["ships_latched"] > before[host]["ships_latched"] for host in LAYOUT), "ships on all hosts")
+
+
+def a_bad_line_loses_no_sweep_and_no_event(flight):
+    spread = flight.spread
+    spread.lab.set_line(loss=1, delay=20, jitter=5, duplicate=1, reorder=5)
+    before = flight.await_whole()
+    recording = spread.lab.folder / "line.yars"
+    recorder = spread.lab.start("d", str(spread.programs / "yars"), ["record", "--session", spread.session, recording])
+    recorder.wait_for(" ", WITHIN_S)  # its first line
+    numbers = []
+    begin = time.monotonic()
+    while time.monotonic() - begin < 10.0:
+        numbers += flight.press_on(LAYOUT, 1)
+        flight.campaign.collect(LAYOUT)
+    flight.await_applied(numbers, LAYOUT)
+    after = flight.await_whole()
+    recorder.signal(signal.SIGINT)
+    assert recorder.wait(WITHIN_S) == 0, recorder.text()
+    flight.assert_once()
+    assert lost(after) == lost(before), (lost(before), lost(after))
+    assert all(after[host]["sweeps"] > before[host]["sweeps"] + 100 for host in LAYOUT), (before, after)
+    frames = spread.lab.statistics()
+    assert min(frames["lost"], frames["duplicated"], frames["reordered"]) > 0, frames
+    spread.lab.set_line()
+    replayed = spread.replayed("d", recording)
+    assert replayed["different"] == 0 and replayed["ticks_lost"] == 0 and replayed["equal"] > 100, replayed
+
+
+def the_clock_obeys_any_host(flight):
+    spread = flight.spread
+    flight.await_whole()
+    states = spread.wait_for(lambda seen: any(owns_clock(state, host) for host, state in seen.items()), "an owner of the clock")
+    owner = next(host for host in LAYOUT if owns_clock(states[host], host))
+    first, second, third = (host for host in LAYOUT if host != owner)
+    spread.wait_for(lambda seen: sim_times_agree(seen, spread), "equal sim times")
+    spread.yars(first, "sim", "freeze")
+    stands = spread.wait_for(lambda seen: not any(one["running"] for one in seen.values()) and
+                             len({one["sim_ns"] for one in seen.values()}) == 1, "one frozen sim time")
+    stepped_ns = (stands["a"]["sim_ns"] // TICK_NS + 10) * TICK_NS
+    spread.yars(second, "sim", "step", "10")
+    spread.wait_for(lambda seen: {one["sim_ns"] for one in seen.values()} == {stepped_ns}, "ten ticks more on all")
+    spread.yars(third, "sim", "rate", "2")
+    spread.yars(third, "sim", "run")
+    spread.wait_for(lambda seen: all(one["running"] and one["rate"] == 2.0 for one in seen.values()) and
+                    sim_times_agree(seen, spread), "rate 2 and equal sim times")
+    epoch = states["a"]["epoch"]
+    spread.yars(first, "sim", "reset", "1000")
+    spread.wait_for(lambda seen: all(one["epoch"] > epoch and one["sim_ns"] >= 1000 * 10**9 for one in seen.values()),
+                    "a new epoch from 1,000 s")
+    spread.yars(second, "sim", "rate", "1")
+    states = flight.await_whole()
+    spread.wait_for(lambda seen: sim_times_agree(seen, spread), "equal sim times")
+
+
+PRESENT, OWNS_CLOCK = 2, 4  # databuffer::kHostPresent, kHostOwnsClock
+TICK_NS = 5_000_000
+
+
+def owns_clock(state, host):
+    return state["network"]["hosts"][host]["flags"] & OWNS_CLOCK != 0
+
+
+def sim_times_agree(states, spread):
+    """True if all sim times, brought to one moment by the monotonic clocks, differ by less than 50 ms."""
+    rate = next(iter(states.values()))["rate"]
+    behind = [state["sim_ns"] - rate * (state["monotonic_ns"] - spread.lab.hosts[host].offset_s * 10**9)
+              for host, state in states.items()]
+    return max(behind) - min(behind) < 50e6
+
+
+def both_parts_of_a_partition_go_on_and_the_larger_one_stays(flight):
+    """The host that is cut off precedes by its name, so that only the size of its part decides."""
+    spread, rest = flight.spread, ["a", "c", "d"]
+    spread.lab.kill_host("c")  # then b has both roles
+    spread.wait_for(lambda seen: seen["b"]["machine"] == seen["b"]["model"] == "here", "b with both roles", hosts=["a", "b", "d"])
+    spread.start_host("c")
+    flight.campaign.lives["c"] += 1
+    before = flight.await_whole()
+    conflicts = {host: before[host]["network"]["conflicts"] for host in LAYOUT}
+    spread.lab.cut("b")
+    begin = time.monotonic()
+    alone = spread.wait_for(lambda seen: set(present(seen["b"])) == {"b"} and seen["b"]["machine"] == seen["b"]["model"] == "here",
+                            "b alone with its roles", hosts=["b"])
+    kept = spread.wait_for(lambda seen: runs(seen) and all(set(present(one)) == set(rest) for one in seen.values()),
+                           "c with both roles", hosts=rest)
+    flight.campaign.machine = "c"
+    numbers = []
+    while time.monotonic() - begin < 10.0 or not numbers:
+        numbers += flight.press_on(rest, 1)
+        flight.campaign.collect(rest)
+        time.sleep(0.1)
+    flight.await_applied(numbers, rest)
+    later = spread.states()
+    assert all(later[host]["sweeps"] > (alone if host == "b" else kept)[host]["sweeps"] for host in LAYOUT), (alone, kept, later)
+    spread.lab.heal("b")
+    healed = spread.wait_for(lambda seen: runs(seen) and seen["c"]["machine"] == seen["c"]["model"] == "here" and
+                             all(set(present(one)) == set(LAYOUT) for one in seen.values()), "c with both roles, seen by all")
+    highest = max(one["epoch"] for one in later.values())
+    assert all(one["epoch"] > highest for one in healed.values()), (later, healed)
+    assert any(healed[host]["network"]["conflicts"] > conflicts[host] for host in rest), healed
+    flight.campaign.collect(LAYOUT)
+    flight.assert_once()
+    restart_what_ended(flight, "b")
+
+
+def present(state):
+    """Hosts that a host hears."""
+    return [name for name, other in state["network"]["hosts"].items() if other["flags"] & PRESENT]
+
+
+def restart_what_ended(flight, host):
+    """As scripts/start does: roles that gave way start again and stand by."""
+    running = {process.name for process in flight.spread.lab.hosts[host].processes if process.poll() is None}
+    for role, arguments in LAYOUT[host]:
+        if role not in running:
+            flight.spread.lab.start(host, str(flight.spread.programs / role), ["--session", flight.spread.session, *arguments])
+
+
+def a_standby_goes_on_where_the_killed_host_ended(flight):
+    spread = flight.spread
+    for role in ("model", "machine"):
+        flight.await_whole()
+        for event in ("power opr", "pb 9", "pb 3", "pb 14", "pb 2"):
+            spread.yars("a", "inject", event)
+        applied = flight.await_watch("d", lambda seen: seen.get("power") == "OPR", "power OPR")["events_applied"]
+        # The record of all five is on d.
+        states = flight.await_whole()
+        flight.await_watch("d", lambda seen: seen["events_applied"] == spread.watch("a")["events_applied"] >= applied, "one state")
+        time.sleep(0.5)
+        pilot, holder = spread.watch("d"), flight.host_of(role, states)
+        status = spread.ask("d", "state")
+        flight.campaign.excuse(holder)
+        spread.lab.kill_host(holder)
+        others = [host for host in LAYOUT if host != holder]
+        states = spread.wait_for(lambda seen: runs(seen) and all(one["model_sweeps"] > status["model_sweeps"] + 50
+                                                                 for one in seen.values()), "a standby that goes on", hosts=others)
+        after = spread.watch("d")
+        assert {name: after[name] for name in PILOTS} == {name: pilot[name] for name in PILOTS}, (pilot, after)
+        assert after["events_applied"] == pilot["events_applied"], (pilot, after)
+        resumed = states["d"]
+        assert resumed["scan"] >= status["scan"] > 0 and resumed["model_tick"] > status["model_tick"], (status, resumed)
+        spread.yars("a", "inject", "pb 9")
+        flight.await_watch("d", lambda seen: seen["scan"] != pilot["scan"], "the scan width of the event")
+        flight.campaign.lives[holder] += 1
+        spread.start_host(holder)
+
+
+def nothing_is_torn_or_out_of_range(flight):
+    for host in LAYOUT:
+        verdict = flight.spread.ask(host, "verdict")
+        assert verdict["torn"] == verdict["out_of_range"] == 0 < verdict["records"], (host, verdict)
+
+
+TESTS = (a_map_that_is_commanded_appears_on_all_hosts, ships_of_one_host_are_latched_by_the_model_of_another,
+         a_bad_line_loses_no_sweep_and_no_event, the_clock_obeys_any_host, nothing_is_torn_or_out_of_range,
+         both_parts_of_a_partition_go_on_and_the_larger_one_stays, a_standby_goes_on_where_the_killed_host_ended,
+         nothing_is_torn_or_out_of_range)
+
+
+def main():
+    programs, *names = sys.argv[1:]
+    if reason := spread_set.why_skipped(programs):
+        print(f"skipped: {reason}")
+        return 77
+    with spread_set.SpreadSet(programs, LAYOUT) as spread:
+        spread.start()
+        spread.yars("a", "inject", "power opr")
+        flight = Flight(spread)
+        flight.await_whole()
+        spread_set.run_tests([test for test in TESTS if not names or test.__name__ in names], flight)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
