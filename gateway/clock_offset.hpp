@@ -66,8 +66,8 @@ class OffsetEstimator {
   std::size_t count_ = 0;
 };
 
-// An offset in use that moves towards the measured one: by at most 1 ms per second, while it is wrong by more than 2 ms by
-// at most 10 ms per second.
+// An offset in use that moves towards the measured one: by at most 1 ms per second, while it is wrong by more than 2 ms
+// by at most 10 ms per second.
 class SlewedOffset {
  public:
   void set(std::int64_t offset_ns) {
@@ -88,8 +88,8 @@ class SlewedOffset {
   std::int64_t offset_ns() const { return offset_ns_; }
 
  private:
-  static constexpr std::int64_t kMaxSlew = 1000;     // 1 ms per second. The drift of two computers is below 0.2 ms/s
-  static constexpr std::int64_t kFarSlew = 100;      // 10 ms per second, after a bad first measurement
+  static constexpr std::int64_t kMaxSlew = 1000;  // 1 ms per second. The drift of two computers is below 0.2 ms/s
+  static constexpr std::int64_t kFarSlew = 100;   // 10 ms per second, after a bad first measurement
   static constexpr std::int64_t kFar_ns = 2'000'000;
   static constexpr std::int64_t kBegin_ns = 50'000;  // smaller errors are noise of the measurement
   static constexpr std::int64_t kEnd_ns = 5'000;

@@ -12,8 +12,8 @@ namespace yars::gateway {
 class SampleNumbers {
  public:
   // False: the sample has arrived before, or is older than one that has arrived. `max_repeats`: samples that DDS may
-  // deliver again in a row. After more of them, the highest number is taken for an error, and counting begins anew. So is
-  // a number far ahead, until kConfirmations samples have followed it.
+  // deliver again in a row. After more of them, the highest number is taken for an error, and counting begins anew. So
+  // is a number far ahead, until kConfirmations samples have followed it.
   bool is_new(std::uint64_t start, std::uint64_t number, std::uint64_t max_repeats = kDefaultRepeats) {
     if (begun_ && start != start_ && start == former_start_) {
       ++repeated_;  // from a gateway process that has ended

@@ -74,8 +74,9 @@ void warn_of_loopback(const radar::NetworkSettings& settings) {
     return peer.starts_with("127.") || peer == "::1" || peer == "localhost";
   };
   if (settings.interfaces != std::vector<std::string>{"lo"} || std::ranges::all_of(settings.peers, is_local)) return;
-  log::warning("Network: interfaces: expected an interface that reaches the peers, found `lo` alone; name one that "
-               "`ip link` lists");
+  log::warning(
+      "Network: interfaces: expected an interface that reaches the peers, found `lo` alone; name one that "
+      "`ip link` lists");
 }
 
 error::Expected<void> run(const databuffer::ProgramOptions& options, const GatewayOptions& gateway_options) {

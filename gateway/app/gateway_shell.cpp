@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 #include <ctime>
+#include <initializer_list>
 #include <utility>
 
 #include "lib/log/log.hpp"
@@ -33,7 +34,15 @@ GatewayShell::GatewayShell(databuffer::Session& session, const std::string& sess
       context_{session, &link_, hosts_, roles_},
       maps_(settings.map_rows_per_s),
       domain_(settings.domain),
-      secured_(!settings.security.empty()) {}
+      secured_(!settings.security.empty()) {
+  const auto writes = [this](std::initializer_list<dds::Topic> topics) {
+    return std::ranges::all_of(topics, [this](dds::Topic topic) { return link_.writes(topic); });
+  };
+  if (!writes({dds::Topic::model_status, dds::Topic::model_ticks, dds::Topic::sweeps}))
+    roles_.bar(databuffer::Role::radar_model);
+  if (!writes({dds::Topic::radar_state, dds::Topic::outputs, dds::Topic::applied_events, dds::Topic::event_receipts}))
+    roles_.bar(databuffer::Role::state_machine);
+}
 
 void GatewayShell::step() {
   link_.wait(next_pass_ns_ - databuffer::monotonic_ns());

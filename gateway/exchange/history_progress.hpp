@@ -51,7 +51,8 @@ bool is_new_in_history(Context& context, const Sample& sample, std::uint64_t loc
 // True once the records of a history of another host may be taken. `newest`: tick of the state that the host last
 // published; nullopt: none has arrived. A lockstep run, whose ticks do not follow the session clock, is not known here
 // until a role of this host begins it. Its first records would be taken for old ones, and nobody would send them again.
-inline bool may_begin(const Context& context, dds::Topic topic, std::uint64_t host, std::optional<std::int64_t> newest) {
+inline bool may_begin(const Context& context, dds::Topic topic, std::uint64_t host,
+                      std::optional<std::int64_t> newest) {
   if (context.lockstep || host == context.hosts.self().id ||
       context.hosts.knows(topic, host, context.hosts.segment_of(host)))
     return true;

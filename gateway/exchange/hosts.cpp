@@ -110,7 +110,7 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
   Host* host = host_of(sample.host, true);
   if (host == nullptr) return;
   if (!host->numbers[dds::index_of(dds::Topic::hosts)].is_new(sample.start, sample.number,
-                                                               max_repeats(dds::Topic::hosts)))
+                                                              max_repeats(dds::Topic::hosts)))
     return;
   const bool is_news = !host->alive || host->said.start != sample.start;
   host->said = sample;

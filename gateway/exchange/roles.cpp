@@ -31,6 +31,13 @@ Roles::~Roles() {
   for (State& state : states_) release(state);
 }
 
+void Roles::bar(Role role) {
+  const auto found = std::ranges::find(states_, role, &State::role);
+  assert(found != states_.end() && found->exclusive);
+  found->barred = true;
+  log::info("this host may not hold the role " + std::string(name_of(role)) + ": its topics may not leave it");
+}
+
 void Roles::update(const Hosts& hosts, std::int64_t now_ns) {
   for (State& state : states_) state.local = !state.claim && std::as_const(*session_).role_is_held(state.role);
   for (State& state : states_) update(state, hosts, now_ns);
@@ -39,7 +46,8 @@ void Roles::update(const Hosts& hosts, std::int64_t now_ns) {
 void Roles::update(State& state, const Hosts& hosts, std::int64_t now_ns) {
   // This host's announced claims may be one pass old; what counts here is the present.
   const auto holds = [&](const HostView& host) {
-    return host.id == hosts.self().id ? state.local : (host.held_roles >> static_cast<unsigned>(state.role) & 1U) != 0;
+    return host.id == hosts.self().id ? state.local && !state.barred
+                                      : (host.held_roles >> static_cast<unsigned>(state.role) & 1U) != 0;
   };
   const HostView* holder = preceding(hosts.views(), holds);
   const bool is_self = holder != nullptr && holder->id == hosts.self().id;
@@ -66,15 +74,16 @@ void Roles::update(State& state, const Hosts& hosts, std::int64_t now_ns) {
   }
   if (now_ns < state.lent_until_ns && !state.local) return;
   // The role is claimed before the request to yield ends, so that no standby of this host gets in between.
-  if (holder != nullptr && !is_self && !state.local && !state.claim) mirror(state);
+  const bool is_elsewhere = holder != nullptr && !is_self;
+  if ((is_elsewhere || state.barred) && !state.local && !state.claim) mirror(state);
   if (state.exclusive)
-    set_bit(session_->layout().network.yielding_roles, state.role, state.local && !is_self && holder != nullptr);
+    set_bit(session_->layout().network.yielding_roles, state.role, state.local && (is_elsewhere || state.barred));
   // A gateway that has just started has not heard the other hosts yet.
   if (first_update_ns_ == 0) first_update_ns_ = now_ns;
   if (state.exclusive && now_ns - first_update_ns_ < kListening_ns) return;
   if (holder == nullptr && (may_release || !state.exclusive)) {
     state.holder.reset();
-    release(state);
+    if (!state.barred) release(state);
   }
 }
 
@@ -127,7 +136,7 @@ std::optional<std::uint64_t> Roles::source(Role role) const {
 
 bool Roles::exports(Role role) const {
   const State& state = state_of(role);
-  if (!state.local) return false;
+  if (!state.local || state.barred) return false;
   return !state.exclusive ||
          (session_->layout().network.yielding_roles.load() >> static_cast<unsigned>(role) & 1U) == 0;
 }
@@ -139,7 +148,7 @@ std::optional<std::uint64_t> Roles::holder(Role role) const {
 std::uint32_t Roles::held_roles() const {
   std::uint32_t bits = 0;
   for (const State& state : states_)
-    if (state.local) bits |= 1U << static_cast<unsigned>(state.role);
+    if (state.local && !state.barred) bits |= 1U << static_cast<unsigned>(state.role);
   return bits;
 }
 

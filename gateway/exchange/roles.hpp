@@ -30,6 +30,10 @@ class Roles {
   Roles& operator=(const Roles&) = delete;
   ~Roles();  // a standby of this host takes a released role at once
 
+  // This host may not hold the role, as its records may not leave it (topicsOut, permissions of DDS Security). A local
+  // holder yields, and a standby waits. Otherwise the other hosts would wait for records that never come.
+  void bar(databuffer::Role role);
+
   // Compares who holds each role, claims, releases, and asks to yield.
   void update(const Hosts& hosts, std::int64_t now_ns);
   void heartbeat();
@@ -53,7 +57,8 @@ class Roles {
     bool has_name;   // shown in the process table under its own name
     std::optional<databuffer::Session> session = std::nullopt;
     std::optional<databuffer::Claim> claim = std::nullopt;
-    bool local = false;  // a local process holds it
+    bool local = false;   // a local process holds it
+    bool barred = false;  // bar()
     bool conflict = false;
     std::int64_t lent_until_ns = 0;  // until then the role is left to a local process that wants it
     std::optional<std::uint64_t> holder = std::nullopt;

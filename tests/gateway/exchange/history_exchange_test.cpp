@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "databuffer/session/picture_pool.hpp"
-#include "gateway/exchange/map_exchange.hpp"
 #include "gateway/exchange/history_progress.hpp"
+#include "gateway/exchange/map_exchange.hpp"
 #include "tests/gateway/exchange/two_hosts.hpp"
 
 namespace yars::gateway {

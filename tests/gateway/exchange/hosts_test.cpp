@@ -150,6 +150,22 @@ TEST_F(RolesTest, ALocalHolderYieldsOnlyToAHostThatPrecedes) {
   EXPECT_TRUE(roles_.exports(Role::state_machine));
 }
 
+TEST_F(RolesTest, ABarredRoleIsNeverHeldHere) {
+  hold(Role::radar_model);
+  roles_.bar(Role::radar_model);
+  pass(0);
+  EXPECT_EQ(roles_.held_roles(), 0u);
+  EXPECT_FALSE(roles_.exports(Role::radar_model));
+  EXPECT_TRUE(session_.must_yield(Role::radar_model));
+  release(Role::radar_model);
+  pass(2 * kSecond_ns);
+  pass(2 * kSecond_ns);
+  EXPECT_TRUE(session_.is_mirrored(Role::radar_model)) << "a standby of this host waits";
+  EXPECT_EQ(roles_.source(Role::radar_model), std::nullopt);
+  announce("beta", bit(Role::radar_model));
+  EXPECT_EQ(roles_.source(Role::radar_model), host_id("beta"));
+}
+
 // Each host may have a recorder of its own.
 TEST_F(RolesTest, AProcessOfThisHostGetsASharedRoleBack) {
   announce("beta", bit(Role::recorder));
