@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "databuffer/session/picture_pool.hpp"
-#include "gateway/exchange/map_exchange.hpp"
 #include "gateway/exchange/history_progress.hpp"
+#include "gateway/exchange/map_exchange.hpp"
 #include "tests/gateway/exchange/two_hosts.hpp"
 
 namespace yars::gateway {
@@ -185,6 +185,19 @@ TEST_F(HistoryExchangeTest, AHistoryBeginsOnceTheAgeOfItsRecordsCanBeJudged) {
   EXPECT_EQ(ticks(), 1u);
   EXPECT_FALSE(begins(0)) << "another life of the model's segment";
   EXPECT_TRUE(may_begin(context_, dds::Topic::model_ticks, hosts_.self().id, 0)) << "the model is here";
+}
+
+TEST_F(HistoryExchangeTest, TheLastTickOfALockstepRunIsKnown) {
+  auto& lockstep = session_.layout().lockstep;
+  lockstep.end_tick = 10;
+  lockstep.done_tick[0] = 10;
+  EXPECT_FALSE(is_last_tick(context_)) << "a live session";
+  context_.lockstep = true;
+  EXPECT_TRUE(is_last_tick(context_));
+  lockstep.done_tick[0] = 9;
+  EXPECT_FALSE(is_last_tick(context_));
+  lockstep.end_tick = -1;
+  EXPECT_FALSE(is_last_tick(context_)) << "a run without an end";
 }
 
 TEST_F(HistoryExchangeTest, RecordsOfAHostWithoutTheRoleAreLeftOut) {
