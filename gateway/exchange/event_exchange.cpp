@@ -123,7 +123,7 @@ void EventExchange::receive(Context& context) {
   const auto holder = context.roles.holder(Role::state_machine);
   const auto outputs = databuffer::read_valid(std::as_const(context.session).layout().outputs);
   const auto newest = outputs ? std::optional(outputs->tick) : std::nullopt;
-  if (holder && may_begin(context, dds::Topic::applied_events, *holder, newest))
+  if (holder ? may_begin(context, dds::Topic::applied_events, *holder, newest) : is_last_tick(context))
     context.link->take<yars_net_AppliedEventSample>(take);
 }
 

@@ -77,13 +77,16 @@ void HistoryExchange::send(Context& context) {
 }
 
 // Samples wait in DDS until it is known which host has the radar model, until this gateway mirrors it, and until their
-// age can be judged.
+// age can be judged. At the end of a lockstep run they are taken also without a holder: a last done tick waits for
+// them.
 void HistoryExchange::receive(Context& context) {
   const auto holder = context.roles.holder(Role::radar_model);
-  if (!holder || (*holder != context.hosts.self().id && !context.roles.source(Role::radar_model))) return;
+  const bool is_known =
+      holder && (*holder == context.hosts.self().id || context.roles.source(Role::radar_model).has_value());
+  if (!is_known && !is_last_tick(context)) return;
   const auto status = databuffer::read_valid(std::as_const(context.session).layout().model_status);
   const auto newest = status ? std::optional(status->tick) : std::nullopt;
-  if (!may_begin(context, dds::Topic::model_ticks, *holder, newest)) return;
+  if (is_known && !may_begin(context, dds::Topic::model_ticks, *holder, newest)) return;
   const auto take = [&](const auto& sample) { receive(context, sample); };
   context.link->take<yars_net_LatchedTrafficSample>(take);
   context.link->take<yars_net_ModelTickSample>(take);

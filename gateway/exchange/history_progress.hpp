@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/progress.hpp"
@@ -59,6 +60,14 @@ inline bool may_begin(const Context& context, dds::Topic topic, std::uint64_t ho
   const double max_age_ns = 0.5 * static_cast<double>(kMaxFirstAge_ns) * std::max(1.0, context.session.clock().rate);
   const std::int64_t oldest_ns = context.session.sim_time_ns() - static_cast<std::int64_t>(max_age_ns);
   return newest && *newest >= oldest_ns / radar::kTickNanoseconds;
+}
+
+// True in the last tick of a lockstep run. A role whose process has ended by then has been heard by all roles.
+inline bool is_last_tick(const Context& context) {
+  const auto& lockstep = std::as_const(context.session).layout().lockstep;
+  const std::int64_t end_tick = lockstep.end_tick.load(std::memory_order_relaxed);
+  return context.lockstep && end_tick >= 0 &&
+         std::ranges::any_of(lockstep.done_tick, [end_tick](const auto& tick) { return tick.load() >= end_tick; });
 }
 
 // Where a gateway begins that finds a local process writing the ring: its predecessor may have missed the last `recent`

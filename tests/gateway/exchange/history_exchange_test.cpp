@@ -187,6 +187,19 @@ TEST_F(HistoryExchangeTest, AHistoryBeginsOnceTheAgeOfItsRecordsCanBeJudged) {
   EXPECT_TRUE(may_begin(context_, dds::Topic::model_ticks, hosts_.self().id, 0)) << "the model is here";
 }
 
+TEST_F(HistoryExchangeTest, TheLastTickOfALockstepRunIsKnown) {
+  auto& lockstep = session_.layout().lockstep;
+  lockstep.end_tick = 10;
+  lockstep.done_tick[0] = 10;
+  EXPECT_FALSE(is_last_tick(context_)) << "a live session";
+  context_.lockstep = true;
+  EXPECT_TRUE(is_last_tick(context_));
+  lockstep.done_tick[0] = 9;
+  EXPECT_FALSE(is_last_tick(context_));
+  lockstep.end_tick = -1;
+  EXPECT_FALSE(is_last_tick(context_)) << "a run without an end";
+}
+
 TEST_F(HistoryExchangeTest, RecordsOfAHostWithoutTheRoleAreLeftOut) {
   announce("gamma", 0);
   receive(tick(5, 0, "gamma"));
