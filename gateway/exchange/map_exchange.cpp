@@ -6,6 +6,7 @@
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/validated.hpp"
+#include "gateway/exchange/history_progress.hpp"
 
 namespace yars::gateway {
 
@@ -82,7 +83,7 @@ bool MapExchange::send_row(Context& context) {
 }
 
 void MapExchange::receive(Context& context) {
-  if (!context.roles.holder(Role::radar_model)) return;
+  if (!context.roles.holder(Role::radar_model) && !is_last_tick(context)) return;
   const auto take = [&](const auto& sample) { receive(context, sample); };
   context.link->take<yars_net_PatchMapSample>(take);
   context.link->take<yars_net_PatchRowSample>(take);
