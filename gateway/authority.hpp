@@ -41,14 +41,6 @@ const HostView* preceding(std::span<const HostView> hosts, const Holds& holds) {
   return best;
 }
 
-inline const HostView* holder_of(std::span<const HostView> hosts, unsigned role) {
-  return preceding(hosts, [role](const HostView& host) { return (host.held_roles >> role & 1U) != 0; });
-}
-
-inline const HostView* clock_owner(std::span<const HostView> hosts) {
-  return preceding(hosts, [](const HostView& host) { return host.owns_clock; });
-}
-
 // Number of hosts that precede `self` in the order of priority and name.
 inline std::size_t rank_of(std::span<const HostView> hosts, const HostView& self) {
   std::size_t rank = 0;

@@ -157,7 +157,6 @@ void ClockExchange::follow(Context& context) {
   if (followed_ && !unanswered && equal(theirs, followed_->theirs)) return slew(context);
   const bool first = !followed_.has_value();
   if (first) followed_.emplace();
-  followed_->owner = owner_;
   followed_->theirs = theirs;
   const ClockState before = context.session.clock();
   if (first) followed_->offset.set(continuous_offset(before, theirs, *offset_ns, context.now_ns));
@@ -216,8 +215,7 @@ void ClockExchange::request(Context& context, const ClockState& wanted, bool new
   context.write(sample);
 }
 
-// Moves the clock towards the measured offset, at most 1 ms per second. The base moves; sim time has no step greater
-// than 5 us at this gateway's interval.
+// Moves the clock towards the measured offset (SlewedOffset). The base moves; a step of sim time is at most 0.1 ms.
 void ClockExchange::slew(Context& context) {
   const auto measured_ns = context.hosts.offset_ns(owner_);
   const std::int64_t elapsed_ns = context.now_ns - std::exchange(followed_->changed_ns, context.now_ns);

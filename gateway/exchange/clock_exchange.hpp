@@ -3,8 +3,9 @@
 // Outputs: on the owner, the clock as a sample, and requested changes applied; on the others, the owner's clock in the
 //   local segment, translated by the offset and slewed, and local changes as requests.
 // Units: times [ns].
-// Errors: sim time on two hosts differs by at most the error of the offset, half of the least round trip, plus 50 us. A
-//   change of the clock (freeze, rate, step, reset) reaches the others one transmission later.
+// Errors: sim time on two hosts differs by at most the error of the offset, half of the least round trip, plus 50 us,
+//   as soon as a greater error is slewed. A change of the clock (freeze, rate, step, reset) reaches the others one
+//   transmission later.
 // Threads: one.
 // Source: docs/network.md#time.
 #pragma once
@@ -22,7 +23,6 @@ namespace yars::gateway {
 
 // The owner's clock as it was last received, and as it was last written here.
 struct FollowedClock {
-  std::uint64_t owner = 0;
   databuffer::ClockState theirs{};
   databuffer::ClockState written{};
   SlewedOffset offset;
@@ -51,7 +51,6 @@ class ClockExchange {
   bool forward_local_change(Context& context);
   void request(Context& context, const databuffer::ClockState& wanted, bool new_epoch);
   void slew(Context& context);
-  bool write(Context& context, const databuffer::ClockState& clock);
 
   bool owns_ = false;
   bool in_conflict_ = false;

@@ -2,12 +2,11 @@
 // Inputs: the local input lanes while the state machine runs on another host; events, receipts and applied events of
 //   other hosts.
 // Outputs: each waiting event as a sample until its receipt arrives; events of other hosts in local input lanes, one
-// lane
-//   for each remote lane; the ring of applied events on every host.
+// for
+//   each remote lane; the ring of applied events on every host.
 // Units: times [ns]; CLOCK_MONOTONIC times of other hosts are translated by the measured offset.
-// Errors: an invalid event is refused, counted and noted, and its receipt is given all the same. With no free input
-// lane
-//   the events wait on their host.
+// Errors: an invalid event is refused, counted and noted, and its receipt is given all the same. Without a free
+//   input lane the events wait on their host.
 // Threads: one.
 // Source: docs/network.md#each-event-once.
 #pragma once
@@ -42,8 +41,8 @@ class EventExchange {
  private:
   struct Sending {
     std::uint64_t next = 0;          // number of the next event to send
-    std::uint64_t popped = 0;        // when it last changed
-    std::int64_t progress_ns = 0;    // then
+    std::uint64_t popped = 0;        // number of events taken from the lane, at the last change
+    std::int64_t progress_ns = 0;    // CLOCK_MONOTONIC of that change
     std::uint64_t machine_term = 0;  // to which the events were sent
   };
   struct Receiving {

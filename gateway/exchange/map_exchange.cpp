@@ -39,7 +39,6 @@ void MapExchange::begin_maps(Context& context) {
     databuffer::PatchMap map{};
     if (!databuffer::read_patch(layout, id, map, sent.pixels) || validate(map)) continue;
     sent.id = id;
-    sent.hash = map.hash;
     sent.size = map.size;
     yars_net_PatchMapSample sample{};
     context.hosts.stamp(sample);

@@ -31,7 +31,6 @@ class MapExchange {
  private:
   struct Sent {
     std::uint64_t id = 0;
-    std::uint64_t hash = 0;
     std::uint32_t size = 0;
     std::uint32_t next_row = 0;
     std::vector<std::uint8_t> pixels = {};  // empty when all rows are sent

@@ -13,6 +13,14 @@
 namespace yars::gateway {
 namespace {
 
+const HostView* holder_of(std::span<const HostView> hosts, unsigned role) {
+  return preceding(hosts, [role](const HostView& host) { return (host.held_roles >> role & 1U) != 0; });
+}
+
+const HostView* clock_owner(std::span<const HostView> hosts) {
+  return preceding(hosts, [](const HostView& host) { return host.owns_clock; });
+}
+
 HostView host(const std::string& name, std::uint32_t priority = 0, std::uint32_t group = 1, std::uint32_t roles = 0) {
   return {std::hash<std::string>{}(name), name, priority, group, roles, false};
 }
