@@ -19,6 +19,7 @@ namespace {
 constexpr std::int64_t kRefresh_ns = 250'000'000;
 // [ns] A host keeps its own change of the clock until the owner has answered, at most for this time.
 constexpr std::int64_t kRequestTime_ns = 500'000'000;
+constexpr std::int64_t kOneMeeting_ns = 1'000'000'000;  // what hosts see of it one after another
 constexpr std::int64_t kMaxBehind_ns = 100'000'000;  // kMaxTicksBehind ticks
 
 bool equal(const ClockState& first, const ClockState& second) {
@@ -28,6 +29,10 @@ bool equal(const ClockState& first, const ClockState& second) {
 // The later of two epochs, which count on from 0 after the greatest number.
 std::uint32_t later(std::uint32_t first, std::uint32_t second) {
   return static_cast<std::int32_t>(second - first) > 0 ? second : first;
+}
+
+bool is_later(std::uint32_t first, std::uint32_t second) {
+  return first != second && later(first, second) == first;
 }
 
 // The clock with its base moved to `now_ns`; sim time does not change.
@@ -50,6 +55,7 @@ void ClockExchange::exchange(Context& context) {
     publish(context);
   else
     follow(context);
+  end_epoch_of_meeting(context);
   context.session.restore_clock();
 }
 
@@ -69,6 +75,7 @@ void ClockExchange::choose_owner(Context& context) {
   if (owner == nullptr) return;
   if (owns_ && owner->id != context.hosts.self().id) {
     owns_ = false;
+    meeting_epoch_ = context.session.clock().epoch;
     log::info("follows the clock of host " + owner->name);
   }
   if (!owns_ && owner->id != owner_) followed_.reset();
@@ -76,8 +83,13 @@ void ClockExchange::choose_owner(Context& context) {
 }
 
 // After a partition two hosts own the clock, or hold a role. The host whose clock stays begins a new epoch, so that no
-// picture mixes records of the two parts.
+// picture mixes records of the two parts. It may hear of the other holder only when that one has given way already:
+// thus the host that gives way asks for the new epoch, until it has come.
 void ClockExchange::resolve_conflicts(Context& context) {
+  const bool gives_way = context.roles.gives_way();
+  const bool has_begun = epoch_begun_ns_ != 0 && context.now_ns - epoch_begun_ns_ < kOneMeeting_ns;
+  if (gives_way && !gave_way_ && !has_begun) meeting_epoch_ = context.session.clock().epoch;
+  gave_way_ = gives_way;
   bool conflict = context.roles.in_conflict();
   bool precedes_all = owns_;
   std::uint32_t epoch = context.session.clock().epoch;
@@ -89,6 +101,18 @@ void ClockExchange::resolve_conflicts(Context& context) {
   }
   if (conflict && !in_conflict_ && precedes_all) raise_epoch(context, epoch);
   in_conflict_ = conflict;
+}
+
+void ClockExchange::end_epoch_of_meeting(Context& context) {
+  if (!meeting_epoch_) return;
+  const ClockState clock = context.session.clock();
+  if (is_later(clock.epoch, *meeting_epoch_)) return meeting_epoch_.reset();
+  if (owns_) return raise_epoch(context, *meeting_epoch_);
+  if (!followed_ || context.now_ns < next_meeting_request_ns_) return;
+  next_meeting_request_ns_ = context.now_ns + kRequestTime_ns;
+  ClockState ended = clock;
+  ended.epoch = *meeting_epoch_;
+  request(context, ended, EpochRequest::end_of_epoch);
 }
 
 void ClockExchange::raise_epoch(Context& context, std::uint32_t above) {
@@ -134,6 +158,10 @@ void ClockExchange::receive(Context& context, const yars_net_ClockRequestSample&
   copy_record(wanted, sample.clock);
   if (const auto reason = validate(wanted))
     return context.hosts.refuse(sample.host, dds::Topic::clock_requests, *reason);
+  if (sample.new_epoch == static_cast<std::uint32_t>(EpochRequest::end_of_epoch)) {
+    if (!is_later(context.session.clock().epoch, wanted.epoch)) raise_epoch(context, wanted.epoch);
+    return;
+  }
   const auto changed = context.session.change_clock([&](const ClockState& clock) {
     ClockState next = wanted;
     // The request has the sim time that its host had. The time of transmission has passed since.
@@ -156,16 +184,19 @@ void ClockExchange::follow(Context& context) {
   const bool unanswered = std::exchange(request_pending_until_ns_, 0) != 0;
   if (followed_ && !unanswered && equal(theirs, followed_->theirs)) return slew(context);
   const bool first = !followed_.has_value();
-  if (first) followed_.emplace();
+  if (first)
+    followed_.emplace();
+  else if (is_later(theirs.epoch, followed_->theirs.epoch))
+    epoch_begun_ns_ = context.now_ns;
   followed_->theirs = theirs;
   const ClockState before = context.session.clock();
   if (first) followed_->offset.set(continuous_offset(before, theirs, *offset_ns, context.now_ns));
-  adopt(context, followed_->offset.offset_ns());
+  adopt(context);
   // Local roles that are ahead in the same epoch would wait until the owner's sim time reaches theirs.
   if (!followed_) return;
   const std::int64_t ahead_ns = databuffer::sim_time_at(before, context.now_ns) - context.session.sim_time_ns();
   if (first && before.epoch == theirs.epoch && ahead_ns > kMaxBehind_ns && !context.lockstep)
-    request(context, followed_->written, true);
+    request(context, followed_->written, EpochRequest::change_with_new_epoch);
 }
 
 // Offset with which the owner's clock continues the local one. After a change of the owner both show nearly the same
@@ -181,10 +212,13 @@ std::int64_t ClockExchange::continuous_offset(const ClockState& mine, const Cloc
 }
 
 // Writes the owner's clock to the local segment, with its base at the present time.
-void ClockExchange::adopt(Context& context, std::int64_t offset_ns) {
+void ClockExchange::adopt(Context& context) {
   const std::int64_t now_ns = databuffer::monotonic_ns();
   ClockState mine = followed_->theirs;
-  mine.base_sim_ns = databuffer::sim_time_at(followed_->theirs, now_ns + offset_ns);
+  // The owner's clock has begun. An offset by which it has not would leave an error that nothing slews.
+  const std::int64_t least_ns = mine.base_monotonic_ns - now_ns;
+  if (mine.running != 0 && followed_->offset.offset_ns() < least_ns) followed_->offset.set(least_ns);
+  mine.base_sim_ns = databuffer::sim_time_at(followed_->theirs, now_ns + followed_->offset.offset_ns());
   mine.base_monotonic_ns = now_ns;
   followed_->changed_ns = context.now_ns;
   const auto changed = context.session.change_clock([&mine](const ClockState&) { return mine; });
@@ -198,17 +232,18 @@ void ClockExchange::adopt(Context& context, std::int64_t offset_ns) {
 bool ClockExchange::forward_local_change(Context& context) {
   const ClockState clock = context.session.clock();
   if (equal(clock, followed_->written)) return false;
-  request(context, clock, clock.epoch != followed_->written.epoch);
+  request(context, clock,
+          clock.epoch != followed_->written.epoch ? EpochRequest::change_with_new_epoch : EpochRequest::change);
   followed_->written = clock;
   request_pending_until_ns_ = context.now_ns + kRequestTime_ns;
   return true;
 }
 
-void ClockExchange::request(Context& context, const ClockState& wanted, bool new_epoch) {
+void ClockExchange::request(Context& context, const ClockState& wanted, EpochRequest epoch) {
   yars_net_ClockRequestSample sample{};
   context.hosts.stamp(sample);
   sample.owner = owner_;
-  sample.new_epoch = new_epoch ? 1 : 0;
+  sample.new_epoch = static_cast<std::uint32_t>(epoch);
   const ClockState moved = rebased(wanted, context.now_ns);
   copy_record(sample.clock, moved);
   sample.clock.base_monotonic_ns = std::max<std::int64_t>(context.now_ns + followed_->offset.offset_ns(), 0);

@@ -29,6 +29,9 @@ struct FollowedClock {
   std::int64_t changed_ns = 0;  // last pass
 };
 
+// ClockRequestSample::new_epoch.
+enum class EpochRequest : std::uint32_t { change, change_with_new_epoch, end_of_epoch };
+
 class ClockExchange {
  public:
   void exchange(Context& context);
@@ -42,18 +45,23 @@ class ClockExchange {
  private:
   void choose_owner(Context& context);
   void resolve_conflicts(Context& context);
+  void end_epoch_of_meeting(Context& context);
   void raise_epoch(Context& context, std::uint32_t above);
   void publish(Context& context);
   void follow(Context& context);
   static std::int64_t continuous_offset(const databuffer::ClockState& mine, const databuffer::ClockState& theirs,
                                         std::int64_t measured_ns, std::int64_t now_ns);
-  void adopt(Context& context, std::int64_t offset_ns);
+  void adopt(Context& context);
   bool forward_local_change(Context& context);
-  void request(Context& context, const databuffer::ClockState& wanted, bool new_epoch);
+  void request(Context& context, const databuffer::ClockState& wanted, EpochRequest epoch);
   void slew(Context& context);
 
   bool owns_ = false;
   bool in_conflict_ = false;
+  bool gave_way_ = false;
+  std::optional<std::uint32_t> meeting_epoch_;  // in it this host gave way to another; it must end
+  std::int64_t next_meeting_request_ns_ = 0;
+  std::int64_t epoch_begun_ns_ = 0;  // when the owner began the present epoch; 0: before this host followed it
   std::int64_t first_pass_ns_ = 0;
   Vacancy vacancy_;
   std::uint64_t owner_ = 0;  // 0: none

@@ -61,6 +61,7 @@ void Roles::update(State& state, const Hosts& hosts, std::int64_t now_ns) {
     session_->note(databuffer::NoteKind::restart, line);
   }
   state.conflict = conflict;
+  state.gives_way = conflict && !is_self && state.local && !state.barred;
   if (is_self && state.holder && *state.holder != hosts.self().id) ++takeovers_;
   if (holder != nullptr) state.holder = holder->id;
   const bool may_release = state.vacancy.may_take(holder == nullptr, rank_of(hosts.views(), hosts.self()), now_ns);
@@ -154,6 +155,10 @@ std::uint32_t Roles::held_roles() const {
 
 bool Roles::in_conflict() const {
   return std::ranges::any_of(states_, &State::conflict);
+}
+
+bool Roles::gives_way() const {
+  return std::ranges::any_of(states_, &State::gives_way);
 }
 
 }  // namespace yars::gateway

@@ -49,6 +49,7 @@ class Roles {
   std::uint32_t takeovers() const { return takeovers_; }
   std::uint32_t conflicts() const { return conflicts_; }
   bool in_conflict() const;  // two hosts hold a role at this moment
+  bool gives_way() const;    // a role of this host stays on another that holds it too
 
  private:
   struct State {
@@ -60,6 +61,7 @@ class Roles {
     bool local = false;   // a local process holds it
     bool barred = false;  // bar()
     bool conflict = false;
+    bool gives_way = false;
     std::int64_t lent_until_ns = 0;  // until then the role is left to a local process that wants it
     std::optional<std::uint64_t> holder = std::nullopt;
     Vacancy vacancy = {};

@@ -198,10 +198,10 @@ def both_parts_of_a_partition_go_on_and_the_larger_one_stays(flight):
     later = spread.states()
     assert all(later[host]["sweeps"] > (alone if host == "b" else kept)[host]["sweeps"] for host in LAYOUT), (alone, kept, later)
     spread.lab.heal("b")
-    healed = spread.wait_for(lambda seen: runs(seen) and seen["c"]["machine"] == seen["c"]["model"] == "here" and
-                             all(set(present(one)) == set(LAYOUT) for one in seen.values()), "c with both roles, seen by all")
     highest = max(one["epoch"] for one in later.values())
-    assert all(one["epoch"] > highest for one in healed.values()), (later, healed)
+    healed = spread.wait_for(lambda seen: runs(seen) and seen["c"]["machine"] == seen["c"]["model"] == "here" and
+                             all(set(present(one)) == set(LAYOUT) and one["epoch"] > highest for one in seen.values()),
+                             f"c with both roles in an epoch above {highest}, seen by all")
     assert any(healed[host]["network"]["conflicts"] > conflicts[host] for host in rest), healed
     flight.campaign.collect(LAYOUT)
     flight.assert_once()

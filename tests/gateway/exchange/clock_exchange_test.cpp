@@ -12,6 +12,8 @@ namespace yars::gateway {
 namespace {
 
 using databuffer::ClockState;
+using databuffer::Role;
+using testing::bit;
 
 class ClockExchangeTest : public testing::TwoHosts {
  protected:
@@ -151,6 +153,22 @@ TEST_F(ClockExchangeTest, TheOffsetIsSlewedAndSimTimeNeverJumps) {
   EXPECT_EQ(requests(), 0u) << "the slewed clock is no change of a local program";
 }
 
+// The owner begins a new epoch while this host is still behind it.
+TEST_F(ClockExchangeTest, AClockThatBeginsAheadOfThisHostIsFollowedExactly) {
+  announce("beta", 0, kBetaSegment, 1);
+  measure_offset(kOffset_ns - 10'000'000);
+  receive(clock(60'000'000'000));
+  pass(0);
+  for (int i = 0; i < 16; ++i) measure_offset(kOffset_ns);
+  const ClockState theirs = clock(70'000'000'000, 1.0, 6);
+  receive(theirs);
+  for (int i = 0; i < 1000; ++i) pass(5'000'000);
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  const std::int64_t error_ns =
+      databuffer::sim_time_at(session_.clock(), now_ns) - databuffer::sim_time_at(theirs, now_ns + kOffset_ns);
+  EXPECT_LE(std::abs(error_ns), 60'000);
+}
+
 // Run with -fsanitize=undefined this finds overflows.
 TEST_F(ClockExchangeTest, AnyOffsetAndClockThatPassTheChecksAreFollowedOrRefused) {
   constexpr std::int64_t kLatest = databuffer::kLatestClockBase_ns;
@@ -219,6 +237,41 @@ TEST_F(ClockExchangeTest, TheOwnerGivesWayToAHostThatPrecedes) {
   announce("aaron", 0, 77, 1);
   pass(5'000'000);
   EXPECT_FALSE(exchange_.owns());
+}
+
+// The owner may hear of a second holder only when that one has given way.
+TEST_F(ClockExchangeTest, AHostThatGivesWayAsksForTheEndOfItsEpochUntilItHasEnded) {
+  follow(clock(60'000'000'000));
+  const auto role = session_.claim(Role::radar_model);
+  ASSERT_TRUE(role);
+  pass(5'000'000);
+  EXPECT_EQ(requests(), 0u);
+  announce("aaron", bit(Role::radar_model), 77);
+  pass(5'000'000);
+  pass(5'000'000);
+  EXPECT_EQ(requests(), 1u);
+  pass(600'000'000);
+  EXPECT_EQ(requests(), 2u) << "the owner has not answered";
+  receive(clock(60'000'000'000, 1.0, 6));
+  for (int i = 0; i < 3; ++i) pass(600'000'000);
+  EXPECT_EQ(requests(), 2u);
+}
+
+TEST_F(ClockExchangeTest, TheOwnerEndsAnEpochThatIsRequestedOnce) {
+  own();
+  announce("beta", 0);
+  ClockState ended = session_.clock();
+  ended.epoch = 8;
+  auto sample = from<yars_net_ClockRequestSample>("beta");
+  sample.owner = host_id("alpha");
+  sample.new_epoch = static_cast<std::uint32_t>(EpochRequest::end_of_epoch);
+  copy_record(sample.clock, ended);
+  exchange_.receive(context_, sample);
+  EXPECT_EQ(session_.clock().epoch, 9u);
+  EXPECT_EQ(session_.clock().rate, ended.rate);
+  ++sample.number;
+  exchange_.receive(context_, sample);
+  EXPECT_EQ(session_.clock().epoch, 9u) << "the epoch has ended already";
 }
 
 }  // namespace
