@@ -80,8 +80,9 @@ void warn_of_loopback(const radar::NetworkSettings& settings) {
 }
 
 error::Expected<void> run(const databuffer::ProgramOptions& options, const GatewayOptions& gateway_options) {
-  const auto settings = config::load_network(gateway_options.network);
+  auto settings = config::load_network(gateway_options.network);
   if (!settings) return tl::unexpected(settings.error());
+  if (settings->name.empty()) settings->name = host_name();
   warn_of_loopback(*settings);
   auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return tl::unexpected(configuration.error());
@@ -93,7 +94,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Gatew
   auto link = gateway::dds::Link::open(*settings, options.session);
   if (!link) return tl::unexpected(link.error());
   gateway::Identity identity;
-  identity.name = settings->name.empty() ? host_name() : settings->name;
+  identity.name = settings->name;
   identity.priority = static_cast<std::uint32_t>(settings->priority);
   identity.start = random_number();
   identity.segment = segment_number(*session);

@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cstring>
 #include <ctime>
-#include <initializer_list>
 #include <utility>
 
+#include "gateway/exchange/role_topics.hpp"
 #include "lib/log/log.hpp"
 
 namespace yars::gateway {
+
+using databuffer::Role;
 
 namespace {
 
@@ -35,13 +37,12 @@ GatewayShell::GatewayShell(databuffer::Session& session, const std::string& sess
       maps_(settings.map_rows_per_s),
       domain_(settings.domain),
       secured_(!settings.security.empty()) {
-  const auto writes = [this](std::initializer_list<dds::Topic> topics) {
-    return std::ranges::all_of(topics, [this](dds::Topic topic) { return link_.writes(topic); });
-  };
-  if (!writes({dds::Topic::model_status, dds::Topic::model_ticks, dds::Topic::sweeps}))
-    roles_.bar(databuffer::Role::radar_model);
-  if (!writes({dds::Topic::radar_state, dds::Topic::outputs, dds::Topic::applied_events, dds::Topic::event_receipts}))
-    roles_.bar(databuffer::Role::state_machine);
+  if (!link_.writes(dds::Topic::clock))
+    log::info("this host does not set the session clock: it may not write the topic clock");
+  for (const Role role : {Role::radar_model, Role::state_machine}) {
+    const auto found = std::ranges::find(kRoleTopics, role, &RoleTopics::role);
+    if (!std::ranges::all_of(found->topics, [this](dds::Topic topic) { return link_.writes(topic); })) roles_.bar(role);
+  }
 }
 
 void GatewayShell::step() {

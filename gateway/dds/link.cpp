@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "gateway/dds/domain_configuration.hpp"
+#include "gateway/dds/senders.hpp"
 
 namespace yars::gateway::dds {
 
@@ -37,12 +38,12 @@ class Messages {
     const std::lock_guard guard(mutex_);
     return std::exchange(texts_, {});
   }
-
- private:
   void add(std::string text) {
     const std::lock_guard guard(mutex_);
     if (texts_.size() < kMaxMessages) texts_.push_back(std::move(text));
   }
+
+ private:
   std::mutex mutex_;
   std::vector<std::string> texts_;
 };
@@ -124,7 +125,10 @@ struct Link::State {
   std::array<std::uint32_t, kMaxLanes> ownship_strengths{};
   std::array<TopicCounts, kTopicCount> counts;
   alignas(16) std::array<std::byte, kMaxSample_bytes> taken{};
-  yars_net_SweepSample sweep{};  // Cyclone DDS allocates its video
+  yars_net_SweepSample sweep{};          // Cyclone DDS allocates its video
+  dds_instance_handle_t taken_from = 0;  // writer of the sample taken last
+  Senders senders;                       // in use with security
+  std::uint32_t passes = 0;
 };
 
 Link::Link(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -152,6 +156,7 @@ error::Expected<void> Link::State::open_topics(const std::string& session) {
   const char* partition = session.c_str();
   const Qos qos(dds_create_qos());
   dds_qset_partition(qos.get(), 1, &partition);
+  dds_qset_groupdata(qos.get(), settings.name.data(), settings.name.size());
   publisher = dds_create_publisher(participant, qos.get(), nullptr);
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
   subscriber = dds_create_subscriber(participant, qos.get(), nullptr);
@@ -190,6 +195,28 @@ bool Link::writes(Topic topic) const {
 
 bool Link::reads(Topic topic) const {
   return state_->readers[index_of(topic)] > 0;
+}
+
+bool Link::host_writes(std::uint64_t host, Topic topic) const {
+  return state_->settings.security.empty() || !reads(topic) || state_->senders.writes(host, topic);
+}
+
+bool Link::is_from(Topic topic, std::uint64_t host) {
+  if (state_->settings.security.empty()) return true;
+  const std::uint64_t writer = state_->senders.host_of(state_->readers[index_of(topic)], state_->taken_from);
+  if (writer == host && host != 0) return true;
+  if (state_->counts[index_of(topic)].posed++ == 0)
+    Messages::instance().add(
+        "topic " + std::string(settings_of(topic).name) +
+        ": expected samples of the host that the writer's certificate names, found one of another; "
+        "such samples are left out");
+  return false;
+}
+
+void Link::update_senders() {
+  constexpr std::uint32_t kInterval = 10;  // passes
+  if (state_->settings.security.empty() || state_->passes++ % kInterval != 0) return;
+  for (std::size_t i = 0; i < kTopicCount; ++i) state_->senders.update(state_->readers[i], static_cast<Topic>(i));
 }
 
 bool Link::write_bytes(Topic topic, const void* sample, std::size_t bytes) {
@@ -245,6 +272,7 @@ const void* Link::take_next(Topic topic, bool* alive) {
   void* sample = topic == Topic::sweeps ? static_cast<void*>(&state_->sweep) : state_->taken.data();
   dds_sample_info_t info{};
   while (dds_take(reader, &sample, &info, 1, 1) > 0) {
+    state_->taken_from = info.publication_handle;
     if (alive != nullptr) {
       *alive = info.valid_data;
       // A sample that the reader held before its writer's lease ended comes with the end.

@@ -19,13 +19,15 @@
 
 namespace yars::gateway::dds {
 
+// failed: DDS refused the sample. posed: samples that named another host than their writer's.
 struct TopicCounts {
-  std::uint64_t sent = 0, sent_bytes = 0, received = 0, received_bytes = 0, failed = 0;
+  std::uint64_t sent = 0, sent_bytes = 0, received = 0, received_bytes = 0, failed = 0, posed = 0;
 };
 
 class Link {
  public:
   // `session`: name of the session, which is the DDS partition.
+  // `settings.name`: of this host, not empty.
   static error::Expected<Link> open(const radar::NetworkSettings& settings, const std::string& session);
   Link(Link&&) noexcept;
   Link& operator=(Link&&) noexcept;
@@ -34,6 +36,8 @@ class Link {
   // True if the form Network and the permissions of DDS Security let the topic out, or in.
   bool writes(Topic topic) const;
   bool reads(Topic topic) const;
+  // True if another host has a writer of the topic, as its permissions must allow. Without security always true.
+  bool host_writes(std::uint64_t host, Topic topic) const;
 
   // False: the topic is not let out, or DDS refused the sample.
   template <class Sample>
@@ -49,24 +53,26 @@ class Link {
   bool write_ownship(std::uint32_t lane, const yars_net_OwnshipSample& sample);
   void end_ownship(std::uint32_t lane);
 
-  // Calls take(const Sample&) for each sample that has arrived, in the order of each writer.
+  // Calls take(const Sample&) for each sample that has arrived, in the order of each writer. With security, samples
+  // that name another host than that of their writer are left out.
   template <class Sample, class Take>
   void take(const Take& take) {
     static_assert(!std::is_same_v<Sample, yars_net_HostSample>, "hosts also end; see take_hosts()");
     while (const void* sample = take_next(kTopicOf<Sample>)) {
       const Sample& taken = *static_cast<const Sample*>(sample);
       count_received(kTopicOf<Sample>, bytes_of(taken));
-      take(taken);
+      if (is_from(kTopicOf<Sample>, sender_of(taken))) take(taken);
     }
   }
   // As take(). `alive` false: the host has left, or DDS has not heard it for 1 s; of the sample only `host` is valid.
   template <class Take>
   void take_hosts(const Take& take) {
+    update_senders();
     bool alive = false;
     while (const void* sample = take_next(Topic::hosts, &alive)) {
       const auto& taken = *static_cast<const yars_net_HostSample*>(sample);
       if (alive) count_received(Topic::hosts, sizeof taken);
-      take(taken, alive);
+      if (is_from(Topic::hosts, taken.host)) take(taken, alive);
     }
   }
 
@@ -87,6 +93,17 @@ class Link {
     else
       return sizeof sample;
   }
+  // Host that a sample names as its writer.
+  template <class Sample>
+  static std::uint64_t sender_of(const Sample& sample) {
+    if constexpr (std::is_same_v<Sample, yars_net_ProbeSample>)
+      return sample.stage == 0 ? sample.from : sample.to;
+    else
+      return sample.host;
+  }
+  // True if the sample that take_next() returned last was written by `host`, or may have been.
+  bool is_from(Topic topic, std::uint64_t host);
+  void update_senders();
   bool write_bytes(Topic topic, const void* sample, std::size_t bytes);
   void dispose_bytes(Topic topic, const void* sample);
   // The next sample, valid until the next call; nullptr: none. Without `alive`, ends of instances are left out.

@@ -20,7 +20,7 @@ constexpr std::int64_t kRefresh_ns = 250'000'000;
 // [ns] A host keeps its own change of the clock until the owner has answered, at most for this time.
 constexpr std::int64_t kRequestTime_ns = 500'000'000;
 constexpr std::int64_t kOneMeeting_ns = 1'000'000'000;  // what hosts see of it one after another
-constexpr std::int64_t kMaxBehind_ns = 100'000'000;  // kMaxTicksBehind ticks
+constexpr std::int64_t kMaxBehind_ns = 100'000'000;     // kMaxTicksBehind ticks
 
 bool equal(const ClockState& first, const ClockState& second) {
   return std::memcmp(&first, &second, sizeof first) == 0;
@@ -65,7 +65,8 @@ void ClockExchange::choose_owner(Context& context) {
   resolve_conflicts(context);
   const bool listened = context.now_ns - first_pass_ns_ >= kListening_ns;
   const std::size_t rank = rank_of(context.hosts.views(), context.hosts.self());
-  if (vacancy_.may_take(listened && owner == nullptr, rank, context.now_ns)) {
+  const bool may_own = listened && owner == nullptr && context.writes(dds::Topic::clock);
+  if (vacancy_.may_take(may_own, rank, context.now_ns)) {
     owns_ = true;
     log::info("sets the session clock");
     followed_.reset();
@@ -94,7 +95,7 @@ void ClockExchange::resolve_conflicts(Context& context) {
   bool precedes_all = owns_;
   std::uint32_t epoch = context.session.clock().epoch;
   for (const HostView& host : context.hosts.views().subspan(1)) {
-    epoch = later(epoch, context.hosts.epoch_of(host.id));
+    if (host.owns_clock || host.held_roles != 0) epoch = later(epoch, context.hosts.epoch_of(host.id));
     if (!owns_ || !host.owns_clock) continue;
     conflict = true;
     precedes_all = precedes_all && precedes(context.hosts.self(), host);
@@ -232,6 +233,9 @@ void ClockExchange::adopt(Context& context) {
 bool ClockExchange::forward_local_change(Context& context) {
   const ClockState clock = context.session.clock();
   if (equal(clock, followed_->written)) return false;
+  if (!context.writes(dds::Topic::clock_requests))
+    log::warning(
+        "the session clock was changed here, and is set back: this host may not write the topic clock_requests");
   request(context, clock,
           clock.epoch != followed_->written.epoch ? EpochRequest::change_with_new_epoch : EpochRequest::change);
   followed_->written = clock;

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "gateway/exchange/role_topics.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -59,12 +60,6 @@ std::uint64_t max_repeats(dds::Topic topic) {
 
 }  // namespace
 
-std::uint64_t host_id(std::string_view name) {
-  std::uint64_t hash = 0xcbf29ce484222325U;
-  for (const char letter : name) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
-  return hash;
-}
-
 Hosts::Hosts(databuffer::Session& session, dds::Link* link, Identity identity)
     : session_(&session), link_(link), identity_(std::move(identity)) {
   HostView self;
@@ -118,10 +113,21 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
   if (is_news) begin(*host, sample, now_ns);
   host->view.priority = sample.priority;
   host->view.group = std::clamp<std::uint32_t>(sample.group, 1, databuffer::kMaxHosts);
-  host->view.held_roles = sample.held_roles;
-  host->view.owns_clock = sample.owns_clock != 0;
+  host->view.held_roles = sample.held_roles & permitted_roles(sample.host);
+  host->view.owns_clock =
+      sample.owns_clock != 0 && (link_ == nullptr || link_->host_writes(sample.host, dds::Topic::clock));
   report_differences(*host);
   update_views();
+}
+
+// Roles whose records another host can write. Its claims to others do not count.
+std::uint32_t Hosts::permitted_roles(std::uint64_t host) const {
+  std::uint32_t roles = ~std::uint32_t{0};
+  if (link_ == nullptr) return roles;
+  for (const RoleTopics& role : kRoleTopics)
+    for (const dds::Topic topic : role.topics)
+      if (!link_->host_writes(host, topic)) roles &= ~(1U << static_cast<unsigned>(role.role));
+  return roles;
 }
 
 void Hosts::lose(Host& host) {

@@ -23,6 +23,7 @@
 #include "gateway/authority.hpp"
 #include "gateway/clock_offset.hpp"
 #include "gateway/dds/link.hpp"
+#include "gateway/host_id.hpp"
 #include "gateway/sample_numbers.hpp"
 
 namespace yars::gateway {
@@ -35,9 +36,6 @@ struct Identity {
   std::uint64_t segment = 0;                               // random number of the session's segment
   std::uint64_t configuration_hash = 0, terrain_hash = 0;  // 0: unknown
 };
-
-// Number of a host: FNV-1a (64 bits) of its name.
-std::uint64_t host_id(std::string_view name);
 
 // [ns] A host that has not announced itself for so long is lost: five announcements. With a shorter time a loaded
 // machine would lose its hosts. With a longer one a dead host would keep its roles.
@@ -119,6 +117,7 @@ class Hosts {
   };
   Host* host_of(std::uint64_t id, bool add);
   const Host* host_of(std::uint64_t id) const;
+  std::uint32_t permitted_roles(std::uint64_t host) const;
   void lose(Host& host);
   void begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns);
   void report_differences(Host& host);

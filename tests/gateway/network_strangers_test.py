@@ -8,6 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 
 sys.dont_write_bytecode = True
 import foreign_idl_test
@@ -147,6 +148,46 @@ def a_stranger_sees_no_host_and_changes_nothing(programs, build):
         assert set(states["e"]["network"]["hosts"]) == {"e"} and states["e"]["model"] == "none", states["e"]
 
 
+def a_member_that_may_only_read_holds_no_role_and_poses_as_nobody(programs, build):
+    """It has the certificate of d (--reads) and a program of its own in place of the gateway."""
+    if shutil.which("openssl") is None:
+        print("left out: expected openssl, found none")
+        return
+    hosts = ["a", "b", "c"]
+    with spread_set.SpreadSet(programs, ROLES, options=':security "net/{host}"') as spread:
+        subprocess.run([lab.TOP / "scripts/network_identities", spread.lab.folder / "net", *ROLES, "--reads", "d"], check=True,
+                       stdout=subprocess.DEVNULL, timeout=60)
+        before = sweeping(spread)
+        impostor = spread.lab.start("d", str(programs / "impostor"), [spread.session, spread.network_file("d"), "b", 5])
+        spread.wait_for(lambda seen: all(present(seen[host]) == {*hosts, "d"} for host in hosts), "d, heard by all", hosts=hosts)
+        while impostor.poll() is None:
+            states = spread.states(hosts)
+            for host in hosts:
+                assert states[host]["machine"] == before[host]["machine"] and states[host]["model"] == before[host]["model"], states[host]
+                assert states[host]["epoch"] == before[host]["epoch"] and states[host]["running"], states[host]
+                assert states[host]["network"]["conflicts"] == before[host]["network"]["conflicts"], states[host]
+                assert states[host]["network"]["hosts"]["b"]["flags"] & PRESENT, states[host]
+            time.sleep(0.05)
+        assert impostor.wait(WITHIN_S) == 0, impostor.text()
+        written = impostor.text().split()
+        counts = dict(zip(written[::2], map(int, written[1::2])))
+        assert min(counts["claims"], counts["events"], counts["answers"], counts["announcements"]) > 50, counts
+        assert counts["refused"] > 50 and "requests" not in counts, counts
+        after = spread.wait_for(lambda seen: runs(seen) and all(seen[host]["sweeps"] > before[host]["sweeps"] + 50 for host in hosts),
+                                "sweeps on a to c", hosts=hosts)
+        assert all(abs(after["a"]["network"]["hosts"][host]["error_ns"]) < 10**9 for host in hosts), after
+        assert count_lines(spread.gateways["a"], "expected samples of the host that the writer's certificate names") > 0, spread.logs()
+        spread.yars("a", "inject", "power stby")
+        spread.wait_for(lambda seen: spread.watch("c").get("power") == "STBY", "power STBY", hosts=hosts)
+
+
+PRESENT = 2  # databuffer::kHostPresent
+
+
+def present(state):
+    return {name for name, other in state["network"]["hosts"].items() if other["flags"] & PRESENT}
+
+
 def main():
     programs, *build = sys.argv[1:]
     programs = pathlib.Path(programs).resolve()
@@ -154,7 +195,8 @@ def main():
         print(f"skipped: {reason}")
         return 77
     spread_set.run_tests((hosts_with_another_configuration_or_terrain_are_named, two_hosts_of_one_name_are_named,
-                          a_foreign_program_made_from_the_idl_files_reads_sweeps, a_stranger_sees_no_host_and_changes_nothing),
+                          a_foreign_program_made_from_the_idl_files_reads_sweeps, a_stranger_sees_no_host_and_changes_nothing,
+                          a_member_that_may_only_read_holds_no_role_and_poses_as_nobody),
                          programs, build)
     return 0
 
