@@ -233,7 +233,7 @@ typedef struct {
   double reposition_longitude_deg; /* [deg] [-180, 180] */
   double reposition_altitude_m;    /* [m] [-1000, 200000] above mean sea level */
   double reposition_heading_deg;   /* [deg] [0, 360] from true north */
-  /* 1: the epoch began because the aircraft's source jumped to this position; no user requested it */
+  /* [0, 1] 1: the epoch began because the aircraft's source jumped to this position; no user requested it */
   uint32_t followed;
   uint32_t reserved0;
   uint64_t reserved[3];
@@ -297,18 +297,19 @@ typedef struct {
  * entity that the record omits is removed. All entities are removed after kTrafficStaleAfter without a record, and
  * in a new epoch. */
 typedef struct {
-  int64_t tick;                     /* [tick] tick at which the radar model latched the record; 0 before */
-  int64_t source_time_ns;           /* [ns] time stamp of the source; stored, not used */
-  uint32_t count;                   /* [0, 64] number of entries in use */
-  uint32_t epoch;                   /* session epoch that the writer knew */
+  int64_t tick;           /* [tick] [0, 922337203685] tick at which the radar model latched the record; 0 before */
+  int64_t source_time_ns; /* [ns] time stamp of the source; stored, not used */
+  uint32_t count;         /* [0, 64] number of entries in use */
+  uint32_t epoch;         /* session epoch that the writer knew */
   uint64_t reserved[5];
   yars_traffic_entity entities[64]; /* the first `count` are in use */
 } yars_traffic;
 
 /* Input event. Meaning and limits of argument, x, y and text depend on the kind: input_event.cpp. */
 typedef struct {
-  int64_t session_time_ns; /* [ns] sim time when the source made the event */
-  int64_t monotonic_ns;    /* [ns] CLOCK_MONOTONIC when the source made the event; latency counts from here */
+  int64_t session_time_ns; /* [ns] [0, 4611686018427387904] sim time when the source made the event */
+  /* [ns] [0, 4611686018427387904] CLOCK_MONOTONIC when the source made the event; latency counts from here */
+  int64_t monotonic_ns;
   double x;        /* TDC deflection right [-1, 1]; elevation [deg]; error north [ft] or [ft/s]; cursor right [0, 1] */
   double y;        /* TDC deflection up [-1, 1]; error east [ft] or [ft/s]; cursor down [0, 1] */
   uint16_t kind;   /* EventKind */
@@ -342,7 +343,7 @@ typedef struct {
   double latitude_deg;  /* [deg] [-90, 90] position in the coordinates of the navigator in use at that MARK */
   double longitude_deg; /* [deg] [-180, 180] */
   double elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
-  int64_t sim_time_ns;  /* [ns] */
+  int64_t sim_time_ns;  /* [ns] [0, 4611686018427387904] */
 } yars_mark;
 
 /* Complete state of the state machine: settings of the pilot, legends, and all values from which a restarted state
@@ -370,7 +371,7 @@ typedef struct {
   uint8_t mode;                /* radar::Mode as shown (RBM, ..., MENU) */
   uint8_t master;              /* radar::Master */
   uint8_t resume_mode;         /* radar::Mode in operation; differs from `mode` only while the menu is shown */
-  uint8_t range_index;
+  uint8_t range_index;         /* [0, 15] of the configuration's list */
   uint8_t scan;                /* radar::ScanWidth */
   uint8_t gain;                /* [0, 3] */
   uint8_t brightness;          /* [0, 15] */
@@ -416,8 +417,9 @@ typedef struct {
   double update_east_m;  /* [m] [-20100000, 20100000] */
   /* [tick] [-1, 9007199254740992] tick at which the cursor was last slewed or moved to a point */
   int64_t cursor_moved_tick;
-  int32_t update_seconds; /* [s] time until the cursor's position is too old for an INS update; -1 = no limit */
-  uint32_t vtr_request;   /* counts up with PB 12, which starts or stops the recorder */
+  /* [s] at least -1 time until the cursor's position is too old for an INS update; -1 = no limit */
+  int32_t update_seconds;
+  uint32_t vtr_request; /* counts up with PB 12, which starts or stops the recorder */
   /* The designated target, the steering line to it, and the cue. The target's position is in the coordinates of the
    * navigator in use at the designation. */
   double target_latitude_deg;  /* [deg] [-90, 90] */
@@ -459,26 +461,26 @@ typedef struct {
 /* Outputs of the state machine to the aircraft: sensors, weapons, head-up display. Positions are in the coordinates
  * of the navigator in use. Written every tick, also with the radar off: readers must learn of a dropped target. */
 typedef struct {
-  int64_t tick;        /* [tick] */
-  int64_t sim_time_ns; /* [ns] */
+  int64_t tick;        /* [tick] [-1, 9007199254740992] */
+  int64_t sim_time_ns; /* [ns] [0, 4611686018427387904] */
   /* CUE and TGT: point for another sensor. */
-  double cue_latitude_deg;  /* [deg] valid while cue_count > 0 */
-  double cue_longitude_deg; /* [deg] */
-  double cue_elevation_m;   /* [m] MSL; NaN = unknown */
+  double cue_latitude_deg;  /* [deg] [-90, 90] valid while cue_count > 0 */
+  double cue_longitude_deg; /* [deg] [-180, 180] */
+  double cue_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
   /* TGT: the designated target. */
-  double target_latitude_deg;  /* [deg] valid while target_name is not empty */
-  double target_longitude_deg; /* [deg] */
-  double target_elevation_m;   /* [m] MSL; NaN = unknown */
+  double target_latitude_deg;  /* [deg] [-90, 90] valid while target_name is not empty */
+  double target_longitude_deg; /* [deg] [-180, 180] */
+  double target_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
   char target_name[8];         /* zero terminated; empty = none designated */
   /* Ranging to the target, from the aircraft. */
-  double slant_range_m;  /* [m] NaN = no target */
-  double bearing_deg;    /* [deg] [0, 360) true; NaN = no target */
-  double depression_deg; /* [deg] below the horizontal; NaN = no target */
+  double slant_range_m;  /* [m] [0, 20001600] NaN = no target */
+  double bearing_deg;    /* [deg] [0, 360] true; NaN = no target */
+  double depression_deg; /* [deg] [-90, 90] below the horizontal; NaN = no target */
   /* Steering to the target. */
-  /* [deg] by `steering` below: the target's azimuth off the ground track, right positive; or the bank angle to fly,
-   * right wing down positive; NaN = none */
+  /* [deg] [-180, 180] by `steering` below: the target's azimuth off the ground track, right positive; or the bank
+   * angle to fly, right wing down positive; NaN = none */
   double steering_deg;
-  double approach_deg;   /* [deg] [0, 360) true heading of the pattern steering line; NaN = none */
+  double approach_deg;   /* [deg] [0, 360] true heading of the pattern steering line; NaN = none */
   uint32_t epoch;
   uint32_t cue_count;    /* counts up with CUE and TGT */
   uint32_t target_count; /* counts up with TGT */
@@ -558,7 +560,7 @@ typedef struct {
   double scan_range_m;     /* [m] [0, 20001600] of the present scan */
   uint32_t scan_tick;      /* [tick] number of ticks since the start of the scan */
   uint8_t antenna_phase;   /* [0, 4] antenna::Phase */
-  uint8_t scan_noise_only; /* 1: the present scan is in SNIFF */
+  uint8_t scan_noise_only; /* [0, 1] 1: the present scan is in SNIFF */
   uint8_t reserved0[2];
   /* [ns] [0, 4611686018427387904] sim time at which the ownship in use arrived; its age is measured from here */
   int64_t ownship_received_ns;
@@ -581,7 +583,7 @@ typedef struct {
   int64_t velocity_due_tick; /* [tick] [-1, 922337203685] IPVU: tick at which the next measurement is due; -1 = none */
   uint32_t velocity_count;   /* number of measurements completed since the session began */
   uint32_t velocity_dwell;   /* ticks since the start of the dwell on the present beam */
-  uint8_t velocity_beam;     /* number of the present beam, from 1; 0 = none */
+  uint8_t velocity_beam;     /* [0, 8] number of the present beam, from 1; 0 = none */
   uint8_t reserved_bytes[7];
   /* Answer to RadarState::asked_latitude_deg and asked_longitude_deg. */
   double answered_latitude_deg;  /* [deg] [-90, 90] the requested point */
@@ -595,8 +597,8 @@ typedef struct {
  * without padding. Each pixel has 4 bytes: red, green, blue, 255. */
 typedef struct {
   uint64_t id;         /* [0, 9007199254740992] counts up over the session; 0 = none */
-  int64_t tick;        /* [tick] tick of the displayed radar state */
-  int64_t sim_time_ns; /* [ns] sim time at which the frame was drawn */
+  int64_t tick;        /* [tick] [-1, 9007199254740992] tick of the displayed radar state */
+  int64_t sim_time_ns; /* [ns] [0, 4611686018427387904] when the frame was drawn */
   uint32_t width;      /* [pixels] [1, 1024] */
   uint32_t height;     /* [pixels] [1, 1024] */
   uint64_t reserved[4];
@@ -611,7 +613,7 @@ typedef struct {
  * display shows the caption only while a process holds the role `tour`. */
 typedef struct {
   int64_t sim_time_ns;        /* [ns] [0, 4611686018427387904] when this caption came up */
-  uint32_t step;              /* [0, 1000] number of this caption, from 1; 0 = none */
+  uint32_t step;              /* [0, 1000] number of this caption, from 1 to steps; 0 = none */
   uint32_t steps;             /* [0, 1000] number of captions of the tour */
   uint32_t waiting;           /* [0, 1] 1: the tour waits for the pilot */
   uint32_t reserved0;

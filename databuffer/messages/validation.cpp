@@ -60,15 +60,7 @@ Refusal validate(const ClockState& clock) {
 }
 
 Refusal validate(const Outputs& outputs) {
-  Inspection inspection;
-  check_fields(inspection, outputs);
-  // Of the marks in use, latitude and longitude are checked; their elevation is not, although the IDL gives it a range.
-  // Numbers without a range in the IDL are not checked.
-  for (const Mark& mark : used(outputs.marks, outputs.mark_count)) {
-    inspection.latitude("marks.latitude_deg", mark.latitude_deg);
-    inspection.longitude("marks.longitude_deg", mark.longitude_deg);
-  }
-  return inspection.result();
+  return validate_fields(outputs);
 }
 
 Refusal validate(const Ownship& ownship) {
@@ -92,7 +84,10 @@ Refusal validate(const RecorderStatus& status) {
 }
 
 Refusal validate(const Caption& caption) {
-  return validate_fields(caption);
+  Inspection inspection;
+  check_fields(inspection, caption);
+  inspection.at_most("step", caption.step, caption.steps);
+  return inspection.result();
 }
 
 Refusal validate(const PatchMap& map) {
@@ -116,7 +111,14 @@ Refusal validate(const Sweep& sweep) {
 }
 
 Refusal validate(const ModelTick& tick) {
-  return validate_fields(tick);
+  using Range = RadarCommandLimits;
+  Inspection inspection;
+  check_fields(inspection, tick);
+  const RadarCommand& command = tick.command;
+  const Missing missing = (command.flags & kCursorValid) != 0U ? Missing::refused : Missing::allowed;
+  inspection.range("command.cursor_latitude_deg", command.cursor_latitude_deg, Range::cursor_latitude_deg, missing);
+  inspection.range("command.cursor_longitude_deg", command.cursor_longitude_deg, Range::cursor_longitude_deg, missing);
+  return inspection.result();
 }
 
 namespace {
@@ -158,10 +160,8 @@ void inspect_name(Inspection& inspection, const InputEvent& event) {
                      '"' + std::string(event.text, static_cast<std::size_t>(end - event.text)) + '"');
 }
 
-}  // namespace
-
-Refusal validate(const InputEvent& event) {
-  Inspection inspection;
+// Checks the fields whose meaning depends on the kind.
+void inspect_kind(Inspection& inspection, const InputEvent& event) {
   switch (static_cast<EventKind>(event.kind)) {
     case EventKind::push_button:
       inspect_argument(inspection, event, 1, radar::kBezelButtons);
@@ -217,6 +217,21 @@ Refusal validate(const InputEvent& event) {
     default:
       inspection.fault("kind", "1.." + std::to_string(static_cast<int>(kLastKind)), std::to_string(event.kind));
   }
+}
+
+}  // namespace
+
+Refusal validate(const InputEvent& event) {
+  Inspection inspection;
+  check_fields(inspection, event);
+  inspect_kind(inspection, event);
+  return inspection.result();
+}
+
+Refusal validate(const AppliedEvent& applied) {
+  Inspection inspection;
+  check_fields(inspection, applied);
+  inspect_kind(inspection, applied.event);
   return inspection.result();
 }
 

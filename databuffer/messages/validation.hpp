@@ -4,8 +4,8 @@
 // the refusal.
 // Ranges: as in the IDL files; both ends are valid. Heading 360 and longitude +-180 are valid, because rounding gives
 // them. Every reader wraps these values. Heading 360.0001 is refused. NaN is valid in fields with the annotation @nan
-// or without a range, in the cursor fields of a RadarState without kCursorValid, and in the reposition fields of a
-// ClockState whose reposition latitude is NaN.
+// or without a range, in the cursor fields of a RadarState or RadarCommand without kCursorValid, and in the reposition
+// fields of a ClockState whose reposition latitude is NaN.
 #pragma once
 
 #include "databuffer/messages/caption.hpp"
@@ -34,6 +34,7 @@ Refusal validate(const Outputs& outputs);
 Refusal validate(const RadarState& state);
 Refusal validate(const Caption& caption);
 Refusal validate(const InputEvent& event);
+Refusal validate(const AppliedEvent& applied);
 Refusal validate(const PilotAdvice& advice);
 Refusal validate(const NetworkStatus& status);
 // Records of radar-model.

@@ -104,6 +104,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Gatew
             std::to_string(settings->domain) + (settings->security.empty() ? "" : ", encrypted"));
   gateway::GatewayShell shell(*session, options.session, std::move(*link), *settings, std::move(identity));
   while (!databuffer::stop_requested()) shell.step();
+  shell.finish();
   return {};
 }
 

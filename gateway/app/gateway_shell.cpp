@@ -17,6 +17,8 @@ namespace {
 constexpr std::int64_t kPass_ns = 5'000'000;        // a tick at rate 1
 constexpr std::int64_t kLockstepPass_ns = 250'000;  // the roles of a lockstep run wait for each pass
 constexpr std::int64_t kReportInterval_ns = 500'000'000;
+constexpr std::int64_t kMaxEnd_ns = 1'000'000'000;
+constexpr std::int64_t kLockstepEnd_ns = 20'000'000;  // until the other hosts have taken what they have acknowledged
 
 // Processor time of this process, with the threads of Cyclone DDS.
 double process_time_s() {
@@ -54,6 +56,16 @@ void GatewayShell::step() {
   pass();
   const std::int64_t interval_ns = context_.lockstep ? kLockstepPass_ns : kPass_ns;
   next_pass_ns_ = std::max(next_pass_ns_ + interval_ns, context_.now_ns);
+}
+
+void GatewayShell::finish() {
+  const std::int64_t begin_ns = databuffer::monotonic_ns();
+  std::int64_t unacknowledged_ns = begin_ns;  // the last time at which something was on its way
+  while (hosts_.views().size() > 1 && context_.now_ns - begin_ns < kMaxEnd_ns) {
+    step();
+    if (!link_.is_acknowledged()) unacknowledged_ns = context_.now_ns;
+    if (context_.now_ns - unacknowledged_ns > (context_.lockstep ? kLockstepEnd_ns : 0)) return;
+  }
 }
 
 void GatewayShell::pass() {

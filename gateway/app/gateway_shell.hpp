@@ -30,6 +30,9 @@ class GatewayShell {
                const radar::NetworkSettings& settings, Identity identity);
   // Waits for the next pass and runs it. Probes and input events are taken as soon as they arrive.
   void step();
+  // Runs further passes until the other hosts have what this one has sent, for 1 s at most. Without them the last tick
+  // of a lockstep run would not reach a slower host.
+  void finish();
 
  private:
   void pass();

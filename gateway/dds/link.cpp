@@ -8,11 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <deque>
 #include <mutex>
 #include <utility>
 
 #include "gateway/dds/domain_configuration.hpp"
 #include "gateway/dds/senders.hpp"
+#include "gateway/instance_quota.hpp"
 
 namespace yars::gateway::dds {
 
@@ -21,6 +23,10 @@ namespace {
 constexpr std::uint32_t kMaxLanes = 16;         // ownship lanes with writers of their own
 constexpr std::size_t kMaxMessages = 100;       // kept for take_messages()
 constexpr std::size_t kMaxSample_bytes = 8192;  // the greatest structure of a topic
+// Samples, or ends of instances, that one call of take() passes on: 30 ms. Without a limit the end of a writer of
+// 70,000 instances kept a gateway from its announcements for longer than the lease of 0.5 s.
+constexpr int kMaxTaken = 4096;
+constexpr std::uint64_t kMaxStrays = 32768;  // ends of instances that never had a sample: 15 MB
 
 // Messages of Cyclone DDS, which arrive on its own threads. One object for the process, as Cyclone has one sink.
 class Messages {
@@ -57,6 +63,9 @@ struct QosDeleter {
   void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
 };
 using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
+struct ListenerDeleter {
+  void operator()(dds_listener_t* listener) const { dds_delete_listener(listener); }
+};
 
 // Quality of service of a topic, the same for its writers and its readers.
 Qos qos_of(const TopicSettings& settings) {
@@ -107,8 +116,23 @@ tl::unexpected<error::Error> fail_link(const std::string& expected, const std::s
 
 }  // namespace
 
+// What a reader holds.
+struct ReaderUse {
+  explicit ReaderUse(Topic topic) : quota(settings_of(topic).instances, settings_of(topic).all_instances) {}
+  InstanceQuota quota;
+  std::uint64_t next_report = 1;  // number of refused samples that is worth a message
+  int taken = 0;                  // since begin_take()
+};
+
+// Filter of a topic. It is asked for each sample that arrives, on threads of Cyclone DDS.
+bool admits(const dds_sample_info_t* info, void* use) {
+  return static_cast<ReaderUse*>(use)->quota.admits(info->instance_handle, info->publication_handle);
+}
+
 struct Link::State {
-  State() = default;
+  State() {
+    for (std::size_t i = 0; i < kTopicCount; ++i) uses.emplace_back(static_cast<Topic>(i));
+  }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
   ~State() {
@@ -117,6 +141,10 @@ struct Link::State {
     dds_set_log_sink(nullptr, nullptr);
   }
   error::Expected<void> open_topics(const std::string& session);
+  dds_entity_t open_reader(Topic topic);
+  void renew_reader(Topic topic);
+  void report_refused(Topic topic);
+  ReaderUse& use_of(Topic topic) { return uses[index_of(topic)]; }
 
   radar::NetworkSettings settings;
   dds_entity_t domain = 0, participant = 0, publisher = 0, subscriber = 0, waitset = 0;
@@ -124,6 +152,7 @@ struct Link::State {
   std::array<dds_entity_t, kMaxLanes> ownship_writers{};
   std::array<std::uint32_t, kMaxLanes> ownship_strengths{};
   std::array<TopicCounts, kTopicCount> counts;
+  std::deque<ReaderUse> uses;  // by topic; Cyclone DDS keeps pointers to them
   alignas(16) std::array<std::byte, kMaxSample_bytes> taken{};
   yars_net_SweepSample sweep{};          // Cyclone DDS allocates its video
   dds_instance_handle_t taken_from = 0;  // writer of the sample taken last
@@ -168,24 +197,50 @@ error::Expected<void> Link::State::open_topics(const std::string& session) {
     const Qos topic_qos = qos_of(topic_settings);
     topics[i] = dds_create_topic(participant, topic_settings.structure, name.c_str(), nullptr, nullptr);
     if (topics[i] < 0) return fail_link("topic " + name, dds_strretcode(-topics[i]));
+    const dds_topic_filter filter{DDS_TOPIC_FILTER_SAMPLEINFO_ARG, {.sampleinfo_arg = &admits}, &use_of(topic)};
+    dds_set_topic_filter_extended(topics[i], &filter);
     if (is_listed(settings.topics_out, topic) && topic != Topic::ownship) {
       writers[i] = dds_create_writer(publisher, topics[i], topic_qos.get(), nullptr);
       if (writers[i] < 0 && writers[i] != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
         return fail_link("a writer of topic " + name, dds_strretcode(-writers[i]));
     }
     if (!is_listed(settings.topics_in, topic)) continue;
-    dds_qset_ignorelocal(topic_qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-    readers[i] = dds_create_reader(subscriber, topics[i], topic_qos.get(), nullptr);
+    readers[i] = open_reader(topic);
     if (readers[i] < 0 && readers[i] != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
       return fail_link("a reader of topic " + name, dds_strretcode(-readers[i]));
   }
-  for (const Topic topic : {Topic::probes, Topic::input_events}) {
-    const dds_entity_t reader = readers[index_of(topic)];
-    if (reader <= 0) continue;
+  return {};
+}
+
+// Negative: an error of Cyclone DDS.
+dds_entity_t Link::State::open_reader(Topic topic) {
+  const Qos qos = qos_of(settings_of(topic));
+  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+  const dds_entity_t reader = dds_create_reader(subscriber, topics[index_of(topic)], qos.get(), nullptr);
+  const bool is_awaited = topic == Topic::probes || topic == Topic::input_events;
+  if (reader > 0 && is_awaited) {
     const dds_entity_t condition = dds_create_readcondition(reader, DDS_NOT_READ_SAMPLE_STATE);
     dds_waitset_attach(waitset, condition, condition);
   }
-  return {};
+  return reader;
+}
+
+// The only way to free instances whose writer lives. What the writers keep arrives again.
+void Link::State::renew_reader(Topic topic) {
+  dds_delete(readers[index_of(topic)]);
+  use_of(topic).quota.clear();
+  readers[index_of(topic)] = open_reader(topic);
+}
+
+// A message for the first sample, the 10th, the 100th, ...
+void Link::State::report_refused(Topic topic) {
+  ReaderUse& use = use_of(topic);
+  const std::uint64_t refused = use.quota.refused();
+  if (refused < use.next_report) return;
+  while (use.next_report <= refused) use.next_report *= 10;
+  Messages::instance().add("topic " + std::string(settings_of(topic).name) + ": expected at most " +
+                           std::to_string(settings_of(topic).instances) + " instances of a writer, found more; " +
+                           std::to_string(refused) + " samples left out so far; another program writes there");
 }
 
 bool Link::writes(Topic topic) const {
@@ -266,13 +321,22 @@ void Link::end_ownship(std::uint32_t lane) {
   state_->ownship_writers[lane] = 0;
 }
 
+void Link::begin_take(Topic topic) {
+  ReaderUse& use = state_->use_of(topic);
+  use.taken = 0;
+  if (use.quota.strays() > kMaxStrays && reads(topic)) state_->renew_reader(topic);
+}
+
 const void* Link::take_next(Topic topic, bool* alive) {
   const dds_entity_t reader = state_->readers[index_of(topic)];
-  if (reader <= 0) return nullptr;
+  ReaderUse& use = state_->use_of(topic);
+  if (reader <= 0 || use.taken >= kMaxTaken) return nullptr;
   void* sample = topic == Topic::sweeps ? static_cast<void*>(&state_->sweep) : state_->taken.data();
   dds_sample_info_t info{};
-  while (dds_take(reader, &sample, &info, 1, 1) > 0) {
+  while (use.taken < kMaxTaken && dds_take(reader, &sample, &info, 1, 1) > 0) {
+    ++use.taken;
     state_->taken_from = info.publication_handle;
+    if (info.instance_state != DDS_IST_ALIVE) use.quota.end(info.instance_handle);
     if (alive != nullptr) {
       *alive = info.valid_data;
       // A sample that the reader held before its writer's lease ended comes with the end.
@@ -288,6 +352,13 @@ void Link::count_received(Topic topic, std::size_t bytes) {
   state_->counts[index_of(topic)].received_bytes += bytes;
 }
 
+bool Link::is_acknowledged() const {
+  const auto has_all = [](dds_entity_t writer) {
+    return writer <= 0 || dds_wait_for_acks(writer, 0) != DDS_RETCODE_TIMEOUT;
+  };
+  return std::ranges::all_of(state_->writers, has_all) && std::ranges::all_of(state_->ownship_writers, has_all);
+}
+
 void Link::wait(std::int64_t time_ns) {
   if (time_ns > 0) dds_waitset_wait(state_->waitset, nullptr, 0, time_ns);
 }
@@ -297,6 +368,7 @@ const TopicCounts& Link::counts(Topic topic) const {
 }
 
 std::vector<std::string> Link::take_messages() {
+  for (std::size_t i = 0; i < kTopicCount; ++i) state_->report_refused(static_cast<Topic>(i));
   return Messages::instance().take();
 }
 

@@ -1,7 +1,8 @@
 // Connection of one process to the DDS domain of a session: writers and readers of all topics.
 // Inputs: the form Network; samples, as structures of yars_network.h.
 // Outputs: samples of other processes; counts of samples and bytes.
-// Errors: open(): an interface that does not exist, a configuration that Cyclone DDS refuses, unreadable identities. A
+// Errors: samples of a writer beyond its instances (TopicSettings) are left out. open(): an interface that does not
+// exist, a configuration that Cyclone DDS refuses, unreadable identities. A
 //   write that fails is counted. Messages of Cyclone DDS are kept for take_messages().
 // Threads: one. Cyclone DDS has threads of its own.
 // Source: Eclipse Cyclone DDS 0.10, C API.
@@ -53,11 +54,12 @@ class Link {
   bool write_ownship(std::uint32_t lane, const yars_net_OwnshipSample& sample);
   void end_ownship(std::uint32_t lane);
 
-  // Calls take(const Sample&) for each sample that has arrived, in the order of each writer. With security, samples
-  // that name another host than that of their writer are left out.
+  // Calls take(const Sample&) for each sample that has arrived, in the order of each writer; the rest of a flood is
+  // left for the next call. With security, samples that name another host than that of their writer are left out.
   template <class Sample, class Take>
   void take(const Take& take) {
     static_assert(!std::is_same_v<Sample, yars_net_HostSample>, "hosts also end; see take_hosts()");
+    begin_take(kTopicOf<Sample>);
     while (const void* sample = take_next(kTopicOf<Sample>)) {
       const Sample& taken = *static_cast<const Sample*>(sample);
       count_received(kTopicOf<Sample>, bytes_of(taken));
@@ -69,6 +71,7 @@ class Link {
   void take_hosts(const Take& take) {
     update_senders();
     bool alive = false;
+    begin_take(Topic::hosts);
     while (const void* sample = take_next(Topic::hosts, &alive)) {
       const auto& taken = *static_cast<const yars_net_HostSample*>(sample);
       if (alive) count_received(Topic::hosts, sizeof taken);
@@ -78,6 +81,8 @@ class Link {
 
   // Returns when a sample of a topic that is answered at once has arrived (probes, input events), or after `time_ns`.
   void wait(std::int64_t time_ns);
+  // True if the readers of all other hosts have what was written here.
+  bool is_acknowledged() const;
 
   const TopicCounts& counts(Topic topic) const;
   // Messages of Cyclone DDS since the last call.
@@ -106,7 +111,9 @@ class Link {
   void update_senders();
   bool write_bytes(Topic topic, const void* sample, std::size_t bytes);
   void dispose_bytes(Topic topic, const void* sample);
-  // The next sample, valid until the next call; nullptr: none. Without `alive`, ends of instances are left out.
+  void begin_take(Topic topic);
+  // The next sample, valid until the next call; nullptr: none, or enough for now. Without `alive`, ends of instances
+  // are left out.
   const void* take_next(Topic topic, bool* alive = nullptr);
   void count_received(Topic topic, std::size_t bytes);
 

@@ -121,8 +121,10 @@ void EventExchange::receive(Context& context) {
   context.link->take<yars_net_EventReceiptSample>(take);
   // Applied events wait in DDS until it is known which host has the state machine, and until their age can be judged.
   const auto holder = context.roles.holder(Role::state_machine);
-  const auto outputs = databuffer::read_valid(std::as_const(context.session).layout().outputs);
-  const auto newest = outputs ? std::optional(outputs->tick) : std::nullopt;
+  const auto newest = [&context] {
+    const auto outputs = databuffer::read_valid(std::as_const(context.session).layout().outputs);
+    return outputs ? std::optional(outputs->tick) : std::nullopt;
+  };
   if (holder ? may_begin(context, dds::Topic::applied_events, *holder, newest) : is_last_tick(context))
     context.link->take<yars_net_AppliedEventSample>(take);
 }
@@ -317,7 +319,7 @@ void EventExchange::receive(Context& context, const yars_net_AppliedEventSample&
     return;
   databuffer::AppliedEvent applied{};
   copy_record(applied, sample.applied);
-  if (const auto reason = validate(applied.event))
+  if (const auto reason = validate(applied))
     return context.hosts.refuse(sample.host, dds::Topic::applied_events, *reason);
   applied.monotonic_ns = local_time_ns(context, sample.host, applied.monotonic_ns);
   if (sample.sender != context.hosts.self().id)

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <string>
 
 #include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/validated.hpp"
-#include "gateway/exchange/history_progress.hpp"
 
 namespace yars::gateway {
 
@@ -84,8 +84,10 @@ void HistoryExchange::receive(Context& context) {
   const bool is_known =
       holder && (*holder == context.hosts.self().id || context.roles.source(Role::radar_model).has_value());
   if (!is_known && !is_last_tick(context)) return;
-  const auto status = databuffer::read_valid(std::as_const(context.session).layout().model_status);
-  const auto newest = status ? std::optional(status->tick) : std::nullopt;
+  const auto newest = [&context] {
+    const auto status = databuffer::read_valid(std::as_const(context.session).layout().model_status);
+    return status ? std::optional(status->tick) : std::nullopt;
+  };
   if (is_known && !may_begin(context, dds::Topic::model_ticks, *holder, newest)) return;
   const auto take = [&](const auto& sample) { receive(context, sample); };
   context.link->take<yars_net_LatchedTrafficSample>(take);
@@ -101,6 +103,22 @@ bool HistoryExchange::is_wanted(Context& context, std::uint64_t host, std::uint3
   if (static_cast<std::int32_t>(epoch - context.session.clock().epoch) < 0) return false;
   const bool goes_back = last_tick_.epoch == epoch && tick < last_tick_.tick - databuffer::kMaxTicksBehind;
   return host == last_host_ || !goes_back;
+}
+
+// False: the record is refused, because its sim time is not that of its tick, or its tick goes back.
+template <class Sample, class Record>
+bool HistoryExchange::is_in_order(Context& context, const Sample& sample, const Record& record, TickOrder& order) {
+  const auto refuse = [&](const char* field, const std::string& expected, std::int64_t found) {
+    context.hosts.refuse(sample.host, dds::kTopicOf<Sample>,
+                         field + std::string(": expected ") + expected + ", found " + std::to_string(found));
+    return false;
+  };
+  const std::int64_t due_ns = record.tick * radar::kTickNanoseconds;
+  if (record.sim_time_ns != due_ns)
+    return refuse("sim_time_ns", std::to_string(due_ns) + ", that of the tick", record.sim_time_ns);
+  if (!order.follows(sample.host, record.epoch, record.tick))
+    return refuse("tick", "one after that of the record before", record.tick);
+  return true;
 }
 
 void HistoryExchange::receive(Context& context, const yars_net_LatchedTrafficSample& sample) {
@@ -129,6 +147,7 @@ void HistoryExchange::receive(Context& context, const yars_net_ModelTickSample& 
   databuffer::ModelTick tick{};
   copy_record(tick, sample.tick);
   if (const auto reason = validate(tick)) return context.hosts.refuse(sample.host, dds::Topic::model_ticks, *reason);
+  if (!is_in_order(context, sample, tick, tick_order_)) return;
   tick.ownship_lane =
       lanes_->local_ownship_lane({sample.ownship_host, tick.ownship_lane}, context.hosts.self().id, kNoLane);
   if (ticks_.size() < kMaxWaiting) ticks_.push_back({tick, context.now_ns, sample.host, sample.start, sample.number});
@@ -150,6 +169,7 @@ void HistoryExchange::receive(Context& context, const yars_net_SweepSample& samp
   if (const auto reason = validate(sweep)) return context.hosts.refuse(sample.host, dds::Topic::sweeps, *reason);
   if (databuffer::sweep_hash(sweep) != sweep.hash)
     return context.hosts.refuse(sample.host, dds::Topic::sweeps, "hash: expected that of the video, found another");
+  if (!is_in_order(context, sample, sweep, sweep_order_)) return;
   if (sweeps_.size() < kMaxWaiting)
     sweeps_.push_back({sweep, context.now_ns, sample.host, sample.start, sample.number});
 }
@@ -169,6 +189,7 @@ void HistoryExchange::publish(Context& context) {
     ticks_.clear();
     sweeps_.clear();
     last_tick_ = {};
+    tick_order_ = sweep_order_ = {};
     return;
   }
   const auto is_late = [&context](std::int64_t arrived_ns) { return context.now_ns - arrived_ns > kPatience_ns; };

@@ -4,8 +4,9 @@
 // Outputs: a sample for each record; the records in the local rings: traffic before the tick that names it, a tick
 // before
 //   its sweep.
-// Errors: an invalid record, or a sweep whose hash is wrong, is refused, counted and noted. Records of an earlier epoch
-//   are left out. Lost samples are counted by their numbers.
+// Errors: an invalid record, a sweep whose hash is wrong, a sim time that is not that of the tick, and a tick that goes
+//   back are refused, counted and noted. Records of an earlier epoch are left out. Lost samples are counted by their
+//   numbers.
 // Units: times [ns].
 // Threads: one.
 #pragma once
@@ -16,6 +17,7 @@
 
 #include "databuffer/session/session_layout.hpp"
 #include "gateway/exchange/context.hpp"
+#include "gateway/exchange/history_progress.hpp"
 #include "gateway/exchange/lane_names.hpp"
 
 namespace yars::gateway {
@@ -53,6 +55,8 @@ class HistoryExchange {
     std::uint64_t theirs, ours;
   };
   bool is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch, std::int64_t tick);
+  template <class Sample, class Record>
+  bool is_in_order(Context& context, const Sample& sample, const Record& record, TickOrder& order);
   std::optional<std::uint64_t> local_traffic(std::uint64_t theirs) const;
 
   LaneNames* lanes_;
@@ -62,6 +66,7 @@ class HistoryExchange {
   std::deque<Waiting<databuffer::Sweep>> sweeps_;
   std::deque<TrafficNumber> traffic_numbers_;
   std::uint64_t traffic_host_ = 0;
+  TickOrder tick_order_, sweep_order_;
   LastTick last_tick_;
   std::uint64_t last_host_ = 0;  // from which it came
 };

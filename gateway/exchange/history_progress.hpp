@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "databuffer/runtime/tick_loop.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/progress.hpp"
 #include "lib/radar/modes.hpp"
@@ -49,18 +50,49 @@ bool is_new_in_history(Context& context, const Sample& sample, std::uint64_t loc
   return context.hosts.is_new(sample);
 }
 
-// True once the records of a history of another host may be taken. `newest`: tick of the state that the host last
-// published; nullopt: none has arrived. A lockstep run, whose ticks do not follow the session clock, is not known here
-// until a role of this host begins it. Its first records would be taken for old ones, and nobody would send them again.
-inline bool may_begin(const Context& context, dds::Topic topic, std::uint64_t host,
-                      std::optional<std::int64_t> newest) {
+// True once the records of a history of another host may be taken. `newest()`: tick of the state that the host last
+// published; nullopt: none has arrived. It is called only until the history has begun. A lockstep run, whose ticks do
+// not follow the session clock, is not known here until a role of this host begins it. Its first records would be taken
+// for old ones, and nobody would send them again.
+template <class Newest>
+bool may_begin(const Context& context, dds::Topic topic, std::uint64_t host, const Newest& newest) {
   if (context.lockstep || host == context.hosts.self().id ||
       context.hosts.knows(topic, host, context.hosts.segment_of(host)))
     return true;
   const double max_age_ns = 0.5 * static_cast<double>(kMaxFirstAge_ns) * std::max(1.0, context.session.clock().rate);
   const std::int64_t oldest_ns = context.session.sim_time_ns() - static_cast<std::int64_t>(max_age_ns);
-  return newest && *newest >= oldest_ns / radar::kTickNanoseconds;
+  const std::optional<std::int64_t> tick = newest();
+  return tick && *tick >= oldest_ns / radar::kTickNanoseconds;
 }
+
+// Order of the ticks that one topic brings. Within an epoch the ticks of a host count up. A new process of a role may
+// begin up to kMaxTicksBehind ticks before the last one of its predecessor.
+class TickOrder {
+ public:
+  // False: the tick is from before the last one of its host. After kConfirmations such ticks, each later than the one
+  // before, the last one is taken for the error. Else one forged tick of the far future would stop the history.
+  bool follows(std::uint64_t host, std::uint32_t epoch, std::int64_t tick) {
+    const bool is_known = host == host_ && epoch == epoch_;
+    const bool goes_back = is_known && tick < tick_ - databuffer::kMaxTicksBehind;
+    if (goes_back) {
+      run_ = run_ > 0 && tick > run_tick_ ? run_ + 1 : 1;
+      run_tick_ = tick;
+      if (run_ < kConfirmations) return false;
+    }
+    run_ = 0;
+    tick_ = is_known && !goes_back ? std::max(tick_, tick) : tick;
+    host_ = host;
+    epoch_ = epoch;
+    return true;
+  }
+
+ private:
+  static constexpr int kConfirmations = 20;  // 0.1 s of ticks
+  std::uint64_t host_ = 0;
+  std::uint32_t epoch_ = 0;
+  std::int64_t tick_ = 0, run_tick_ = 0;
+  int run_ = 0;
+};
 
 // True in the last tick of a lockstep run. A role whose process has ended by then has been heard by all roles.
 inline bool is_last_tick(const Context& context) {

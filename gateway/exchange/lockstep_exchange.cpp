@@ -62,7 +62,8 @@ void LockstepExchange::apply(Context& context, bool in_order) {
     std::erase_if(waiting_, [&](const auto& item) {
       const yars_net_LockstepSample& sample = item.second;
       if (sample.role != role) return false;
-      if (context.hosts.find(sample.host) == nullptr || !has_arrived(context, sample)) return false;
+      // Also of a host that has left since: its last tick still counts.
+      if (!context.hosts.has_announced(sample.host) || !has_arrived(context, sample)) return false;
       if (lockstep.done_tick[role].load(std::memory_order_acquire) >= sample.done_tick) return true;
       if (!others_are_done(lockstep, role, sample.done_tick)) return false;
       known_[role] = sample.done_tick;

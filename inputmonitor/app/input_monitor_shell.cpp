@@ -65,7 +65,7 @@ void InputMonitorShell::observe() {
   std::vector<SeenEvent> seen;
   databuffer::AppliedEvent applied{};
   while (ring.read(applied_cursor_, applied).delivered) {
-    if (databuffer::validate(applied.event)) continue;
+    if (databuffer::validate(applied)) continue;
     seen.push_back({applied.event, applied.effective == databuffer::kEventDone, applied.lane == lane_});
   }
   source_->observe(seen);

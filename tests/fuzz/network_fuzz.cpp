@@ -68,11 +68,14 @@ class Published {
       ++index;
     };
     const auto any = [](const auto& record) { return databuffer::validate(record); };
-    ring(layout_->model_ticks, databuffer::ModelTick{}, any);
-    ring(layout_->sweeps, databuffer::Sweep{}, any);
+    const auto timed = [](const auto& record) {
+      YARS_REQUIRE(record.sim_time_ns, ==, record.tick * radar::kTickNanoseconds);
+      return databuffer::validate(record);
+    };
+    ring(layout_->model_ticks, databuffer::ModelTick{}, timed);
+    ring(layout_->sweeps, databuffer::Sweep{}, timed);
     ring(layout_->traffic_latched, databuffer::Traffic{}, any);
-    ring(layout_->applied_events, databuffer::AppliedEvent{},
-         [](const auto& record) { return databuffer::validate(record.event); });
+    ring(layout_->applied_events, databuffer::AppliedEvent{}, any);
     check_lanes();
     check_maps();
   }

@@ -110,9 +110,11 @@ inline void fill(yars_net_ModelStatusSample& sample, std::size_t /*host*/) {
 inline void fill(yars_net_ModelTickSample& sample, std::size_t /*host*/) {
   copy_record(sample.tick.ownship, good_ownship());
   sample.tick.tick = 12'000;
+  sample.tick.sim_time_ns = sample.tick.tick * radar::kTickNanoseconds;
 }
 inline void fill(yars_net_SweepSample& sample, std::size_t /*host*/) {
   sample.sweep.tick = 12'000;
+  sample.sweep.sim_time_ns = sample.sweep.tick * radar::kTickNanoseconds;
   sample.sweep.azimuth_right_deg = 1.0;
   sample.sweep.range_m = 74'080.0;
   sample.sweep.scan = 1;

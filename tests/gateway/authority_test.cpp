@@ -112,6 +112,31 @@ TEST(Authority, OfEqualPartsTheFirstNameKeepsTheRole) {
   EXPECT_EQ(holder_of(hosts, 0)->name, "b");
 }
 
+// a and d were one part, b and c the other; both had both roles and a clock. No part has a majority.
+TEST(Authority, TwoHostsAgainstTwoAgreeForEachRoleByName) {
+  constexpr std::uint32_t kModel = 1U << 0, kMachine = 1U << 1;
+  std::vector hosts{host("a", 0, 2, kModel), host("b", 0, 2, kMachine), host("c", 0, 2, kModel),
+                    host("d", 0, 2, kMachine)};
+  hosts[0].owns_clock = hosts[1].owns_clock = true;
+  std::ranges::sort(hosts, {}, &HostView::name);
+  do {  // each host has another order of the others
+    EXPECT_EQ(holder_of(hosts, 0)->name, "a");
+    EXPECT_EQ(holder_of(hosts, 1)->name, "b");
+    EXPECT_EQ(clock_owner(hosts)->name, "a");
+    EXPECT_EQ(
+        std::ranges::count_if(hosts, [&](const HostView& self) { return holder_of(hosts, 0)->name == self.name; }), 1);
+  } while (std::ranges::next_permutation(hosts, {}, &HostView::name).found);
+  std::ranges::find(hosts, "d", &HostView::name)->priority = 1;
+  EXPECT_EQ(holder_of(hosts, 1)->name, "d") << "priority decides before the name";
+  EXPECT_EQ(holder_of(hosts, 0)->name, "a") << "for its own roles alone";
+}
+
+// A host that has met the other part 1 s ago says 4, and the part that meets it later still says 2.
+TEST(Authority, AHostThatHeardAllDoesNotLoseToOneThatHeardHalf) {
+  const std::vector hosts{host("a", 0, 2, 1), host("c", 0, 4, 1)};
+  EXPECT_EQ(holder_of(hosts, 0)->name, "c");
+}
+
 TEST(Authority, WithoutAHolderThereIsNone) {
   EXPECT_EQ(holder_of(std::vector{host("a"), host("b")}, 1), nullptr);
   EXPECT_EQ(holder_of({}, 1), nullptr);

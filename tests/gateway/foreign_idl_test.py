@@ -31,7 +31,7 @@ def why_not():
     return ""
 
 
-def build(folder, cmake, tree, compiler):
+def build(folder, cmake, tree, compiler, program=PROGRAM):
     """The program, made in a folder. tree: a build of YARS."""
     flags = run("pkg-config", "--cflags", "--libs", "CycloneDDS")[1].split()
     code, told = run(cmake, "--install", tree, "--component", "idl", "--prefix", folder / "prefix")
@@ -43,8 +43,8 @@ def build(folder, cmake, tree, compiler):
         sys.exit(f"share/yars/idl: expected yars_network.idl and yars_records.idl, found {names}")
     for name in names:
         must(name, "idlc", "-o", folder, installed / name)
-    sources = [PROGRAM, *sorted(folder.glob("*.c"))]
-    must("foreign_sweeps.c", compiler, "-std=c11", "-Wall", "-Wextra", "-Werror", "-I", folder, *sources, *flags, "-o",
+    sources = [program, *sorted(folder.glob("*.c"))]
+    must(program.name, compiler, "-std=c11", "-Wall", "-Wextra", "-Werror", "-I", folder, *sources, *flags, "-o",
          folder / "foreign")
     return folder / "foreign"
 

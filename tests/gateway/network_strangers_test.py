@@ -107,6 +107,37 @@ def a_foreign_program_made_from_the_idl_files_reads_sweeps(programs, build):
         assert found > 0, (frames, spread.logs())
 
 
+def memory_mb(process):
+    """Memory of a program now [MB]."""
+    status = pathlib.Path(f"/proc/{process.pid}/status").read_text()
+    return int(status.split("VmRSS:")[1].split()[0]) / 1024
+
+
+def a_flood_of_rows_has_its_limit(programs, build):
+    """Without it a gateway grows by 3 MB a second. The program on host d ends without a word."""
+    if reason := foreign_idl_test.why_not():
+        print(f"left out: {reason}")
+        return
+    with tempfile.TemporaryDirectory() as name, spread_set.SpreadSet(programs, ROLES) as spread:
+        flood = foreign_idl_test.build(pathlib.Path(name), *build, program=pathlib.Path(__file__).with_name("flood_rows.c"))
+        sweeping(spread)
+        peers = "".join(f'<Peer Address="{spread.lab.address(host)}"/>' for host in ROLES)
+        flooding = spread.lab.start("d", str(flood), [spread.session, int(WITHIN_S)], env={"CYCLONEDDS_URI": FOREIGN.format(peers=peers)})
+        for host in "abc":
+            spread.gateways[host].wait_for("topic patch_rows: expected at most", WITHIN_S)
+        full = {host: memory_mb(spread.gateways[host]) for host in "abc"}
+        time.sleep(FLOOD_S)
+        later = {host: memory_mb(spread.gateways[host]) for host in "abc"}
+        assert all(later[host] < full[host] + FLOOD_MB for host in "abc"), (full, later)
+        flooding.kill()
+        states = spread.states("abc")
+        spread.wait_for(lambda seen: runs(seen) and all(seen[host]["sweeps"] > states[host]["sweeps"] + 50 for host in "abc"),
+                        "sweeps after the flood", hosts=list("abc"), within_s=WITHIN_S)
+        assert all(spread.gateways[host].poll() is None for host in "abc"), spread.logs()
+
+
+FLOOD_S, FLOOD_MB = 4.0, 6.0  # without a limit the flood takes 12 MB in this time
+
 TEXT = "GAIN 3"  # a legend of the radar state
 
 
@@ -195,7 +226,8 @@ def main():
         print(f"skipped: {reason}")
         return 77
     spread_set.run_tests((hosts_with_another_configuration_or_terrain_are_named, two_hosts_of_one_name_are_named,
-                          a_foreign_program_made_from_the_idl_files_reads_sweeps, a_stranger_sees_no_host_and_changes_nothing,
+                          a_foreign_program_made_from_the_idl_files_reads_sweeps, a_flood_of_rows_has_its_limit,
+                          a_stranger_sees_no_host_and_changes_nothing,
                           a_member_that_may_only_read_holds_no_role_and_poses_as_nobody),
                          programs, build)
     return 0

@@ -208,6 +208,37 @@ def both_parts_of_a_partition_go_on_and_the_larger_one_stays(flight):
     restart_what_ended(flight, "b")
 
 
+def separate(spread, part, whole):
+    """Hosts of the part and the others do not reach each other: each has a wrong link address of those beyond."""
+    for host in LAYOUT:
+        for other in LAYOUT:
+            if (host in part) == (other in part):
+                continue
+            address = spread.lab.address(other)
+            words = ["del", address] if whole else ["replace", address, "lladdr", "02:00:00:00:00:99", "nud", "permanent"]
+            spread.lab.run(host, "ip", ["neigh", *words, "dev", "eth0"])
+
+
+def of_two_equal_parts_the_first_name_stays(flight):
+    """Two hosts against two: a and b, with a state machine and a radar model on b; c and d, with both on c."""
+    spread, parts = flight.spread, (["a", "b"], ["c", "d"])
+    before = flight.await_whole()
+    separate(spread, "ab", whole=False)
+    for part, holder in zip(parts, "bc"):
+        spread.wait_for(lambda seen: all(set(present(one)) == set(part) for one in seen.values()) and runs(seen) and
+                        seen[holder]["machine"] == seen[holder]["model"] == "here", f"{holder} with both roles", hosts=part)
+    time.sleep(1.5)  # both parts know their size
+    apart = spread.states()
+    separate(spread, "ab", whole=True)
+    met = spread.wait_for(lambda seen: runs(seen) and seen["b"]["machine"] == seen["b"]["model"] == "here" and
+                          all(set(present(one)) == set(LAYOUT) for one in seen.values()), "b with both roles, seen by all")
+    assert met["c"]["machine"] == met["c"]["model"] == "remote", met
+    highest = max(one["epoch"] for one in apart.values())
+    assert all(one["epoch"] > highest for one in met.values()), (before, apart, met)
+    restart_what_ended(flight, "c")
+    flight.await_whole()
+
+
 def present(state):
     """Hosts that a host hears."""
     return [name for name, other in state["network"]["hosts"].items() if other["flags"] & PRESENT]
@@ -259,7 +290,8 @@ def nothing_is_torn_or_out_of_range(flight):
 
 TESTS = (a_map_that_is_commanded_appears_on_all_hosts, ships_of_one_host_are_latched_by_the_model_of_another,
          a_bad_line_loses_no_sweep_and_no_event, the_clock_obeys_any_host, nothing_is_torn_or_out_of_range,
-         both_parts_of_a_partition_go_on_and_the_larger_one_stays, a_standby_goes_on_where_the_killed_host_ended,
+         both_parts_of_a_partition_go_on_and_the_larger_one_stays, of_two_equal_parts_the_first_name_stays,
+         a_standby_goes_on_where_the_killed_host_ended,
          nothing_is_torn_or_out_of_range)
 
 

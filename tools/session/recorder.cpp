@@ -185,7 +185,7 @@ void Recorder::take_all(std::int64_t tick) {
   take_ticks(gap.ticks);
   databuffer::AppliedEvent event{};
   while (take(session_->layout().applied_events, event_cursor_, event, gap.events))
-    if (is_valid(event.event)) append(event);
+    if (is_valid(event)) append(event);
   take_latest(tick);
   take_sweeps(gap.sweeps);
   if (extras_.patches) take_patches();

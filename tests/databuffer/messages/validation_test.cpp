@@ -287,6 +287,7 @@ TEST(Validation, CaptionsAreChecked) {
     return validate(caption).has_value();
   };
   EXPECT_TRUE(is_refused([](Caption& caption) { caption.step = kMaxCaptions + 1; }));
+  EXPECT_TRUE(is_refused([](Caption& caption) { caption.step = 1; })) << "caption 1 of 0";
   EXPECT_TRUE(is_refused([](Caption& caption) { caption.waiting = 2; }));
   EXPECT_TRUE(is_refused([](Caption& caption) { caption.sim_time_ns = -1; }));
   EXPECT_TRUE(is_refused([](Caption& caption) { std::strcpy(caption.lines[2].text, "\x1b[2J"); }));
@@ -365,6 +366,145 @@ TEST(Validation, OnlyUsedEntitiesOfTrafficAreChecked) {
   traffic = Traffic{};
   traffic.count = 65;
   EXPECT_EQ(validate(traffic), "count: expected [0, 64], found 65");
+}
+
+TEST(Validation, TicksAndTimesArePositiveAndLeaveRoomForSums) {
+  const auto is_refused = [](auto record, auto field, std::int64_t value) {
+    record.*field = value;
+    return validate(record).has_value();
+  };
+  constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  for (const std::int64_t wrong : {kLeast, kMost}) {
+    EXPECT_TRUE(is_refused(good_map(), &PatchMap::start_tick, wrong));
+    EXPECT_TRUE(is_refused(good_map(), &PatchMap::end_tick, wrong));
+    EXPECT_TRUE(is_refused(Outputs{}, &Outputs::tick, wrong));
+    EXPECT_TRUE(is_refused(Outputs{}, &Outputs::sim_time_ns, wrong));
+    EXPECT_TRUE(is_refused(RecorderStatus{}, &RecorderStatus::tick, wrong));
+    EXPECT_TRUE(is_refused(RecorderStatus{}, &RecorderStatus::sim_time_ns, wrong));
+    EXPECT_TRUE(is_refused(Traffic{}, &Traffic::tick, wrong));
+    EXPECT_TRUE(is_refused(event_of(EventKind::freeze, 0), &InputEvent::session_time_ns, wrong));
+    EXPECT_TRUE(is_refused(event_of(EventKind::freeze, 0), &InputEvent::monotonic_ns, wrong));
+    GlassFrame frame{};
+    frame.width = frame.height = 1;
+    EXPECT_TRUE(is_refused(frame, &GlassFrame::tick, wrong));
+    EXPECT_TRUE(is_refused(frame, &GlassFrame::sim_time_ns, wrong));
+  }
+  RadarState state = good_state();
+  state.mark_count = 1;
+  state.marks[0].sim_time_ns = -1;
+  EXPECT_TRUE(validate(state));
+}
+
+ModelTick good_tick() {
+  ModelTick tick{};
+  tick.ownship = good_ownship();
+  tick.command.channel = 1;
+  return tick;
+}
+
+// Expects a range of a number of the command in a tick.
+void expect_command_range(double RadarCommand::*field, double least, double most) {
+  const auto is_valid = [field](double value) {
+    ModelTick tick = good_tick();
+    tick.command.flags = kCursorValid;
+    tick.command.*field = value;
+    return !validate(tick);
+  };
+  EXPECT_TRUE(is_valid(least) && is_valid(most));
+  for (const double wrong : {std::nextafter(least, -kInfinity), std::nextafter(most, kInfinity), kNan})
+    EXPECT_FALSE(is_valid(wrong)) << wrong;
+}
+
+TEST(Validation, ATickIsRefusedForAnyFieldOfItsCommand) {
+  EXPECT_EQ(validate(ModelTick{}), std::nullopt) << "before a radar state has arrived";
+  EXPECT_EQ(validate(good_tick()), std::nullopt);
+  expect_command_range(&RadarCommand::range_nm, 0.0, kMaxRange_nm);
+  expect_command_range(&RadarCommand::window_nm, 0.0, kMaxRange_nm);
+  expect_command_range(&RadarCommand::cursor_latitude_deg, -90.0, 90.0);
+  expect_command_range(&RadarCommand::cursor_longitude_deg, -180.0, 180.0);
+  expect_command_range(&RadarCommand::map_latitude_deg, -90.0, 90.0);
+  expect_command_range(&RadarCommand::map_longitude_deg, -180.0, 180.0);
+  ModelTick tick = good_tick();
+  tick.command.map_window_nm = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_EQ(validate(tick), "command.map_window_nm: expected [0, 10800], found nan");
+  tick = good_tick();
+  tick.command.cursor_latitude_deg = kNan;
+  EXPECT_EQ(validate(tick), std::nullopt) << "without kCursorValid";
+  struct Switch {
+    std::uint8_t RadarCommand::*field;
+    int most;
+  };
+  for (const Switch& position :
+       {Switch{&RadarCommand::power, 2}, Switch{&RadarCommand::mode, 7}, Switch{&RadarCommand::scan, 2},
+        Switch{&RadarCommand::gain, 3}, Switch{&RadarCommand::range_index, 15}, Switch{&RadarCommand::channel, 8},
+        Switch{&RadarCommand::band, 4}})
+    for (int value = 0; value < 256; ++value) {
+      tick = good_tick();
+      tick.command.*position.field = static_cast<std::uint8_t>(value);
+      EXPECT_EQ(!validate(tick), value <= position.most) << value;
+    }
+}
+
+Outputs good_outputs() {
+  Outputs outputs{};
+  outputs.slant_range_m = outputs.bearing_deg = outputs.depression_deg = kNan;
+  outputs.steering_deg = outputs.approach_deg = outputs.cue_elevation_m = kNan;
+  return outputs;
+}
+
+TEST(Validation, PositionsAndAnglesOfTheOutputsAreChecked) {
+  EXPECT_EQ(validate(good_outputs()), std::nullopt);
+  for (auto field : {&Outputs::cue_latitude_deg, &Outputs::target_latitude_deg})
+    expect_range_without_nan(good_outputs(), field, -90.0, 90.0);
+  for (auto field : {&Outputs::cue_longitude_deg, &Outputs::target_longitude_deg})
+    expect_range_without_nan(good_outputs(), field, -180.0, 180.0);
+  for (auto field : {&Outputs::cue_elevation_m, &Outputs::target_elevation_m})
+    expect_range(good_outputs(), field, kLowestGround, kHighestGround);
+  expect_range(good_outputs(), &Outputs::slant_range_m, 0.0, kFarthest_m);
+  expect_range(good_outputs(), &Outputs::bearing_deg, 0.0, 360.0);
+  expect_range(good_outputs(), &Outputs::depression_deg, -90.0, 90.0);
+  expect_range(good_outputs(), &Outputs::steering_deg, -180.0, 180.0);
+  expect_range(good_outputs(), &Outputs::approach_deg, 0.0, 360.0);
+  Outputs outputs = good_outputs();
+  outputs.marks[0].elevation_m = kInfinity;
+  EXPECT_EQ(validate(outputs), std::nullopt) << "the mark is not in use";
+  outputs.mark_count = 1;
+  EXPECT_EQ(validate(outputs), "marks.elevation_m: expected [-12000, 10000], found inf");
+}
+
+TEST(Validation, AnAppliedEventIsCheckedWithItsEvent) {
+  AppliedEvent applied{};
+  applied.event = event_of(EventKind::push_button, 20);
+  EXPECT_EQ(validate(applied), std::nullopt);
+  applied.effective = kEventRefused + 1;
+  EXPECT_EQ(validate(applied), "effective: expected [0, 2], found 3");
+  applied.effective = kEventDone;
+  applied.tick = -1;
+  EXPECT_TRUE(validate(applied));
+  applied.tick = 0;
+  applied.event.argument = 21;
+  EXPECT_TRUE(validate(applied));
+  applied.event.argument = 20;
+  applied.event.monotonic_ns = -1;
+  EXPECT_EQ(validate(applied), "event: monotonic_ns: expected [0, 4611686018427387904], found -1");
+}
+
+TEST(Validation, SwitchesOfModelAndClockAreChecked) {
+  ModelStatus status{};
+  status.ownship = good_ownship();
+  EXPECT_EQ(validate(status), std::nullopt);
+  status.velocity_beam = 9;
+  EXPECT_EQ(validate(status), "velocity_beam: expected [0, 8], found 9");
+  status.velocity_beam = 0;
+  status.scan_noise_only = 2;
+  EXPECT_TRUE(validate(status));
+  ClockState clock = last_valid_clock();
+  clock.followed = 2;
+  EXPECT_TRUE(validate(clock));
+  RadarState state = good_state();
+  state.range_index = 16;
+  EXPECT_TRUE(validate(state));
 }
 
 TEST(Validation, PatchMapRangesAreCheckedAndItsNumbersMustBeFinite) {

@@ -26,6 +26,7 @@ class HistoryExchangeTest : public testing::TwoHosts {
     auto sample = from<yars_net_ModelTickSample>(host);
     databuffer::ModelTick record{};
     record.tick = number;
+    record.sim_time_ns = number * radar::kTickNanoseconds;
     record.epoch = epoch();
     record.ownship = good_ownship();
     record.traffic = traffic;
@@ -39,6 +40,7 @@ class HistoryExchangeTest : public testing::TwoHosts {
     auto sample = from<yars_net_SweepSample>(host);
     databuffer::Sweep record{};
     record.tick = tick;
+    record.sim_time_ns = tick * radar::kTickNanoseconds;
     record.epoch = epoch();
     record.apex_latitude_deg = 36.6;
     record.apex_longitude_deg = -121.9;
@@ -166,8 +168,12 @@ TEST_F(HistoryExchangeTest, RepeatedSamplesAreLeftOutAlsoByANewGateway) {
 // Else the first tick of a lockstep run would be lost on a host whose roles start later.
 TEST_F(HistoryExchangeTest, AHistoryBeginsOnceTheAgeOfItsRecordsCanBeJudged) {
   const auto beta = host_id("beta");
+  int reads = 0;
   const auto begins = [&](std::optional<std::int64_t> newest) {
-    return may_begin(context_, dds::Topic::model_ticks, beta, newest);
+    return may_begin(context_, dds::Topic::model_ticks, beta, [&] {
+      ++reads;
+      return newest;
+    });
   };
   databuffer::ClockState clock = session_.clock();
   clock.base_sim_ns = 2 * kSecond_ns;
@@ -177,6 +183,7 @@ TEST_F(HistoryExchangeTest, AHistoryBeginsOnceTheAgeOfItsRecordsCanBeJudged) {
   EXPECT_FALSE(begins(std::nullopt));
   EXPECT_FALSE(begins(0)) << "a model that stands still, or a lockstep run";
   EXPECT_TRUE(begins(399));
+  EXPECT_EQ(reads, 3);
   context_.lockstep = true;
   EXPECT_TRUE(begins(0));
   EXPECT_TRUE(begins(std::nullopt));
@@ -184,7 +191,9 @@ TEST_F(HistoryExchangeTest, AHistoryBeginsOnceTheAgeOfItsRecordsCanBeJudged) {
   context_.lockstep = false;
   EXPECT_EQ(ticks(), 1u);
   EXPECT_FALSE(begins(0)) << "another life of the model's segment";
-  EXPECT_TRUE(may_begin(context_, dds::Topic::model_ticks, hosts_.self().id, 0)) << "the model is here";
+  EXPECT_EQ(reads, 4) << "the state is read only where its tick decides";
+  const auto never = [] { return std::optional<std::int64_t>(); };
+  EXPECT_TRUE(may_begin(context_, dds::Topic::model_ticks, hosts_.self().id, never)) << "the model is here";
 }
 
 TEST_F(HistoryExchangeTest, TheLastTickOfALockstepRunIsKnown) {
@@ -230,6 +239,49 @@ TEST_F(HistoryExchangeTest, InvalidRecordsAreRefused) {
   receive(bad_traffic);
   EXPECT_EQ(refusals(), 5u);
   EXPECT_TRUE(exchange_.is_empty());
+}
+
+TEST_F(HistoryExchangeTest, ASimTimeThatIsNotThatOfTheTickIsRefused) {
+  auto bad_tick = tick(5);
+  bad_tick.tick.sim_time_ns += 1;
+  receive(bad_tick);
+  EXPECT_EQ(refusals(), 1u);
+  auto bad_sweep = sweep(5);
+  bad_sweep.sweep.sim_time_ns = 0;
+  receive(bad_sweep);
+  EXPECT_EQ(refusals(), 2u);
+  EXPECT_EQ(ticks(), 0u);
+  EXPECT_TRUE(exchange_.is_empty());
+}
+
+TEST_F(HistoryExchangeTest, TicksThatGoBackInOneEpochAreRefused) {
+  receive(tick(1000));
+  receive(sweep(1000));
+  receive(tick(500));
+  receive(sweep(500));
+  EXPECT_EQ(refusals(), 2u);
+  EXPECT_EQ(ticks(), 1u);
+  EXPECT_EQ(sweeps(), 1u);
+  receive(tick(1000 - databuffer::kMaxTicksBehind));
+  EXPECT_EQ(ticks(), 2u) << "a new process of the model";
+  ASSERT_TRUE(session_.change_clock([](auto clock) {
+    ++clock.epoch;
+    return clock;
+  }));
+  receive(tick(3));
+  EXPECT_EQ(ticks(), 3u) << "a new epoch";
+  EXPECT_EQ(refusals(), 2u);
+}
+
+TEST_F(HistoryExchangeTest, OneTickOfTheFarFutureDoesNotStopTheHistory) {
+  receive(tick(databuffer::kLatestModelTick));
+  std::int64_t number = 100;
+  while (ticks() == 1 && number < 200) receive(tick(number++));
+  EXPECT_EQ(number, 120) << "after 20 ticks in a row";
+  receive(tick(number));
+  EXPECT_EQ(ticks(), 3u);
+  receive(tick(101));
+  EXPECT_EQ(ticks(), 4u) << "within the ticks that a new process may be behind";
 }
 
 TEST_F(HistoryExchangeTest, WhatWaitsIsLimited) {

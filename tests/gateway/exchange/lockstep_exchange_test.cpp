@@ -78,6 +78,15 @@ TEST_F(LockstepExchangeTest, ADoneTickThatArrivesBeforeItsHostIsKnownIsKept) {
   EXPECT_EQ(tick_of(3), 20);
 }
 
+// Else a slower host would wait for the end of a run until its roles give up after 60 s.
+TEST_F(LockstepExchangeTest, TheLastTickOfAHostThatHasLeftCounts) {
+  announce("beta", 0);
+  exchange_.receive(context_, done("beta", 3, 20));
+  end("beta");
+  exchange_.apply(context_, true);
+  EXPECT_EQ(tick_of(3), 20);
+}
+
 TEST_F(LockstepExchangeTest, TicksOfManyUnknownHostsLeaveRoom) {
   for (int host = 0; host < 200; ++host)
     for (std::uint32_t role = 0; role < databuffer::kLockstepRoles; ++role)
