@@ -63,9 +63,6 @@ struct QosDeleter {
   void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
 };
 using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
-struct ListenerDeleter {
-  void operator()(dds_listener_t* listener) const { dds_delete_listener(listener); }
-};
 
 // Quality of service of a topic, the same for its writers and its readers.
 Qos qos_of(const TopicSettings& settings) {
