@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "gateway/dds/participants.hpp"
 #include "gateway/dds/topics.hpp"
 #include "lib/error/error.hpp"
 #include "lib/radar/network.hpp"
@@ -74,8 +75,11 @@ class Link {
   void wait(std::int64_t time_ns);
 
   const TopicCounts& counts(Topic topic) const;
-  // Messages of Cyclone DDS since the last call.
-  std::vector<std::string> take_messages();
+  // Messages of Cyclone DDS since the last call: at most some lines a second, and a count of those left out. Call it
+  // about twice a second. `now_ns`: CLOCK_MONOTONIC.
+  std::vector<std::string> take_messages(std::int64_t now_ns);
+  // Lines about gateways that are heard and exchange nothing with this one, each once.
+  std::vector<Remark> take_remarks(std::int64_t now_ns);
 
  private:
   struct State;
