@@ -181,9 +181,10 @@ Expected<void> check_permissions(const std::filesystem::path& path, const X509* 
   const std::string subject = subject_of(certificate);
   const auto granted = granted_subjects(*document);
   if (std::ranges::any_of(granted, [&](const auto& name) { return parts_of(name) == parts_of(subject); })) return {};
-  constexpr std::size_t kShown = 8;
+  constexpr std::size_t kShown = 8, kShownLength = 64;
   std::string found;
-  for (std::size_t i = 0; i < std::min(granted.size(), kShown); ++i) found += (i == 0 ? "" : "; ") + granted[i];
+  for (std::size_t i = 0; i < std::min(granted.size(), kShown); ++i)
+    found += (i == 0 ? "" : "; ") + granted[i].substr(0, kShownLength);
   return fault("permissions of " + subject + ", which certificate.pem is of, in " + path.string(),
                found.empty() ? "those of nobody" : "those of " + found, "copy this host's own folder, and all of it");
 }
