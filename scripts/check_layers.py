@@ -76,9 +76,10 @@ LAYERS = {
     "display/library": BASE + ["display/symbology", "display/host"],
     "display/app": SHELL + ["display/symbology", "display/gl", "display/host"],
     "gateway": RECORDS,
+    "gateway/checks": RADAR + ["lib/file"],
     "gateway/dds": RECORDS + ["lib/file", "gateway"],
     "gateway/exchange": RECORDS + ["lib/log", "databuffer/session", "databuffer/runtime", "gateway", "gateway/dds"],
-    "gateway/app": SHELL + ["gateway", "gateway/dds", "gateway/exchange"],
+    "gateway/app": SHELL + ["gateway", "gateway/checks", "gateway/dds", "gateway/exchange"],
     "tools/command": SHELL + KERNEL + WORLD,
     "tools/recording": KERNEL + WORLD,
     "tools/trade": SHELL + KERNEL + WORLD + ["tools/command"],
@@ -87,7 +88,7 @@ LAYERS = {
     "tools/terrain": SHELL + TERRAIN + WORLD + ["worldgen/terrain", "tools/command"],
     "tools/scene": SHELL + SCENE + WORLD + ["worldgen/scene", "tools/command"],
     "tools/session": SHELL + WORLD + ["statemachine", "tools/command", "tools/recording"],
-    "tools": SHELL + ["tools/command"],
+    "tools": SHELL + ["gateway/checks", "tools/command"],
     "examples": ["databuffer/client"],
     "tests": None,  # None: everything
 }
@@ -106,9 +107,10 @@ SYSTEM_HEADERS = {
     "zip.h": ["model/terrain/formats", "tests"],
     "zlib.h": ["model/terrain/formats", "tools/recording", "tests"],
     "zstd.h": ["tools/recording"],
-    "arpa/": ["databuffer/app", "gateway/dds", "tests"],
-    "netinet/": ["databuffer/app", "gateway/dds", "tests"],
-    "openssl/": ["gateway/dds"],
+    "arpa/": ["databuffer/app", "gateway/checks", "gateway/dds", "tests"],
+    "netinet/": ["databuffer/app", "gateway/checks", "gateway/dds", "tests"],
+    "openssl/": ["gateway/checks", "gateway/dds"],
+    "net/": ["gateway/checks"],
     "sys/mman.h": ["lib/memory", "shells", "shm"],
     "gdal.h": ["model/terrain/gdal", "tests"],
     "gdal_utils.h": ["tests"],
@@ -141,7 +143,7 @@ SYSTEM_HEADERS = {
     "iostream": ["shells"],
 }
 # Folders that may include all other POSIX and Linux headers (with .h), by which code reaches outside of its process.
-POSIX_FOLDERS = ["lib/file", "shm", "inputmonitor", "gateway/dds", "shells"]
+POSIX_FOLDERS = ["lib/file", "shm", "inputmonitor", "gateway/checks", "gateway/dds", "shells"]
 
 CLOCKS = re.compile(r"\b(std::chrono::\w+_clock|clock_gettime|gettimeofday|clock_nanosleep|nanosleep|usleep|sleep_for"
                     r"|sleep_until|std::time\s*\(|monotonic_ns\s*\()")

@@ -5,11 +5,18 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/runtime/user_defaults.hpp"
+#ifdef YARS_HAS_GATEWAY
+#include "gateway/checks/computer_check.hpp"
+#include "gateway/checks/identity_check.hpp"
+#endif
 #include "lib/file/file_search.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/text/plain_text.hpp"
@@ -39,10 +46,34 @@ config::LoadedConfiguration loaded(const std::string& file) {
   return std::move(*configuration);
 }
 
+// Warnings about the form Network on this computer. A form of another computer is valid, so interfaces and peers that
+// this one does not have give warnings alone. A fault of the identity is thrown.
+std::vector<std::string> network_warnings(const radar::NetworkSettings& network) {
+#ifdef YARS_HAS_GATEWAY
+  std::vector<std::string> warnings;
+  if (auto computer = gateway::checks::check_computer(network))
+    warnings = std::move(computer->warnings);
+  else
+    warnings.push_back("the gateway of this computer would refuse the form: " + computer.error().message());
+  if (network.security.empty()) return warnings;
+  auto identity = gateway::checks::check_identity(network.security, network.name);
+  if (!identity) throw_failure(identity.error());
+  warnings.insert(warnings.end(), identity->begin(), identity->end());
+  return warnings;
+#else
+  return {
+      "the form Network is checked by itself alone: this build has no gateway, which would check interfaces, peers" +
+      std::string(network.security.empty() ? "" : " and the identity in " + network.security)};
+#endif
+}
+
 void check(const ConfigOptions& options, const CommonOptions& common) {
   const std::string& file = chosen_file(options, common);
   if (file.empty()) throw CommandFailed{"yars config check: expected a GUF file, found none; name one", 2};
-  const auto configuration = loaded(file);
+  auto configuration = loaded(file);
+  if (configuration.network)
+    for (std::string& warning : network_warnings(*configuration.network))
+      configuration.warnings.push_back(std::move(warning));
   if (options.json) {
     return print_json(
         {{"file", file}, {"valid", true}, {"warnings", configuration.warnings}, {"notes", configuration.notes}});
@@ -106,8 +137,8 @@ void add_config_command(databuffer::Command app, const CommonOptions& common) {
   // Resolves names of installed files in the same way as --config does.
   const auto installed = [](const std::string& name) { return file::installed_file(name); };
 
-  databuffer::Command check_command =
-      command.subcommand("check", "check whether a file is valid, and print its warnings");
+  databuffer::Command check_command = command.subcommand(
+      "check", "check whether a file is valid, with its form Network and identity, and print its warnings");
   check_command.option("FILE", options->file, "GUF file")
       .value_name("FILE")
       .otherwise("the file of --config")

@@ -1,5 +1,7 @@
 // Form Network of the configuration language GUF with its slots (schema.hpp): how this computer joins others.
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <string>
 #include <string_view>
 
@@ -45,6 +47,44 @@ std::optional<ConstraintViolation> check_topics(std::string_view slot, const Wor
   return ConstraintViolation{slot, expected, quoted_text(*wrong) + (meant.empty() ? "" : "; " + meant)};
 }
 
+// The four bytes of an IPv4 address, with or without `:PORT` behind it; nullopt: the word is none.
+std::optional<std::array<unsigned, 4>> ipv4_address(std::string_view word) {
+  std::array<unsigned, 4> bytes{};
+  word = word.substr(0, word.find(':'));
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), bytes[i]);
+    if (fault != std::errc() || bytes[i] > 255) return std::nullopt;
+    word.remove_prefix(static_cast<std::size_t>(end - word.data()));
+    if (i + 1 == bytes.size()) continue;
+    if (!word.starts_with('.')) return std::nullopt;
+    word.remove_prefix(1);
+  }
+  return word.empty() ? std::optional(bytes) : std::nullopt;
+}
+
+// Rule: each peer is a host name or an IPv4 address of one computer. Cyclone DDS is used over IPv4, without multicast.
+std::optional<ConstraintViolation> check_peers(const Words& peers) {
+  if (auto wrong = check_words("peers", peers, "IPv4 addresses or host names",
+                               [](std::string_view word) { return is_plain(word, kMaxAddress, "-_.:"); }))
+    return wrong;
+  for (const std::string& peer : peers) {
+    if (std::ranges::count(peer, ':') > 1)
+      return ConstraintViolation{"peers", "IPv4 addresses or host names", quoted_text(peer) + ", an IPv6 address"};
+    const auto address = ipv4_address(peer);
+    const bool is_number = peer.find_first_not_of("0123456789.:") == std::string::npos;
+    if (is_number && !address)
+      return ConstraintViolation{"peers", "IPv4 addresses, such as 192.168.10.2, or host names", quoted_text(peer)};
+    if (!address) continue;
+    const unsigned first = address->front();
+    if (first >= 224 || *address == std::array<unsigned, 4>{})
+      return ConstraintViolation{"peers", "the address of each computer",
+                                 quoted_text(peer) + (first < 224   ? ", the address of none"
+                                                      : first < 240 ? ", a multicast address"
+                                                                    : ", a broadcast or reserved address")};
+  }
+  return std::nullopt;
+}
+
 std::optional<ConstraintViolation> check_network(const ConfigurationBuilder& builder) {
   const radar::NetworkSettings& network = builder.network;
   if (!network.name.empty() && !is_plain(network.name, radar::kMaxHostName, "-_"))
@@ -52,9 +92,7 @@ std::optional<ConstraintViolation> check_network(const ConfigurationBuilder& bui
   if (auto wrong = check_words("interfaces", network.interfaces, "names of network interfaces, as `ip link` lists them",
                                [](std::string_view word) { return is_plain(word, kMaxInterfaceName, "-_.:@"); }))
     return wrong;
-  if (auto wrong = check_words("peers", network.peers, "IPv4 or IPv6 addresses or host names",
-                               [](std::string_view word) { return is_plain(word, kMaxAddress, "-_.:[]%"); }))
-    return wrong;
+  if (auto wrong = check_peers(network.peers)) return wrong;
   if (auto wrong = check_topics("topicsIn", network.topics_in)) return wrong;
   return check_topics("topicsOut", network.topics_out);
 }
@@ -84,7 +122,7 @@ std::vector<SlotSchema> network_slots() {
           words_slot("interfaces", {YARS_FIELD(network.interfaces), 1, radar::kMaxInterfaces},
                      "network interfaces of this computer; with lo alone nothing leaves the computer"),
           words_slot("peers", {YARS_FIELD(network.peers), 0, radar::kMaxPeers},
-                     "addresses or host names of the computers of the session; multicast is off"),
+                     "IPv4 addresses or host names of the computers of the session; multicast is off"),
           words_slot("topicsIn", {YARS_FIELD(network.topics_in), 0, radar::kTopicNames.size()},
                      "topics that are read from other computers; none named: all"),
           words_slot("topicsOut", {YARS_FIELD(network.topics_out), 0, radar::kTopicNames.size()},

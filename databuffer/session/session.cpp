@@ -48,6 +48,7 @@ Expected<void> check_session_name(const std::string& name) {
 }
 
 std::optional<std::size_t> counted_role(std::string_view name) {
+  if (name == name_of(Role::gateway)) return kLockstepRoles;
   const auto found = std::ranges::find(kLockstepRoleNames, name);
   if (found == kLockstepRoleNames.end()) return std::nullopt;
   return static_cast<std::size_t>(found - kLockstepRoleNames.begin());
@@ -113,9 +114,14 @@ Expected<Claim> Session::claim(Role role) {
   const std::int32_t previous = state_->segment->holder_pid(byte);
   auto claim = state_->take(byte, -1);
   if (!claim && is_lent_to_gateway(role)) claim = take_back(role);
-  if (!claim)
-    return fail("role " + std::string(name_of(role)), "one process of this role in a session",
-                "held by " + state_->describe_holder(byte), "end that process, or choose another --session");
+  if (!claim) {
+    const bool is_elsewhere =
+        role != Role::gateway && role_holder(role) != 0 && role_holder(role) == role_holder(Role::gateway);
+    return fail(
+        "role " + std::string(name_of(role)), "one process of this role in a session",
+        "held by " + state_->describe_holder(byte),
+        is_elsewhere ? "end it there, or wait for it with --standby" : "end that process, or choose another --session");
+  }
   // A holder that releases its claim resets the pid to 0. Any other value means that the previous holder died.
   if (previous != 0)
     note(NoteKind::restart, std::string(name_of(role)) + " pid " + std::to_string(previous) + " died; taken over");

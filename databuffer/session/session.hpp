@@ -91,7 +91,7 @@ class Session {
   // suppressed lines, with their number.
   void note(NoteKind kind, std::string_view text);
   void note(NoteKind kind, std::string_view text, std::string_view process);  // about another process
-  // Counts a restart by the supervisor. `role`: one of kLockstepRoleNames; other names are not counted.
+  // Counts a restart by the supervisor. `role`: gateway or one of kLockstepRoleNames; other names are not counted.
   void count_restart(std::string_view role);
 
  private:

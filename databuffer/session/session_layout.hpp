@@ -56,7 +56,7 @@ struct RecentCount {
 };
 
 // Event counters. They still count events whose notes a flood of newer notes has displaced from the flight recorder.
-inline constexpr std::size_t kCountedRoles = 8;  // in the order of kLockstepRoleNames; the last two are spare
+inline constexpr std::size_t kCountedRoles = 8;  // in the order of kLockstepRoleNames, then gateway; the last is spare
 struct Counters {
   std::array<RecentCount, kCountedRoles> restarts;  // restarts of each role by the supervisor
   RecentCount refusals;                             // notes of refused records, written or not
@@ -81,6 +81,9 @@ struct ProcessEntry {
 inline constexpr std::size_t kLockstepRoles = 6;
 inline constexpr std::array<std::string_view, kLockstepRoles> kLockstepRoleNames{
     "flight-model", "input-monitor", "state-machine", "radar-model", "radar-display", "recorder"};
+// Bits of HostStatus::held_roles from here on: a process with the name kLockstepRoleNames[bit - kFirstProcessBit] takes
+// part on the host. Lower bits are lock bytes of roles.
+inline constexpr unsigned kFirstProcessBit = 24;
 struct Lockstep {
   std::atomic<std::uint32_t> enabled;                               // 1: lockstep; each role of the run sets it
   std::atomic<std::uint32_t> roles;                                 // bit n: role n takes part

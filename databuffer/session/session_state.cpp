@@ -182,6 +182,10 @@ void SessionState::leave_table() {
 std::string SessionState::describe_holder(std::size_t byte) const {
   const std::int32_t pid = segment->holder_pid(byte);
   if (pid == 0) return "a process that is just starting or ending";
+  // A gateway has an entry for each role that it keeps for other hosts, too. Locks decide who is the gateway.
+  constexpr auto kGateway = static_cast<std::size_t>(Role::gateway);
+  if (segment->is_locked(kGateway) && segment->holder_pid(kGateway) == pid)
+    return "gateway, pid " + std::to_string(pid) + (byte == kGateway ? "" : ", for another host");
   std::string program = program_of(pid);
   for (const ProcessEntry& entry : read().processes)
     if (entry.pid == pid) program = shm::load_text(entry.name.data(), entry.name.size());

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/schema/load.hpp"
@@ -14,6 +15,8 @@
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "gateway/app/gateway_shell.hpp"
+#include "gateway/checks/computer_check.hpp"
+#include "gateway/checks/identity_check.hpp"
 #include "lib/log/log.hpp"
 
 namespace {
@@ -68,22 +71,26 @@ std::uint64_t segment_number(databuffer::Session& session) {
   return number.load();
 }
 
-// Peers that the loopback interface alone does not reach.
-void warn_of_loopback(const radar::NetworkSettings& settings) {
-  const auto is_local = [](const std::string& peer) {
-    return peer.starts_with("127.") || peer == "::1" || peer == "localhost";
-  };
-  if (settings.interfaces != std::vector<std::string>{"lo"} || std::ranges::all_of(settings.peers, is_local)) return;
-  log::warning(
-      "Network: interfaces: expected an interface that reaches the peers, found `lo` alone; name one that "
-      "`ip link` lists");
+// Compares the settings with this computer and its identity. Leaves only the peers that can be asked. Output: those of
+// other computers.
+error::Expected<std::vector<std::string>> check(radar::NetworkSettings& settings) {
+  auto computer = gateway::checks::check_computer(settings);
+  if (!computer) return tl::unexpected(computer.error());
+  for (const std::string& warning : computer->warnings) log::warning(warning);
+  settings.peers = std::move(computer->known_peers);
+  if (settings.security.empty()) return std::move(computer->other_peers);
+  const auto warnings = gateway::checks::check_identity(settings.security, settings.name);
+  if (!warnings) return tl::unexpected(warnings.error());
+  for (const std::string& warning : *warnings) log::warning(warning);
+  return std::move(computer->other_peers);
 }
 
 error::Expected<void> run(const databuffer::ProgramOptions& options, const GatewayOptions& gateway_options) {
   auto settings = config::load_network(gateway_options.network);
   if (!settings) return tl::unexpected(settings.error());
   if (settings->name.empty()) settings->name = host_name();
-  warn_of_loopback(*settings);
+  auto peers = check(*settings);
+  if (!peers) return tl::unexpected(peers.error());
   auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return tl::unexpected(configuration.error());
   if (!gateway_options.terrain.empty()) configuration->terrain.directory = gateway_options.terrain;
@@ -103,6 +110,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Gatew
   log::info("host " + identity.name + " joins session " + options.session + ", DDS domain " +
             std::to_string(settings->domain) + (settings->security.empty() ? "" : ", encrypted"));
   gateway::GatewayShell shell(*session, options.session, std::move(*link), *settings, std::move(identity));
+  shell.set_asked(std::move(*peers));
   while (!databuffer::stop_requested()) shell.step();
   shell.finish();
   return {};

@@ -1,8 +1,10 @@
 #include "gateway/app/gateway_shell.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <ctime>
+#include <string_view>
 #include <utility>
 
 #include "gateway/exchange/role_topics.hpp"
@@ -19,12 +21,19 @@ constexpr std::int64_t kLockstepPass_ns = 250'000;  // the roles of a lockstep r
 constexpr std::int64_t kReportInterval_ns = 500'000'000;
 constexpr std::int64_t kMaxEnd_ns = 1'000'000'000;
 constexpr std::int64_t kLockstepEnd_ns = 20'000'000;  // until the other hosts have taken what they have acknowledged
+constexpr std::int64_t kSilence_ns = 10'000'000'000;  // hosts that can hear each other do so within 0.3 s
 
 // Processor time of this process, with the threads of Cyclone DDS.
 double process_time_s() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
 }
 
 }  // namespace
@@ -38,6 +47,7 @@ GatewayShell::GatewayShell(databuffer::Session& session, const std::string& sess
       context_{session, &link_, hosts_, roles_},
       maps_(settings.map_rows_per_s),
       domain_(settings.domain),
+      participants_(settings.participants),
       secured_(!settings.security.empty()) {
   if (!link_.writes(dds::Topic::clock))
     log::info("this host does not set the session clock: it may not write the topic clock");
@@ -71,7 +81,7 @@ void GatewayShell::finish() {
 void GatewayShell::pass() {
   session_->heartbeat();
   context_.lockstep = std::as_const(*session_).layout().lockstep.enabled.load(std::memory_order_acquire) != 0;
-  hosts_.set_claims(roles_.held_roles(), clock_.owns(), session_->clock().epoch);
+  hosts_.set_claims(roles_.held_roles() | process_bits_, clock_.owns(), session_->clock().epoch);
   hosts_.set_conflict(roles_.in_conflict());
   hosts_.exchange(context_.now_ns);
   roles_.update(hosts_, context_.now_ns);
@@ -82,7 +92,7 @@ void GatewayShell::pass() {
   receive();
   send();
   const bool has_joined = context_.joined && !std::exchange(reported_joined_, true);
-  if (has_joined) log::info("joined the session clock");
+  if (has_joined) report_joined();
   if (has_joined || context_.now_ns >= next_report_ns_) report();
 }
 
@@ -107,9 +117,55 @@ void GatewayShell::send() {
   if (context_.lockstep) lockstep_.send(context_);
 }
 
+// Finds the processes of this host that hold no role with a lock byte, so that the others' `yars status` shows them.
+void GatewayShell::look_at_processes() {
+  constexpr std::array<std::string_view, 3> kNames{"flight-model", "input-monitor", "radar-display"};
+  process_bits_ = 0;
+  for (const databuffer::ProcessInfo& process : session_->processes()) {
+    const auto index = databuffer::counted_role(process.name);
+    if (index && std::ranges::find(kNames, process.name) != kNames.end())
+      process_bits_ |= 1U << (databuffer::kFirstProcessBit + *index);
+  }
+}
+
+void GatewayShell::report_joined() const {
+  if (hosts_.views().size() > 1) return log::info("joined the session clock");
+  if (asked_.empty()) return log::info("joined the session clock, alone: the form Network names no other computer");
+  log::info("joined the session clock, alone: asked " + list_of(asked_) +
+            ": none has answered yet; this computer goes on alone and joins them when they come");
+}
+
+void GatewayShell::report_messages() {
+  for (const std::string& message : link_.take_messages(context_.now_ns)) log::warning("Cyclone DDS: " + message);
+  for (const dds::Remark& remark : link_.take_remarks(context_.now_ns)) {
+    if (!remark.is_fault) {
+      log::info(remark.text);
+      continue;
+    }
+    reported_silence_ = true;
+    log::warning(remark.text);
+    session_->note(databuffer::NoteKind::refusal, remark.text);
+  }
+  report_silence();
+}
+
+// Says once that no host has been heard since the start, and what to look at.
+void GatewayShell::report_silence() {
+  if (first_pass_ns_ == 0) first_pass_ns_ = context_.now_ns;
+  if (reported_silence_ || asked_.empty() || context_.now_ns - first_pass_ns_ < kSilence_ns) return;
+  reported_silence_ = true;
+  if (link_.counts(dds::Topic::hosts).received > 0) return;
+  const int first_port = 7400 + 250 * domain_ + 10;
+  log::warning("no other host has been heard in 10 s, asked " + list_of(asked_) +
+               "; the usual reasons: no gateway runs there, it has another session or domain, `security` is on one "
+               "side only, or a firewall closes UDP ports " +
+               std::to_string(first_port) + " to " + std::to_string(first_port + 2 * participants_ - 1));
+}
+
 void GatewayShell::report() {
   next_report_ns_ = context_.now_ns + kReportInterval_ns;
-  for (const std::string& message : link_.take_messages()) log::warning("Cyclone DDS: " + message);
+  look_at_processes();
+  report_messages();
   const double cpu_s = process_time_s();
   const double elapsed_s = 1e-9 * static_cast<double>(context_.now_ns - last_report_ns_);
   if (last_report_ns_ != 0 && elapsed_s > 0.1) load_ = (cpu_s - last_cpu_s_) / elapsed_s;

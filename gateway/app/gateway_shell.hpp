@@ -8,6 +8,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "databuffer/session/session.hpp"
 #include "gateway/dds/link.hpp"
@@ -28,6 +30,8 @@ class GatewayShell {
  public:
   GatewayShell(databuffer::Session& session, const std::string& session_name, dds::Link link,
                const radar::NetworkSettings& settings, Identity identity);
+  // Addresses of the other computers that are asked, for messages.
+  void set_asked(std::vector<std::string> peers) { asked_ = std::move(peers); }
   // Waits for the next pass and runs it. Probes and input events are taken as soon as they arrive.
   void step();
   // Runs further passes until the other hosts have what this one has sent, for 1 s at most. Without them the last tick
@@ -39,6 +43,10 @@ class GatewayShell {
   void receive();
   void send();
   void report();
+  void look_at_processes();
+  void report_joined() const;
+  void report_messages();
+  void report_silence();
 
   dds::Link link_;
   databuffer::Session* session_;
@@ -52,9 +60,13 @@ class GatewayShell {
   HistoryExchange history_{lanes_};
   MapExchange maps_;
   LockstepExchange lockstep_;
-  int domain_;
+  std::vector<std::string> asked_;
+  int domain_, participants_;
   bool secured_;
   bool reported_joined_ = false;
+  bool reported_silence_ = false;
+  std::int64_t first_pass_ns_ = 0;
+  std::uint32_t process_bits_ = 0;  // of held_roles, from kFirstProcessBit on
   std::int64_t next_pass_ns_ = 0;
   std::int64_t next_report_ns_ = 0;
   std::int64_t last_report_ns_ = 0;

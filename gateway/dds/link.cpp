@@ -15,13 +15,13 @@
 #include "gateway/dds/domain_configuration.hpp"
 #include "gateway/dds/senders.hpp"
 #include "gateway/instance_quota.hpp"
+#include "gateway/message_limit.hpp"
 
 namespace yars::gateway::dds {
 
 namespace {
 
 constexpr std::uint32_t kMaxLanes = 16;         // ownship lanes with writers of their own
-constexpr std::size_t kMaxMessages = 100;       // kept for take_messages()
 constexpr std::size_t kMaxSample_bytes = 8192;  // the greatest structure of a topic
 // Samples, or ends of instances, that one call of take() passes on: 30 ms. Without a limit the end of a writer of
 // 70,000 instances kept a gateway from its announcements for longer than the lease of 0.5 s.
@@ -29,6 +29,7 @@ constexpr int kMaxTaken = 4096;
 constexpr std::uint64_t kMaxStrays = 32768;  // ends of instances that never had a sample: 15 MB
 
 // Messages of Cyclone DDS, which arrive on its own threads. One object for the process, as Cyclone has one sink.
+// Whoever reaches the ports can make Cyclone write many, so they are limited. Their time is that of the last take().
 class Messages {
  public:
   static Messages& instance() {
@@ -40,24 +41,21 @@ class Messages {
     while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
     static_cast<Messages*>(self)->add(std::move(text));
   }
-  std::vector<std::string> take() {
+  std::vector<std::string> take(std::int64_t now_ns) {
     const std::lock_guard guard(mutex_);
-    return std::exchange(texts_, {});
+    now_ns_ = std::max(now_ns_, now_ns);
+    return limit_.take("Cyclone DDS", now_ns_);
   }
   void add(std::string text) {
     const std::lock_guard guard(mutex_);
-    if (texts_.size() < kMaxMessages) texts_.push_back(std::move(text));
+    limit_.add(text, now_ns_);
   }
 
  private:
   std::mutex mutex_;
-  std::vector<std::string> texts_;
+  MessageLimit limit_;
+  std::int64_t now_ns_ = 0;
 };
-
-std::string last_message(const std::string& otherwise) {
-  const auto messages = Messages::instance().take();
-  return messages.empty() ? otherwise : messages.front();
-}
 
 struct QosDeleter {
   void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
@@ -106,9 +104,25 @@ bool is_listed(const std::vector<std::string>& names, Topic topic) {
   return std::ranges::find(names, settings_of(topic).name) != names.end();
 }
 
+// `found`: what is said if Cyclone DDS has said nothing.
 tl::unexpected<error::Error> fail_link(const std::string& expected, const std::string& found) {
-  return error::fail("network", expected, last_message(found),
+  const auto messages = Messages::instance().take(0);
+  return error::fail("network", expected, messages.empty() ? found : messages.front(),
                      "check interfaces, peers, domain and security of the form Network");
+}
+
+// The domain could not be opened. Cyclone DDS then takes a port for its participant already.
+tl::unexpected<error::Error> fail_domain(const radar::NetworkSettings& settings, const std::string& found) {
+  const auto messages = Messages::instance().take(0);
+  const std::string message = messages.empty() ? found : messages.front();
+  if (message.find("free participant index") == std::string::npos)
+    return error::fail("network", "a configuration that Cyclone DDS accepts", message,
+                       "check interfaces, peers, domain and security of the form Network");
+  return error::fail(
+      "Network: participants",
+      "a free one of the " + std::to_string(settings.participants) + " places for DDS programs on this computer",
+      "all taken in domain " + std::to_string(settings.domain),
+      "end one of these programs, or give `participants` a greater number on all computers");
 }
 
 }  // namespace
@@ -150,6 +164,7 @@ struct Link::State {
   std::array<std::uint32_t, kMaxLanes> ownship_strengths{};
   std::array<TopicCounts, kTopicCount> counts;
   std::deque<ReaderUse> uses;  // by topic; Cyclone DDS keeps pointers to them
+  Participants others;
   alignas(16) std::array<std::byte, kMaxSample_bytes> taken{};
   yars_net_SweepSample sweep{};          // Cyclone DDS allocates its video
   dds_instance_handle_t taken_from = 0;  // writer of the sample taken last
@@ -168,13 +183,14 @@ error::Expected<Link> Link::open(const radar::NetworkSettings& settings, const s
   dds_set_log_sink(&Messages::receive, &Messages::instance());
   const auto id = static_cast<dds_domainid_t>(settings.domain);
   state->domain = dds_create_domain(id, domain_configuration(settings).c_str());
-  if (state->domain < 0) return fail_link("a configuration that Cyclone DDS accepts", dds_strretcode(-state->domain));
+  if (state->domain < 0) return fail_domain(settings, dds_strretcode(-state->domain));
   state->participant = dds_create_participant(id, nullptr, nullptr);
   if (state->participant < 0)
     return fail_link("a DDS participant on interface " + settings.interfaces.front(),
                      dds_strretcode(-state->participant));
   bind_sockets(settings);
   if (auto opened = state->open_topics(session); !opened) return tl::unexpected(opened.error());
+  state->others.open(state->participant, session, !settings.security.empty());
   return Link(std::move(state));
 }
 
@@ -364,9 +380,13 @@ const TopicCounts& Link::counts(Topic topic) const {
   return state_->counts[index_of(topic)];
 }
 
-std::vector<std::string> Link::take_messages() {
+std::vector<std::string> Link::take_messages(std::int64_t now_ns) {
   for (std::size_t i = 0; i < kTopicCount; ++i) state_->report_refused(static_cast<Topic>(i));
-  return Messages::instance().take();
+  return Messages::instance().take(now_ns);
+}
+
+std::vector<Remark> Link::take_remarks(std::int64_t now_ns) {
+  return state_->others.take_remarks(now_ns);
 }
 
 }  // namespace yars::gateway::dds

@@ -14,6 +14,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "gateway/dds/participants.hpp"
 #include "gateway/dds/topics.hpp"
 #include "lib/error/error.hpp"
 #include "lib/radar/network.hpp"
@@ -85,8 +86,11 @@ class Link {
   bool is_acknowledged() const;
 
   const TopicCounts& counts(Topic topic) const;
-  // Messages of Cyclone DDS since the last call.
-  std::vector<std::string> take_messages();
+  // Messages of Cyclone DDS since the last call: at most some lines a second, and a count of those left out. Call it
+  // about twice a second. `now_ns`: CLOCK_MONOTONIC.
+  std::vector<std::string> take_messages(std::int64_t now_ns);
+  // Lines about gateways that are heard and exchange nothing with this one, each once.
+  std::vector<Remark> take_remarks(std::int64_t now_ns);
 
  private:
   struct State;

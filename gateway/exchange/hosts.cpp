@@ -95,8 +95,8 @@ void Hosts::set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t 
 void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns) {
   if (!alive) {
     if (Host* host = host_of(sample.host, false); host != nullptr && host->alive && now_ns >= paused_until_ns_) {
-      lose(*host);
       host->left = now_ns - host->heard_ns < kLease_ns;
+      lose(*host);
     }
     return;
   }
@@ -132,9 +132,9 @@ std::uint32_t Hosts::permitted_roles(std::uint64_t host) const {
 
 void Hosts::lose(Host& host) {
   host.alive = false;
-  const std::string line = "host " + host.view.name + " is no longer heard";
-  log::warning(line);
-  session_->note(NoteKind::loss, line);
+  const std::string line = "host " + host.view.name + (host.left ? " has left" : " is no longer heard");
+  host.left ? log::info(line) : log::warning(line);
+  session_->note(host.left ? NoteKind::restart : NoteKind::loss, line);
   update_views();
 }
 
@@ -396,7 +396,7 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
     }
     for (const dds::Topic topic : kHistories) to.lost += host.numbers[dds::index_of(topic)].lost();
     to.refused = host.refused;
-    to.held_roles = host.view.held_roles;
+    to.held_roles = host.alive ? host.view.held_roles : 0;
     to.priority = host.view.priority;
     to.flags |= host.differences | (host.alive ? databuffer::kHostPresent : 0U) |
                 (host.left ? databuffer::kHostLeft : 0U) |

@@ -47,6 +47,9 @@ ordered_json host_json(const databuffer::HostStatus& host, std::int64_t now_ns) 
   ordered_json roles = ordered_json::array(), differences = ordered_json::array();
   for (const Role role : kRoles)
     if ((host.held_roles >> static_cast<unsigned>(role) & 1U) != 0) roles.push_back(databuffer::name_of(role));
+  for (unsigned i = 0; i < databuffer::kLockstepRoles; ++i)
+    if ((host.held_roles >> (databuffer::kFirstProcessBit + i) & 1U) != 0)
+      roles.push_back(databuffer::kLockstepRoleNames[i]);
   for (const Difference& difference : kDifferences)
     if (has(difference.flag)) differences.push_back(difference.text);
   const bool measured = has(databuffer::kHostOffsetKnown);

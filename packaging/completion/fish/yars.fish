@@ -277,7 +277,7 @@ complete -c yars -n "__yars_at 'scene image'" -l material -d 'colours by surface
 complete -c yars -n "__yars_at 'scene image'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'scene image'" -l config -r -F -d 'GUF configuration file'
 complete -c yars -n "__yars_at 'scene image'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
-complete -c yars -n "__yars_at 'config'" -a check -d 'check whether a file is valid, and print its warnings'
+complete -c yars -n "__yars_at 'config'" -a check -d 'check whether a file is valid, with its form Network and identity, and print its warnings'
 complete -c yars -n "__yars_at 'config'" -a print -d 'print the configuration that results from a file, as GUF'
 complete -c yars -n "__yars_at 'config'" -a convert -d 'convert a file of 1996 (message syntax, old spellings) to present GUF'
 complete -c yars -n "__yars_at 'config'" -a user -d 'print the path of the user\'s file of defaults, and its values'

@@ -28,7 +28,7 @@ TEST(NetworkForm, OpensNoNetworkByDefault) {
 
 TEST(NetworkForm, IsReadSlotBySlot) {
   const auto read = loaded(network(R"(:name "cockpit-2" :priority 20 :domain 7 :interfaces `( "eth0" "wg0" )
-    :peers `( "10.77.0.1" "fe80::1%eth0" "radar_host.lan" ) :topicsIn `( sweeps "outputs" ) :topicsOut input_events
+    :peers `( "10.77.0.1" "10.77.0.3:7410" "radar_host.lan" ) :topicsIn `( sweeps "outputs" ) :topicsOut input_events
     :participants 8 :mapRowsPerSecond 500 :maxMessageBytes 9000 :security "/etc/yars/identity")"));
   EXPECT_THAT(read.warnings, IsEmpty());
   ASSERT_TRUE(read.network);
@@ -36,7 +36,7 @@ TEST(NetworkForm, IsReadSlotBySlot) {
                                                                  20,
                                                                  7,
                                                                  {"eth0", "wg0"},
-                                                                 {"10.77.0.1", "fe80::1%eth0", "radar_host.lan"},
+                                                                 {"10.77.0.1", "10.77.0.3:7410", "radar_host.lan"},
                                                                  {"sweeps", "outputs"},
                                                                  {"input_events"},
                                                                  8,
@@ -82,8 +82,21 @@ TEST(NetworkForm, RefusesWhatWouldBeMarkup) {
         << word;
   for (const char* word : {"", "10.0.0.1 10.0.0.2", "<Peer/>", "a\\\"b", "a'b", "a&b", "udp/10.0.0.1"})
     EXPECT_THAT(refusal(network(std::string(":peers `( \"") + word + "\" )")),
-                HasSubstr("expected IPv4 or IPv6 addresses or host names for :peers"))
+                HasSubstr("expected IPv4 addresses or host names for :peers"))
         << word;
+}
+
+// Cyclone DDS takes these words and asks nobody.
+TEST(NetworkForm, RefusesAddressesThatAreNoComputer) {
+  const auto refusal_of = [](const std::string& word) { return refusal(network(":peers `( \"" + word + "\" )")); };
+  EXPECT_THAT(refusal_of("fe80::1"), HasSubstr("IPv4 addresses or host names for :peers, found \"fe80::1\", an IPv6"));
+  for (const char* word : {"[2001:db8::1]", "fe80::1%eth0"}) EXPECT_THAT(refusal_of(word), HasSubstr("expected IPv4"));
+  for (const char* word : {"192.168.10.300", "192.168.10", "1.2.3.4.5", "10..0.1", "7"})
+    EXPECT_THAT(refusal_of(word), HasSubstr("such as 192.168.10.2, or host names for :peers")) << word;
+  EXPECT_THAT(refusal_of("239.255.0.1"), HasSubstr("found \"239.255.0.1\", a multicast address"));
+  EXPECT_THAT(refusal_of("255.255.255.255"), HasSubstr("a broadcast or reserved address"));
+  EXPECT_THAT(refusal_of("0.0.0.0"), HasSubstr("the address of none"));
+  EXPECT_TRUE(loaded(network(":peers `( \"10.0.0.1:7410\" \"radar\" \"3com.lan\" )")).network);
 }
 
 TEST(NetworkForm, AMisspelledTopicHasItsNearestName) {

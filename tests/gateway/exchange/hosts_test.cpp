@@ -45,10 +45,20 @@ TEST_F(HostsTest, AHostIsHeardUntilItEnds) {
   end("beta");
   EXPECT_EQ(hosts_.find(host_id("beta")), nullptr);
   EXPECT_TRUE(hosts_.has_announced(host_id("beta")));
-  EXPECT_THAT(last_note(session_), HasSubstr("host beta is no longer heard"));
+  EXPECT_THAT(last_note(session_), HasSubstr("host beta has left"));
+  EXPECT_EQ(status().hosts[1].held_roles, 0u) << "it holds none any more";
   EXPECT_EQ(status().host_count, 2u);
   EXPECT_EQ(status().hosts[1].flags & databuffer::kHostPresent, 0u);
   EXPECT_FALSE(databuffer::validate(status()));
+}
+
+TEST_F(HostsTest, AHostThatIsSilentHasNotLeft) {
+  announce("beta", bit(Role::traffic));
+  context_.now_ns += kLease_ns + 1;
+  end("beta");  // DDS tells it later than the lease of the gateways
+  EXPECT_THAT(last_note(session_), HasSubstr("host beta is no longer heard"));
+  EXPECT_EQ(status().hosts[1].flags & databuffer::kHostLeft, 0u);
+  EXPECT_EQ(status().hosts[1].held_roles, 0u);
 }
 
 TEST_F(HostsTest, AnAnnouncementWithDamagedFieldsIsRefused) {

@@ -158,6 +158,33 @@ TEST_F(NetworkStatusTest, ARoleThatAnotherHostHoldsIsNotMissing) {
   EXPECT_THAT(printed(), AllOf(::testing::ContainsRegex("radar-model .*on beta"), Not(HasSubstr("NO MODEL"))));
 }
 
+TEST_F(NetworkStatusTest, HostsOfFlightModelAndDisplaysAreNamed) {
+  using databuffer::kFirstProcessBit;
+  status_.hosts[2].held_roles = 1U << kFirstProcessBit | 1U << (kFirstProcessBit + 1) | 1U << (kFirstProcessBit + 4);
+  EXPECT_EQ(status()["network"]["hosts"][2]["roles"], (ordered_json{"flight-model", "input-monitor", "radar-display"}));
+  EXPECT_THAT(printed(), ::testing::ContainsRegex("gamma .*flight-model, input-monitor, radar-display"));
+}
+
+TEST_F(NetworkStatusTest, RestartsOfTheGatewayAreCounted) {
+  EXPECT_EQ(role(status(), "gateway")["restarts"], 0);
+  gateway_->count_restart("gateway");
+  EXPECT_EQ(role(status(), "gateway")["restarts"], 1);
+  EXPECT_THAT(reasons(), HasSubstr("gateway was started again once in the last minute"));
+}
+
+TEST_F(NetworkStatusTest, TheHolderOfARoleForAnotherHostIsTheGateway) {
+  mirror_radar_model();
+  Session second = open("gateway");
+  const std::string pid = std::to_string(getpid());
+  auto claim = second.claim(Role::gateway);
+  ASSERT_FALSE(claim);
+  EXPECT_THAT(claim.error().message(), HasSubstr("found held by gateway, pid " + pid + ";"));
+  claim = second.claim(Role::radar_model);
+  ASSERT_FALSE(claim);
+  EXPECT_THAT(claim.error().message(),
+              HasSubstr("found held by gateway, pid " + pid + ", for another host; end it there, or wait"));
+}
+
 TEST_F(NetworkStatusTest, ARoleOfAHostThatHasGoneIsMissing) {
   mirror_radar_model();
   status_.hosts[1].flags &= ~std::uint32_t{databuffer::kHostPresent};

@@ -1,0 +1,137 @@
+#include "gateway/dds/participants.hpp"
+
+#include <dds/dds.h>
+
+#include <cstring>
+#include <string_view>
+
+#include "lib/text/plain_text.hpp"
+
+namespace yars::gateway::dds {
+
+namespace {
+
+constexpr std::size_t kMaxOthers = 64;  // participants that are remembered; forged ones beyond are not named
+// [ns] A host's writers are known some ms after itself, encrypted on a bad line half a second. With a shorter time a
+// loaded machine would name hosts that join.
+constexpr std::int64_t kSilence_ns = 5'000'000'000;
+constexpr std::size_t kMaxText = 64;  // [bytes] of a text about itself that a participant sends
+
+// Calls take(sample, info) for what has arrived on a reader of a topic of Cyclone DDS itself.
+template <class Sample, class Take>
+void take_all(dds_entity_t reader, const Take& take) {
+  if (reader <= 0) return;
+  constexpr int kAtOnce = 16, kMaxRounds = 16;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    void* samples[kAtOnce] = {};
+    dds_sample_info_t infos[kAtOnce];
+    const dds_return_t count = dds_take(reader, samples, infos, kAtOnce, kAtOnce);
+    for (int i = 0; i < count; ++i) take(*static_cast<const Sample*>(samples[i]), infos[i]);
+    if (count > 0) dds_return_loan(reader, samples, count);
+    if (count < kAtOnce) return;
+  }
+}
+
+std::pair<std::uint64_t, std::uint64_t> key_of(const dds_guid_t& guid) {
+  std::pair<std::uint64_t, std::uint64_t> key;
+  std::memcpy(&key.first, guid.v, sizeof key.first);
+  std::memcpy(&key.second, guid.v + sizeof key.first, sizeof key.second);
+  return key;
+}
+
+std::string property(const dds_qos_t* qos, const char* name) {
+  char* value = nullptr;
+  if (qos == nullptr || !dds_qget_prop(qos, name, &value) || value == nullptr) return "";
+  std::string text = text::printable(std::string_view(value).substr(0, kMaxText));
+  dds_free(value);
+  return text;
+}
+
+// "gateway of radar-2 (192.168.10.2)"; empty for other programs.
+std::string name_of(const dds_qos_t* qos) {
+  if (property(qos, "__ProcessName") != "gateway") return "";
+  std::string address = property(qos, "__NetworkAddresses");
+  if (const auto slash = address.find('/'); slash != std::string::npos) address.erase(0, slash + 1);
+  address = address.substr(0, address.find_first_of(":,"));
+  return "the gateway of " + property(qos, "__Hostname") + " (" + address + ')';
+}
+
+std::vector<std::string> partitions_of(const dds_qos_t* qos) {
+  std::uint32_t count = 0;
+  char** names = nullptr;
+  std::vector<std::string> partitions;
+  if (qos == nullptr || !dds_qget_partition(qos, &count, &names)) return partitions;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    partitions.emplace_back(text::printable(std::string_view(names[i]).substr(0, kMaxText)));
+    dds_free(names[i]);
+  }
+  dds_free(names);
+  return partitions;
+}
+
+}  // namespace
+
+void Participants::open(std::int32_t participant, std::string session, bool secured) {
+  session_ = std::move(session);
+  secured_ = secured;
+  dds_guid_t guid{};
+  if (dds_get_guid(participant, &guid) == DDS_RETCODE_OK) self_ = key_of(guid);
+  participants_ = dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr);
+  writers_ = dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+}
+
+void Participants::take_participants(std::int64_t now_ns) {
+  take_all<dds_builtintopic_participant_t>(participants_, [&](const auto& sample, const dds_sample_info_t& info) {
+    const Key key = key_of(sample.key);
+    if (info.instance_state != DDS_IST_ALIVE) {
+      others_.erase(key);
+      return;
+    }
+    if (key == self_ || !info.valid_data || (others_.size() >= kMaxOthers && !others_.contains(key))) return;
+    Other& other = others_[key];
+    other.name = name_of(sample.qos);
+    if (other.first_ns == 0) other.first_ns = now_ns;
+  });
+}
+
+void Participants::take_writers() {
+  take_all<dds_builtintopic_endpoint_t>(writers_, [&](const auto& sample, const dds_sample_info_t& info) {
+    const Key key = key_of(sample.participant_key);
+    if (key == self_ || !info.valid_data || (others_.size() >= kMaxOthers && !others_.contains(key))) return;
+    Other& other = others_[key];  // a writer may be heard of before its participant
+    for (const std::string& partition : partitions_of(sample.qos)) {
+      if (partition == session_)
+        other.is_here = true;
+      else
+        other.session = partition;
+    }
+  });
+}
+
+Remark Participants::remark_on(const Other& other) const {
+  if (!other.session.empty())
+    return {other.name + " is of session " + other.session + ", this one of session " + session_ +
+                ": nothing is exchanged; start both with the same --session, if they belong together",
+            false};
+  const std::string cause = secured_ ? "its form Network has no `security`, or an identity of another network"
+                                     : "its form Network has `security`, and that of this host has none";
+  return {other.name + " is heard, but exchanges nothing: " + cause +
+              ", or it does not hear this host; give both hosts identities of one network, or neither, and open their "
+              "UDP ports",
+          true};
+}
+
+std::vector<Remark> Participants::take_remarks(std::int64_t now_ns) {
+  take_participants(now_ns);
+  take_writers();
+  std::vector<Remark> remarks;
+  for (auto& [key, other] : others_) {
+    if (other.is_named || other.is_here || other.name.empty()) continue;
+    if (other.session.empty() && now_ns - other.first_ns < kSilence_ns) continue;
+    other.is_named = true;
+    remarks.push_back(remark_on(other));
+  }
+  return remarks;
+}
+
+}  // namespace yars::gateway::dds

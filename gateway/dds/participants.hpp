@@ -1,0 +1,50 @@
+// Other DDS participants of the domain that are no hosts of this session, so that a user learns why hosts do not meet.
+// Inputs: the topics about participants and writers that every DDS program has (DCPSParticipant, DCPSPublication).
+// Outputs: one line for each gateway that was heard and yet exchanges nothing: it has another session, or DDS Security
+//   on one side only. What others write about themselves is not trusted: it appears in messages alone.
+// Units: times [ns], CLOCK_MONOTONIC.
+// Threads: one.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace yars::gateway::dds {
+
+// One line about a participant.
+struct Remark {
+  std::string text;
+  bool is_fault = false;  // false: it may be meant so
+};
+
+class Participants {
+ public:
+  // `participant`: entity of Cyclone DDS. `session`: name of the session. `secured`: this side has an identity.
+  void open(std::int32_t participant, std::string session, bool secured);
+  // Lines about participants that were found since the last call. Each is named once.
+  std::vector<Remark> take_remarks(std::int64_t now_ns);
+
+ private:
+  using Key = std::pair<std::uint64_t, std::uint64_t>;  // GUID of a participant
+  struct Other {
+    std::string name;           // "the gateway of NAME (ADDRESS)"; empty: no gateway
+    std::int64_t first_ns = 0;  // when it was first heard
+    bool is_here = false;       // writes in this session
+    std::string session;        // of its writers, another one; empty: none known
+    bool is_named = false;
+  };
+  void take_participants(std::int64_t now_ns);
+  void take_writers();
+  Remark remark_on(const Other& other) const;
+
+  std::int32_t participants_ = 0, writers_ = 0;  // readers
+  Key self_{};
+  std::string session_;
+  bool secured_ = false;
+  std::map<Key, Other> others_;
+};
+
+}  // namespace yars::gateway::dds
