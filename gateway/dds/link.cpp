@@ -13,7 +13,7 @@
 #include <utility>
 
 #include "gateway/dds/domain_configuration.hpp"
-#include "gateway/instance_quota.hpp"
+#include "gateway/dds/instance_quota.hpp"
 
 namespace yars::gateway::dds {
 
@@ -22,8 +22,8 @@ namespace {
 constexpr std::uint32_t kMaxLanes = 16;         // ownship lanes with writers of their own
 constexpr std::size_t kMaxMessages = 100;       // kept for take_messages()
 constexpr std::size_t kMaxSample_bytes = 8192;  // the greatest structure of a topic
-// Samples, or ends of instances, that one call of take() passes on: 30 ms. Without a limit the end of a writer of 70,000
-// instances kept a gateway from its announcements for longer than the lease of 0.5 s.
+// Samples, or ends of instances, that one call of take() passes on: 30 ms. Without a limit the end of a writer of
+// 70,000 instances kept a gateway from its announcements for longer than the lease of 0.5 s.
 constexpr int kMaxTaken = 4096;
 constexpr std::uint64_t kMaxStrays = 32768;  // ends of instances that never had a sample: 15 MB
 

@@ -1,8 +1,9 @@
 // Connection of one process to the DDS domain of a session: writers and readers of all topics.
 // Inputs: the form Network; samples, as structures of yars_network.h.
 // Outputs: samples of other processes; counts of samples and bytes.
-// Errors: samples of a writer beyond its instances (TopicSettings) are left out. open(): an interface that does not exist, a configuration that Cyclone DDS refuses, unreadable identities. A
-//   write that fails is counted. Messages of Cyclone DDS are kept for take_messages().
+// Errors: open(): an interface that does not exist, a configuration that Cyclone DDS refuses, unreadable identities. A
+//   write that fails is counted. Messages of Cyclone DDS are kept for take_messages(). Samples of a writer beyond its
+//   number of instances (TopicSettings) are left out, with a message.
 // Threads: one. Cyclone DDS has threads of its own.
 // Source: Eclipse Cyclone DDS 0.10, C API.
 #pragma once
@@ -49,8 +50,8 @@ class Link {
   bool write_ownship(std::uint32_t lane, const yars_net_OwnshipSample& sample);
   void end_ownship(std::uint32_t lane);
 
-  // Calls take(const Sample&) for each sample that has arrived, in the order of each writer; the rest of a flood is left
-  // for the next call.
+  // Calls take(const Sample&) for each sample that has arrived, in the order of each writer; the rest of a flood is
+  // left for the next call.
   template <class Sample, class Take>
   void take(const Take& take) {
     static_assert(!std::is_same_v<Sample, yars_net_HostSample>, "hosts also end; see take_hosts()");
@@ -95,7 +96,8 @@ class Link {
   bool write_bytes(Topic topic, const void* sample, std::size_t bytes);
   void dispose_bytes(Topic topic, const void* sample);
   void begin_take(Topic topic);
-  // The next sample, valid until the next call; nullptr: none, or enough for now. Without `alive`, ends of instances are left out.
+  // The next sample, valid until the next call; nullptr: none, or enough for now. Without `alive`, ends of instances
+  // are left out.
   const void* take_next(Topic topic, bool* alive = nullptr);
   void count_received(Topic topic, std::size_t bytes);
 

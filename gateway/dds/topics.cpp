@@ -7,11 +7,11 @@ namespace yars::gateway::dds {
 namespace {
 
 // Instances of one writer by the keys of a topic, with room for some that have ended elsewhere.
-constexpr std::uint32_t kOne = 2;        // its host
-constexpr std::uint32_t kPairs = 64;     // its host and another one, a lane or a role
+constexpr std::uint32_t kOne = 2;         // its host
+constexpr std::uint32_t kPairs = 64;      // its host and another one, a lane or a role
 constexpr std::uint32_t kReceipts = 512;  // another host and a lane
-constexpr std::uint32_t kMaps = 64;      // eight
-constexpr std::uint32_t kRows = 16384;   // 1024 rows of each of eight maps, and of eight before them
+constexpr std::uint32_t kMaps = 64;       // eight
+constexpr std::uint32_t kRows = 16384;    // 1024 rows of each of eight maps, and of eight before them
 constexpr std::uint32_t kAllRows = 65536;
 
 constexpr TopicSettings topic(std::string_view name, const dds_topic_descriptor_t* structure, bool reliable,

@@ -118,7 +118,7 @@ struct TopicSettings {
   bool reliable;
   bool transient_local;  // a host that joins later gets the last `depth` samples of each instance
   int depth;
-  bool exclusive;  // only the samples of the writer with the greatest strength arrive
+  bool exclusive;               // only the samples of the writer with the greatest strength arrive
   std::uint32_t instances;      // maximum number of instances (keys) of one writer
   std::uint32_t all_instances;  // of all writers
 };

@@ -51,8 +51,9 @@ bool is_new_in_history(Context& context, const Sample& sample, std::uint64_t loc
 }
 
 // True once the records of a history of another host may be taken. `newest()`: tick of the state that the host last
-// published; nullopt: none has arrived. It is called only until the history has begun. A lockstep run, whose ticks do not follow the session clock, is not known here
-// until a role of this host begins it. Its first records would be taken for old ones, and nobody would send them again.
+// published; nullopt: none has arrived. It is called only until the history has begun. A lockstep run, whose ticks do
+// not follow the session clock, is not known here until a role of this host begins it. Its first records would be taken
+// for old ones, and nobody would send them again.
 template <class Newest>
 bool may_begin(const Context& context, dds::Topic topic, std::uint64_t host, const Newest& newest) {
   if (context.lockstep || host == context.hosts.self().id ||

@@ -123,9 +123,8 @@ TEST(Authority, TwoHostsAgainstTwoAgreeForEachRoleByName) {
     EXPECT_EQ(holder_of(hosts, 0)->name, "a");
     EXPECT_EQ(holder_of(hosts, 1)->name, "b");
     EXPECT_EQ(clock_owner(hosts)->name, "a");
-    EXPECT_EQ(std::ranges::count_if(
-                  hosts, [&](const HostView& self) { return holder_of(hosts, 0)->name == self.name; }),
-              1);
+    EXPECT_EQ(
+        std::ranges::count_if(hosts, [&](const HostView& self) { return holder_of(hosts, 0)->name == self.name; }), 1);
   } while (std::ranges::next_permutation(hosts, {}, &HostView::name).found);
   std::ranges::find(hosts, "d", &HostView::name)->priority = 1;
   EXPECT_EQ(holder_of(hosts, 1)->name, "d") << "priority decides before the name";

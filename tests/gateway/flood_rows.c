@@ -1,4 +1,5 @@
-/* A program of somebody else that floods a session by DDS: rows of patch maps that do not exist, each with a key of its own.
+/* A program of somebody else that floods a session by DDS: rows of patch maps that do not exist, each with a key of its
+ * own.
  *
  * usage: flood_rows PARTITION SECONDS     CYCLONEDDS_URI has the domain, interfaces, peers
  * Writes about 6,000 rows a second. Exit code: 0 after SECONDS, 2 for a fault.

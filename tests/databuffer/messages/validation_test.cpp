@@ -435,10 +435,10 @@ TEST(Validation, ATickIsRefusedForAnyFieldOfItsCommand) {
     std::uint8_t RadarCommand::*field;
     int most;
   };
-  for (const Switch& position : {Switch{&RadarCommand::power, 2}, Switch{&RadarCommand::mode, 7},
-                                 Switch{&RadarCommand::scan, 2}, Switch{&RadarCommand::gain, 3},
-                                 Switch{&RadarCommand::range_index, 15}, Switch{&RadarCommand::channel, 8},
-                                 Switch{&RadarCommand::band, 4}})
+  for (const Switch& position :
+       {Switch{&RadarCommand::power, 2}, Switch{&RadarCommand::mode, 7}, Switch{&RadarCommand::scan, 2},
+        Switch{&RadarCommand::gain, 3}, Switch{&RadarCommand::range_index, 15}, Switch{&RadarCommand::channel, 8},
+        Switch{&RadarCommand::band, 4}})
     for (int value = 0; value < 256; ++value) {
       tick = good_tick();
       tick.command.*position.field = static_cast<std::uint8_t>(value);
