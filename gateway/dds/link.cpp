@@ -25,7 +25,7 @@ constexpr std::size_t kMaxSample_bytes = 8192;  // the greatest structure of a t
 // Samples, or ends of instances, that one call of take() passes on: 30 ms. Without a limit the end of a writer of
 // 70,000 instances kept a gateway from its announcements for longer than the lease of 0.5 s.
 constexpr int kMaxTaken = 4096;
-constexpr std::uint64_t kMaxStrays = 32768;  // ends of instances that never had a sample: 15 MB
+constexpr std::uint64_t kMaxStrays = 8192;  // ends of instances that never had a sample: 16 MB
 
 // Messages of Cyclone DDS, which arrive on its own threads. One object for the process, as Cyclone has one sink.
 class Messages {
@@ -62,9 +62,6 @@ struct QosDeleter {
   void operator()(dds_qos_t* qos) const { dds_delete_qos(qos); }
 };
 using Qos = std::unique_ptr<dds_qos_t, QosDeleter>;
-struct ListenerDeleter {
-  void operator()(dds_listener_t* listener) const { dds_delete_listener(listener); }
-};
 
 // Quality of service of a topic, the same for its writers and its readers.
 Qos qos_of(const TopicSettings& settings) {
