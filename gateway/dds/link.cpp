@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "gateway/dds/domain_configuration.hpp"
+#include "gateway/dds/instance_quota.hpp"
 #include "gateway/dds/senders.hpp"
-#include "gateway/instance_quota.hpp"
 #include "gateway/message_limit.hpp"
 
 namespace yars::gateway::dds {
@@ -26,7 +26,7 @@ constexpr std::size_t kMaxSample_bytes = 8192;  // the greatest structure of a t
 // Samples, or ends of instances, that one call of take() passes on: 30 ms. Without a limit the end of a writer of
 // 70,000 instances kept a gateway from its announcements for longer than the lease of 0.5 s.
 constexpr int kMaxTaken = 4096;
-constexpr std::uint64_t kMaxStrays = 32768;  // ends of instances that never had a sample: 15 MB
+constexpr std::uint64_t kMaxStrays = 8192;  // ends of instances that never had a sample: 16 MB
 
 // Messages of Cyclone DDS, which arrive on its own threads. One object for the process, as Cyclone has one sink.
 // Whoever reaches the ports can make Cyclone write many, so they are limited. Their time is that of the last take().

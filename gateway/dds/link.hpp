@@ -1,9 +1,9 @@
 // Connection of one process to the DDS domain of a session: writers and readers of all topics.
 // Inputs: the form Network; samples, as structures of yars_network.h.
 // Outputs: samples of other processes; counts of samples and bytes.
-// Errors: samples of a writer beyond its instances (TopicSettings) are left out. open(): an interface that does not
-// exist, a configuration that Cyclone DDS refuses, unreadable identities. A
-//   write that fails is counted. Messages of Cyclone DDS are kept for take_messages().
+// Errors: open(): an interface that does not exist, a configuration that Cyclone DDS refuses, unreadable identities. A
+//   write that fails is counted. Messages of Cyclone DDS are kept for take_messages(). Samples of a writer beyond its
+//   number of instances (TopicSettings) are left out, with a message.
 // Threads: one. Cyclone DDS has threads of its own.
 // Source: Eclipse Cyclone DDS 0.10, C API.
 #pragma once

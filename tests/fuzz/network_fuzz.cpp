@@ -133,7 +133,7 @@ class Gateway {
  public:
   Gateway(databuffer::Session session, const std::string& name, std::uint8_t mode)
       : session_(std::move(session)),
-        hosts_(session_, nullptr, {"alpha", 0, 1001, kSegment, 0, 0}),
+        hosts_(session_, nullptr, {"alpha", 0, fuzz::kStart, kSegment, 0, 0}),
         roles_(session_, name),
         context_{session_, nullptr, hosts_, roles_} {
     context_.now_ns = databuffer::monotonic_ns();

@@ -21,6 +21,8 @@ using gateway::copy_record;
 using gateway::host_id;
 
 inline constexpr std::uint64_t kSegment = 2002, kOtherSegment = 3003;
+inline constexpr std::uint64_t kStart =
+    1001;  // of the gateway of this host; the first term of its state machine follows
 inline constexpr std::array<const char*, 3> kHostNames{"beta", "gamma", "aaron"};
 
 inline databuffer::Ownship good_ownship() {
@@ -54,6 +56,7 @@ inline void fill(yars_net_HostSample& sample, std::size_t host) {
                                       bit(Role::state_machine)
                                 : 0;
   sample.owns_clock = host == 0 ? 1 : 0;
+  sample.machine_term = host == 0 ? kOtherSegment : 0;
 }
 inline void fill(yars_net_ProbeSample& sample, std::size_t host) {
   sample.from = host_id("alpha");
@@ -92,7 +95,7 @@ inline databuffer::InputEvent good_event() {
 inline void fill(yars_net_InputEventSample& sample, std::size_t /*host*/) {
   copy_record(sample.event, good_event());
   sample.segment = kOtherSegment;
-  sample.machine_segment = kSegment;
+  sample.machine_term = kStart + 1;
   sample.event_number = sample.number;
 }
 inline void fill(yars_net_EventReceiptSample& sample, std::size_t /*host*/) {

@@ -1,9 +1,9 @@
 // Instances of the writers of a topic, honest ones and others.
-#include "gateway/instance_quota.hpp"
+#include "gateway/dds/instance_quota.hpp"
 
 #include <gtest/gtest.h>
 
-namespace yars::gateway {
+namespace yars::gateway::dds {
 namespace {
 
 TEST(InstanceQuota, AWriterHasItsShareAndNoMore) {
@@ -47,4 +47,4 @@ TEST(InstanceQuota, EndsOfUnknownInstancesAreCounted) {
 }
 
 }  // namespace
-}  // namespace yars::gateway
+}  // namespace yars::gateway::dds

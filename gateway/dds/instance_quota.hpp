@@ -11,7 +11,7 @@
 #include <mutex>
 #include <unordered_map>
 
-namespace yars::gateway {
+namespace yars::gateway::dds {
 
 class InstanceQuota {
  public:
@@ -73,4 +73,4 @@ class InstanceQuota {
   std::unordered_map<std::uint64_t, std::size_t> counts_;     // by writer
 };
 
-}  // namespace yars::gateway
+}  // namespace yars::gateway::dds
