@@ -84,6 +84,7 @@ inline constexpr std::array<std::string_view, kLockstepRoles> kLockstepRoleNames
 // Bits of HostStatus::held_roles from here on: a process with the name kLockstepRoleNames[bit - kFirstProcessBit] takes
 // part on the host. Lower bits are lock bytes of roles.
 inline constexpr unsigned kFirstProcessBit = 24;
+static_assert(kFirstProcessBit + kLockstepRoles <= 32);
 struct Lockstep {
   std::atomic<std::uint32_t> enabled;                               // 1: lockstep; each role of the run sets it
   std::atomic<std::uint32_t> roles;                                 // bit n: role n takes part

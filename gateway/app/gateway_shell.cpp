@@ -81,7 +81,7 @@ void GatewayShell::finish() {
 void GatewayShell::pass() {
   session_->heartbeat();
   context_.lockstep = std::as_const(*session_).layout().lockstep.enabled.load(std::memory_order_acquire) != 0;
-  hosts_.set_claims(roles_.held_roles() | process_bits_, clock_.owns(), session_->clock().epoch);
+  hosts_.set_claims(roles_.held_roles(), clock_.owns(), session_->clock().epoch);
   hosts_.set_conflict(roles_.in_conflict());
   hosts_.exchange(context_.now_ns);
   roles_.update(hosts_, context_.now_ns);
@@ -117,15 +117,15 @@ void GatewayShell::send() {
   if (context_.lockstep) lockstep_.send(context_);
 }
 
-// Finds the processes of this host that hold no role with a lock byte, so that the others' `yars status` shows them.
+// Finds the processes of this host that hold no role with a lock byte, so that `yars status` shows them on all hosts.
 void GatewayShell::look_at_processes() {
   constexpr std::array<std::string_view, 3> kNames{"flight-model", "input-monitor", "radar-display"};
-  process_bits_ = 0;
+  std::uint32_t processes = 0;
   for (const databuffer::ProcessInfo& process : session_->processes()) {
     const auto index = databuffer::counted_role(process.name);
-    if (index && std::ranges::find(kNames, process.name) != kNames.end())
-      process_bits_ |= 1U << (databuffer::kFirstProcessBit + *index);
+    if (index && std::ranges::find(kNames, process.name) != kNames.end()) processes |= 1U << *index;
   }
+  hosts_.set_processes(processes);
 }
 
 void GatewayShell::report_joined() const {

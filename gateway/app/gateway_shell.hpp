@@ -66,7 +66,6 @@ class GatewayShell {
   bool reported_joined_ = false;
   bool reported_silence_ = false;
   std::int64_t first_pass_ns_ = 0;
-  std::uint32_t process_bits_ = 0;  // of held_roles, from kFirstProcessBit on
   std::int64_t next_pass_ns_ = 0;
   std::int64_t next_report_ns_ = 0;
   std::int64_t last_report_ns_ = 0;

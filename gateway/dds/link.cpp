@@ -39,14 +39,14 @@ class Messages {
   static void receive(void* self, const dds_log_data_t* data) {
     std::string text(data->message, data->size);
     while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
-    static_cast<Messages*>(self)->add(std::move(text));
+    static_cast<Messages*>(self)->add(text);
   }
   std::vector<std::string> take(std::int64_t now_ns) {
     const std::lock_guard guard(mutex_);
     now_ns_ = std::max(now_ns_, now_ns);
     return limit_.take("Cyclone DDS", now_ns_);
   }
-  void add(std::string text) {
+  void add(const std::string& text) {
     const std::lock_guard guard(mutex_);
     limit_.add(text, now_ns_);
   }

@@ -217,6 +217,7 @@ void Hosts::announce(std::int64_t now_ns) {
   sample.protocol = yars_net_kProtocol;
   sample.group = self().group;
   sample.machine_term = machine_term_;
+  sample.processes = processes_;
   set_text(sample.name, identity_.name);
   set_text(sample.version, YARS_VERSION);
   if (link_ != nullptr) link_->write(sample);
@@ -372,7 +373,7 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
   set_text(own.name, identity_.name);
   set_text(own.version, YARS_VERSION);
   own.heard_ns = now_ns;
-  own.held_roles = self().held_roles;
+  own.held_roles = self().held_roles | processes_ << databuffer::kFirstProcessBit;
   own.priority = identity_.priority;
   own.flags = databuffer::kHostSelf | databuffer::kHostPresent | databuffer::kHostOffsetKnown |
               (self().owns_clock ? databuffer::kHostOwnsClock : 0U) |
@@ -396,7 +397,9 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
     }
     for (const dds::Topic topic : kHistories) to.lost += host.numbers[dds::index_of(topic)].lost();
     to.refused = host.refused;
-    to.held_roles = host.alive ? host.view.held_roles : 0;
+    constexpr std::uint32_t kLockBytes = (1U << databuffer::kFirstProcessBit) - 1;
+    const auto processes = static_cast<std::uint32_t>(host.said.processes) << databuffer::kFirstProcessBit;
+    to.held_roles = host.alive ? (host.view.held_roles & kLockBytes) | processes : 0;
     to.priority = host.view.priority;
     to.flags |= host.differences | (host.alive ? databuffer::kHostPresent : 0U) |
                 (host.left ? databuffer::kHostLeft : 0U) |

@@ -51,6 +51,8 @@ class Hosts {
   // Answers probes and takes answers. Call as soon as possible after their arrival, because the delay is an error.
   void exchange_probes();
   void set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t epoch);
+  // Bit n: a process with the name kLockstepRoleNames[n] takes part on this host. For the others' `yars status` alone.
+  void set_processes(std::uint32_t processes) { processes_ = processes; }
   // While two hosts hold one role, the number of hosts that this host heard before stays as it is.
   void set_conflict(bool in_conflict) { in_conflict_ = in_conflict; }
   // Events for the state machine of this host carry this number. 0: it runs elsewhere.
@@ -135,7 +137,7 @@ class Hosts {
   std::deque<Host> hosts_;  // without this one
   std::vector<HostView> views_;
   std::array<std::uint64_t, dds::kTopicCount> written_{};
-  std::uint32_t epoch_ = 0;
+  std::uint32_t epoch_ = 0, processes_ = 0;
   std::uint64_t machine_term_ = 0;
   bool changed_ = true;
   bool in_conflict_ = false;

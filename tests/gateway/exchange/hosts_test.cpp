@@ -52,6 +52,19 @@ TEST_F(HostsTest, AHostIsHeardUntilItEnds) {
   EXPECT_FALSE(databuffer::validate(status()));
 }
 
+TEST_F(HostsTest, ProcessesOfAHostAreShownAndAreNoRoles) {
+  auto beta = sample("beta");
+  beta.held_roles = bit(Role::traffic);
+  beta.processes = ~std::uint64_t{0};  // unknown ones change nothing
+  receive(beta);
+  EXPECT_EQ(hosts_.find(host_id("beta"))->held_roles, bit(Role::traffic));
+  constexpr std::uint32_t kProcesses = ~std::uint32_t{0} << databuffer::kFirstProcessBit;
+  EXPECT_EQ(status().hosts[1].held_roles, bit(Role::traffic) | kProcesses);
+  hosts_.set_processes(1U << 4);
+  EXPECT_EQ(status().hosts[0].held_roles, 1U << (databuffer::kFirstProcessBit + 4));
+  EXPECT_FALSE(databuffer::validate(status()));
+}
+
 TEST_F(HostsTest, AHostThatIsSilentHasNotLeft) {
   announce("beta", bit(Role::traffic));
   context_.now_ns += kLease_ns + 1;
