@@ -1,10 +1,8 @@
 #include "gateway/app/gateway_shell.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <ctime>
-#include <string_view>
 #include <utility>
 
 #include "gateway/exchange/role_topics.hpp"
@@ -119,13 +117,10 @@ void GatewayShell::send() {
 
 // Finds the processes of this host that hold no role with a lock byte, so that `yars status` shows them on all hosts.
 void GatewayShell::look_at_processes() {
-  constexpr std::array<std::string_view, 3> kNames{"flight-model", "input-monitor", "radar-display"};
   std::uint32_t processes = 0;
-  for (const databuffer::ProcessInfo& process : session_->processes()) {
-    const auto index = databuffer::counted_role(process.name);
-    if (index && std::ranges::find(kNames, process.name) != kNames.end()) processes |= 1U << *index;
-  }
-  hosts_.set_processes(processes);
+  for (const databuffer::ProcessInfo& process : session_->processes())
+    if (const auto index = databuffer::counted_role(process.name)) processes |= 1U << *index;
+  hosts_.set_processes(processes & shown_processes());
 }
 
 void GatewayShell::report_joined() const {

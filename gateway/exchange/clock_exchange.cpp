@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "databuffer/messages/validation.hpp"
+#include "databuffer/session/validated.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/modes.hpp"
 
@@ -19,6 +20,8 @@ namespace {
 constexpr std::int64_t kRefresh_ns = 250'000'000;
 // [ns] A host keeps its own change of the clock until the owner has answered, at most for this time.
 constexpr std::int64_t kRequestTime_ns = 500'000'000;
+constexpr std::int64_t kMaxRequestAge_ns =
+    1'000'000'000;                                      // on a bad line a request takes up to some tenths of a second
 constexpr std::int64_t kOneMeeting_ns = 1'000'000'000;  // what hosts see of it one after another
 constexpr std::int64_t kMaxBehind_ns = 100'000'000;     // kMaxTicksBehind ticks
 
@@ -76,16 +79,18 @@ void ClockExchange::choose_owner(Context& context) {
   if (owner == nullptr) return;
   if (owns_ && owner->id != context.hosts.self().id) {
     owns_ = false;
-    meeting_epoch_ = context.session.clock().epoch;
+    const std::uint32_t epoch = context.session.clock().epoch;
+    if (is_later(epoch, context.hosts.epoch_of(owner->id))) meeting_epoch_ = epoch;
     log::info("follows the clock of host " + owner->name);
   }
   if (!owns_ && owner->id != owner_) followed_.reset();
   owner_ = owner->id;
 }
 
-// After a partition two hosts own the clock, or hold a role. The host whose clock stays begins a new epoch, so that no
-// picture mixes records of the two parts. It may hear of the other holder only when that one has given way already:
-// thus the host that gives way asks for the new epoch, until it has come.
+// After a partition two hosts hold a role, or the part whose clock gives way has a later epoch. The host whose clock
+// stays begins a new epoch, so that no picture mixes records of the two parts, and epochs never go back. It may hear of
+// the other holder only when that one has given way already: thus the host that gives way asks for the new epoch, until
+// it has come.
 void ClockExchange::resolve_conflicts(Context& context) {
   const bool gives_way = context.roles.gives_way();
   const bool has_begun = epoch_begun_ns_ != 0 && context.now_ns - epoch_begun_ns_ < kOneMeeting_ns;
@@ -97,7 +102,7 @@ void ClockExchange::resolve_conflicts(Context& context) {
   for (const HostView& host : context.hosts.views().subspan(1)) {
     if (host.owns_clock || host.held_roles != 0) epoch = later(epoch, context.hosts.epoch_of(host.id));
     if (!owns_ || !host.owns_clock) continue;
-    conflict = true;
+    conflict = conflict || is_later(context.hosts.epoch_of(host.id), context.session.clock().epoch);
     precedes_all = precedes_all && precedes(context.hosts.self(), host);
   }
   if (conflict && !in_conflict_ && precedes_all) raise_epoch(context, epoch);
@@ -116,11 +121,20 @@ void ClockExchange::end_epoch_of_meeting(Context& context) {
   request(context, ended, EpochRequest::end_of_epoch);
 }
 
+// The aircraft stays where it is: flight models go on from the ownship in use.
 void ClockExchange::raise_epoch(Context& context, std::uint32_t above) {
+  const auto model = databuffer::read_valid(std::as_const(context.session).layout().model_status);
+  const bool has_ownship = model && (model->flags & databuffer::kModelStale) == 0;
   const auto raised = context.session.change_clock([&](const ClockState& clock) {
     ClockState next = rebased(clock, databuffer::monotonic_ns());
     next.epoch = later(clock.epoch, above) + 1;
     next.reposition_latitude_deg = std::numeric_limits<double>::quiet_NaN();
+    if (!has_ownship || model->epoch != clock.epoch) return next;
+    next.reposition_latitude_deg = model->ownship.latitude_deg;
+    next.reposition_longitude_deg = model->ownship.longitude_deg;
+    next.reposition_altitude_m = model->ownship.altitude_msl_m;
+    next.reposition_heading_deg = model->ownship.heading_deg;
+    next.followed = 1;
     return next;
   });
   if (!raised) log::warning(raised.error().message());
@@ -159,6 +173,14 @@ void ClockExchange::receive(Context& context, const yars_net_ClockRequestSample&
   copy_record(wanted, sample.clock);
   if (const auto reason = validate(wanted))
     return context.hosts.refuse(sample.host, dds::Topic::clock_requests, *reason);
+  // DDS delivers what a host wrote before it was cut off. By then others may have changed the clock.
+  const std::int64_t age_ns = context.now_ns - wanted.base_monotonic_ns;
+  if (age_ns > kMaxRequestAge_ns) {
+    const std::string line =
+        "a change of the session clock is left out, because it is " + std::to_string(age_ns / 1'000'000'000) + " s old";
+    log::warning("host " + context.hosts.find(sample.host)->name + ": " + line);
+    return context.hosts.refuse(sample.host, dds::Topic::clock_requests, line);
+  }
   if (sample.new_epoch == static_cast<std::uint32_t>(EpochRequest::end_of_epoch)) {
     if (!is_later(context.session.clock().epoch, wanted.epoch)) raise_epoch(context, wanted.epoch);
     return;
@@ -170,7 +192,8 @@ void ClockExchange::receive(Context& context, const yars_net_ClockRequestSample&
     next.epoch = clock.epoch + (sample.new_epoch != 0 ? 1 : 0);
     return next;
   });
-  if (!changed) context.hosts.refuse(sample.host, dds::Topic::clock_requests, changed.error().message());
+  if (!changed) return context.hosts.refuse(sample.host, dds::Topic::clock_requests, changed.error().message());
+  log::info("host " + context.hosts.find(sample.host)->name + " has changed the session clock");
 }
 
 void ClockExchange::follow(Context& context) {

@@ -20,6 +20,7 @@ constexpr std::int64_t kFirstProbeInterval_ns = 25'000'000;  // of the first kFi
 constexpr std::size_t kFirstProbes = 12;
 // Of a few answers one was on the way without a queue. A first offset by one answer was wrong by 50 ms on a bad line.
 constexpr std::size_t kEnoughAnswers = 6;
+constexpr std::int64_t kClaimPatience_ns = 3'000'000'000;
 constexpr std::int64_t kGroupDelay_ns = 1'000'000'000;
 constexpr std::int64_t kGhost_ns = 3'000'000'000;  // a predecessor of this process may be heard for the lease
 
@@ -59,6 +60,13 @@ std::uint64_t max_repeats(dds::Topic topic) {
 }
 
 }  // namespace
+
+std::uint32_t shown_processes() {
+  std::uint32_t bits = 0;
+  for (const std::string_view name : {"flight-model", "input-monitor", "radar-display"})
+    if (const auto index = databuffer::counted_role(name)) bits |= 1U << *index;
+  return bits;
+}
 
 Hosts::Hosts(databuffer::Session& session, dds::Link* link, Identity identity)
     : session_(&session), link_(link), identity_(std::move(identity)) {
@@ -114,20 +122,36 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
   host->view.priority = sample.priority;
   host->view.group = std::clamp<std::uint32_t>(sample.group, 1, databuffer::kMaxHosts);
   host->view.held_roles = sample.held_roles & permitted_roles(sample.host);
-  host->view.owns_clock =
-      sample.owns_clock != 0 && (link_ == nullptr || link_->host_writes(sample.host, dds::Topic::clock));
+  host->view.owns_clock = sample.owns_clock != 0 && host_writes(sample.host, dds::Topic::clock);
+  report_claims(*host, now_ns);
   report_differences(*host);
   update_views();
 }
 
 // Roles whose records another host can write. Its claims to others do not count.
 std::uint32_t Hosts::permitted_roles(std::uint64_t host) const {
-  std::uint32_t roles = ~std::uint32_t{0};
-  if (link_ == nullptr) return roles;
+  std::uint32_t roles = 0;
   for (const RoleTopics& role : kRoleTopics)
-    for (const dds::Topic topic : role.topics)
-      if (!link_->host_writes(host, topic)) roles &= ~(1U << static_cast<unsigned>(role.role));
+    if (std::ranges::all_of(role.topics, [&](dds::Topic topic) { return host_writes(host, topic); }))
+      roles |= 1U << static_cast<unsigned>(role.role);
   return roles;
+}
+
+bool Hosts::host_writes(std::uint64_t host, dds::Topic topic) const {
+  return link_ == nullptr || link_->host_writes(host, topic);
+}
+
+// Says once that a host claims what it may not have. A host's writers are known some ms after it is first heard.
+void Hosts::report_claims(Host& host, std::int64_t now_ns) {
+  const bool claims =
+      (host.said.held_roles & ~host.view.held_roles) != 0 || (host.said.owns_clock != 0 && !host.view.owns_clock);
+  if (!claims) host.claims_since_ns = now_ns;
+  if (host.reported_claims || now_ns - host.claims_since_ns < kClaimPatience_ns) return;
+  host.reported_claims = true;
+  const std::string line =
+      "host " + host.view.name + " claims roles or the clock, and may not write their topics; its claims are left out";
+  log::warning(line);
+  session_->note(NoteKind::refusal, line);
 }
 
 void Hosts::lose(Host& host) {
@@ -146,6 +170,8 @@ void Hosts::begin(Host& host, const yars_net_HostSample& sample, std::int64_t no
   host.offset = {};
   host.next_probe_ns = now_ns;
   host.differences = 0;
+  host.claims_since_ns = now_ns;
+  host.reported_claims = false;
   log::info("hears host " + host.view.name);
   session_->note(NoteKind::restart, "hears host " + host.view.name);
 }
@@ -397,9 +423,8 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
     }
     for (const dds::Topic topic : kHistories) to.lost += host.numbers[dds::index_of(topic)].lost();
     to.refused = host.refused;
-    constexpr std::uint32_t kLockBytes = (1U << databuffer::kFirstProcessBit) - 1;
-    const auto processes = static_cast<std::uint32_t>(host.said.processes) << databuffer::kFirstProcessBit;
-    to.held_roles = host.alive ? (host.view.held_roles & kLockBytes) | processes : 0;
+    const auto processes = static_cast<std::uint32_t>(host.said.processes) & shown_processes();
+    to.held_roles = host.alive ? host.view.held_roles | processes << databuffer::kFirstProcessBit : 0;
     to.priority = host.view.priority;
     to.flags |= host.differences | (host.alive ? databuffer::kHostPresent : 0U) |
                 (host.left ? databuffer::kHostLeft : 0U) |

@@ -41,6 +41,9 @@ struct Identity {
 // machine would lose its hosts. With a longer one a dead host would keep its roles.
 inline constexpr std::int64_t kLease_ns = 500'000'000;
 
+// Processes without a lock byte that `yars status` shows on all hosts. Bit n: that with the name kLockstepRoleNames[n].
+std::uint32_t shown_processes();
+
 class Hosts {
  public:
   // `session` receives notes. `link`: null only in tests that hand samples to receive().
@@ -51,7 +54,7 @@ class Hosts {
   // Answers probes and takes answers. Call as soon as possible after their arrival, because the delay is an error.
   void exchange_probes();
   void set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t epoch);
-  // Bit n: a process with the name kLockstepRoleNames[n] takes part on this host. For the others' `yars status` alone.
+  // Those of shown_processes() that take part on this host.
   void set_processes(std::uint32_t processes) { processes_ = processes; }
   // While two hosts hold one role, the number of hosts that this host heard before stays as it is.
   void set_conflict(bool in_conflict) { in_conflict_ = in_conflict; }
@@ -112,6 +115,8 @@ class Hosts {
     bool other_layout = false;
     std::uint32_t differences = 0;  // HostFlags that have been reported
     std::int64_t heard_ns = 0;
+    std::int64_t claims_since_ns = 0;  // it claims since then what it may not have
+    bool reported_claims = false;
     std::int64_t next_probe_ns = 0;
     OffsetEstimator offset;
     std::array<SampleNumbers, dds::kTopicCount> numbers;
@@ -120,6 +125,8 @@ class Hosts {
   Host* host_of(std::uint64_t id, bool add);
   const Host* host_of(std::uint64_t id) const;
   std::uint32_t permitted_roles(std::uint64_t host) const;
+  bool host_writes(std::uint64_t host, dds::Topic topic) const;
+  void report_claims(Host& host, std::int64_t now_ns);
   void lose(Host& host);
   void begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns);
   void report_differences(Host& host);

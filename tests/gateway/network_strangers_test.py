@@ -198,6 +198,7 @@ def a_member_that_may_only_read_holds_no_role_and_poses_as_nobody(programs, buil
                 assert states[host]["epoch"] == before[host]["epoch"] and states[host]["running"], states[host]
                 assert states[host]["network"]["conflicts"] == before[host]["network"]["conflicts"], states[host]
                 assert states[host]["network"]["hosts"]["b"]["flags"] & PRESENT, states[host]
+                assert states[host]["network"]["hosts"]["d"]["roles"] & LOCK_BYTES == 0, states[host]
             time.sleep(0.05)
         assert impostor.wait(WITHIN_S) == 0, impostor.text()
         written = impostor.text().split()
@@ -208,11 +209,13 @@ def a_member_that_may_only_read_holds_no_role_and_poses_as_nobody(programs, buil
                                 "sweeps on a to c", hosts=hosts)
         assert all(abs(after["a"]["network"]["hosts"][host]["error_ns"]) < 10**9 for host in hosts), after
         assert count_lines(spread.gateways["a"], "expected samples of the host that the writer's certificate names") > 0, spread.logs()
+        assert count_lines(spread.gateways["a"], "host d claims roles or the clock, and may not write their topics") == 1, spread.logs()
         spread.yars("a", "inject", "power stby")
         spread.wait_for(lambda seen: spread.watch("c").get("power") == "STBY", "power STBY", hosts=hosts)
 
 
-PRESENT = 2  # databuffer::kHostPresent
+PRESENT = 2                # databuffer::kHostPresent
+LOCK_BYTES = (1 << 24) - 1  # databuffer::kFirstProcessBit
 
 
 def present(state):

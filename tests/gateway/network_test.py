@@ -173,6 +173,21 @@ def sim_times_agree(states, spread):
     return max(behind) - min(behind) < 50e6
 
 
+def a_host_without_roles_is_cut_off_and_nobody_notices(flight):
+    spread = flight.spread
+    before = flight.await_whole()
+    alone = next(host for host in ("d", "a") if before[host]["machine"] != "here" and before[host]["model"] != "here")
+    rest = [host for host in LAYOUT if host != alone]
+    spread.lab.cut(alone)
+    spread.wait_for(lambda seen: owns_clock(seen[alone], alone) and set(present(seen[alone])) == {alone}, "a clock of its own", [alone])
+    spread.lab.heal(alone)
+    states = spread.wait_for(lambda seen: runs(seen) and all(set(present(one)) == set(LAYOUT) for one in seen.values()) and
+                             sim_times_agree(seen, spread), "all hosts, and one clock")
+    assert all(states[host]["epoch"] == before[host]["epoch"] for host in rest), (before, states)
+    time.sleep(1.0)
+    assert all(one["epoch"] == before["a"]["epoch"] for one in spread.states().values()), spread.logs()
+
+
 def both_parts_of_a_partition_go_on_and_the_larger_one_stays(flight):
     """The host that is cut off precedes by its name, so that only the size of its part decides."""
     spread, rest = flight.spread, ["a", "c", "d"]
@@ -290,9 +305,8 @@ def nothing_is_torn_or_out_of_range(flight):
 
 TESTS = (a_map_that_is_commanded_appears_on_all_hosts, ships_of_one_host_are_latched_by_the_model_of_another,
          a_bad_line_loses_no_sweep_and_no_event, the_clock_obeys_any_host, nothing_is_torn_or_out_of_range,
-         both_parts_of_a_partition_go_on_and_the_larger_one_stays, of_two_equal_parts_the_first_name_stays,
-         a_standby_goes_on_where_the_killed_host_ended,
-         nothing_is_torn_or_out_of_range)
+         a_host_without_roles_is_cut_off_and_nobody_notices, both_parts_of_a_partition_go_on_and_the_larger_one_stays,
+         of_two_equal_parts_the_first_name_stays, a_standby_goes_on_where_the_killed_host_ended, nothing_is_torn_or_out_of_range)
 
 
 def main():

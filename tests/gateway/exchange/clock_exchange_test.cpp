@@ -67,7 +67,7 @@ class ClockExchangeTest : public testing::TwoHosts {
     sample.owner = host_id("alpha");
     sample.new_epoch = new_epoch ? 1 : 0;
     copy_record(sample.clock, wanted);
-    sample.clock.base_monotonic_ns = std::min(wanted.base_monotonic_ns, databuffer::monotonic_ns());
+    sample.clock.base_monotonic_ns = context_.now_ns;
     const ClockState before = session_.clock();
     exchange_.receive(context_, sample);
     const ClockState after = session_.clock();
@@ -198,6 +198,7 @@ TEST_F(ClockExchangeTest, TheOwnerMakesARequestedChangeOnce) {
   again.owner = host_id("alpha");
   again.new_epoch = 1;
   copy_record(again.clock, wanted);
+  again.clock.base_monotonic_ns = context_.now_ns;
   exchange_.receive(context_, again);
   EXPECT_EQ(session_.clock().epoch, epoch);
 }
@@ -229,7 +230,52 @@ TEST_F(ClockExchangeTest, AnEpochFarFromThisOneIsAnEarlierOne) {
   const std::uint32_t epoch = session_.clock().epoch;
   announce("beta", 0, kBetaSegment, 1, 0xFFFF'FFFFU);
   pass(5'000'000);
-  EXPECT_EQ(session_.clock().epoch, epoch + 1);
+  EXPECT_EQ(session_.clock().epoch, epoch);
+}
+
+// A host that was cut off alone and changed nothing disturbs nobody.
+TEST_F(ClockExchangeTest, WhenTwoOwnersOfOneEpochMeetItGoesOn) {
+  own();
+  announce("beta", 0, kBetaSegment, 1, session_.clock().epoch);
+  const ClockState before = session_.clock();
+  pass(5'000'000);
+  EXPECT_TRUE(exchange_.owns());
+  EXPECT_EQ(session_.clock().epoch, before.epoch);
+  announce("aaron", 0, 77, 1, session_.clock().epoch);
+  pass(5'000'000);
+  EXPECT_FALSE(exchange_.owns());
+  for (int i = 0; i < 3; ++i) pass(600'000'000);
+  EXPECT_EQ(requests(), 0u);
+}
+
+TEST_F(ClockExchangeTest, TheFlightGoesOnWhereItIsInTheEpochAfterAMeeting) {
+  own();
+  databuffer::ModelStatus status{};
+  status.ownship = testing::good_ownship();
+  status.epoch = session_.clock().epoch;
+  ASSERT_FALSE(databuffer::validate(status)) << *databuffer::validate(status);
+  session_.layout().model_status.publish(status);
+  announce("beta", 0, kBetaSegment, 1, 40);
+  pass(5'000'000);
+  const ClockState clock = session_.clock();
+  EXPECT_EQ(clock.epoch, 41u);
+  EXPECT_EQ(clock.reposition_latitude_deg, status.ownship.latitude_deg);
+  EXPECT_EQ(clock.followed, 1u);
+}
+
+// DDS keeps what a host wrote before it was cut off.
+TEST_F(ClockExchangeTest, AnOldRequestIsRefused) {
+  own();
+  announce("beta", 0);
+  ClockState wanted = session_.clock();
+  wanted.running = 0;
+  auto sample = from<yars_net_ClockRequestSample>("beta");
+  sample.owner = host_id("alpha");
+  copy_record(sample.clock, wanted);
+  sample.clock.base_monotonic_ns = context_.now_ns - 3'000'000'000;
+  exchange_.receive(context_, sample);
+  EXPECT_EQ(session_.clock().running, 1u);
+  EXPECT_EQ(refusals(), 1u);
 }
 
 TEST_F(ClockExchangeTest, TheOwnerGivesWayToAHostThatPrecedes) {
@@ -266,6 +312,7 @@ TEST_F(ClockExchangeTest, TheOwnerEndsAnEpochThatIsRequestedOnce) {
   sample.owner = host_id("alpha");
   sample.new_epoch = static_cast<std::uint32_t>(EpochRequest::end_of_epoch);
   copy_record(sample.clock, ended);
+  sample.clock.base_monotonic_ns = context_.now_ns;
   exchange_.receive(context_, sample);
   EXPECT_EQ(session_.clock().epoch, 9u);
   EXPECT_EQ(session_.clock().rate, ended.rate);

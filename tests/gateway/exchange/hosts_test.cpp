@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <optional>
 #include <string>
@@ -55,11 +56,11 @@ TEST_F(HostsTest, AHostIsHeardUntilItEnds) {
 TEST_F(HostsTest, ProcessesOfAHostAreShownAndAreNoRoles) {
   auto beta = sample("beta");
   beta.held_roles = bit(Role::traffic);
-  beta.processes = ~std::uint64_t{0};  // unknown ones change nothing
+  beta.processes = ~std::uint64_t{0};  // a role among them is no claim
   receive(beta);
   EXPECT_EQ(hosts_.find(host_id("beta"))->held_roles, bit(Role::traffic));
-  constexpr std::uint32_t kProcesses = ~std::uint32_t{0} << databuffer::kFirstProcessBit;
-  EXPECT_EQ(status().hosts[1].held_roles, bit(Role::traffic) | kProcesses);
+  EXPECT_EQ(status().hosts[1].held_roles, bit(Role::traffic) | shown_processes() << databuffer::kFirstProcessBit);
+  EXPECT_EQ(std::popcount(shown_processes()), 3);
   hosts_.set_processes(1U << 4);
   EXPECT_EQ(status().hosts[0].held_roles, 1U << (databuffer::kFirstProcessBit + 4));
   EXPECT_FALSE(databuffer::validate(status()));

@@ -55,6 +55,7 @@ class Impostor {
     claim.start = start_;
     claim.number = number_;
     claim.held_roles = kAllRoles;
+    claim.processes = kAllRoles;
     claim.owns_clock = 1;
     claim.priority = 1000;
     claim.group = 16;
