@@ -10,6 +10,7 @@
 #include <string>
 
 #include "databuffer/runtime/process.hpp"
+#include "databuffer/session/validated.hpp"
 #include "lib/error/error.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -165,7 +166,7 @@ bool TickLoop::wait_for(std::size_t role, std::int64_t tick) {
   while (!stop_requested()) {
     const std::uint32_t seen = word.load(std::memory_order_acquire);
     if (shared.done_tick[role].load(std::memory_order_acquire) >= tick) return true;
-    if (monotonic_ns() > deadline_ns) {
+    if (finds_lost_role() || monotonic_ns() > deadline_ns) {
       failed_ = true;
       return false;
     }
@@ -173,6 +174,25 @@ bool TickLoop::wait_for(std::size_t role, std::int64_t tick) {
     session_->heartbeat();
   }
   return false;
+}
+
+bool TickLoop::finds_lost_role() {
+  const SessionLayout& layout = session_->layout();
+  const std::uint32_t lost = layout.network.lost_role.load(std::memory_order_acquire);
+  const std::size_t role = (lost & 0xFFU) - 1;
+  if ((lost & 0xFFU) == 0 || role >= kLockstepRoles) return false;
+  const auto& shared = layout.lockstep;
+  const std::int64_t done = shared.done_tick[role].load(std::memory_order_acquire);
+  const std::int64_t end_tick = shared.end_tick.load(std::memory_order_relaxed);
+  if ((shared.roles.load(std::memory_order_relaxed) >> role & 1U) == 0U || (end_tick >= 0 && done >= end_tick))
+    return false;
+  awaited_role_ = role;
+  awaited_tick_ = done + 1;
+  lost_host_ = "another host";
+  const std::size_t host = lost >> 8 & 0xFFU;
+  if (const auto status = read_valid(layout.network_status); status && host > 0 && host < status->host_count)
+    lost_host_ = "host " + std::string(text::text_of(status->hosts[host].name));
+  return true;
 }
 
 // Waits until all roles have done the last tick. Without this wait, a role that ends first would clear records that
@@ -202,9 +222,13 @@ std::optional<TickLoop::Due> TickLoop::wait_lockstep() {
 
 error::Expected<void> TickLoop::outcome() const {
   if (!failed_) return {};
-  return error::fail("lockstep",
-                     std::string(kLockstepRoleNames[awaited_role_]) + " to do tick " + std::to_string(awaited_tick_),
-                     "60 s of silence", "start that role with the same --lockstep, or end all roles");
+  const std::string role(kLockstepRoleNames[awaited_role_]);
+  const std::string tick = " to do tick " + std::to_string(awaited_tick_);
+  if (!lost_host_.empty())
+    return error::fail("lockstep", role + " of " + lost_host_ + tick, "that host gone for 10 s",
+                       "start all roles again, on every host and with the same end");
+  return error::fail("lockstep", role + tick, "60 s of silence",
+                     "start that role with the same --lockstep, or end all roles");
 }
 
 void TickLoop::done(const Due& due) {

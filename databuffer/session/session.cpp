@@ -221,6 +221,16 @@ std::int64_t Session::sim_time_ns() const {
   return sim_time_at(clock(), monotonic_ns());
 }
 
+std::int64_t Session::reached_sim_time_ns() const {
+  const Lockstep& lockstep = layout().lockstep;
+  const std::uint32_t roles = lockstep.roles.load(std::memory_order_relaxed);
+  if (lockstep.enabled.load(std::memory_order_acquire) == 0) return sim_time_ns();
+  std::int64_t tick = kLatestModelTick;
+  for (std::size_t role = 0; role < kLockstepRoles; ++role)
+    if ((roles >> role & 1U) != 0U) tick = std::min(tick, lockstep.done_tick[role].load(std::memory_order_acquire));
+  return std::max<std::int64_t>(tick, 0) * radar::kTickNanoseconds;
+}
+
 Expected<void> Session::change_clock(const std::function<ClockState(const ClockState&)>& change, WaitPolicy policy) {
   constexpr auto kByte = static_cast<std::size_t>(Role::clock);
   if (!state_->segment->writable()) return fail_read_only("clock");

@@ -71,6 +71,9 @@ class Session {
   // stays in use. A process that opens a session without a valid clock sets the clock to 0 in a new epoch.
   ClockState clock() const;
   std::int64_t sim_time_ns() const;
+  // [ns] Sim time up to which the session has come: in lockstep that of the last tick that all roles of the run have
+  // done, 0 before the first; else sim_time_ns().
+  std::int64_t reached_sim_time_ns() const;
   // True if CLOCK_MONOTONIC of this process differs by more than 1 s from that of state-machine (of radar-model if no
   // state-machine runs). A Linux time namespace, as of a container, has this effect. A session clock that this process
   // sets would then be wrong. False also if the difference is unknown: neither role runs in another process, or the

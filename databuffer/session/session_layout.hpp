@@ -143,7 +143,9 @@ struct Network {
   std::atomic<std::uint32_t> mirrored_roles;  // bit n: the gateway holds role n for another host
   std::atomic<std::uint32_t>
       wanted_roles;  // bit n: a process here wants role n, which the gateway holds for another host
-  std::atomic<std::uint32_t> reserved;
+  // Role of a lockstep run whose host has been gone for 10 s. Low 8 bits: 1 + index in kLockstepRoleNames; 0: none.
+  // Next 8 bits: index of the host in NetworkStatus::hosts; 0: unknown. Written by the gateway.
+  std::atomic<std::uint32_t> lost_role;
   std::array<RemoteProgress, kInputSources> input;  // of the last input lanes of other hosts
   // Of the rings applied_events, traffic_latched, model_ticks and sweeps, for the last hosts that wrote them.
   std::array<std::array<RemoteProgress, kHistorySources>, kHistories> histories;

@@ -1,10 +1,41 @@
 #include "gateway/exchange/lockstep_exchange.hpp"
 
 #include <algorithm>
+#include <utility>
 
+#include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
+#include "databuffer/session/validated.hpp"
+#include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::gateway {
+
+namespace {
+
+constexpr std::uint32_t kNoEnd = 0xFFFFFFFFU;
+constexpr std::int64_t kGone_ns = 10'000'000'000;  // far longer than a cut or a stop from which a host returns
+constexpr std::int64_t kMaxPass_ns = 500'000'000;  // a longer pause of this process is no silence of the others
+
+// LockstepSample::end of this host.
+std::uint32_t end_word(const databuffer::Lockstep& lockstep) {
+  const std::int64_t end_tick = lockstep.end_tick.load(std::memory_order_relaxed);
+  return end_tick < 0 ? kNoEnd : static_cast<std::uint32_t>(std::min<std::int64_t>(end_tick, kNoEnd - 2) + 1);
+}
+
+std::string end_text(std::uint32_t end) {
+  return end == kNoEnd ? "without end" : "to tick " + std::to_string(end - 1);
+}
+
+// Index in the NetworkStatus that this gateway publishes; 0: not there.
+std::uint32_t status_index(const databuffer::Session& session, const std::string& host) {
+  const auto status = databuffer::read_valid(session.layout().network_status);
+  for (std::uint32_t i = 1; status && i < status->host_count; ++i)
+    if (text::text_of(status->hosts[i].name) == host) return i;
+  return 0;
+}
+
+}  // namespace
 
 void LockstepExchange::begin_pass(Context& context) {
   const auto& lockstep = std::as_const(context.session).layout().lockstep;
@@ -17,10 +48,12 @@ void LockstepExchange::send(Context& context) {
     const bool is_ours = done_[role] > known_[role];
     if (!is_ours) continue;
     known_[role] = done_[role];
+    performers_[role] = {};
     yars_net_LockstepSample sample{};
     context.hosts.stamp(sample);
     sample.role = static_cast<std::uint32_t>(role);
     sample.done_tick = done_[role];
+    sample.end = end_word(std::as_const(context.session).layout().lockstep);
     for (std::size_t i = 0; i < dds::kTopicCount; ++i)
       if (context.writes(static_cast<dds::Topic>(i))) sample.written[i] = context.hosts.written()[i];
     context.write(sample);
@@ -54,19 +87,68 @@ bool LockstepExchange::has_arrived(const Context& context, const yars_net_Lockst
   return true;
 }
 
+// Says once for each host that its run has another end.
+void LockstepExchange::compare_end(const Context& context, const yars_net_LockstepSample& sample) {
+  const std::uint32_t own = end_word(std::as_const(context.session).layout().lockstep);
+  const HostView* host = context.hosts.find(sample.host);
+  if (sample.end == own) reported_ends_.erase(sample.host);
+  if (reported_ends_.size() >= databuffer::kMaxHosts)
+    std::erase_if(reported_ends_, [&](std::uint64_t id) { return !context.hosts.has_announced(id); });
+  if (host == nullptr || sample.end == 0 || sample.end == own || !reported_ends_.insert(sample.host).second) return;
+  const std::string line = "lockstep " + end_text(sample.end) + " on host " + host->name + ", " + end_text(own) +
+                           " here; give both the same --headless";
+  log::warning(line);
+  context.session.note(databuffer::NoteKind::refusal, line);
+}
+
+// Tells the roles of this host which role no longer answers: of several the one whose host has been gone longest.
+void LockstepExchange::watch_hosts(Context& context) {
+  const std::int64_t elapsed_ns = std::min(context.now_ns - std::exchange(watched_ns_, context.now_ns), kMaxPass_ns);
+  std::size_t lost = performers_.size();
+  for (std::size_t role = 0; role < performers_.size(); ++role) {
+    Performer& performer = performers_[role];
+    if (performer.host == 0) continue;
+    const HostView* host = context.hosts.find(performer.host);
+    if (host != nullptr) performer.name = host->name;
+    performer.gone_ns = host != nullptr || has_ended(context, role) ? 0 : performer.gone_ns + elapsed_ns;
+    if (performer.gone_ns > (lost < performers_.size() ? performers_[lost].gone_ns : kGone_ns)) lost = role;
+  }
+  std::uint32_t word = 0;
+  if (lost < performers_.size())
+    word = static_cast<std::uint32_t>(lost + 1) | status_index(context.session, performers_[lost].name) << 8;
+  context.session.layout().network.lost_role.store(word, std::memory_order_release);
+}
+
+// True if the role of another host has done its last tick, also if that is not applied yet.
+bool LockstepExchange::has_ended(const Context& context, std::size_t role) const {
+  const auto& lockstep = std::as_const(context.session).layout().lockstep;
+  const std::int64_t end_tick = lockstep.end_tick.load(std::memory_order_relaxed);
+  if (end_tick < 0) return false;
+  const auto waiting = waiting_.find({performers_[role].host, static_cast<std::uint32_t>(role)});
+  return lockstep.done_tick[role].load(std::memory_order_acquire) >= end_tick ||
+         (waiting != waiting_.end() && waiting->second.done_tick >= end_tick);
+}
+
 // Role after role in the order of a tick, so that one done tick may admit the next in the same pass.
 void LockstepExchange::apply(Context& context, bool in_order) {
-  if (!in_order) return;
+  if (in_order) complete_ticks(context);
+  watch_hosts(context);
+}
+
+void LockstepExchange::complete_ticks(Context& context) {
   auto& lockstep = context.session.layout().lockstep;
   for (std::size_t role = 0; role < databuffer::kLockstepRoles; ++role)
     std::erase_if(waiting_, [&](const auto& item) {
       const yars_net_LockstepSample& sample = item.second;
       if (sample.role != role) return false;
       // Also of a host that has left since: its last tick still counts.
-      if (!context.hosts.has_announced(sample.host) || !has_arrived(context, sample)) return false;
+      if (!context.hosts.has_announced(sample.host)) return false;
+      compare_end(context, sample);
+      if (!has_arrived(context, sample)) return false;
       if (lockstep.done_tick[role].load(std::memory_order_acquire) >= sample.done_tick) return true;
       if (!others_are_done(lockstep, role, sample.done_tick)) return false;
       known_[role] = sample.done_tick;
+      if (performers_[role].host != sample.host) performers_[role] = {.host = sample.host};
       databuffer::complete_tick(lockstep, role, sample.done_tick);
       return true;
     });

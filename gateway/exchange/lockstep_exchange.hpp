@@ -1,8 +1,8 @@
 // Lockstep over several hosts: carries the last done tick of each role to the other hosts.
 // Inputs: done ticks of local roles; those of other hosts, with the numbers of the samples written up to then.
 // Outputs: done ticks in the local segment, after everything has arrived here that the role, and the roles before it,
-//   published in the tick.
-// Errors: a done tick that goes back, or is out of range, is refused.
+//   published in the tick. Network::lost_role: a role whose host has been gone for 10 s before the end of the run.
+// Errors: a done tick that goes back, or is out of range, is refused. A host whose run has another end is named once.
 // Threads: one. Wakes the roles that wait on the futexes of the segment.
 // Source: docs/architecture.md#time; TickLoop (databuffer/runtime/tick_loop.hpp).
 #pragma once
@@ -10,6 +10,8 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "databuffer/session/session_layout.hpp"
@@ -31,11 +33,24 @@ class LockstepExchange {
   void apply(Context& context, bool in_order);
 
  private:
+  // The host that did the last tick of a role.
+  struct Performer {
+    std::uint64_t host = 0;    // 0: this host, or not known
+    std::string name{};        // empty: not known
+    std::int64_t gone_ns = 0;  // [ns] time without that host, as far as this process ran
+  };
+  void complete_ticks(Context& context);
+  void compare_end(const Context& context, const yars_net_LockstepSample& sample);
+  void watch_hosts(Context& context);
+  bool has_ended(const Context& context, std::size_t role) const;
   bool has_arrived(const Context& context, const yars_net_LockstepSample& sample) const;
   static bool others_are_done(const databuffer::Lockstep& lockstep, std::size_t role, std::int64_t tick);
 
   std::array<std::int64_t, databuffer::kLockstepRoles> done_{}, known_{};  // by local roles; sent or written here
   std::map<std::pair<std::uint64_t, std::uint32_t>, yars_net_LockstepSample> waiting_;  // by host and role
+  std::array<Performer, databuffer::kLockstepRoles> performers_;
+  std::set<std::uint64_t> reported_ends_;  // hosts
+  std::int64_t watched_ns_ = 0;
 };
 
 }  // namespace yars::gateway

@@ -16,6 +16,7 @@ import time
 
 sys.dont_write_bytecode = True
 import spread_set
+import lab  # noqa: E402, found by spread_set
 
 HOSTS = ("a", "b", "c", "d")
 HOST_OF = {"flight-model": "a", "input-monitor": "a", "state-machine": "b", "radar-model": "c", "radar-display": "d",
@@ -25,6 +26,7 @@ INTERFACE_TESTS = ("Lockstep.EveryRealBeamMapEventHasItsEffectAndTheRunRepeatsBi
 SESSIONS = 3  # that they run: two, and one
 SCRIPT = "0.2 power opr\n0.6 pb 14\n1.0 pb 9\n1.5 pb 3\n"
 TICKS = 600
+ENDS = {"a": 400000, "b": 300000}  # [ticks] of the hosts of a run that no host finishes
 WITHIN_S = 240.0  # of a run, on a busy machine
 
 
@@ -123,6 +125,39 @@ def sweeps_equal_those_of_one_host(programs):
     assert spread["different"] == spread["ticks_lost"] == 0 and spread["equal"] > 100, spread
 
 
+# ---- Hosts that leave ----
+
+def a_run_ends_when_a_host_is_gone(programs):
+    """A host that is cut off for a short time continues. After the death of one the other ends with one line."""
+    layout = {"a": (), "b": ()}
+    with spread_set.SpreadSet(programs, layout) as spread:
+        spread.start_gateways()
+        roles = {"a": ("flight-model", spread_set.FLIGHT), "b": ("state-machine", [])}
+        processes = {host: spread.lab.start(host, str(programs / role), [
+            "--session", spread.session, "--lockstep", f"flight-model,state-machine@{ENDS[host]}", *arguments])
+            for host, (role, arguments) in roles.items()}
+
+        def done():
+            return json.loads(spread.yars("a", "sim", "state", "--json"))["sim_time"]
+
+        def goes_on():
+            return lambda before=done(): done() > before
+
+        lab.wait_until(goes_on(), "ticks of both hosts")
+        for host, other in (("a", "b"), ("b", "a")):
+            spread.gateways[host].wait_for(f"lockstep to tick {ENDS[other]} on host {other}, to tick {ENDS[host]} here")
+        spread.lab.cut("b")
+        time.sleep(1.0)
+        stands = done()
+        time.sleep(0.2)
+        assert stands == done(), "the shown sim time is that of the last tick"
+        spread.lab.heal("b")
+        lab.wait_until(goes_on(), "ticks after the cut")
+        spread.lab.kill_host("b")
+        assert processes["a"].wait(60.0) == 1, (processes["a"].text(), spread.logs())
+        assert "expected state-machine of host b to do tick" in processes["a"].text(), processes["a"].text()
+
+
 def main():
     if sys.argv[1] == "--on":
         enter(pathlib.Path(sys.argv[2]), sys.argv[3:])
@@ -130,7 +165,7 @@ def main():
     if reason := spread_set.why_skipped(programs):
         print(f"skipped: {reason}")
         return 77
-    spread_set.run_tests((sweeps_equal_those_of_one_host, the_interface_test_holds_over_four_hosts), programs)
+    spread_set.run_tests((a_run_ends_when_a_host_is_gone, sweeps_equal_those_of_one_host, the_interface_test_holds_over_four_hosts), programs)
     return 0
 
 

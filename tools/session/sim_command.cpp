@@ -66,7 +66,7 @@ void change_clock(Session& session, const Change& change) {
 
 void report(const Session& session, bool json) {
   const ClockState clock = session.clock();
-  const double sim_time_s = static_cast<double>(session.sim_time_ns()) * 1e-9;
+  const double sim_time_s = static_cast<double>(session.reached_sim_time_ns()) * 1e-9;
   if (json)
     return print_json(
         {{"sim_time", sim_time_s}, {"rate", clock.rate}, {"running", clock.running != 0}, {"epoch", clock.epoch}});

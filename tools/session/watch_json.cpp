@@ -34,7 +34,7 @@ bool has(const RadarState& state, std::uint32_t flag) {
 
 void add_clock(ordered_json& object, const databuffer::Session& session, const ModelStatus& model) {
   const auto clock = session.clock();
-  object["sim_time"] = static_cast<double>(session.sim_time_ns()) * 1e-9;
+  object["sim_time"] = static_cast<double>(session.reached_sim_time_ns()) * 1e-9;
   object["epoch"] = clock.epoch;
   object["tick"] = model.tick;
   object["rate"] = clock.rate;
@@ -266,7 +266,7 @@ nlohmann::ordered_json watch_object(const databuffer::Session& session) {
   databuffer::Outputs no_outputs{};
   no_outputs.slant_range_m = std::nan("");
   object["ranging"] = ranging(databuffer::read_valid(layout.outputs).value_or(no_outputs));
-  add_ownship(object, model, session.sim_time_ns());
+  add_ownship(object, model, session.reached_sim_time_ns());
   object["caption"] = caption_json(session);
   add_health(object, session, model);
   return object;

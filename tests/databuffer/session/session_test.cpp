@@ -52,6 +52,19 @@ TEST_F(SessionTest, AllSessionsOfANameShareOneClock) {
   EXPECT_EQ(second.clock().epoch, 9u);
 }
 
+TEST_F(SessionTest, InLockstepTheSessionHasComeToTheLastTickOfAllRoles) {
+  Session session = open();
+  EXPECT_GE(session.reached_sim_time_ns(), 0);
+  auto& lockstep = session.layout().lockstep;
+  lockstep.roles = 1U << 0 | 1U << 3;
+  lockstep.enabled = 1;
+  EXPECT_EQ(session.reached_sim_time_ns(), 0);
+  lockstep.done_tick[0] = 8;
+  EXPECT_EQ(session.reached_sim_time_ns(), 0) << "role 3 has done nothing";
+  lockstep.done_tick[3] = 7;
+  EXPECT_EQ(session.reached_sim_time_ns(), 35'000'000);
+}
+
 TEST_F(SessionTest, TheClockCannotBeSetWhileItsRoleIsHeld) {
   Session first = open("holder");
   Session second = open();

@@ -27,6 +27,14 @@ class LockstepExchangeTest : public testing::TwoHosts {
     announce("beta", 0);
     announce("gamma", 0);
   }
+  // Passes of half a second each.
+  void wait(double seconds) {
+    for (double waited = 0.0; waited < seconds; waited += 0.5) {
+      pass(kSecond_ns / 2);
+      exchange_.apply(context_, true);
+    }
+  }
+  std::uint32_t lost_role() const { return layout().network.lost_role.load(); }
   std::int64_t tick_of(std::size_t role) const { return layout().lockstep.done_tick[role].load(); }
   LockstepExchange exchange_;
 };
@@ -142,6 +150,89 @@ TEST_F(LockstepExchangeTest, ADoneTickWaitsForTheLastTickOfTheRolesBehind) {
   EXPECT_EQ(tick_of(3), 0);
   exchange_.apply(context_, true);
   EXPECT_EQ(tick_of(0), 1);
+}
+
+TEST_F(LockstepExchangeTest, ARoleIsLostWhenItsHostHasBeenGoneForTenSeconds) {
+  fly_together();
+  exchange_.receive(context_, done("beta", 0, 0));
+  exchange_.receive(context_, done("gamma", 2, 0));
+  exchange_.receive(context_, done("beta", 3, 0));
+  wait(20.0);
+  EXPECT_EQ(lost_role(), 0u);
+  databuffer::NetworkStatus status{};
+  hosts_.describe(status, context_.now_ns);
+  session_.layout().network_status.publish(status);
+  ASSERT_STREQ(status.hosts[2].name, "gamma");
+  end("gamma");
+  wait(9.5);
+  EXPECT_EQ(lost_role(), 0u);
+  end("beta");
+  wait(20.0);
+  EXPECT_EQ(lost_role(), 3u | 2u << 8) << "the state machine of gamma, which went first";
+  announce("gamma", 0);
+  wait(0.5);
+  EXPECT_EQ(lost_role(), 1u | 1u << 8) << "the flight model of beta";
+}
+
+TEST_F(LockstepExchangeTest, AHostThatReturnsHasAnotherTenSeconds) {
+  fly_together();
+  exchange_.receive(context_, done("beta", 0, 0));
+  exchange_.apply(context_, true);
+  for (int cut = 0; cut < 3; ++cut) {
+    end("beta");
+    wait(9.0);
+    announce("beta", 0);
+    wait(0.5);
+  }
+  EXPECT_EQ(lost_role(), 0u);
+}
+
+// Else a host that was stopped would give up the others as soon as it continues.
+TEST_F(LockstepExchangeTest, APauseOfTheGatewayIsNoAbsenceOfTheOthers) {
+  fly_together();
+  exchange_.receive(context_, done("beta", 0, 0));
+  exchange_.apply(context_, true);
+  end("beta");
+  wait(0.5);
+  pass(60 * kSecond_ns);
+  exchange_.apply(context_, true);
+  EXPECT_EQ(lost_role(), 0u);
+}
+
+TEST_F(LockstepExchangeTest, ARoleThatHasDoneItsLastTickIsNotLost) {
+  fly_together();
+  session_.layout().lockstep.end_tick = 1;
+  exchange_.receive(context_, done("beta", 0, 0));
+  exchange_.apply(context_, true);
+  exchange_.receive(context_, done("beta", 0, 1));
+  end("beta");
+  wait(20.0);
+  EXPECT_EQ(tick_of(0), 0) << "the last tick still waits for the other roles";
+  EXPECT_EQ(lost_role(), 0u);
+  session_.layout().lockstep.end_tick = 2;
+  wait(20.0);
+  EXPECT_EQ(lost_role(), 1u);
+}
+
+TEST_F(LockstepExchangeTest, AnotherEndOfTheRunIsSaidOnceForEachHost) {
+  fly_together();
+  session_.layout().lockstep.end_tick = 4000;
+  const auto receive = [this](const std::string& host, std::uint32_t role, std::uint32_t end) {
+    auto sample = done(host, role, 0);
+    sample.end = end;
+    exchange_.receive(context_, sample);
+    exchange_.apply(context_, true);
+  };
+  receive("gamma", 2, 4001);
+  receive("gamma", 3, 0);
+  EXPECT_EQ(refusals(), 0u) << "the same end, and none known";
+  receive("beta", 0, 6001);
+  receive("beta", 3, 6001);
+  EXPECT_EQ(refusals(), 1u);
+  EXPECT_EQ(last_note(session_),
+            "lockstep to tick 6000 on host beta, to tick 4000 here; give both the same --headless");
+  receive("gamma", 2, 0xFFFFFFFFU);
+  EXPECT_EQ(refusals(), 2u);
 }
 
 }  // namespace
