@@ -21,7 +21,8 @@ constexpr std::size_t kFirstProbes = 12;
 // Of a few answers one was on the way without a queue. A first offset by one answer was wrong by 50 ms on a bad line.
 constexpr std::size_t kEnoughAnswers = 6;
 constexpr std::int64_t kGroupDelay_ns = 1'000'000'000;
-constexpr std::int64_t kGhost_ns = 3'000'000'000;  // a predecessor of this process may be heard for the lease
+constexpr std::int64_t kSharedAgain_ns = 60'000'000'000;  // a name that is shared again after this is said again
+constexpr std::int64_t kGhost_ns = 3'000'000'000;         // a predecessor of this process may be heard for the lease
 
 template <std::size_t N>
 std::string text_of(const char (&text)[N]) {
@@ -104,6 +105,8 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
   if (const auto fault = fault_of(sample)) return refuse(sample.host, dds::Topic::hosts, *fault);
   Host* host = host_of(sample.host, true);
   if (host == nullptr) return;
+  report_shared_name(*host, sample.start, now_ns);
+  if (!host->alive) readmit(*host, sample.start);
   if (!host->numbers[dds::index_of(dds::Topic::hosts)].is_new(sample.start, sample.number,
                                                               max_repeats(dds::Topic::hosts)))
     return;
@@ -132,6 +135,7 @@ std::uint32_t Hosts::permitted_roles(std::uint64_t host) const {
 
 void Hosts::lose(Host& host) {
   host.alive = false;
+  if (host.left) host.differences = 0;
   const std::string line = "host " + host.view.name + (host.left ? " has left" : " is no longer heard");
   host.left ? log::info(line) : log::warning(line);
   session_->note(host.left ? NoteKind::restart : NoteKind::loss, line);
@@ -140,14 +144,21 @@ void Hosts::lose(Host& host) {
 
 // A host that is heard for the first time, again after silence, or with a new gateway.
 void Hosts::begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns) {
-  host.alive = true;
+  const bool was_alive = std::exchange(host.alive, true);
   host.left = false;
   host.view.name = text_of(sample.name);
   host.offset = {};
   host.next_probe_ns = now_ns;
   host.differences = 0;
+  readmit(host, sample.start);
+  if (was_alive && host.name.is_shared(now_ns)) return;  // each of those with the name would be said again and again
   log::info("hears host " + host.view.name);
   session_->note(NoteKind::restart, "hears host " + host.view.name);
+}
+
+// A process that another one with its name seemed to have replaced is the one that goes on.
+void Hosts::readmit(Host& host, std::uint64_t start) {
+  for (SampleNumbers& numbers : host.numbers) numbers.readmit(start);
 }
 
 void Hosts::report_differences(Host& host) {
@@ -178,6 +189,17 @@ void Hosts::report(Host& host, std::uint32_t flag, bool differs, const std::stri
   host.differences |= flag;
   log::warning(line);
   session_->note(NoteKind::refusal, line);
+}
+
+// Says once that two other hosts have one name.
+void Hosts::report_shared_name(Host& host, std::uint64_t start, std::int64_t now_ns) {
+  host.name.hear(start, now_ns);
+  if (!host.name.is_shared(now_ns)) return;
+  const std::int64_t before_ns = std::exchange(host.name_shared_ns, now_ns);
+  if (before_ns != 0 && now_ns - before_ns < kSharedAgain_ns) return;
+  const std::string line = "two hosts are called " + host.view.name + "; give each a `name` of its own";
+  log::error(line);
+  session_->note(NoteKind::loss, line);
 }
 
 void Hosts::report_same_name(const yars_net_HostSample& sample, std::int64_t now_ns) {
@@ -403,6 +425,7 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
     to.priority = host.view.priority;
     to.flags |= host.differences | (host.alive ? databuffer::kHostPresent : 0U) |
                 (host.left ? databuffer::kHostLeft : 0U) |
+                (host.name.is_shared(now_ns) ? databuffer::kHostSameName : 0U) |
                 (host.alive && host.view.owns_clock ? databuffer::kHostOwnsClock : 0U);
   }
 }
