@@ -172,6 +172,10 @@ def security_on_one_side_is_named(programs, _):
         time.sleep(2.0)
         for gateway in spread.gateways.values():
             assert gateway.text().count("exchanges nothing") == 1, gateway.text()
+        status = spread.yars("a", "status", code=None)
+        note = next((line for line in status.splitlines() if "exchanges nothing" in line), "")
+        assert " loss " in note and note.endswith("open UDP ports"), status
+        assert "refusal 0" in status, status
 
 
 def another_session_is_named(programs, _):
