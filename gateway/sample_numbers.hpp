@@ -1,10 +1,12 @@
-// Numbers of the samples that arrive from one host on one topic: repeated samples and losses.
+// Numbers of the samples that arrive from one host on one topic: repeated samples and losses; hosts with one name.
 // Inputs: start (random number of the sending gateway process) and number of each sample, in order of arrival.
 // Outputs: whether the sample is new; counts.
 // Use: after a partition DDS delivers the stored history of a topic again, and a lost sample is not reported by it.
 // Threads: one.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 
 namespace yars::gateway {
@@ -43,6 +45,10 @@ class SampleNumbers {
     ++received_;
     return true;
   }
+  // The former process has not ended: its samples count again, if it is this one.
+  void readmit(std::uint64_t start) {
+    if (start == former_start_) former_start_ = start_;
+  }
   // Continues where a predecessor of this process stopped: `next` is the number of the next sample to take.
   void resume(std::uint64_t start, std::uint64_t next) {
     start_ = start;
@@ -63,6 +69,36 @@ class SampleNumbers {
   std::uint64_t run_ = 0, run_next_ = 0;  // samples in a row with rising numbers; the least number that continues it
   std::uint64_t start_ = 0, former_start_ = 0, next_ = 0, received_ = 0, repeated_ = 0, lost_ = 0;
   bool begun_ = false;
+};
+
+// Whether several processes announce themselves with one name at the same time.
+// Inputs: start of each announcement, with CLOCK_MONOTONIC times [ns].
+// Use: a gateway that was started again has another start, and its predecessor's never comes back.
+class SharedName {
+ public:
+  static constexpr std::int64_t kMin_ns = 1'500'000'000;  // a predecessor's late samples end earlier
+  // [ns] Without a return for so long there is one process. Of two announcements within a pass only one is seen.
+  static constexpr std::int64_t kEnd_ns = 3'000'000'000;
+
+  void hear(std::uint64_t start, std::int64_t now_ns) {
+    if (start == starts_[0]) return;
+    const auto known = std::find(starts_.begin(), starts_.end(), start);
+    if (known == starts_.end()) {
+      std::shift_right(starts_.begin(), starts_.end(), 1);
+    } else {
+      if (now_ns - returned_ns_ > kEnd_ns) since_ns_ = now_ns;
+      returned_ns_ = now_ns;
+      std::rotate(starts_.begin(), known, known + 1);
+    }
+    starts_[0] = start;
+  }
+  bool is_shared(std::int64_t now_ns) const {
+    return returned_ns_ - since_ns_ > kMin_ns && now_ns - returned_ns_ <= kEnd_ns;
+  }
+
+ private:
+  std::array<std::uint64_t, 4> starts_{};        // newest first; 0: none
+  std::int64_t since_ns_ = 0, returned_ns_ = 0;  // first and last return of an earlier start in the present row
 };
 
 }  // namespace yars::gateway

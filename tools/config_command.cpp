@@ -47,18 +47,23 @@ config::LoadedConfiguration loaded(const std::string& file) {
 }
 
 // Warnings about the form Network on this computer. A form of another computer is valid, so interfaces and peers that
-// this one does not have give warnings alone. A fault of the identity is thrown.
+// this one does not have give warnings alone. So does an identity that is of another host than this, if the form has no
+// name. Any other fault of the identity is thrown.
 std::vector<std::string> network_warnings(const radar::NetworkSettings& network) {
 #ifdef YARS_HAS_GATEWAY
+  constexpr const char* kRefusedHere = "the gateway would refuse this here: ";
   std::vector<std::string> warnings;
   if (auto computer = gateway::checks::check_computer(network))
     warnings = std::move(computer->warnings);
   else
-    warnings.push_back("the gateway of this computer would refuse the form: " + computer.error().message());
+    warnings.push_back(kRefusedHere + computer.error().message());
   if (network.security.empty()) return warnings;
   auto identity = gateway::checks::check_identity(network.security, network.name);
   if (!identity) throw_failure(identity.error());
   warnings.insert(warnings.end(), identity->begin(), identity->end());
+  if (!network.name.empty()) return warnings;
+  const auto here = gateway::checks::check_identity(network.security, gateway::checks::host_name());
+  if (!here) warnings.push_back(kRefusedHere + here.error().message());
   return warnings;
 #else
   return {

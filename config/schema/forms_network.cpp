@@ -47,6 +47,14 @@ std::optional<ConstraintViolation> check_topics(std::string_view slot, const Wor
   return ConstraintViolation{slot, expected, quoted_text(*wrong) + (meant.empty() ? "" : "; " + meant)};
 }
 
+// Rule: `lo` is alone. Beside it Cyclone DDS sends to other computers from the loopback address, which fails.
+std::optional<ConstraintViolation> check_loopback(const Words& interfaces) {
+  const auto other = std::ranges::find_if(interfaces, [](const std::string& name) { return name != "lo"; });
+  if (other == interfaces.end() || std::ranges::find(interfaces, "lo") == interfaces.end()) return std::nullopt;
+  return ConstraintViolation{"interfaces", "\"lo\" alone, or interfaces without it",
+                             "\"lo\" beside " + quoted_text(*other)};
+}
+
 // The four bytes of an IPv4 address, with or without `:PORT` behind it; nullopt: the word is none.
 std::optional<std::array<unsigned, 4>> ipv4_address(std::string_view word) {
   std::array<unsigned, 4> bytes{};
@@ -92,6 +100,7 @@ std::optional<ConstraintViolation> check_network(const ConfigurationBuilder& bui
   if (auto wrong = check_words("interfaces", network.interfaces, "names of network interfaces, as `ip link` lists them",
                                [](std::string_view word) { return is_plain(word, kMaxInterfaceName, "-_.:@"); }))
     return wrong;
+  if (auto wrong = check_loopback(network.interfaces)) return wrong;
   if (auto wrong = check_peers(network.peers)) return wrong;
   if (auto wrong = check_topics("topicsIn", network.topics_in)) return wrong;
   return check_topics("topicsOut", network.topics_out);
@@ -120,9 +129,9 @@ std::vector<SlotSchema> network_slots() {
           whole_slot("domain", "", 0, 230, {YARS_FIELD(network.domain)},
                      "DDS domain, the same on all computers; it sets the UDP ports, from 7400 + 250 domain"),
           words_slot("interfaces", {YARS_FIELD(network.interfaces), 1, radar::kMaxInterfaces},
-                     "network interfaces of this computer; with lo alone nothing leaves the computer"),
+                     "network interfaces of this computer; or lo alone: nothing leaves the computer"),
           words_slot("peers", {YARS_FIELD(network.peers), 0, radar::kMaxPeers},
-                     "IPv4 addresses or host names of the computers of the session; multicast is off"),
+                     "IPv4 addresses or host names of the session's computers, or ADDRESS:PORT; multicast is off"),
           words_slot("topicsIn", {YARS_FIELD(network.topics_in), 0, radar::kTopicNames.size()},
                      "topics that are read from other computers; none named: all"),
           words_slot("topicsOut", {YARS_FIELD(network.topics_out), 0, radar::kTopicNames.size()},

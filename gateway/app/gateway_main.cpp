@@ -1,9 +1,6 @@
 // The program gateway: joins the session of this computer to those of other computers.
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <random>
 #include <string>
@@ -51,13 +48,6 @@ std::uint64_t terrain_hash(const std::string& folder) {
   return text.empty() ? 0 : gateway::host_id(text);
 }
 
-std::string host_name() {
-  std::array<char, 64> name{};
-  gethostname(name.data(), name.size() - 1);
-  std::string text(name.data());
-  return text.substr(0, std::min(text.find('.'), radar::kMaxHostName));
-}
-
 std::uint64_t random_number() {
   std::random_device source;
   return std::uint64_t{source()} << 32 | source() | 1U;
@@ -88,7 +78,7 @@ error::Expected<std::vector<std::string>> check(radar::NetworkSettings& settings
 error::Expected<void> run(const databuffer::ProgramOptions& options, const GatewayOptions& gateway_options) {
   auto settings = config::load_network(gateway_options.network);
   if (!settings) return tl::unexpected(settings.error());
-  if (settings->name.empty()) settings->name = host_name();
+  if (settings->name.empty()) settings->name = gateway::checks::host_name();
   auto peers = check(*settings);
   if (!peers) return tl::unexpected(peers.error());
   auto configuration = config::load_program_configuration(options.config);

@@ -139,7 +139,7 @@ void GatewayShell::report_messages() {
     }
     reported_silence_ = true;
     log::warning(remark.text);
-    session_->note(databuffer::NoteKind::refusal, remark.text);
+    session_->note(databuffer::NoteKind::loss, remark.note);
   }
   report_silence();
 }

@@ -6,6 +6,7 @@
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -115,6 +116,13 @@ void add_warnings(ComputerCheck& check, const radar::NetworkSettings& settings) 
 }
 
 }  // namespace
+
+std::string host_name() {
+  std::array<char, 64> name{};
+  gethostname(name.data(), name.size() - 1);
+  std::string text(name.data());
+  return text.substr(0, std::min(text.find('.'), radar::kMaxHostName));
+}
 
 error::Expected<ComputerCheck> check_computer(const radar::NetworkSettings& settings) {
   const std::vector<Interface> here = interfaces_here();

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "databuffer/messages/note.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::gateway::dds {
@@ -15,7 +16,8 @@ constexpr std::size_t kMaxOthers = 64;  // participants that are remembered; for
 // [ns] A host's writers are known some ms after itself, encrypted on a bad line half a second. With a shorter time a
 // loaded machine would name hosts that join.
 constexpr std::int64_t kSilence_ns = 5'000'000'000;
-constexpr std::size_t kMaxText = 64;  // [bytes] of a text about itself that a participant sends
+constexpr std::size_t kMaxAddress = 15;  // [bytes] of an IPv4 address
+constexpr std::size_t kMaxText = 64;     // [bytes] of a text about itself that a participant sends
 
 // Calls take(sample, info) for what has arrived on a reader of a topic of Cyclone DDS itself.
 template <class Sample, class Take>
@@ -47,13 +49,15 @@ std::string property(const dds_qos_t* qos, const char* name) {
   return text;
 }
 
-// "gateway of radar-2 (192.168.10.2)"; empty for other programs.
-std::string name_of(const dds_qos_t* qos) {
-  if (property(qos, "__ProcessName") != "gateway") return "";
+// First address of a participant, such as 192.168.10.2.
+std::string address_of(const dds_qos_t* qos) {
   std::string address = property(qos, "__NetworkAddresses");
   if (const auto slash = address.find('/'); slash != std::string::npos) address.erase(0, slash + 1);
-  address = address.substr(0, address.find_first_of(":,"));
-  return "the gateway of " + property(qos, "__Hostname") + " (" + address + ')';
+  return address.substr(0, address.find_first_of(":,"));
+}
+
+std::string gateway_text(const std::string& name, const std::string& address) {
+  return "the gateway of " + name + " (" + address + ')';
 }
 
 std::vector<std::string> partitions_of(const dds_qos_t* qos) {
@@ -70,6 +74,18 @@ std::vector<std::string> partitions_of(const dds_qos_t* qos) {
 }
 
 }  // namespace
+
+Remark silence_of(const std::string& name, const std::string& address, bool secured) {
+  const std::string cause = secured ? "its form Network has no `security`, or an identity of another network"
+                                    : "its form Network has `security`, and that of this host has none";
+  std::string note = " exchanges nothing: compare `security`, open UDP ports";
+  const std::string at = " (" + address.substr(0, kMaxAddress) + ')';
+  note = name.substr(0, sizeof(databuffer::Note::text) - 1 - note.size() - at.size()) + at + note;
+  return {gateway_text(name, address) + " is heard, but exchanges nothing: " + cause +
+              ", or it does not hear this host; give both hosts identities of one network, or neither, and open their "
+              "UDP ports",
+          std::move(note), true};
+}
 
 void Participants::open(std::int32_t participant, std::string session, bool secured) {
   session_ = std::move(session);
@@ -89,7 +105,10 @@ void Participants::take_participants(std::int64_t now_ns) {
     }
     if (key == self_ || !info.valid_data || (others_.size() >= kMaxOthers && !others_.contains(key))) return;
     Other& other = others_[key];
-    other.name = name_of(sample.qos);
+    if (property(sample.qos, "__ProcessName") == "gateway") {
+      other.name = property(sample.qos, "__Hostname");
+      other.address = address_of(sample.qos);
+    }
     if (other.first_ns == 0) other.first_ns = now_ns;
   });
 }
@@ -110,15 +129,10 @@ void Participants::take_writers() {
 
 Remark Participants::remark_on(const Other& other) const {
   if (!other.session.empty())
-    return {other.name + " is of session " + other.session + ", this one of session " + session_ +
-                ": nothing is exchanged; start both with the same --session, if they belong together",
-            false};
-  const std::string cause = secured_ ? "its form Network has no `security`, or an identity of another network"
-                                     : "its form Network has `security`, and that of this host has none";
-  return {other.name + " is heard, but exchanges nothing: " + cause +
-              ", or it does not hear this host; give both hosts identities of one network, or neither, and open their "
-              "UDP ports",
-          true};
+    return {gateway_text(other.name, other.address) + " is of session " + other.session + ", this one of session " +
+                session_ + ": nothing is exchanged; start both with the same --session, if they belong together",
+            "", false};
+  return silence_of(other.name, other.address, secured_);
 }
 
 std::vector<Remark> Participants::take_remarks(std::int64_t now_ns) {

@@ -17,8 +17,12 @@ namespace yars::gateway::dds {
 // One line about a participant.
 struct Remark {
   std::string text;
+  std::string note;       // shorter, for the flight recorder
   bool is_fault = false;  // false: it may be meant so
 };
+
+// The line about gateway `name` at `address`, which exchanges nothing. `secured`: this side has an identity.
+Remark silence_of(const std::string& name, const std::string& address, bool secured);
 
 class Participants {
  public:
@@ -30,7 +34,7 @@ class Participants {
  private:
   using Key = std::pair<std::uint64_t, std::uint64_t>;  // GUID of a participant
   struct Other {
-    std::string name;           // "the gateway of NAME (ADDRESS)"; empty: no gateway
+    std::string name, address;  // of a gateway; empty: it is none
     std::int64_t first_ns = 0;  // when it was first heard
     bool is_here = false;       // writes in this session
     std::string session;        // of its writers, another one; empty: none known

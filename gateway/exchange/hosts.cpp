@@ -1,8 +1,6 @@
 #include "gateway/exchange/hosts.hpp"
 
 #include <algorithm>
-#include <cstdio>
-#include <cstring>
 
 #include "gateway/exchange/role_topics.hpp"
 #include "lib/log/log.hpp"
@@ -20,20 +18,7 @@ constexpr std::int64_t kFirstProbeInterval_ns = 25'000'000;  // of the first kFi
 constexpr std::size_t kFirstProbes = 12;
 // Of a few answers one was on the way without a queue. A first offset by one answer was wrong by 50 ms on a bad line.
 constexpr std::size_t kEnoughAnswers = 6;
-constexpr std::int64_t kClaimPatience_ns = 3'000'000'000;
 constexpr std::int64_t kGroupDelay_ns = 1'000'000'000;
-constexpr std::int64_t kGhost_ns = 3'000'000'000;  // a predecessor of this process may be heard for the lease
-
-template <std::size_t N>
-std::string text_of(const char (&text)[N]) {
-  return std::string(text, strnlen(text, N));
-}
-
-template <std::size_t N>
-void set_text(char (&to)[N], std::string_view text) {
-  std::memset(to, 0, N);
-  text.copy(to, N - 1);
-}
 
 template <std::size_t N>
 bool is_text(const char (&text)[N]) {
@@ -43,7 +28,7 @@ bool is_text(const char (&text)[N]) {
 
 std::optional<std::string> fault_of(const yars_net_HostSample& sample) {
   if (!is_text(sample.name) || !is_text(sample.version)) return "name and version: expected printable ASCII";
-  if (sample.name[0] == '\0' || host_id(text_of(sample.name)) != sample.host)
+  if (sample.name[0] == '\0' || host_id(text::text_of(sample.name)) != sample.host)
     return "host: expected the hash of its name, found another number";
   if (sample.priority > databuffer::kMaxHostPriority)
     return "priority: expected at most " + std::to_string(databuffer::kMaxHostPriority) + ", found " +
@@ -112,6 +97,8 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
   if (const auto fault = fault_of(sample)) return refuse(sample.host, dds::Topic::hosts, *fault);
   Host* host = host_of(sample.host, true);
   if (host == nullptr) return;
+  report_shared_name(*host, sample.start, now_ns);
+  if (!host->alive) readmit(*host, sample.start);
   if (!host->numbers[dds::index_of(dds::Topic::hosts)].is_new(sample.start, sample.number,
                                                               max_repeats(dds::Topic::hosts)))
     return;
@@ -141,21 +128,9 @@ bool Hosts::host_writes(std::uint64_t host, dds::Topic topic) const {
   return link_ == nullptr || link_->host_writes(host, topic);
 }
 
-// Says once that a host claims what it may not have. A host's writers are known some ms after it is first heard.
-void Hosts::report_claims(Host& host, std::int64_t now_ns) {
-  const bool claims =
-      (host.said.held_roles & ~host.view.held_roles) != 0 || (host.said.owns_clock != 0 && !host.view.owns_clock);
-  if (!claims) host.claims_since_ns = now_ns;
-  if (host.reported_claims || now_ns - host.claims_since_ns < kClaimPatience_ns) return;
-  host.reported_claims = true;
-  const std::string line =
-      "host " + host.view.name + " claims roles or the clock, and may not write their topics; its claims are left out";
-  log::warning(line);
-  session_->note(NoteKind::refusal, line);
-}
-
 void Hosts::lose(Host& host) {
   host.alive = false;
+  if (host.left) host.differences = 0;
   const std::string line = "host " + host.view.name + (host.left ? " has left" : " is no longer heard");
   host.left ? log::info(line) : log::warning(line);
   session_->note(host.left ? NoteKind::restart : NoteKind::loss, line);
@@ -164,65 +139,23 @@ void Hosts::lose(Host& host) {
 
 // A host that is heard for the first time, again after silence, or with a new gateway.
 void Hosts::begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns) {
-  host.alive = true;
+  const bool was_alive = std::exchange(host.alive, true);
   host.left = false;
-  host.view.name = text_of(sample.name);
+  host.view.name = text::text_of(sample.name);
   host.offset = {};
   host.next_probe_ns = now_ns;
   host.differences = 0;
   host.claims_since_ns = now_ns;
   host.reported_claims = false;
+  readmit(host, sample.start);
+  if (was_alive && host.name.is_shared(now_ns)) return;  // each of those with the name would be said again and again
   log::info("hears host " + host.view.name);
   session_->note(NoteKind::restart, "hears host " + host.view.name);
 }
 
-void Hosts::report_differences(Host& host) {
-  const yars_net_HostSample& said = host.said;
-  const std::string other = "host " + host.view.name;
-  char hash[20];
-  std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(said.layout_hash));
-  host.other_layout = said.layout_hash != databuffer::kLayoutIdentity.hash || said.protocol != yars_net_kProtocol;
-  report(host, databuffer::kHostOtherLayout, host.other_layout,
-         other + " has another layout of the records (" + text_of(said.version) + ", layout " + hash +
-             "): nothing is exchanged with it; install the same version on both");
-  const auto differ = [](std::uint64_t mine, std::uint64_t theirs) {
-    return mine != 0 && theirs != 0 && mine != theirs;
-  };
-  report(host, databuffer::kHostOtherConfiguration, differ(identity_.configuration_hash, said.configuration_hash),
-         other + " has another configuration; start both with the same --config");
-  report(host, databuffer::kHostOtherTerrain, differ(identity_.terrain_hash, said.terrain_hash),
-         other + " has another terrain; start both with the same --terrain");
-}
-
-// Says a difference once while it lasts.
-void Hosts::report(Host& host, std::uint32_t flag, bool differs, const std::string& line) {
-  if (!differs) {
-    host.differences &= ~flag;
-    return;
-  }
-  if ((host.differences & flag) != 0) return;
-  host.differences |= flag;
-  log::warning(line);
-  session_->note(NoteKind::refusal, line);
-}
-
-void Hosts::report_same_name(const yars_net_HostSample& sample, std::int64_t now_ns) {
-  if (sample.start == identity_.start) return;
-  if (!has_same_name(now_ns)) {
-    same_name_since_ns_ = now_ns;
-    same_name_ = false;
-  }
-  same_name_heard_ns_ = now_ns;
-  if (same_name_ || now_ns - same_name_since_ns_ < kGhost_ns) return;
-  same_name_ = true;
-  const std::string line = "another host is also called " + identity_.name + "; give each host a `name` of its own";
-  log::error(line);
-  session_->note(NoteKind::refusal, line);
-}
-
-// True if another host with this name has been heard a short time ago.
-bool Hosts::has_same_name(std::int64_t now_ns) const {
-  return same_name_heard_ns_ != 0 && now_ns - same_name_heard_ns_ <= kGhost_ns;
+// A process that another one with its name seemed to have replaced is the one that goes on.
+void Hosts::readmit(Host& host, std::uint64_t start) {
+  for (SampleNumbers& numbers : host.numbers) numbers.readmit(start);
 }
 
 void Hosts::announce(std::int64_t now_ns) {
@@ -244,8 +177,8 @@ void Hosts::announce(std::int64_t now_ns) {
   sample.group = self().group;
   sample.machine_term = machine_term_;
   sample.processes = processes_;
-  set_text(sample.name, identity_.name);
-  set_text(sample.version, YARS_VERSION);
+  text::put_text(sample.name, identity_.name);
+  text::put_text(sample.version, YARS_VERSION);
   if (link_ != nullptr) link_->write(sample);
 }
 
@@ -396,8 +329,8 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
   constexpr std::array kHistories{dds::Topic::applied_events, dds::Topic::model_ticks, dds::Topic::sweeps,
                                   dds::Topic::traffic_latched};
   auto& own = status.hosts[0];
-  set_text(own.name, identity_.name);
-  set_text(own.version, YARS_VERSION);
+  text::put_text(own.name, identity_.name);
+  text::put_text(own.version, YARS_VERSION);
   own.heard_ns = now_ns;
   own.held_roles = self().held_roles | processes_ << databuffer::kFirstProcessBit;
   own.priority = identity_.priority;
@@ -408,8 +341,8 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
   for (const Host& host : hosts_) {
     if (host.view.name.empty() || status.host_count >= databuffer::kMaxHosts) continue;
     auto& to = status.hosts[status.host_count++];
-    set_text(to.name, host.view.name);
-    set_text(to.version, text_of(host.said.version));
+    text::put_text(to.name, host.view.name);
+    text::put_text(to.version, text::text_of(host.said.version));
     to.heard_ns = host.heard_ns;
     if (const auto best = host.offset.best()) {
       to.offset_ns = best->offset_ns;
@@ -428,6 +361,7 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
     to.priority = host.view.priority;
     to.flags |= host.differences | (host.alive ? databuffer::kHostPresent : 0U) |
                 (host.left ? databuffer::kHostLeft : 0U) |
+                (host.name.is_shared(now_ns) ? databuffer::kHostSameName : 0U) |
                 (host.alive && host.view.owns_clock ? databuffer::kHostOwnsClock : 0U);
   }
 }

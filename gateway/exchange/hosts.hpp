@@ -121,6 +121,8 @@ class Hosts {
     OffsetEstimator offset;
     std::array<SampleNumbers, dds::kTopicCount> numbers;
     std::uint64_t refused = 0;
+    SharedName name;
+    std::int64_t name_shared_ns = 0;  // last time at which two hosts had this name
   };
   Host* host_of(std::uint64_t id, bool add);
   const Host* host_of(std::uint64_t id) const;
@@ -129,8 +131,10 @@ class Hosts {
   void report_claims(Host& host, std::int64_t now_ns);
   void lose(Host& host);
   void begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns);
+  static void readmit(Host& host, std::uint64_t start);
   void report_differences(Host& host);
   void report(Host& host, std::uint32_t flag, bool differs, const std::string& line);
+  void report_shared_name(Host& host, std::uint64_t start, std::int64_t now_ns);
   void report_same_name(const yars_net_HostSample& sample, std::int64_t now_ns);
   bool has_same_name(std::int64_t now_ns) const;
   void announce(std::int64_t now_ns);

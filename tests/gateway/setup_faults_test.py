@@ -106,6 +106,17 @@ def faults_of_an_identity_are_named(programs, folder):
     assert code == 1 and "expected a folder with the identity of this host, found none at" in lines[0], lines
 
 
+def an_identity_of_another_host_than_this_is_warned_of(programs, folder):
+    """Without `name` the gateway has the host's name. The file may be meant for another computer, so it is valid."""
+    make_network(folder / "net", "not-this-host")
+    (folder / "host.guf").write_text('( Network :security "net/not-this-host" )\n')
+    code, lines = said_at_start(programs, folder / "host.guf", "setup_faults")
+    assert code == 1 and "found CN=not-this-host" in lines[-1], lines
+    code, lines = said_by_check(programs, folder / "host.guf")
+    assert code == 0 and "the gateway would refuse this here: Network: security: " in lines[0], lines
+    assert "found CN=not-this-host; give the form Network the `name`" in lines[0] and "valid, 1 warning" in lines[1], lines
+
+
 def a_key_that_others_can_read_is_warned_of(programs, folder):
     make_network(folder / "net", "a")
     (folder / "a.guf").write_text('( Network :name "a" :security "net/a" )\n')
@@ -124,7 +135,7 @@ def faults_of_the_form_are_named(programs, folder):
     assert "Network: interfaces: expected names of interfaces of this computer, which are " in lines[0], lines
     assert "lo (127.0.0.1)" in lines[0] and 'found "nosuchif0"' in lines[0], lines
     code, lines = said_by_check(programs, file)
-    assert code == 0 and "the gateway of this computer would refuse the form" in lines[0] and "valid, 1 warning" in lines[1], lines
+    assert code == 0 and "the gateway would refuse this here: " in lines[0] and "valid, 1 warning" in lines[1], lines
     file.write_text('( Network :peers `( "127.0.0.1" "no-such-host.invalid" ) )\n')
     code, lines = said_by_check(programs, file)
     assert code == 0 and 'found "no-such-host.invalid", which has none here; it is not asked' in lines[0], lines
@@ -172,6 +183,10 @@ def security_on_one_side_is_named(programs, _):
         time.sleep(2.0)
         for gateway in spread.gateways.values():
             assert gateway.text().count("exchanges nothing") == 1, gateway.text()
+        status = spread.yars("a", "status", code=None)
+        note = next((line for line in status.splitlines() if "exchanges nothing" in line), "")
+        assert " loss " in note and note.endswith("open UDP ports"), status
+        assert "refusal 0" in status, status
 
 
 def another_session_is_named(programs, _):
@@ -221,8 +236,8 @@ def main():
     if not os.access(programs / "gateway", os.X_OK) or shutil.which("openssl") is None:
         print("skipped: expected the program gateway and openssl, found not both")
         return 77
-    tests = [faults_of_an_identity_are_named, a_key_that_others_can_read_is_warned_of, faults_of_the_form_are_named,
-             too_few_places_name_the_slot]
+    tests = [faults_of_an_identity_are_named, an_identity_of_another_host_than_this_is_warned_of,
+             a_key_that_others_can_read_is_warned_of, faults_of_the_form_are_named, too_few_places_name_the_slot]
     if reason := spread_set.why_skipped(programs):
         print(f"left out: {reason}")
     else:

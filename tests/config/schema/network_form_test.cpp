@@ -86,6 +86,16 @@ TEST(NetworkForm, RefusesWhatWouldBeMarkup) {
         << word;
 }
 
+// Cyclone DDS would send to other computers from the loopback address, and fail each time.
+TEST(NetworkForm, RefusesLoBesideOtherInterfaces) {
+  for (const char* list : {R"("lo" "eth0")", R"("eth0" "lo")"})
+    EXPECT_THAT(
+        refusal(network(std::string(":interfaces `( ") + list + " )")),
+        HasSubstr("expected \"lo\" alone, or interfaces without it for :interfaces, found \"lo\" beside \"eth0\""));
+  EXPECT_TRUE(loaded(network(":interfaces `( \"lo\" )")).network);
+  EXPECT_TRUE(loaded(network(":interfaces `( \"eth0\" \"wg0\" )")).network);
+}
+
 // Cyclone DDS takes these words and asks nobody.
 TEST(NetworkForm, RefusesAddressesThatAreNoComputer) {
   const auto refusal_of = [](const std::string& word) { return refusal(network(":peers `( \"" + word + "\" )")); };

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -32,6 +33,14 @@ class HostsTest : public testing::TwoHosts {
     return sample;
   }
   void receive(const yars_net_HostSample& sample) { hosts_.receive(sample, true, context_.now_ns); }
+  std::uint64_t notes_with(const std::string& text) const {
+    std::uint64_t found = 0;
+    const auto& notes = session_.layout().notes;
+    databuffer::Note note{};
+    for (std::uint64_t i = 0; i < notes.total(); ++i)
+      if (notes.read(i, note) && std::string_view(note.text).find(text) != std::string_view::npos) ++found;
+    return found;
+  }
   databuffer::NetworkStatus status() const {
     databuffer::NetworkStatus status{};
     hosts_.describe(status, context_.now_ns);
@@ -138,6 +147,74 @@ TEST_F(HostsTest, AnotherHostWithThisNameIsSaidWhenItStays) {
   EXPECT_EQ(status().hosts[0].flags & databuffer::kHostSameName, 0u) << "it has gone";
   receive(ghost);
   EXPECT_EQ(status().hosts[0].flags & databuffer::kHostSameName, 0u) << "perhaps a ghost again";
+}
+
+TEST_F(HostsTest, DifferencesOfAHostEndWhenItLeavesAndStayWhileItIsSilent) {
+  auto other = sample("beta");
+  other.layout_hash ^= 1;
+  receive(other);
+  context_.now_ns += kLease_ns + 1;
+  end("beta");
+  EXPECT_NE(status().hosts[1].flags & databuffer::kHostOtherLayout, 0u) << "it is silent";
+  other = sample("beta");
+  other.layout_hash ^= 1;
+  receive(other);
+  end("beta");
+  EXPECT_EQ(status().hosts[1].flags & databuffer::kHostOtherLayout, 0u) << "it has left";
+  other = sample("beta");
+  other.layout_hash ^= 1;
+  receive(other);
+  EXPECT_NE(status().hosts[1].flags & databuffer::kHostOtherLayout, 0u) << "it is back";
+}
+
+// Two hosts called beta, each with samples of its own.
+class SharedNameTest : public HostsTest {
+ protected:
+  static constexpr std::uint64_t kFirst = 11, kSecond = 13;
+  void announce_as(std::uint64_t start, std::int64_t after_ns = kSecond_ns / 20) {
+    context_.now_ns += after_ns;
+    hosts_.exchange(context_.now_ns);
+    auto beta = sample("beta");
+    beta.start = start;
+    receive(beta);
+  }
+  bool is_shared() const { return (status().hosts[1].flags & databuffer::kHostSameName) != 0; }
+  std::uint64_t lines() const { return notes_with("two hosts are called beta; give each a `name` of its own"); }
+};
+
+TEST_F(SharedNameTest, TwoOtherHostsWithOneNameAreSaidOnce) {
+  for (int i = 0; i < 10; ++i) announce_as(kFirst), announce_as(kSecond);
+  EXPECT_EQ(lines(), 0u) << "after one second";
+  for (int i = 0; i < 100; ++i) announce_as(kFirst), announce_as(kSecond);
+  EXPECT_EQ(lines(), 1u);
+  EXPECT_TRUE(is_shared());
+  EXPECT_FALSE(databuffer::validate(status()));
+}
+
+TEST_F(SharedNameTest, ThreeHostsWithOneNameAreSaidOnce) {
+  for (int i = 0; i < 50; ++i) announce_as(kFirst), announce_as(kSecond), announce_as(17);
+  EXPECT_EQ(lines(), 1u);
+}
+
+TEST_F(SharedNameTest, ARestartOfAGatewayIsNone) {
+  for (std::uint64_t start = 100; start < 120; ++start) {
+    for (int i = 0; i < 40; ++i) announce_as(start);
+    announce_as(start + 1);
+    announce_as(start, 2 * kSecond_ns);  // a late sample of the process that has ended
+    announce_as(start + 1);
+  }
+  EXPECT_EQ(lines(), 0u);
+  EXPECT_FALSE(is_shared());
+}
+
+TEST_F(SharedNameTest, TheHostThatKeepsTheNameIsHeardOnceTheOtherHasGone) {
+  for (int i = 0; i < 100; ++i) announce_as(kFirst), announce_as(kSecond);
+  hosts_.is_new(dds::Topic::sweeps, host_id("beta"), kFirst, 1);
+  hosts_.is_new(dds::Topic::sweeps, host_id("beta"), kSecond, 1);
+  for (int i = 0; i < 200; ++i) announce_as(kFirst);
+  EXPECT_EQ(hosts_.start_of(host_id("beta")), kFirst);
+  EXPECT_TRUE(hosts_.is_new(dds::Topic::sweeps, host_id("beta"), kFirst, 2));
+  EXPECT_FALSE(is_shared());
 }
 
 using RolesTest = HostsTest;
