@@ -229,6 +229,9 @@ error::Expected<void> Link::State::open_topics(const std::string& session) {
 dds_entity_t Link::State::open_reader(Topic topic) {
   const Qos qos = qos_of(settings_of(topic));
   dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+  // Who poses as a host writes to its instance. With one sample for both, a loaded gateway would lose that host.
+  constexpr int kAnnouncements = 64;
+  if (topic == Topic::hosts) dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kAnnouncements);
   const dds_entity_t reader = dds_create_reader(subscriber, topics[index_of(topic)], qos.get(), nullptr);
   const bool is_awaited = topic == Topic::probes || topic == Topic::input_events;
   if (reader > 0 && is_awaited) {
