@@ -16,7 +16,6 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copy
 # The start script: installed it finds the programs beside it.
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/start DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-start)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/supervise ${PROJECT_SOURCE_DIR}/scripts/nearest_word.py DESTINATION libexec/yars)
-install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/plot_trade DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-plot-trade)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/network_identities DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-network-identities)
 
 # Completions of commands and options, where Debian's shells look for them.
@@ -36,8 +35,7 @@ foreach(unit yars.service yars@.service)
 endforeach()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/install/systemd/ DESTINATION lib/systemd/user)
 
-# Examples; yars.py goes where Python looks (cmake/libraries.cmake).
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${documents} PATTERN "yars.py" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${documents} PATTERN "__pycache__" EXCLUDE)
 
 # compressed(SOURCE NAME DESTINATION): a file as man and Debian want it. Made while configuring: who builds the programs
 # alone, as scripts/start does, can install them.

@@ -17,7 +17,7 @@ import sys
 
 ROOTS = [pathlib.Path(root) for root in ("README.md", "HACKING.md", "docs", "lib", "shm", "config", "databuffer", "model",
                                             "worldgen", "statemachine", "inputmonitor", "display", "tools",
-                                            "examples")]
+                                            "python", "examples")]
 SOURCES = (".hpp", ".h", ".cpp", ".c")
 ANCHOR = r'<a id="([^"]*)"></a>'
 

@@ -178,10 +178,10 @@ def check_refusals(folder):
 
 
 def check_python(prefix):
-    """`import yars` after `apt install`: Debian's Python looks where the package puts it."""
+    """`import yars` after `apt install python3-yars`: Debian's Python looks where the package puts it."""
     looks = run("/usr/bin/python3", "-c", "import sys; print(*sys.path, sep='\\n')").stdout.splitlines()
-    at = [path for path in looks if (prefix.parent / path.lstrip("/") / "yars.py").is_file()]
-    expect("yars.py where Debian's python3 looks", at == ["/usr/lib/python3/dist-packages"], looks)
+    at = [path for path in looks if (prefix.parent / path.lstrip("/") / "yars/session.py").is_file()]
+    expect("yars/session.py where Debian's python3 looks", at == ["/usr/lib/python3/dist-packages"], looks)
 
 
 with tempfile.TemporaryDirectory(dir=BUILD) as top:

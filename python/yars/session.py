@@ -1,4 +1,4 @@
-"""Python client of a running YARS session, the counterpart of yars.h. Needs Python 3.9+, no compiler.
+"""Python client of a running YARS session, the counterpart of yars.h. Needs Python 3.9+ alone: no NumPy, no compiled part.
 Without a session: patch_map() makes a patch map by the command `yars patch`.
 Inputs to the session: ownship, navigators, events. Outputs: radar state, outputs, sweeps, frames of the display.
 Errors: YarsError. No error means only that a record was sent; `yars status` shows the refused ones.
@@ -19,6 +19,8 @@ import struct
 import subprocess
 import tempfile
 import time
+
+from . import Error
 
 MAGIC, LINE, SLOTS = 0x314D485353524159, 64, 4
 # begin: databuffer/messages/generate.py
@@ -245,7 +247,7 @@ EXPECTED = {"d": "a number", "q": "a whole number of 64 bits", "Q": "a whole num
             "h": "a whole number -32768 to 32767"}  # covers the codes of OWNSHIP, NAV and INPUT_EVENT
 
 
-class YarsError(Exception):
+class YarsError(Error):
     """Its message says what is wrong, mostly with the expected value, the found one and a remedy."""
 
 
@@ -389,7 +391,7 @@ class Session:
         if found != (MAGIC, SIZE, HASH, VERSION):
             self.close()
             raise YarsError(f"{self.path}: expected layout version {VERSION}, hash {HASH:016x}, found version "
-                            f"{found[3]}, hash {found[2]:016x}; take the yars.py of its build")
+                            f"{found[3]}, hash {found[2]:016x}; take the Python package yars of its build")
         self.process = self._claim(FIRST_PROCESS_BYTE, PROCESSES)
         if self.process is not None:
             entry = AT_PROCESSES + PROCESS_STRIDE * self.process
