@@ -7,7 +7,7 @@
 
 Each name is loaded at its first use: `import yars` needs neither NumPy nor the compiled part. What a name needs and does
 not find raises MissingPart, an Error and an ImportError, which says what to install. The names of yars.session, such as
-yars.Session, stand here, too. Usage: docs/python.md.
+yars.Session, stand here, too. Usage: python.md among the documents of YARS.
 """
 import importlib
 import importlib.machinery
@@ -44,7 +44,7 @@ def _require(name, purpose):
         return importlib.import_module(name)
     except ImportError as problem:
         package = _PACKAGES.get(name.partition(".")[0])
-        remedy = f"install the Debian package {package}, or run scripts/setup --python" if package else "install it"
+        remedy = f"install the Debian package {package}" if package else "install it"
         found = "none" if isinstance(problem, ModuleNotFoundError) and problem.name == name else f"one that fails: {problem}"
         raise MissingPart(f"{purpose}: expected the Python module {name}, found {found}; {remedy}") from problem
 
@@ -65,8 +65,8 @@ def _fault_of_core(problem):
     built = sorted(path.name for folder in folders for path in folder.glob("_core.*.so"))
     fitting = importlib.machinery.EXTENSION_SUFFIXES
     if not built:
-        return (f"expected _core{fitting[0]} in {folders[0]}, found none; install the Debian package python3-yars, or run "
-                "scripts/setup --python, build the target yars_python, and put build/release/python into PYTHONPATH")
+        return (f"expected _core{fitting[0]} in {folders[0]}, found none; install the Debian package python3-yars; of "
+                "a checkout build the target yars_python and put the folder python of its build into PYTHONPATH")
     if not any(name == "_core" + suffix for name in built for suffix in fitting):
         return (f"expected _core{fitting[0]}, found {', '.join(built)} in {folders[0]}: it is for another Python than this one "
                 f"({platform.python_version()}); use /usr/bin/python3, or build the target yars_python for this one")
