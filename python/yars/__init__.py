@@ -76,7 +76,10 @@ def _fault_of_core(problem):
 def _available():
     """Names that can be loaded here, without loading them."""
     def found(module):
-        return importlib.util.find_spec(module, __name__) is not None
+        try:
+            return importlib.util.find_spec(module, __name__) is not None
+        except ImportError:
+            return False
 
     needs = {"_core": ("numpy", "._core"), "session": (".session",), "plot": ("numpy", "matplotlib", ".plot"),
              "dataset": ("numpy", "._core", ".dataset")}
