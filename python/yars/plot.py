@@ -7,9 +7,15 @@ Each function draws into `ax`, or into a figure of its own, and returns the Axes
 colour bar. No function chooses a backend or opens a window: matplotlib's Agg draws where there is no screen.
 What is drawn is any object with the arrays of yars.Scan and yars.Patch. Errors: ValueError.
 """
+from __future__ import annotations
+
 import math
+from typing import TYPE_CHECKING, Any
 
 from . import _require
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 numpy = _require("numpy", "yars.plot")
 _require("matplotlib", "yars.plot")
@@ -29,7 +35,7 @@ _FAMILIES = ("#c81e1e", "#1e5abe", "#1e8c46", "#b46414", "#823ca0", "#147d82", "
              "#6e4b2d", "#28a078")
 
 
-def ppi(scan, ax=None, quantity="video"):
+def ppi(scan: Any, ax: Axes | None = None, quantity: str = "video") -> Axes:
     """Plan position indicator of a scan: the middle of the scan points up, distances are ground range [NM].
     `quantity`: name of an array of the scan; power is drawn in decibels."""
     values, style, label = _values(scan, quantity)
@@ -49,7 +55,7 @@ def ppi(scan, ax=None, quantity="video"):
     return ax
 
 
-def patch(patch, ax=None, quantity="video"):
+def patch(patch: Any, ax: Axes | None = None, quantity: str = "video") -> Axes:
     """Patch map: the far edge is at the top, distances are from the map's centre [m], pixels are square.
     `quantity`: name of an array of the patch; power is drawn in decibels."""
     values, style, label = _values(patch, quantity)
@@ -65,7 +71,8 @@ def patch(patch, ax=None, quantity="video"):
     return ax
 
 
-def map(terrain, *results, ax=None, bounds=None, posts=400):
+def map(terrain: Any, *results: Any, ax: Axes | None = None, bounds: tuple[float, float, float, float] | None = None,
+        posts: int = 400) -> Axes:
     """Elevation with the coast, a line between ground above 0 m MSL and the rest, and the outline of each scan or patch.
     Water and ground at or below 0 m are blue, voids are gray. `bounds`: (south, west, north, east) [deg]; None: around
     `results`. `posts`: rows and columns of the elevations that are read."""
@@ -101,7 +108,7 @@ def map(terrain, *results, ax=None, bounds=None, posts=400):
     return ax
 
 
-def trade_front(rows, ax=None, error=None):
+def trade_front(rows: dict[str, Any], ax: Axes | None = None, error: str | None = None) -> Axes:
     """Time against error of what yars.trade() or `yars trade --out FILE.json` found. A marker is the mean over the scenes,
     an error bar ends at the worst scene; the thick gray line is the Pareto front.
     `error`: column of the errors, such as "shadow_percent"; None: the first of rows["axes"]["errors"]."""
@@ -219,7 +226,7 @@ def _around(outlines):
 
 
 # ---- parts of the picture of a trade; plot_trade draws panels with them
-def pareto_front(points):
+def pareto_front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
     """Of (time, error) pairs those that no other beats in both, by time."""
     front = []
     for point in sorted(points):
@@ -236,7 +243,7 @@ def _error_of(rows, error):
     raise ValueError(f"error: expected one of {', '.join(one['column'] for one in errors)}, found {error!r}")
 
 
-def draw_front(rows, ax, error=None):
+def draw_front(rows: dict[str, Any], ax: Axes, error: str | None = None) -> list[tuple[float, float, float, str, str]]:
     """Draws all of trade_front but the names of the points, and returns these for label_points."""
     error, time = _error_of(rows, error), rows["axes"]["time"]
     families = list(dict.fromkeys(point["family"] for point in rows["points"]))
@@ -290,7 +297,7 @@ def _best_box(at, size, frame, taken):
     return best[1], best[2]
 
 
-def label_points(ax, labels):
+def label_points(ax: Axes, labels: list[tuple[float, float, float, str, str]]) -> list[tuple[float, float, float, float]]:
     """Puts a text beside each (x, y, worst, text, color); no text covers another one, a marker or an error bar while there is
     room. The figure must have been drawn. The boxes [pixels] of the texts."""
     frame = ax.get_window_extent()

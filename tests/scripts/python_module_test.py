@@ -6,9 +6,11 @@ usage: python_module_test.py [BUILD]     BUILD: a build folder, whose python/yar
 """
 import ast
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
+import textwrap
 import unittest
 
 sys.dont_write_bytecode = True
@@ -130,6 +132,21 @@ class Examples(unittest.TestCase):
                               timeout=60)
         self.assertEqual(done.returncode, 1)
         self.assertIn("no such session runs", done.stderr)
+
+
+class Documents(unittest.TestCase):
+    def test_what_python_md_shows_compiles(self):
+        text = (SOURCE / "docs/python.md").read_text()
+        blocks = [textwrap.dedent(block).strip() for block in re.findall(r"(?:^(?:    .*|)\n)+", text, re.M) if block.strip()]
+        programs = [block for block in blocks if re.match(r"import|from", block)]
+        self.assertGreaterEqual(len(programs), 2)
+        for program in programs:
+            compile(program, "docs/python.md", "exec")
+
+    def test_functions_of_plot_in_python_md_are_there(self):
+        named = set(re.findall(r"^\| `(\w+)\(", (SOURCE / "docs/python.md").read_text(), re.M))
+        defined = {one.name for one in ast.parse((PACKAGE / "yars/plot.py").read_text()).body if isinstance(one, ast.FunctionDef)}
+        self.assertTrue({"ppi", "patch", "map", "trade_front"} <= named <= defined, named - defined)
 
 
 @unittest.skipUnless(BUILD, "no build folder is given")
