@@ -4,6 +4,7 @@ find_package(yars), by pkg-config, and by `import yars`. The packages are unpack
 
 usage: foreign_project_test.py CMAKE BUILD CC CXX FLAGS     FLAGS: of the compilers, such as those of the sanitizers
 """
+import json
 import os
 import pathlib
 import re
@@ -193,6 +194,11 @@ def check_python(prefix):
     """`import yars` after `apt install python3-yars`: Debian's Python looks where the package puts it."""
     looks = run("/usr/bin/python3", "-c", "import sys; print(*sys.path, sep='\\n')").stdout.splitlines()
     at = [path for path in looks if (prefix.parent / path.lstrip("/") / "yars/session.py").is_file()]
+    trade, value = prefix / "trade.json", {"mean": 1.0, "worst": 2.0}
+    trade.write_text(json.dumps({"axes": {"time": {"column": "ms", "title": "time"}, "errors": [{"column": "m", "title": "error"}] * 2},
+                                 "points": [{"point": "one", "family": "preset", "ms": value, "m": value}]}))
+    drawn = run("/usr/bin/python3", "-B", prefix / "bin/yars-plot-trade", trade, prefix / "trade.png")
+    expect("yars-plot-trade finds yars.plot beside it", (prefix / "trade.png").is_file() or "install the Debian package" in drawn.stderr, drawn)
     by_itself = run("/usr/bin/python3", "-B", "-I", "-c", "import sys; sys.path.insert(0, sys.argv[1]); from yars.session import Session; "
                     "print('numpy' in sys.modules)", prefix / "lib/python3/dist-packages")
     expect("the session client needs no NumPy", by_itself.stdout == "False\n", by_itself)
