@@ -228,7 +228,7 @@ def _around(outlines):
 # ---- parts of the picture of a trade; plot_trade draws panels with them
 def pareto_front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
     """Of (time, error) pairs those that no other beats in both, by time."""
-    front = []
+    front: list[tuple[float, float]] = []
     for point in sorted(points):
         if not front or point[1] < front[-1][1]:
             front.append(point)
@@ -245,10 +245,10 @@ def _error_of(rows, error):
 
 def draw_front(rows: dict[str, Any], ax: Axes, error: str | None = None) -> list[tuple[float, float, float, str, str]]:
     """Draws all of trade_front but the names of the points, and returns these for label_points."""
-    error, time = _error_of(rows, error), rows["axes"]["time"]
+    chosen, time = _error_of(rows, error), rows["axes"]["time"]
     families = list(dict.fromkeys(point["family"] for point in rows["points"]))
-    points = [(point[time["column"]]["mean"], point[error["column"]]["mean"], point[error["column"]]["worst"], point)
-              for point in rows["points"] if point[error["column"]]["mean"] is not None]
+    points = [(point[time["column"]]["mean"], point[chosen["column"]]["mean"], point[chosen["column"]]["worst"], point)
+              for point in rows["points"] if point[chosen["column"]]["mean"] is not None]
     floor = min((mean for _, mean, _, _ in points if mean > 0), default=1.0) / 3  # the row of those without an error
     ax.set_xscale("log")
     ax.set_yscale("log")
@@ -271,7 +271,7 @@ def draw_front(rows: dict[str, Any], ax: Axes, error: str | None = None) -> list
         ax.text(0.995, floor, "none", transform=ax.get_yaxis_transform(), fontsize=9, va="bottom", ha="right", color="#555555")
     ax.margins(x=0.12, y=0.12)
     ax.set_xlabel(time["title"])
-    ax.set_ylabel(error["title"])
+    ax.set_ylabel(chosen["title"])
     ax.grid(True, which="major", color="#e4e4e4")
     return labels
 
