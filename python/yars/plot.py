@@ -149,7 +149,7 @@ def _values(result, quantity):
         values = numpy.ma.masked_less(values, 0)
     else:
         values = numpy.ma.masked_invalid(values)
-    return values, style, None if quantity in _WITHOUT_UNIT else f"{words} [{unit}]"
+    return values, style, None if quantity in _WITHOUT_UNIT or not unit else f"{words} [{unit}]"
 
 
 def _metres(result, quantity):
@@ -182,7 +182,8 @@ def _filled(rows):
 
 
 def _edges(centres, axis):
-    """Edges of cells with these centres: one more along `axis`, half a step beyond the first and the last."""
+    """Edges of cells with these centres: one more along `axis`, half a step beyond the first and the last. A single sweep is 1
+    degree wide."""
     centres = numpy.moveaxis(centres, axis, 0)
     if len(centres) < 2:
         edges = numpy.stack([centres[0] - 0.5, centres[0] + 0.5]) if axis == 0 and centres.ndim == 1 else numpy.stack([centres[0]] * 2)

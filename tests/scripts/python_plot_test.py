@@ -118,6 +118,11 @@ class Ppi(Pictures):
                                 ("height", ["height [m MSL]"]), ("grazing_angle", ["grazing angle [deg]"])):
             self.assertEqual(bars(self.drawn(plot.ppi(scan, quantity=quantity))), label)
 
+    def test_one_sweep_is_a_sector_of_a_degree(self):
+        scan = made_up_scan(195.0, 195.0, 1)
+        far = self.drawn(plot.ppi(scan)).collections[0].get_coordinates()[:, -1]
+        self.assertAlmostEqual(far[1, 0] - far[0, 0], 2 * 40.0 * math.sin(math.radians(0.5)), places=6)
+
     def test_power_is_in_decibels(self):
         scan = made_up_scan()
         scan.power[:] = 0.01
