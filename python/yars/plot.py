@@ -166,13 +166,15 @@ def _color_bar(ax, drawn, label):
 
 
 def _filled(rows):
-    """Rows whose unknown elements follow the line of their known neighbours."""
+    """Rows whose unknown elements follow the line of their known neighbours; a row without these is that before it."""
     filled = numpy.array(rows, float)
     at = numpy.arange(filled.shape[1])
+    good = numpy.flatnonzero(numpy.isfinite(filled).sum(axis=1) >= 2)
+    if not good.size:
+        raise ValueError("ground_range: expected a sweep with at least two known samples, found none")
+    filled = filled[good[numpy.maximum(numpy.searchsorted(good, numpy.arange(len(filled)), side="right") - 1, 0)]]
     for row in filled:
         known = numpy.flatnonzero(numpy.isfinite(row))
-        if known.size < 2:
-            raise ValueError("ground_range: expected at least two known samples in each sweep, found fewer")
         first, last = known[0], known[-1]
         row[:] = numpy.interp(at, known, row[known])
         step = (row[last] - row[first]) / (last - first)
