@@ -1,4 +1,6 @@
 # Names of the package: __init__.py loads each at its first use.
+from types import ModuleType
+
 from . import dataset as dataset
 from . import plot as plot
 from . import session as session
@@ -30,6 +32,8 @@ from .session import SweepFlags as SweepFlags
 from .session import UnknownField as UnknownField
 from .session import YarsError as YarsError
 from .session import patch_map as patch_map
+
+def _require(name: str, purpose: str) -> ModuleType: ...
 
 class Error(RuntimeError): ...
 class MissingPart(Error, ImportError): ...
