@@ -70,15 +70,31 @@ void shape(std::vector<float>& table, double contrast) {
 }
 }  // namespace
 
-GroundTexture::GroundTexture(double contrast, double pixel_m)
-    : pixel_m_(pixel_m), texels_per_metre_(0.0F), edge_(kFinestEdge) {
-  // A texel is at least half the spacing of the positions, because a finer texture would alias. The smallest texture
-  // has one block (kDetailBlock texels per side).
-  double texel_m = kFinestTexel_m;
-  while (texel_m < 0.5 * pixel_m && edge_ > simd::kDetailBlock) {
-    texel_m *= 2.0;
-    edge_ /= 2;
+namespace {
+struct Texels {
+  double width_m;
+  int edge;  // of the texture
+};
+
+// A texel is at least half the spacing of the positions, because a finer texture would alias. The smallest texture has
+// one block (kDetailBlock texels per side).
+Texels texels_for(double pixel_m) {
+  Texels texels{kFinestTexel_m, kFinestEdge};
+  while (texels.width_m < 0.5 * pixel_m && texels.edge > simd::kDetailBlock) {
+    texels.width_m *= 2.0;
+    texels.edge /= 2;
   }
+  return texels;
+}
+}  // namespace
+
+bool GroundTexture::fits(double pixel_m) const {
+  return texels_for(pixel_m).edge == edge_;
+}
+
+GroundTexture::GroundTexture(double contrast, double pixel_m)
+    : texels_per_metre_(0.0F), edge_(texels_for(pixel_m).edge) {
+  const double texel_m = texels_for(pixel_m).width_m;
   texels_per_metre_ = static_cast<float>(1.0 / texel_m);
   std::vector<float> texels = fractal_table(edge_, texel_m);
   shape(texels, contrast);

@@ -15,13 +15,14 @@
 
 namespace yars::model::hrm {
 
-// Texture of the ground for one spacing of positions.
+// Texture of the ground for positions of one spacing, and of others with texels of the same width.
 class GroundTexture {
  public:
   // `contrast`: standard deviation of the natural logarithm of the factor. `pixel_m`: spacing of the positions.
   GroundTexture(double contrast, double pixel_m);
 
-  double pixel_m() const { return pixel_m_; }
+  // True if a texture for this spacing of positions is the same as this one.
+  bool fits(double pixel_m) const;
   double texel_m() const { return 1.0 / static_cast<double>(texels_per_metre_); }  // half the wave of the finest octave
   // gamma[i] *= factor at position i. Up to terrain::kRunSlack entries beyond the last one are read and written.
   void modulate(const terrain::PositionRun& positions, float* gamma) const;
@@ -29,7 +30,6 @@ class GroundTexture {
  private:
   void fill_table(const std::vector<float>& texels);
 
-  double pixel_m_;
   float texels_per_metre_;
   int edge_;           // texels per side of the texture, a power of two
   float unit_ = 1.0F;  // difference in texture value per step of a byte in table_

@@ -60,7 +60,7 @@ class MapLabels {
 
   bool wanted() const { return use_ != LabelUse::none; }
   // Call before each map. `points`: entries of the arrays of the largest sector.
-  void begin(std::size_t points);
+  void begin(const PatchGeometry& geometry, const PolarGrid& grid, std::size_t points);
 
   // Arrays by PolarGrid::at(); null if no labels are wanted.
   std::uint32_t* surface_labels() { return wanted() ? surface_.data() : nullptr; }
@@ -77,13 +77,14 @@ class MapLabels {
   PixelLabels take() { return std::move(pixels_); }  // the next map makes new arrays
 
  private:
-  void set_pixel(std::size_t pixel, const PolarGrid& grid, std::size_t cell);
-  void set_heights(std::size_t pixel, const PatchGeometry& geometry, const PolarGrid& grid, const SurfacePoint* surface,
-                   std::size_t cell);
+  void set_pixel(std::size_t pixel, std::size_t top, std::size_t cell);
+  void set_heights(std::size_t pixel, const PatchGeometry& geometry, const PolarGrid& grid, const SurfacePoint* column,
+                   std::int32_t row);
 
   int size_;
   LabelUse use_;
   PixelLabels pixels_;
+  std::vector<double> above_plane_m_;  // PatchGeometry::above_plane_m(), by row
   // By PolarGrid::at(). The arrays never shrink.
   memory::CacheAlignedVector<std::uint32_t> surface_;   // surface label of each grid point
   memory::CacheAlignedVector<std::int32_t> shown_row_;  // row of the grid point that the cell shows

@@ -115,7 +115,7 @@ void PatchFormation::Work::begin_map() {
   pending.assign(inputs.executor.threads, 0);
   ground_begun.assign(inputs.executor.threads, 0);
   if (data.image.power.empty()) data.image = MapImage(data.image.size);  // take_result() has moved it out
-  data.labels.begin(data.points);
+  data.labels.begin(*data.geometry, data.grid, data.points);
   algorithm->begin(data);
   if (labeller) labeller->begin(data);
   begin_sector(0);
@@ -138,7 +138,7 @@ void PatchFormation::Work::lay_grid() {
   data.grid = make_polar_grid(*data.geometry, data.image.size, algorithm->cells_per_pixel(), margins);
   if (fidelity.map_smooth_ground)
     ground = terrain::smooth_between_posts(posts, smoothing_parameters(*data.geometry, grid, fidelity, data.tiles));
-  if (fidelity.map_detail && (!detail || detail->pixel_m() != grid.spacing_m))
+  if (fidelity.map_detail && (!detail || !detail->fits(grid.spacing_m)))
     detail = std::make_unique<GroundTexture>(high_resolution.detail_contrast, grid.spacing_m);
   data.sectors = algorithm->uses_sectors() ? sectors_of(grid, sector_points) : std::vector<int>{0, data.grid.strips()};
   data.points = 0;

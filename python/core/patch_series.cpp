@@ -222,13 +222,13 @@ struct GroupOnMap {
   hrm::MapPoint at, east, north;
 };
 
-// Where a point appears that is `height_m` above the map plane: at its bearing and slant range.
-hrm::MapPoint apparent(const hrm::PatchGeometry& geometry, hrm::MapPoint point, double height_m) {
+// Factor on the distance over ground of a point that is `height_m` above the map plane: it appears at its bearing and
+// slant range.
+double layover_factor(const hrm::PatchGeometry& geometry, hrm::MapPoint point, double height_m) {
   const double ahead_m = point.up_m + geometry.distance_m();
-  const double distance_m = std::hypot(point.right_m, ahead_m);
-  if (!(distance_m > 0.0)) return point;
-  const double scale = hrm::laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) / distance_m;
-  return {point.right_m * scale, ahead_m * scale - geometry.distance_m()};
+  const double distance_m = std::sqrt(point.right_m * point.right_m + ahead_m * ahead_m);
+  if (!(distance_m > 0.0)) return 1.0;
+  return hrm::laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) / distance_m;
 }
 
 // Boxes of the objects whose footprint overlaps the picture, in the order of the scene's groups.
@@ -257,36 +257,35 @@ class Boxes {
  private:
   void add_box(std::int32_t order, const hrm::PatchGeometry& geometry, const GroupOnMap& transform,
                const Footprint& footprint) {
-    const double sine = std::sin(footprint.heading_rad), cosine = std::cos(footprint.heading_rad);
     const double pixels_per_m = size_ / geometry.window_m();
+    const hrm::MapPoint middle = transform.of(footprint.east_m, footprint.north_m);
+    // One factor serves the whole footprint, because it changes little over an object.
+    const double factor = layover_factor(geometry, middle, footprint.base_msl_m - geometry.plane_msl_m());
     Box box{};
-    bool overlaps = false;
     float left = 1e9F, right = -1e9F, top = 1e9F, bottom = -1e9F;
     constexpr int kSigns[4][2] = {{1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
     for (int k = 0; k < 4; ++k) {
       const double along_m = kSigns[k][0] * footprint.half_length_m, across_m = kSigns[k][1] * footprint.half_width_m;
-      const hrm::MapPoint point = apparent(geometry,
-                                           transform.of(footprint.east_m + along_m * sine + across_m * cosine,
-                                                        footprint.north_m + along_m * cosine - across_m * sine),
-                                           footprint.base_msl_m - geometry.plane_msl_m());
-      box.corners[k][0] = static_cast<float>((point.right_m + 0.5 * geometry.window_m()) * pixels_per_m);
-      box.corners[k][1] = static_cast<float>((0.5 * geometry.window_m() - point.up_m) * pixels_per_m);
+      const hrm::MapPoint point =
+          transform.of(footprint.east_m + along_m * footprint.sine + across_m * footprint.cosine,
+                       footprint.north_m + along_m * footprint.cosine - across_m * footprint.sine);
+      const double up_m = (point.up_m + geometry.distance_m()) * factor - geometry.distance_m();
+      box.corners[k][0] = static_cast<float>((point.right_m * factor + 0.5 * geometry.window_m()) * pixels_per_m);
+      box.corners[k][1] = static_cast<float>((0.5 * geometry.window_m() - up_m) * pixels_per_m);
       left = std::min(left, box.corners[k][0]);
       right = std::max(right, box.corners[k][0]);
       top = std::min(top, box.corners[k][1]);
       bottom = std::max(bottom, box.corners[k][1]);
     }
     const auto edge = static_cast<float>(size_);
-    overlaps = right > 0.0F && left < edge && bottom > 0.0F && top < edge;
+    const bool overlaps = right > 0.0F && left < edge && bottom > 0.0F && top < edge;
     box.pixels = pixels_[static_cast<std::size_t>(footprint.object)];
     if (!overlaps && box.pixels == 0) return;
     box.order = order;
     box.object = footprint.object;
-    const hrm::MapPoint middle = transform.of(footprint.east_m, footprint.north_m);
-    const double bearing_deg = geometry.up().degrees() +
-                               std::atan2(middle.right_m, middle.up_m + geometry.distance_m()) / geo::kRadiansPerDegree;
-    box.aspect_deg =
-        static_cast<float>(std::fmod(bearing_deg - footprint.heading_rad / geo::kRadiansPerDegree + 720.0, 180.0));
+    const double off_deg = std::atan(middle.right_m / (middle.up_m + geometry.distance_m())) / geo::kRadiansPerDegree;
+    const double aspect_deg = geometry.up().degrees() + off_deg - footprint.heading_deg + 720.0;
+    box.aspect_deg = static_cast<float>(aspect_deg - 180.0 * std::floor(aspect_deg / 180.0));
     boxes_.push_back(box);
   }
 
@@ -350,15 +349,13 @@ py::array structured(const py::dtype& type, const void* data, std::size_t count)
 // Maps of a series, one after the other, on the threads of the request.
 class Series {
  public:
-  Series(const radar::RadarConfiguration& configuration, const SeriesRequest& request, const Outputs& outputs)
-      : configuration_(configuration),
+  Series(Formation& formation, const SeriesRequest& request, const Outputs& outputs)
+      : configuration_(formation.configuration),
         request_(request),
         outputs_(outputs),
-        workers_(static_cast<std::size_t>(request.threads)),
-        formation_(configuration_,
-                   {workers_.threads(), [this](const std::function<void(std::size_t)>& job) { workers_.run(job); }},
-                   hrm::kMaxSectorPoints, outputs.labels()) {
-    if (request.scene && outputs.object != nullptr) boxes_.emplace(*request.scene, configuration.fidelity.map_size);
+        formation_(formation.patch_formation),
+        scenes_(request.scene ? request.scene->scenes() : configuration_.world.scenes) {
+    if (request.scene && outputs.object != nullptr) boxes_.emplace(*request.scene, configuration_.fidelity.map_size);
   }
 
   // Forms map `index`. Throws CommandFailed that names the index.
@@ -402,8 +399,8 @@ class Series {
     hrm::PatchEnvironment environment;
     {
       const std::lock_guard guard(request_.terrain->mutex());
-      environment = request_.terrain->theatre(configuration_.world.scenes, model::scene::SceneUse::triangles)
-                        .prepare(need, warnings_.sink());
+      environment =
+          request_.terrain->theatre(scenes_, model::scene::SceneUse::triangles).prepare(need, warnings_.sink());
     }
     if (!request_.force) check_arguments([&] { tools::check_heights(order, environment, configuration_); });
     environment.traffic = std::move(traffic);
@@ -413,8 +410,8 @@ class Series {
   const radar::RadarConfiguration& configuration_;
   const SeriesRequest& request_;
   const Outputs& outputs_;
-  parallel::ThreadPool workers_;
-  hrm::PatchFormation formation_;
+  hrm::PatchFormation& formation_;
+  const std::vector<radar::Scene>& scenes_;
   std::optional<Boxes> boxes_;
   std::vector<std::uint64_t> hashes_;
   std::vector<Geo> geometries_;
@@ -423,21 +420,53 @@ class Series {
 
 }  // namespace
 
-py::dict patch_series(const radar::RadarConfiguration& given, const SeriesRequest& request) {
+Formation::Formation(const radar::RadarConfiguration& given, std::size_t threads, hrm::LabelUse labels)
+    : configuration(given),
+      use(labels),
+      workers(threads),
+      patch_formation(configuration,
+                      {threads, [this](const std::function<void(std::size_t)>& job) { workers.run(job); }},
+                      hrm::kMaxSectorPoints, labels) {}
+
+std::unique_ptr<Formation> FormationPool::take(const radar::RadarConfiguration& configuration, std::size_t threads,
+                                               hrm::LabelUse labels) {
+  {
+    const std::lock_guard guard(mutex_);
+    const auto found = std::find_if(free_.begin(), free_.end(), [&](const std::unique_ptr<Formation>& formation) {
+      return formation->workers.threads() == threads && formation->use == labels;
+    });
+    if (found != free_.end()) {
+      std::unique_ptr<Formation> formation = std::move(*found);
+      free_.erase(found);
+      return formation;
+    }
+  }
+  return std::make_unique<Formation>(configuration, threads, labels);
+}
+
+void FormationPool::give_back(std::unique_ptr<Formation> formation) {
+  constexpr std::size_t kKept = 4;
+  const std::lock_guard guard(mutex_);
+  if (free_.size() < kKept) free_.push_back(std::move(formation));
+}
+
+py::dict patch_series(const radar::RadarConfiguration& configuration, FormationPool& pool,
+                      const SeriesRequest& request) {
   const auto orders = entries_of<Order>(request.orders, order_type(), "orders");
   auto traffic = traffic_of(request.movers, orders);
   if (request.threads < 1 || request.threads > 256)
     raise_value_error("yars.Radar.patches: threads: expected 1 to 256, found " + std::to_string(request.threads));
-  radar::RadarConfiguration configuration = given;
-  configuration.terrain = request.terrain->configuration();
-  if (request.scene) configuration.world.scenes = request.scene->scenes();
   const Outputs outputs = make_outputs(request.arrays, orders.size(), configuration.fidelity.map_size);
-  Series series(configuration, request, outputs);
+  std::unique_ptr<Formation> formation =
+      pool.take(configuration, static_cast<std::size_t>(request.threads), outputs.labels());
+  Series series(*formation, request, outputs);
   {
     const py::gil_scoped_release released;
     for (std::size_t i = 0; i < orders.size(); ++i) series.form(i, orders[i], std::move(traffic[i]));
   }
-  return series.finish();
+  py::dict arrays = series.finish();
+  pool.give_back(std::move(formation));
+  return arrays;
 }
 
 void add_series(py::module_& module) {

@@ -6,10 +6,13 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
+#include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/configuration.hpp"
+#include "model/hrm/patch_formation.hpp"
 #include "python/core/places.hpp"
 #include "python/core/support.hpp"
 
@@ -25,7 +28,29 @@ struct SeriesRequest {
   bool force = false;
 };
 
-py::dict patch_series(const radar::RadarConfiguration& configuration, const SeriesRequest& request);
+// A patch formation with its threads. The configuration must not move, because the formation refers to it.
+struct Formation {
+  Formation(const radar::RadarConfiguration& configuration, std::size_t threads, model::hrm::LabelUse labels);
+  radar::RadarConfiguration configuration;
+  model::hrm::LabelUse use;
+  parallel::ThreadPool workers;
+  model::hrm::PatchFormation patch_formation;
+};
+
+// Formations of one configuration that no call uses. A new one costs as much as some ten small maps.
+class FormationPool {
+ public:
+  std::unique_ptr<Formation> take(const radar::RadarConfiguration& configuration, std::size_t threads,
+                                  model::hrm::LabelUse labels);
+  void give_back(std::unique_ptr<Formation> formation);
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Formation>> free_;
+};
+
+py::dict patch_series(const radar::RadarConfiguration& configuration, FormationPool& pool,
+                      const SeriesRequest& request);
 
 // Adds PATCH_ORDER, MOVER, and xxh3().
 void add_series(py::module_& module);

@@ -78,8 +78,10 @@ std::vector<FootprintGroup> groups_of(const std::vector<SceneObject>& objects) {
     FootprintGroup& group = groups[key];
     if (group.footprints.empty()) group.origin = object.middle;
     const geo::PlanePoint at = geo::AzimuthalEquidistant(group.origin).plane_from_geodetic(object.middle);
+    const double heading_rad = object.heading_deg * geo::kRadiansPerDegree;
     group.footprints.push_back({static_cast<std::int32_t>(i), at.x_m, at.y_m, 0.5 * object.length_m,
-                                0.5 * object.width_m, object.heading_deg * geo::kRadiansPerDegree, object.base_msl_m});
+                                0.5 * object.width_m, object.heading_deg, std::sin(heading_rad), std::cos(heading_rad),
+                                object.base_msl_m});
     group.reach_m = std::max(group.reach_m, std::hypot(at.x_m, at.y_m) + std::hypot(object.length_m, object.width_m));
   }
   std::vector<FootprintGroup> list;

@@ -24,7 +24,8 @@ struct Footprint {
   std::int32_t object = 0;  // index into SceneView::objects()
   double east_m = 0.0, north_m = 0.0;
   double half_length_m = 0.0, half_width_m = 0.0;
-  double heading_rad = 0.0;  // of the length, clockwise from the plane's north
+  double heading_deg = 0.0;         // of the length, clockwise from the plane's north
+  double sine = 0.0, cosine = 1.0;  // of the heading
   double base_msl_m = 0.0;
 };
 

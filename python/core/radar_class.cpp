@@ -8,7 +8,6 @@
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
 #include "lib/parallel/thread_pool.hpp"
-#include "python/core/patch_series.hpp"
 #include "tools/command/command.hpp"
 #include "tools/patch/patch_setup.hpp"
 #include "tools/scan/scan_setup.hpp"
@@ -153,7 +152,7 @@ std::shared_ptr<PatchResult> Radar::patch(const std::shared_ptr<Terrain>& terrai
 py::dict Radar::patches(const std::shared_ptr<Terrain>& terrain, const py::array& orders, std::shared_ptr<Scene> scene,
                         const py::object& movers, const std::vector<std::string>& arrays, int threads,
                         bool force) const {
-  return patch_series(configuration_, {terrain, std::move(scene), orders, movers, arrays, threads, force});
+  return patch_series(configuration_, *pool_, {terrain, std::move(scene), orders, movers, arrays, threads, force});
 }
 
 std::string Radar::text() const {

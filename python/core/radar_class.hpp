@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
+#include "python/core/patch_series.hpp"
 #include "python/core/places.hpp"
 #include "python/core/results.hpp"
 #include "python/core/support.hpp"
@@ -35,6 +36,7 @@ class Radar {
 
  private:
   radar::RadarConfiguration configuration_;
+  std::unique_ptr<FormationPool> pool_ = std::make_unique<FormationPool>();
 };
 
 void add_radar(py::module_& module);

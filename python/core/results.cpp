@@ -31,9 +31,8 @@ std::int32_t object_at(const Scene& scene, geo::GeoPoint position) {
     if (std::hypot(at.x_m, at.y_m) > group.reach_m) continue;
     for (const Footprint& footprint : group.footprints) {
       const double east_m = at.x_m - footprint.east_m, north_m = at.y_m - footprint.north_m;
-      const double sine = std::sin(footprint.heading_rad), cosine = std::cos(footprint.heading_rad);
-      if (std::abs(east_m * sine + north_m * cosine) <= footprint.half_length_m &&
-          std::abs(east_m * cosine - north_m * sine) <= footprint.half_width_m)
+      if (std::abs(east_m * footprint.sine + north_m * footprint.cosine) <= footprint.half_length_m &&
+          std::abs(east_m * footprint.cosine - north_m * footprint.sine) <= footprint.half_width_m)
         found = footprint.object;
     }
   }
