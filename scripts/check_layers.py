@@ -87,6 +87,7 @@ LAYERS = {
     "tools/patch": SHELL + KERNEL + WORLD + ["tools/command"],
     "tools/terrain": SHELL + TERRAIN + WORLD + ["worldgen/terrain", "tools/command"],
     "tools/scene": SHELL + SCENE + WORLD + ["worldgen/scene", "tools/command"],
+    "tools/dataset": SHELL + ["tools/command"],
     "tools/session": SHELL + WORLD + ["statemachine", "tools/command", "tools/recording"],
     "tools": SHELL + ["gateway/checks", "tools/command"],
     "python/core": SHELL + KERNEL + WORLD + ["worldgen/scene", "tools/command", "tools/recording", "tools/trade", "tools/scan", "tools/patch"],

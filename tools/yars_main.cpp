@@ -15,6 +15,7 @@ void add_commands(databuffer::Command app, const tools::CommonOptions& common) {
   tools::add_trade_command(app, common);
   tools::add_terrain_command(app, common);
   tools::add_scene_command(app, common);
+  tools::add_dataset_command(app);
   tools::add_config_command(app, common);
   tools::add_sim_command(app, common);
   tools::add_inject_command(app, common);
@@ -35,7 +36,7 @@ int run(int argc, char** argv) {
   app.before_callbacks([&] {
     if (auto error = databuffer::begin_program("yars", options)) tools::throw_failure(*error);
     // These subcommands do not poll the stop flag that the signal handler sets. The default signal action ends them.
-    for (const auto* command : {"scan", "patch", "trade", "terrain", "scene", "config"})
+    for (const auto* command : {"scan", "patch", "trade", "terrain", "scene", "dataset", "config"})
       if (app.has_subcommand(command)) databuffer::restore_default_signal_actions();
     common.session = options.session;
     common.config = options.config;

@@ -78,6 +78,7 @@ void add_patch_command(databuffer::Command app, const CommonOptions& common);
 void add_trade_command(databuffer::Command app, const CommonOptions& common);
 void add_terrain_command(databuffer::Command app, const CommonOptions& common);
 void add_scene_command(databuffer::Command app, const CommonOptions& common);
+void add_dataset_command(databuffer::Command app);
 void add_config_command(databuffer::Command app, const CommonOptions& common);
 void add_sim_command(databuffer::Command app, const CommonOptions& common);
 void add_inject_command(databuffer::Command app, const CommonOptions& common);

@@ -10,7 +10,7 @@ function __yars_path
             continue
         end
         switch $word
-            case --airfields --alt-ft --band --base --cells-lat --cells-lon --channel --color --config --csv --east --edge --elevation --fidelity --gain --heading --in --keep --kind --knob --lat --level --lockstep --log-dir --log-level --lon --looks --markdown --north --origin --out --pixels --presets --range-nm --rate --reduction --repeat --restarted --ruler --ruler-samples --ruler-size --samples --scan-width --scene --scene-without --seed --seek --session --shadow --size --south --speed-kt --step --target-lat --target-lon --terrain --threads --time-s --to --triangles --view --west --width --window-nm --without
+            case --airfields --alt-ft --band --base --cells-lat --cells-lon --channel --color --config --csv --dask --east --edge --elevation --fidelity --gain --heading --in --keep --kind --knob --lat --level --lockstep --log-dir --log-level --lon --looks --map --markdown --north --origin --out --pixels --presets --range-nm --rate --reduction --repeat --restarted --ruler --ruler-samples --ruler-size --samples --scan-width --scene --scene-without --seed --seek --session --shadow --shard --size --south --speed-kt --step --target-lat --target-lon --terrain --threads --time-s --to --triangles --view --west --width --window-nm --without --workers
                 set left 1
             case --from --to
                 set left 2
@@ -19,7 +19,7 @@ function __yars_path
             case '-*'
             case '*'
                 set -l longer (string join ' ' $path $word)
-                contains -- $longer 'scan' 'patch' 'trade' 'trade maps' 'terrain' 'terrain generate' 'terrain info' 'terrain image' 'terrain profile' 'terrain dump' 'terrain reduce' 'terrain convert' 'terrain pack' 'scene' 'scene generate' 'scene info' 'scene image' 'config' 'config check' 'config print' 'config convert' 'config user' 'sim' 'sim state' 'sim freeze' 'sim run' 'sim rate' 'sim step' 'sim reset' 'sim reposition' 'inject' 'note' 'status' 'watch' 'record' 'replay' 'help'; and set -a path $word
+                contains -- $longer 'scan' 'patch' 'trade' 'trade maps' 'terrain' 'terrain generate' 'terrain info' 'terrain image' 'terrain profile' 'terrain dump' 'terrain reduce' 'terrain convert' 'terrain pack' 'scene' 'scene generate' 'scene info' 'scene image' 'dataset' 'config' 'config check' 'config print' 'config convert' 'config user' 'sim' 'sim state' 'sim freeze' 'sim run' 'sim rate' 'sim step' 'sim reset' 'sim reposition' 'inject' 'note' 'status' 'watch' 'record' 'replay' 'help'; and set -a path $word
         end
     end
     string join ' ' $path
@@ -50,6 +50,7 @@ complete -c yars -n "__yars_at ''" -a patch -d 'compute one patch map, without a
 complete -c yars -n "__yars_at ''" -a trade -d 'speed against accuracy of the real beam map; `trade maps`: of patch maps'
 complete -c yars -n "__yars_at ''" -a terrain -d 'elevation databases: generate, info, image, profile, dump, reduce, convert, pack'
 complete -c yars -n "__yars_at ''" -a scene -d 'polygonal scenes (OpenFlight): generate, info, image'
+complete -c yars -n "__yars_at ''" -a dataset -d 'make training data: patch maps with labels, by a specification'
 complete -c yars -n "__yars_at ''" -a config -d 'check, print and convert configurations; print user defaults'
 complete -c yars -n "__yars_at ''" -a sim -d 'the session\'s clock and the aircraft\'s position'
 complete -c yars -n "__yars_at ''" -a inject -d 'send events, e.g. yars inject \'power opr\' \'pb 13\' \'elevation -5\''
@@ -68,6 +69,7 @@ complete -c yars -n "__yars_at 'scan'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'scan'" -l terrain -x -a '(__fish_complete_directories)' -d 'folder of elevation cells: DTED, HGT, DED, packs, rasters'
 complete -c yars -n "__yars_at 'scan'" -l scene -r -F -d 'OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable'
 complete -c yars -n "__yars_at 'scan'" -l scene-without -x -d 'name of objects or groups to leave out of scenes, with the wildcards * and ?; repeatable'
+complete -c yars -n "__yars_at 'scan'" -l fidelity -x -a '1996 draft standard fine reference' -d 'preset'
 complete -c yars -n "__yars_at 'scan'" -l lat -x -d '[deg] latitude of the aircraft'
 complete -c yars -n "__yars_at 'scan'" -l lon -x -d '[deg] longitude of the aircraft'
 complete -c yars -n "__yars_at 'scan'" -l alt-ft -x -d '[ft] altitude of the aircraft above mean sea level'
@@ -76,7 +78,6 @@ complete -c yars -n "__yars_at 'scan'" -l range-nm -x -d '[NM] range of the scan
 complete -c yars -n "__yars_at 'scan'" -l scan-width -x -d '[deg] width of the scan in azimuth'
 complete -c yars -n "__yars_at 'scan'" -l elevation -x -d '[deg] antenna elevation above the horizontal'
 complete -c yars -n "__yars_at 'scan'" -l force -d 'allow angles beyond the gimbal limits, and an aircraft below the ground'
-complete -c yars -n "__yars_at 'scan'" -l fidelity -x -a '1996 draft standard fine reference' -d 'preset'
 complete -c yars -n "__yars_at 'scan'" -l samples -x -d 'samples of a sweep'
 complete -c yars -n "__yars_at 'scan'" -l gain -x -d 'receiver gain'
 complete -c yars -n "__yars_at 'scan'" -l band -x -a 'A B C D E' -d 'band of the radar; a jammer acts only in its own bands'
@@ -97,6 +98,7 @@ complete -c yars -n "__yars_at 'patch'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'patch'" -l terrain -x -a '(__fish_complete_directories)' -d 'folder of elevation cells: DTED, HGT, DED, packs, rasters'
 complete -c yars -n "__yars_at 'patch'" -l scene -r -F -d 'OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable'
 complete -c yars -n "__yars_at 'patch'" -l scene-without -x -d 'name of objects or groups to leave out of scenes, with the wildcards * and ?; repeatable'
+complete -c yars -n "__yars_at 'patch'" -l fidelity -x -a '1996 draft standard fine reference' -d 'preset'
 complete -c yars -n "__yars_at 'patch'" -l lat -x -d '[deg] latitude of the aircraft'
 complete -c yars -n "__yars_at 'patch'" -l lon -x -d '[deg] longitude of the aircraft'
 complete -c yars -n "__yars_at 'patch'" -l alt-ft -x -d '[ft] altitude of the aircraft above mean sea level'
@@ -107,11 +109,11 @@ complete -c yars -n "__yars_at 'patch'" -l target-lon -x -d '[deg] longitude of 
 complete -c yars -n "__yars_at 'patch'" -l window-nm -x -d '[NM] side of the map'
 complete -c yars -n "__yars_at 'patch'" -l force -d 'ignore the radar\'s limits; the blind zone stays blank'
 complete -c yars -n "__yars_at 'patch'" -l looks -x -d 'number of looks to average'
-complete -c yars -n "__yars_at 'patch'" -l fidelity -x -a '1996 draft standard fine reference' -d 'preset'
 complete -c yars -n "__yars_at 'patch'" -l size -x -d '[pixels] per side; up to 1024 with the preset reference'
 complete -c yars -n "__yars_at 'patch'" -l time-s -x -d '[s] sim time at the start, for moving targets'
 complete -c yars -n "__yars_at 'patch'" -l threads -x -d 'number of threads'
 complete -c yars -n "__yars_at 'patch'" -l seed -x -d 'seed of the noise'
+complete -c yars -n "__yars_at 'patch'" -l map -x -d 'number of the map; selects the noise together with the seed'
 complete -c yars -n "__yars_at 'patch'" -l repeat -x -d 'number of maps to time, after one untimed map'
 complete -c yars -n "__yars_at 'patch'" -l out -r -F -d 'file: .png, .tif (georeferenced) or .f32 (power: little-endian floats, rows from the far edge); none: no file'
 complete -c yars -n "__yars_at 'patch'" -l pixels -x -a 'video power' -d 'pixels of a .tif: video (8 bits) or power (32-bit float)'
@@ -277,6 +279,19 @@ complete -c yars -n "__yars_at 'scene image'" -l material -d 'colours by surface
 complete -c yars -n "__yars_at 'scene image'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'scene image'" -l config -r -F -d 'GUF configuration file'
 complete -c yars -n "__yars_at 'scene image'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'dataset'" -F
+complete -c yars -n "__yars_at 'dataset'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'dataset'" -l out -x -a '(__fish_complete_directories)' -d 'folder of the data set; one that was interrupted is completed'
+complete -c yars -n "__yars_at 'dataset'" -l workers -x -d 'number of processes'
+complete -c yars -n "__yars_at 'dataset'" -l shard -x -d 'i/N: only every Nth block from block i on, for batch systems'
+complete -c yars -n "__yars_at 'dataset'" -l dask -x -d 'address of a Dask scheduler, whose workers make the blocks'
+complete -c yars -n "__yars_at 'dataset'" -l verify -d 'read all files, and make what does not fit its hash again'
+complete -c yars -n "__yars_at 'dataset'" -l merge -d 'only join the parts of all shards'
+complete -c yars -n "__yars_at 'dataset'" -l check -d 'only check SPEC'
+complete -c yars -n "__yars_at 'dataset'" -l keys -d 'print the tables of the keys of a specification'
+complete -c yars -n "__yars_at 'dataset'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'dataset'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'dataset'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
 complete -c yars -n "__yars_at 'config'" -a check -d 'check whether a file is valid, with its form Network and identity, and print its warnings'
 complete -c yars -n "__yars_at 'config'" -a print -d 'print the configuration that results from a file, as GUF'
 complete -c yars -n "__yars_at 'config'" -a convert -d 'convert a file of 1996 (message syntax, old spellings) to present GUF'
@@ -410,7 +425,7 @@ complete -c yars -n "__yars_at 'replay'" -l json -d 'print one JSON object in pl
 complete -c yars -n "__yars_at 'replay'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'replay'" -l config -r -F -d 'GUF configuration file'
 complete -c yars -n "__yars_at 'replay'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
-complete -c yars -n "__yars_at 'help'" -a 'scan patch trade terrain scene config sim inject note status watch record replay help'
+complete -c yars -n "__yars_at 'help'" -a 'scan patch trade terrain scene dataset config sim inject note status watch record replay help'
 complete -c yars -n "__yars_at 'help'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'help'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'help'" -l config -r -F -d 'GUF configuration file'
