@@ -4,7 +4,7 @@ import numpy as np
 
 _MAJOR_M, _FLATTENING = 6378137.0, 1.0 / 298.257223563
 _MINOR_M = _MAJOR_M * (1.0 - _FLATTENING)
-_STEPS = 6  # each step gains three digits or more
+_STEPS = 3  # each step gains three digits or more
 
 
 def direct(latitude, longitude, azimuth, distance_m):
