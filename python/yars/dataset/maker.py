@@ -1,0 +1,72 @@
+"""What makes the arrays: the compiled part of YARS. Tests put another maker in its place.
+
+A maker has `objects` (structured: name, latitude, longitude, ...), `elevation(latitudes, longitudes)` [m MSL],
+`patches(orders, movers, settings)` -> dict of arrays, and `warm(sample)`, which reads what workers are to share."""
+import functools
+
+import numpy as np
+
+from .errors import DatasetError
+
+OBJECT = np.dtype([("name", "U64"), ("latitude", "f8"), ("longitude", "f8")])
+
+
+def hasher():
+    """Function bytes -> 64-bit hash: XXH3 of the compiled part."""
+    try:
+        import yars
+        return yars._core.xxh3
+    except (ImportError, AttributeError):
+        import hashlib
+        return lambda data: int.from_bytes(hashlib.blake2b(data, digest_size=8).digest(), "little")
+
+
+def scene_text(path, at):
+    """FILE@LAT,LON,HDG as `yars patch --scene` takes it."""
+    return str(path) + ("@" + ",".join(f"{number:.12g}" for number in at) if at else "")
+
+
+class YarsMaker:
+    """The kernels of YARS over one terrain and its scenes."""
+
+    def __init__(self, spec, terrain, scenes):
+        """`terrain`: folder or None; `scenes`: list of (path, at, without)."""
+        import yars
+        self._yars, self._spec = yars, spec
+        try:
+            self._terrain = yars.Terrain(terrain) if terrain else yars.Terrain()
+            without = sorted({name for _, _, names in scenes for name in names})
+            files = [scene_text(path, at) for path, at, _ in scenes]
+            self._scene = yars.Scene(files, self._terrain, without=without) if scenes else None
+        except (ValueError, yars.Error) as error:
+            raise DatasetError(str(error)) from None
+        self.objects = self._scene.objects if scenes else np.empty(0, OBJECT)
+
+    def elevation(self, latitude, longitude):
+        return self._terrain.elevation(latitude, longitude)
+
+    @functools.lru_cache(maxsize=4)
+    def _radar(self, settings):
+        spec = self._spec
+        arguments = dict(spec.knobs, map_size=spec.size, settings=settings)
+        if spec.config:
+            arguments["config"] = spec.config
+        return self._yars.Radar(*([spec.preset] if spec.preset else []), **arguments)
+
+    def patches(self, orders, movers, settings):
+        spec = self._spec
+        arguments = {"movers": movers.astype(self._yars.MOVER, copy=False)} if len(movers) else {}
+        try:
+            return self._radar(settings).patches(self._terrain, orders.astype(self._yars.PATCH_ORDER, copy=False),
+                                                 scene=self._scene, arrays=spec.arrays, threads=1,
+                                                 force=spec.geometry["force"], **arguments)
+        except (ValueError, self._yars.Error) as error:
+            raise DatasetError(str(error)) from None
+
+    def warm(self, sample, settings):
+        """Reads terrain and scenes of the sample, so that workers share them."""
+        self.patches(sample.orders, sample.movers, settings)
+
+
+def open_maker(spec, terrain, scenes):
+    return YarsMaker(spec, terrain, scenes)
