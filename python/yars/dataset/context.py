@@ -93,9 +93,13 @@ def _centre(scene, path):
     return origin["latitude_deg"], origin["longitude_deg"]
 
 
-def load(spec_path, folder, maker_name=MAKER, warm=True):
-    """BlockMaker of a prepared folder. Reads terrain and scenes; with `warm`, those of items from the whole set."""
+def load(spec_path, folder, maker_name=MAKER, mark=None, warm=True):
+    """BlockMaker of a prepared folder. Reads terrain and scenes; with `warm`, those of items from the whole set. `mark`: the
+    fingerprint that the coordinator found."""
     spec, limits, store = open_store(spec_path, folder)
+    if mark and mark != store.mark:
+        raise DatasetError(f"{spec_path}: expected the specification, terrain and scenes that the run began with (fingerprint {mark}), found others "
+                           f"({store.mark}); have all computers see the same files")
     paths = scene_paths(spec, store)
     terrain = store.path("terrain") if spec.terrain_generate else spec.terrain
     module, _, function = maker_name.partition(":")

@@ -64,7 +64,7 @@ class Uniform:
         widths = np.array([b - a + bool(whole) for a, b in self.intervals], float)
         if widths.sum() == 0.0:
             widths += 1.0
-        self._starts = np.array([a for a, _ in self.intervals], float)
+        self._starts, self._ends = np.array(self.intervals, float).T
         self._widths, self._edges = widths, np.concatenate([[0.0], np.cumsum(widths)])
         self._degenerate = all(a == b for a, b in self.intervals) and not whole
 
@@ -76,8 +76,8 @@ class Uniform:
         at = np.minimum(np.searchsorted(self._edges, place, "right") - 1, len(self.intervals) - 1)
         if self._degenerate:
             return self._starts[at]
-        value = self._starts[at] + (place - self._edges[at])
-        return np.floor(value).astype(np.int64) if self.whole else value
+        value = np.minimum(self._starts[at] + (place - self._edges[at]), self._ends[at] + bool(self.whole))
+        return np.minimum(np.floor(value), self._ends[at]).astype(np.int64) if self.whole else value
 
     def plain(self):
         return {"uniform": [list(interval) for interval in self.intervals]}

@@ -1,6 +1,6 @@
 """The host process of a computer: reads terrain and scenes once, forks workers that share them, hands out blocks.
 
-It is started as `python3 -m yars.dataset.host SPEC DIR WORKERS MAKER WITH_PARENT` and speaks JSON lines. Input: {"blocks": [b, ...]}, a
+It is started as `python3 -m yars.dataset.host SPEC DIR WORKERS MAKER MARK WITH_PARENT` and speaks JSON lines. Input: {"blocks": [b, ...]}, a
 batch for one worker. Output: {"ready": n}; {"block": b, "items": n, "redraws": r}; {"error": text}; {"lost": b, "reason": text}.
 At the end of its input it ends, and its workers with it. WITH_PARENT 1: it ends, too, when the thread that started it ends."""
 import collections
@@ -161,7 +161,7 @@ class Host:
 
 
 def main(arguments):
-    spec, folder, count, maker_name, with_parent = arguments
+    spec, folder, count, maker_name, mark, with_parent = arguments
     if int(with_parent):
         die_with_parent(int(with_parent))
     output = os.dup(1)
@@ -170,7 +170,7 @@ def main(arguments):
     from .context import load
     host = None
     try:
-        maker = load(spec, folder, maker_name)
+        maker = load(spec, folder, maker_name, mark)
         host = Host(maker, int(count))
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
         host.run(output)

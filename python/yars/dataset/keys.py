@@ -90,7 +90,7 @@ _ROWS = [
          "angle of the line of sight below the horizontal, on a flat earth"),
     _key("geometry.bearing_deg", "number", (-360, 360), "deg", True, "{uniform: [0, 360]}",
          "true bearing of the target, at the target, of the line from the aircraft"),
-    _key("geometry.squint_deg", "number", (0, 180), "deg", True, "90", "angle of the target off the ground track"),
+    _key("geometry.squint_deg", "number", (0, 180), "deg", True, "{uniform: [20, 60]}", "angle of the target off the ground track"),
     _key("geometry.side", "text", default="both", text="side of the track on which the target lies",
          values=("left", "right", "both")),
     _key("geometry.speed_kt", "number", (0, 10000), "kt", True, "480", "speed over ground"),

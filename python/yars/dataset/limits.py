@@ -17,6 +17,7 @@ NEAREST_WINDOWS = 0.75
 DECIDING = {"AntennaServo": ("azimuthLimits", "elevationLimits"), "HighResolution": ("blindZone",),
             "WindowLimits": None, "SarMode": None}
 
+
 @dataclasses.dataclass
 class Limits:
     blind_zone_deg: float
@@ -25,6 +26,7 @@ class Limits:
     windows: dict  # window [NM] -> (least, greatest) ground range [NM]
     power_up_nm: float
     looks: int
+
 
 def command():
     """The program `yars`: of $YARS_BIN, beside the package in a build tree, or of the path."""
@@ -39,6 +41,7 @@ def command():
         raise DatasetError("expected the command yars, found none; install the package yars, or set YARS_BIN to the folder "
                            "build/release/bin")
     return found
+
 
 def parse(text):
     """Limits of the output of `yars config print`."""
@@ -55,32 +58,45 @@ def parse(text):
                   numbers(rf"\( WindowLimits.*?:powerUp ({_NUMBER})")[0],
                   int(numbers(rf"\( HighResolution\s+:looks `\(\s*({_NUMBER})")[0]))
 
+
+def _run(verb, path):
+    """(exit code, output, messages) of `yars config VERB`."""
+    run = subprocess.run([command(), "config", verb] + ([str(path)] if path else []), capture_output=True, text=True, check=False)
+    return run.returncode, run.stdout, run.stderr
+
+
 def printed(path):
     """Output of `yars config print PATH`; None: its defaults. Raises DatasetError with the command's message."""
-    run = subprocess.run([command(), "config", "print"] + ([str(path)] if path else []), capture_output=True, text=True,
-                         check=False)
-    if run.returncode:
-        raise DatasetError(re.sub(r"^yars( config)?: ", "", run.stderr.strip().splitlines()[-1] if run.stderr.strip() else "yars config print failed"))
-    return run.stdout
+    code, output, messages = _run("print", path)
+    if code:
+        lines = messages.strip().splitlines() or [f"yars config print: exit code {code}"]
+        raise DatasetError(re.sub(r"^yars[a-z ]*: ", "", lines[-1]))
+    return output
+
 
 def read_limits(spec, lines):
     """Limits of the specification's radar. `lines`: (GUF text of one line, line of the specification) of its knobs and
     settings, which are checked here. Raises SpecError at the specification's line."""
-    if spec.config is None and not lines:
-        return parse(printed(None))
     try:
         text = printed(spec.config)
     except DatasetError as error:
         raise SpecError(f"{spec.where('radar.config')}: {error}") from None
+    if not lines:
+        return parse(text)
     first = text.count("\n") + 1
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "radar.guf"
         path.write_text(text + "".join(line + "\n" for line, _ in lines))
+        _, output, messages = _run("check", path)
+        found = re.compile(rf"(?:yars[a-z ]*: )?{re.escape(str(path))}:(\d+):\d+: (.*)")
+        faults = []
+        for match in filter(None, map(found.match, (messages + output).splitlines())):
+            at = int(match.group(1)) - first
+            if 0 <= at < len(lines) and ("ignored" in match.group(2) or "expected" in match.group(2)):
+                faults.append(f"{spec.path}:{lines[at][1]}: {match.group(2)}")
+        if faults:
+            raise SpecError("\n".join(dict.fromkeys(faults)))
         try:
             return parse(printed(path))
         except DatasetError as error:
-            match = re.match(rf"{re.escape(str(path))}:(\d+):\d+: (.*)", str(error))
-            at = int(match.group(1)) - first if match else -1
-            if 0 <= at < len(lines):
-                raise SpecError(f"{spec.path}:{lines[at][1]}: {match.group(2)}") from None
             raise SpecError(f"{spec.where('radar')}: {error}") from None

@@ -3,6 +3,7 @@
 A maker has `objects` (structured: name, latitude, longitude, ...), `elevation(latitudes, longitudes)` [m MSL],
 `patches(orders, movers, settings)` -> dict of arrays, and `warm(sample)`, which reads what workers are to share."""
 import functools
+import hashlib
 
 import numpy as np
 
@@ -12,13 +13,12 @@ OBJECT = np.dtype([("name", "U64"), ("latitude", "f8"), ("longitude", "f8")])
 
 
 def hasher():
-    """Function bytes -> 64-bit hash: XXH3 of the compiled part."""
+    """(name, function bytes -> 64-bit hash): XXH3 of the compiled part, else BLAKE2b."""
     try:
-        import yars
-        return yars._core.xxh3
-    except (ImportError, AttributeError):
-        import hashlib
-        return lambda data: int.from_bytes(hashlib.blake2b(data, digest_size=8).digest(), "little")
+        from yars._core import xxh3
+        return "XXH3-64", xxh3
+    except ImportError:
+        return "BLAKE2b-64", lambda data: int.from_bytes(hashlib.blake2b(data, digest_size=8).digest(), "little")
 
 
 def scene_text(path, at):

@@ -40,11 +40,12 @@ def raise_interrupted(number, _):
 class HostProcess:
     """A host process and its pipes. `with_parent`: it dies with the thread that starts it."""
 
-    def __init__(self, spec, folder, workers, maker, with_parent=True):
+    def __init__(self, spec, folder, workers, maker, mark, with_parent=True):
         package = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
         paths = os.pathsep.join([package] + [path for path in sys.path if path and path != package])
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "yars.dataset.host", str(spec), str(folder), str(workers), maker, str(os.getpid() if with_parent else 0)],
+            [sys.executable, "-m", "yars.dataset.host", str(spec), str(folder), str(workers), maker, mark,
+             str(os.getpid() if with_parent else 0)],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0, start_new_session=True, env={**os.environ, "PYTHONPATH": paths})
         self.lines = Lines(self.process.stdout.fileno())
 
@@ -114,11 +115,11 @@ def batches(blocks, workers):
         at += size
 
 
-def run_local(options, blocks, progress):
+def run_local(options, mark, blocks, progress):
     """Makes blocks with the workers of one host process."""
     workers = max(1, min(options.workers, len(blocks)))
     todo, flying, restarts = collections.deque(batches(blocks, workers)), set(), 0
-    host = HostProcess(options.spec, options.out, workers, options.maker)
+    host = HostProcess(options.spec, options.out, workers, options.maker, mark)
     try:
         while todo or flying:
             while todo and len(flying) < 2 * MOST_BATCH * workers:
@@ -144,7 +145,7 @@ def run_local(options, blocks, progress):
                                        "Try fewer --workers")
                 todo.extendleft([block] for block in sorted(flying, reverse=True))
                 flying.clear()
-                host = HostProcess(options.spec, options.out, workers, options.maker)
+                host = HostProcess(options.spec, options.out, workers, options.maker, mark)
     finally:
         host.close()
 
@@ -230,9 +231,9 @@ def run(options):
     try:
         if todo and options.dask:
             from .dask_engine import run_dask
-            run_dask(options, todo, progress)
+            run_dask(options, store.mark, todo, progress)
         elif todo:
-            run_local(options, todo, progress)
+            run_local(options, store.mark, todo, progress)
     finally:
         progress.end()
     seconds = time.monotonic() - progress.begin

@@ -49,7 +49,9 @@ class Sample:
 class Sampler:
     def __init__(self, spec, limits, world):
         self.spec, self.limits, self.world = spec, limits, world
-        names = ["target.entry", "target.first", "target.second", "geometry.side", "chip.window_nm", "chip.looks"]
+        # Drawn once for an item, so that redraws do not shift the weights of entries and windows.
+        self._kept = Streams(spec.seed, ["target.entry", "geometry.side", "chip.window_nm", "chip.looks"])
+        names = ["target.first", "target.second"]
         names += [f"target.{name}" for name in ("north_m", "east_m")] + [f"geometry.{name}" for name in _GEOMETRY]
         self._streams = Streams(spec.seed, names)
         fields = Settings.fields(spec)
@@ -87,11 +89,12 @@ class Sampler:
                         np.full(len(items), -1, np.int32), np.zeros(len(items), np.int32))
         left, reasons, most = np.arange(len(items)), collections.Counter(), self.spec.geometry["attempts"]
         begin, width = 0, 1
+        kept = self._kept.uniform(items)
         while begin < most:
             # Later rounds draw several attempts of the few items that are left at once, and take the first possible.
             width = min(width, most - begin)
             tries = np.tile(np.arange(begin, begin + width), len(left))
-            orders, entry, thing, problem = self._attempt(np.repeat(items[left], width), tries)
+            orders, entry, thing, problem = self._attempt(np.repeat(items[left], width), tries, np.repeat(kept[:, left], width, axis=1))
             table = problem.reshape(len(left), width)
             first = np.where((table == 0).any(axis=1), np.argmax(table == 0, axis=1), width - 1)
             row = np.arange(len(left)) * width + first
@@ -107,8 +110,8 @@ class Sampler:
                            f"{self.spec.geometry['attempts']} draws, found none: {text}; change geometry or targets, or raise "
                            "geometry.attempts")
 
-    def _attempt(self, items, attempt):
-        u = dict(zip(self._streams.names, self._streams.uniform(items, attempt)))
+    def _attempt(self, items, attempt, kept):
+        u = dict(zip(self._streams.names + self._kept.names, [*self._streams.uniform(items, attempt), *kept]))
         spec, geometry = self.spec, self.spec.geometry
         window, looks = self._window.sample(u["chip.window_nm"]), self._looks.sample(u["chip.looks"])
         entry, latitude, longitude, thing = self._draw_targets(u)

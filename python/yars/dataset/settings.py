@@ -93,7 +93,8 @@ class Settings:
         lines = []
         fidelity = fidelity_line(self.spec)
         if fidelity:
-            lines.append((fidelity, self.spec.lines.get("radar.preset", self.spec.lines.get("radar.knobs", self.spec.lines.get("radar", 1)))))
+            known = [self.spec.lines[key] for key in ("radar.knobs", "radar.preset", "radar") if key in self.spec.lines]
+            lines.append((fidelity, known[0]))
         for setting in self.spec.settings:
             value = setting.value
             ends = [value] if isinstance(value, list) else value.ends()

@@ -18,7 +18,7 @@ MOST_BYTES = 1 << 20
 DEFAULT_ARRAYS = ("video", "shadow", "layover", "object", "material")
 _SLOT = re.compile(r"[A-Za-z][A-Za-z0-9_-]*$")
 _RELATIVE_DEFAULTS = {  # drawn keys with a number as default
-    "geometry.squint_deg": Fixed(90.0), "geometry.speed_kt": Fixed(480.0), "geometry.time_s": Fixed(0.0),
+    "geometry.squint_deg": Uniform([(20.0, 60.0)]), "geometry.speed_kt": Fixed(480.0), "geometry.time_s": Fixed(0.0),
     "geometry.bearing_deg": Uniform([(0.0, 360.0)]), "targets.north_m": Fixed(0.0), "targets.east_m": Fixed(0.0),
     "movers.count": Fixed(1), "movers.north_m": Fixed(0.0), "movers.east_m": Fixed(0.0),
     "movers.heading_deg": Uniform([(0.0, 360.0)]), "movers.speed_kt": Fixed(20.0), "movers.cross_section_m2": Fixed(10.0),

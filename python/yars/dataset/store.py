@@ -47,7 +47,7 @@ class Store:
 
     def __init__(self, spec, folder, mark):
         self.spec, self.folder, self.mark = spec, str(folder), mark
-        self.hash = hasher()
+        self.hash_name, self.hash = hasher()
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -71,7 +71,7 @@ class Store:
     def begin(self):
         """Makes the folder and its general files, or checks that it belongs to this specification."""
         about = {"format": FORMAT, "fingerprint": self.mark, "count": self.spec.count, "block": self.spec.block, "seed": self.spec.seed,
-                 "size": self.spec.size, "arrays": list(self.spec.arrays), "files": self.spec.format}
+                 "size": self.spec.size, "arrays": list(self.spec.arrays), "files": self.spec.format, "hash": self.hash_name}
         text = json.dumps(about, indent=1) + "\n"
         try:
             os.makedirs(self.folder, exist_ok=True)

@@ -1,15 +1,17 @@
 """A maker for tests of yars.dataset: arrays of the right shapes that depend on orders, movers and settings alone.
 
-`command` runs the data set maker with it: python3 fake_maker.py SPEC --out DIR ..."""
+`command` runs the data set maker with it: python3 dataset_fake_maker.py SPEC --out DIR ..."""
+import errno
 import hashlib
 import os
 import pathlib
 import sys
 import time
+import types
 
 import numpy as np
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "python"))
 
 OBJECT = np.dtype([("name", "U16"), ("latitude", "f8"), ("longitude", "f8"), ("height_m", "f4")])
 GEO = np.dtype([("origin_latitude", "f8"), ("origin_longitude", "f8"), ("plane_from_pixel", "f8", (6,)), ("up_deg", "f8")])
@@ -32,6 +34,9 @@ class FakeMaker:
 
     def patches(self, orders, movers, settings):
         time.sleep(float(os.environ.get("FAKE_MAKER_S", "0")))
+        deadly = os.environ.get("FAKE_MAKER_DEADLY_MAP")  # the item with this number ends its worker
+        if deadly and int(deadly) in orders["map"] and len(orders) > 1:
+            os.kill(os.getpid(), 9)
         size, count = self.spec.size, len(orders)
         seeds = []
         for at in range(count):
@@ -52,10 +57,25 @@ class FakeMaker:
         return result
 
 
+def fill_disk(after):
+    """Lets `after` more files be written; then the disk is full for a rest of each file."""
+    from yars.dataset import files
+    real, left = os.write, [after]
+
+    def write(file, data):
+        if len(data) > 200 and left[0] <= 0:
+            raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+        left[0] -= len(data) > 200
+        return real(file, data)
+    files.os = types.SimpleNamespace(**{**vars(os), "write": write})
+
+
 def open_maker(spec, terrain, scenes):
+    if "FAKE_MAKER_FULL" in os.environ:
+        fill_disk(int(os.environ["FAKE_MAKER_FULL"]))
     return FakeMaker(spec)
 
 
 if __name__ == "__main__":
     from yars.dataset.run import main
-    sys.exit(main(maker="fake_maker:open_maker"))
+    sys.exit(main(maker="dataset_fake_maker:open_maker"))
