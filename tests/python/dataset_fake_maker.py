@@ -40,7 +40,9 @@ class FakeMaker:
         size, count = self.spec.size, len(orders)
         seeds = []
         for at in range(count):
-            text = orders[at].tobytes() + movers[movers["order"] == at].tobytes()[4:] + settings.encode()
+            mine = movers[movers["order"] == at].copy()
+            mine["order"] = 0
+            text = orders[at].tobytes() + mine.tobytes() + settings.encode()
             seeds.append(int.from_bytes(hashlib.blake2b(text, digest_size=8).digest(), "little"))
         words = np.array(seeds, np.uint64)[:, None, None] + np.arange(size * size, dtype=np.uint64).reshape(size, size) * np.uint64(0x9E3779B97F4A7C15)
         words ^= words >> np.uint64(29)

@@ -55,9 +55,8 @@ def prepare(spec_path, folder):
 
 def _generate(path, arguments):
     """Runs `yars` with --out under a temporary name, which is renamed: other shards may do the same."""
-    folder, name = os.path.split(path)
-    stem, ending = os.path.splitext(name)
-    temporary = os.path.join(folder, f".{stem}-{files._HOST}-{os.getpid()}{ending}")
+    folder = os.path.dirname(path)
+    temporary = files.temporary_name(path)
     try:
         os.makedirs(folder, exist_ok=True)
         run = subprocess.run([command(), *arguments, f"--out={temporary}"], capture_output=True, text=True, check=False)

@@ -5,11 +5,13 @@ import pathlib
 import re
 import shutil
 import socket
+import time
 
 from .errors import DatasetError
 
 _HOST = re.sub(r"[^A-Za-z0-9]", "-", socket.gethostname())[:32]
 _TEMPORARY = re.compile(r"\.writing-(.*)-(\d+)-")
+_OLD_S = 3600.0  # no writer takes so long for a file
 _ACTIONS = {errno.ENOSPC: "free some space, then run the same command again: what is written stays",
             errno.EDQUOT: "raise the quota or free some space, then run the same command again: what is written stays",
             errno.EFBIG: "raise the limit (ulimit -f), then run the same command again: what is written stays",
@@ -29,16 +31,21 @@ def failure(path, error, expected="to write"):
     return DatasetError(f"{path}: expected {expected}, found: {error.strerror or error}{room}; {action}")
 
 
+def temporary_name(path):
+    """Name beside a file under which this process writes it."""
+    folder, name = os.path.split(path)
+    return os.path.join(folder, f".writing-{_HOST}-{os.getpid()}-{name}")
+
+
 def write(path, *parts):
     """Writes a file as a whole: a new name, then a rename. Raises DatasetError; then no part of it stays."""
-    folder, name = os.path.split(path)
-    temporary = os.path.join(folder, f".writing-{_HOST}-{os.getpid()}-{name}")
+    temporary = temporary_name(path)
     flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC
     try:
         try:
             file = os.open(temporary, flags, 0o666)
         except FileNotFoundError:
-            os.makedirs(folder, exist_ok=True)
+            os.makedirs(os.path.dirname(path), exist_ok=True)
             file = os.open(temporary, flags, 0o666)
         try:
             for part in parts:
@@ -56,18 +63,28 @@ def write(path, *parts):
         raise failure(path, error) from None
 
 
+def _runs(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] not in "ZX"
+    except OSError:
+        return False
+
+
 def remove_leftovers(folder):
-    """Removes temporary files of writers of this host that no longer run. Returns their number."""
+    """Removes temporary files and folders of writers that no longer run: those of this host by their process, those of others by
+    their age. Returns their number."""
     count = 0
-    for place, _, names in os.walk(folder):
-        for name in names:
+    for place, folders, names in os.walk(folder):
+        for name in names + folders:
             match = _TEMPORARY.match(name)
-            if match and match.group(1) == _HOST and not os.path.exists(f"/proc/{match.group(2)}"):
-                try:
-                    os.unlink(os.path.join(place, name))
+            path = os.path.join(place, name)
+            try:
+                if match and (not _runs(match.group(2)) if match.group(1) == _HOST else time.time() - os.stat(path).st_mtime > _OLD_S):
+                    shutil.rmtree(path) if name in folders else os.unlink(path)
                     count += 1
-                except OSError:
-                    pass
+            except OSError:
+                pass
+        folders[:] = [name for name in folders if not _TEMPORARY.match(name)]
     return count
 
 

@@ -13,7 +13,7 @@ import subprocess
 import sys
 import time
 
-from . import context, keys
+from . import context, files, keys
 from .errors import DatasetError
 from .host import Lines, write_all
 
@@ -247,6 +247,8 @@ def run(options):
 
 def join(options, store, made):
     """Joins the parts if all are there. Returns True if they are."""
+    if made:
+        files.remove_leftovers(options.out)  # of workers that were killed
     if not store.complete():
         if options.merge:
             print(f"yars dataset: {options.out}: expected the parts of all blocks, found some absent; run the other shards first", file=sys.stderr)

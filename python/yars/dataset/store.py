@@ -88,14 +88,12 @@ class Store:
         if there is None:
             if any(name not in ("scenes", "terrain") and not name.startswith(".") for name in os.listdir(self.folder)):
                 raise DatasetError(f"{self.folder}: expected a new or empty folder, or a data set, found other files; choose another --out")
-            for name, content in (formats.zarr_metadata(self.spec) if self.spec.format == "zarr" else {}).items():
-                files.write(self.path(f"chips.zarr/{name}"), content.encode())
-            files.write(self.path("spec.yaml"), pathlib.Path(self.spec.path).read_bytes())
             files.write(self.path("dataset.json"), text.encode())
-        if self.spec.format == "zarr" and there is not None:
-            for name, content in formats.zarr_metadata(self.spec).items():
-                if files.read(self.path(f"chips.zarr/{name}")) != content.encode():
-                    files.write(self.path(f"chips.zarr/{name}"), content.encode())
+        if not os.path.exists(self.path("spec.yaml")):
+            files.write(self.path("spec.yaml"), pathlib.Path(self.spec.path).read_bytes())
+        for name, content in (formats.zarr_metadata(self.spec) if self.spec.format == "zarr" else {}).items():
+            if files.read(self.path(f"chips.zarr/{name}")) != content.encode():
+                files.write(self.path(f"chips.zarr/{name}"), content.encode())
 
     def read_part(self, block):
         """(head, lines as bytes) of a block's part; (None, reason) if it is not whole."""
@@ -157,7 +155,7 @@ class Store:
 
 def write_stream(path, parts, good):
     """Writes bytes objects to a file under a temporary name; renames it if good() holds at the end."""
-    temporary = os.path.join(os.path.dirname(path), f".writing-{files._HOST}-{os.getpid()}-{os.path.basename(path)}")
+    temporary = files.temporary_name(path)
     try:
         with open(temporary, "wb") as file:
             for part in parts:
