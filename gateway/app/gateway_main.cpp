@@ -75,6 +75,41 @@ error::Expected<std::vector<std::string>> check(radar::NetworkSettings& settings
   return std::move(computer->other_peers);
 }
 
+// What the gateway needs each time that it joins.
+struct Joining {
+  radar::NetworkSettings settings;
+  std::vector<std::string> peers;  // addresses of other computers
+  gateway::Identity identity;      // without what differs from time to time
+  gateway::dds::RejoinLimit rejoins;
+};
+
+// Joins the session, until the program is to end. Output: true: join again, because a handshake was lost.
+error::Expected<bool> join(const databuffer::ProgramOptions& options, Joining& joining) {
+  auto session = databuffer::Session::open(options.session, "gateway");
+  if (!session) return tl::unexpected(session.error());
+  const auto role = session->claim(databuffer::Role::gateway);
+  if (!role) return tl::unexpected(error::usage_error(role.error()));
+  auto link = gateway::dds::Link::open(joining.settings, options.session);
+  if (!link) return tl::unexpected(link.error());
+  gateway::Identity identity = joining.identity;
+  identity.start = random_number();
+  identity.segment = segment_number(*session);
+  log::info("host " + identity.name + " joins session " + options.session + ", DDS domain " +
+            std::to_string(joining.settings.domain) + (joining.settings.security.empty() ? "" : ", encrypted"));
+  gateway::GatewayShell shell(*session, options.session, std::move(*link), joining.settings, std::move(identity));
+  shell.set_asked(joining.peers);
+  while (!databuffer::stop_requested()) {
+    shell.step();
+    if (shell.lost_handshake().empty() || !joining.rejoins.take(databuffer::monotonic_ns())) continue;
+    log::warning("the handshake with the gateway of " + shell.lost_handshake() +
+                 " was lost, as on a bad line: joins again");
+    shell.finish();
+    return true;
+  }
+  shell.finish();
+  return false;
+}
+
 error::Expected<void> run(const databuffer::ProgramOptions& options, const GatewayOptions& gateway_options) {
   auto settings = config::load_network(gateway_options.network);
   if (!settings) return tl::unexpected(settings.error());
@@ -84,26 +119,16 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Gatew
   auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return tl::unexpected(configuration.error());
   if (!gateway_options.terrain.empty()) configuration->terrain.directory = gateway_options.terrain;
-  auto session = databuffer::Session::open(options.session, "gateway");
-  if (!session) return tl::unexpected(session.error());
-  const auto role = session->claim(databuffer::Role::gateway);
-  if (!role) return tl::unexpected(error::usage_error(role.error()));
-  auto link = gateway::dds::Link::open(*settings, options.session);
-  if (!link) return tl::unexpected(link.error());
-  gateway::Identity identity;
-  identity.name = settings->name;
-  identity.priority = static_cast<std::uint32_t>(settings->priority);
-  identity.start = random_number();
-  identity.segment = segment_number(*session);
-  identity.configuration_hash = configuration_hash(*configuration);
-  identity.terrain_hash = terrain_hash(configuration->terrain.directory);
-  log::info("host " + identity.name + " joins session " + options.session + ", DDS domain " +
-            std::to_string(settings->domain) + (settings->security.empty() ? "" : ", encrypted"));
-  gateway::GatewayShell shell(*session, options.session, std::move(*link), *settings, std::move(identity));
-  shell.set_asked(std::move(*peers));
-  while (!databuffer::stop_requested()) shell.step();
-  shell.finish();
-  return {};
+  Joining joining{std::move(*settings), std::move(*peers), {}, {}};
+  joining.identity.name = joining.settings.name;
+  joining.identity.priority = static_cast<std::uint32_t>(joining.settings.priority);
+  joining.identity.configuration_hash = configuration_hash(*configuration);
+  joining.identity.terrain_hash = terrain_hash(configuration->terrain.directory);
+  for (;;) {
+    const auto again = join(options, joining);
+    if (!again) return tl::unexpected(again.error());
+    if (!*again) return {};
+  }
 }
 
 }  // namespace

@@ -141,6 +141,7 @@ void GatewayShell::report_messages() {
     log::warning(remark.text);
     session_->note(databuffer::NoteKind::loss, remark.note);
   }
+  lost_handshake_ = link_.take_lost_handshake(context_.now_ns);
   report_silence();
 }
 

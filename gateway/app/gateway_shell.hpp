@@ -34,6 +34,8 @@ class GatewayShell {
   void set_asked(std::vector<std::string> peers) { asked_ = std::move(peers); }
   // Waits for the next pass and runs it. Probes and input events are taken as soon as they arrive.
   void step();
+  // The host whose handshake with this one was lost; empty: none. The caller then opens a new link and a new shell.
+  const std::string& lost_handshake() const { return lost_handshake_; }
   // Runs further passes until the other hosts have what this one has sent, for 1 s at most. Without them the last tick
   // of a lockstep run would not reach a slower host.
   void finish();
@@ -61,6 +63,7 @@ class GatewayShell {
   MapExchange maps_;
   LockstepExchange lockstep_;
   std::vector<std::string> asked_;
+  std::string lost_handshake_;
   int domain_, participants_;
   bool secured_;
   bool reported_joined_ = false;

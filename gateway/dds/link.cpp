@@ -392,4 +392,8 @@ std::vector<Remark> Link::take_remarks(std::int64_t now_ns) {
   return state_->others.take_remarks(now_ns);
 }
 
+std::string Link::take_lost_handshake(std::int64_t now_ns) {
+  return state_->others.take_lost_handshake(now_ns);
+}
+
 }  // namespace yars::gateway::dds

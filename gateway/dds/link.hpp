@@ -91,6 +91,8 @@ class Link {
   std::vector<std::string> take_messages(std::int64_t now_ns);
   // Lines about gateways that are heard and exchange nothing with this one, each once.
   std::vector<Remark> take_remarks(std::int64_t now_ns);
+  // As Participants::take_lost_handshake(). Call take_remarks() before.
+  std::string take_lost_handshake(std::int64_t now_ns);
 
  private:
   struct State;

@@ -16,6 +16,8 @@ constexpr std::size_t kMaxOthers = 64;  // participants that are remembered; for
 // [ns] A host's writers are known some ms after itself, encrypted on a bad line half a second. With a shorter time a
 // loaded machine would name hosts that join.
 constexpr std::int64_t kSilence_ns = 5'000'000'000;
+// [ns] A handshake on a bad line is done, or lost for good, within this time.
+constexpr std::int64_t kHandshake_ns = 8'000'000'000;
 constexpr std::size_t kMaxAddress = 15;  // [bytes] of an IPv4 address
 constexpr std::size_t kMaxText = 64;     // [bytes] of a text about itself that a participant sends
 
@@ -133,6 +135,17 @@ Remark Participants::remark_on(const Other& other) const {
                 session_ + ": nothing is exchanged; start both with the same --session, if they belong together",
             "", false};
   return silence_of(other.name, other.address, secured_);
+}
+
+std::string Participants::take_lost_handshake(std::int64_t now_ns) {
+  if (!secured_) return "";
+  for (auto& [key, other] : others_) {
+    if (other.is_lost || other.is_here || other.name.empty() || !other.session.empty()) continue;
+    if (now_ns - other.first_ns < kHandshake_ns || !(key < self_)) continue;
+    other.is_lost = true;
+    return other.name;
+  }
+  return "";
 }
 
 std::vector<Remark> Participants::take_remarks(std::int64_t now_ns) {

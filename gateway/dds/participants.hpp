@@ -6,6 +6,7 @@
 // Threads: one.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -24,12 +25,36 @@ struct Remark {
 // The line about gateway `name` at `address`, which exchanges nothing. `secured`: this side has an identity.
 Remark silence_of(const std::string& name, const std::string& address, bool secured);
 
+// Permission to join again, a few times and then every two minutes: others can cause it, and it disturbs the session.
+// Times: CLOCK_MONOTONIC.
+class RejoinLimit {
+ public:
+  static constexpr int kAtOnce = 3;
+  static constexpr std::int64_t kInterval_ns = 120'000'000'000;
+
+  bool take(std::int64_t now_ns) {
+    // The allowance is kept as the time at which it is whole again.
+    const std::int64_t next_ns = std::max(whole_at_ns_, now_ns) + kInterval_ns;
+    if (next_ns - now_ns > kAtOnce * kInterval_ns) return false;
+    whole_at_ns_ = next_ns;
+    return true;
+  }
+
+ private:
+  std::int64_t whole_at_ns_ = 0;
+};
+
 class Participants {
  public:
   // `participant`: entity of Cyclone DDS. `session`: name of the session. `secured`: this side has an identity.
   void open(std::int32_t participant, std::string session, bool secured);
   // Lines about participants that were found since the last call. Each is named once.
   std::vector<Remark> take_remarks(std::int64_t now_ns);
+  // With security: the name of a gateway with which this one should try the handshake of DDS Security again, by a
+  // participant of its own that is new; empty: none. Cyclone DDS 0.10 can lose a handshake for good on a line that
+  // loses messages (eclipse-cyclonedds/cyclonedds, issue 1895). Of two gateways the one with the greater GUID is told
+  // so. Each participant is named once.
+  std::string take_lost_handshake(std::int64_t now_ns);
 
  private:
   using Key = std::pair<std::uint64_t, std::uint64_t>;  // GUID of a participant
@@ -39,6 +64,7 @@ class Participants {
     bool is_here = false;       // writes in this session
     std::string session;        // of its writers, another one; empty: none known
     bool is_named = false;
+    bool is_lost = false;  // take_lost_handshake() has named it
   };
   void take_participants(std::int64_t now_ns);
   void take_writers();

@@ -14,6 +14,7 @@
 #include "lib/memory/line_vector.hpp"
 #include "lib/parallel/thread_pool.hpp"
 #include "model/hrm/map_image.hpp"
+#include "model/hrm/map_labels.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/hrm/polar_ground.hpp"
 #include "model/physics/environment.hpp"
@@ -57,7 +58,7 @@ class PolarArray {
 
 // Grid, ground and images of one map. The arrays are reused for the next sector and the next map.
 struct PatchData {
-  explicit PatchData(int pixels) : image(pixels) {}
+  explicit PatchData(int pixels, LabelUse use = LabelUse::none) : image(pixels), labels(pixels, use) {}
 
   // Crests between rows, as in GroundArrays::crest_m. Null if they are not computed.
   const float* crests_m() const { return crests.any() ? crest_m.data() : nullptr; }
@@ -73,6 +74,7 @@ struct PatchData {
   PolarArray<float> crest_m;              // as in GroundArrays::crest_m; used if crests.any() is true
   PolarArray<float> horizon;              // by column: greatest tangent of the ground nearer than the grid's row 0
   MapImage image;
+  MapLabels labels;
   std::vector<std::uint8_t> picture;  // 8-bit video, row 0 at the far edge
 };
 

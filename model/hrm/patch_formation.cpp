@@ -35,13 +35,15 @@ int max_map_size(radar::Algorithm algorithm) {
 }
 
 struct PatchFormation::Work {
-  Work(const physics::RadarParameters& parameters, parallel::Executor executor, std::size_t points)
+  Work(const physics::RadarParameters& parameters, parallel::Executor executor, std::size_t points, LabelUse labels)
       : fidelity(parameters.fidelity),
         high_resolution(parameters.high_resolution),
         array(parameters),
         algorithm(make_algorithm(parameters)),
         sector_points(points),
-        data(parameters.fidelity.map_size) {
+        data(parameters.fidelity.map_size, labels) {
+    if (data.labels.wanted() && parameters.fidelity.algorithm != radar::Algorithm::standard)
+      labeller = std::make_unique<Standard>(parameters);
     inputs.executor = std::move(executor);
     for (std::size_t thread = 0; thread < inputs.executor.threads; ++thread) grounds.emplace_back(parameters);
   }
@@ -53,6 +55,7 @@ struct PatchFormation::Work {
   void read_terrain();
   void draw_scene() { algorithm->draw_scene(inputs, data); }
   void cast_profiles() { algorithm->cast_profiles(inputs, data); }
+  void draw_labels();
   void draw_map();
   void draw_video() { algorithm->draw_video(inputs, data); }
 
@@ -60,6 +63,7 @@ struct PatchFormation::Work {
   radar::HighResolutionConfiguration high_resolution;
   radar::SyntheticArray array;
   std::unique_ptr<Algorithm> algorithm;
+  std::unique_ptr<Standard> labeller;  // computes the labels of maps by another algorithm; null: `algorithm` does
   PatchInputs inputs;
   PatchState state = PatchState::reset;
   int completed_stages = 0;
@@ -74,8 +78,8 @@ struct PatchFormation::Work {
 };
 
 PatchFormation::PatchFormation(const physics::RadarParameters& parameters, parallel::Executor executor,
-                               std::size_t sector_points)
-    : work_(std::make_unique<Work>(parameters, std::move(executor), sector_points)) {}
+                               std::size_t sector_points, LabelUse labels)
+    : work_(std::make_unique<Work>(parameters, std::move(executor), sector_points, labels)) {}
 PatchFormation::~PatchFormation() = default;
 PatchFormation::PatchFormation(PatchFormation&&) noexcept = default;
 PatchFormation& PatchFormation::operator=(PatchFormation&&) noexcept = default;
@@ -110,7 +114,10 @@ void PatchFormation::Work::begin_map() {
   lay_grid();
   pending.assign(inputs.executor.threads, 0);
   ground_begun.assign(inputs.executor.threads, 0);
+  if (data.image.power.empty()) data.image = MapImage(data.image.size);  // take_result() has moved it out
+  data.labels.begin(data.points);
   algorithm->begin(data);
+  if (labeller) labeller->begin(data);
   begin_sector(0);
 }
 
@@ -147,8 +154,8 @@ void PatchFormation::Work::lay_grid() {
 
 void PatchFormation::Work::read_terrain() {
   const PatchTerrain terrain{inputs.environment.window.get(), inputs.environment.path.get(), data.crests, posts.get()};
-  const GroundArrays arrays{data.surface.data(), data.horizon.data(),
-                            data.crests.any() ? data.crest_m.data() : nullptr};
+  const GroundArrays arrays{data.surface.data(), data.horizon.data(), data.crests.any() ? data.crest_m.data() : nullptr,
+                            data.labels.surface_labels()};
   parallel_for_strips(inputs.executor, data.grid, [&](int first, int last, std::size_t thread) {
     if (ground_begun[thread] == 0) grounds[thread].begin(*data.geometry, data.grid, *terrain.path);
     ground_begun[thread] = 1;
@@ -158,8 +165,22 @@ void PatchFormation::Work::read_terrain() {
   algorithm->read_terrain(inputs, data);
 }
 
+// Labels of the sector. They follow the pixels, because point targets are hidden by the surface without scene where the
+// algorithm draws none on it.
+void PatchFormation::Work::draw_labels() {
+  if (!data.labels.wanted()) return;
+  if (labeller) {
+    labeller->draw_scene(inputs, data);
+    labeller->cast_profiles(inputs, data);
+  }
+  parallel_for_rows(inputs.executor, data.image, [&](int first, int last, std::size_t) {
+    data.labels.draw(*data.geometry, data.grid, data.surface.data(), first, last);
+  });
+}
+
 void PatchFormation::Work::draw_map() {
   algorithm->draw_pixels(inputs, data);
+  draw_labels();
   if (!in_last_sector()) return;
   data.image.blind = false;
   algorithm->complete_map(inputs, data);
@@ -170,6 +191,7 @@ void PatchFormation::Work::draw_map() {
     if (zone.blank(first, last, data.image)) blind.store(true, std::memory_order_relaxed);
   });
   data.image.blind = blind;
+  data.labels.clear_blind(data.image);
 }
 
 void PatchFormation::advance() {
@@ -201,6 +223,16 @@ const std::vector<std::uint8_t>& PatchFormation::picture() const {
 }
 const MapImage& PatchFormation::image() const {
   return work_->data.image;
+}
+const PixelLabels& PatchFormation::labels() const {
+  return work_->data.labels.pixels();
+}
+PatchFormation::Result PatchFormation::take_result() {
+  PatchData& data = work_->data;
+  Result result{std::move(data.image), std::move(data.picture), data.labels.take()};
+  data.image = MapImage(0);
+  data.image.size = result.image.size;
+  return result;
 }
 const PatchGeometry& PatchFormation::geometry() const {
   return *work_->data.geometry;

@@ -21,6 +21,7 @@
 #include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/fidelity.hpp"
 #include "model/hrm/map_image.hpp"
+#include "model/hrm/map_labels.hpp"
 #include "model/hrm/patch_data.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/physics/receiver.hpp"
@@ -43,8 +44,9 @@ int max_map_size(radar::Algorithm algorithm);
 
 class PatchFormation {
  public:
+  // `labels`: labels to compute with each map. They change no bit of image and picture.
   PatchFormation(const physics::RadarParameters& parameters, parallel::Executor executor,
-                 std::size_t sector_points = kMaxSectorPoints);
+                 std::size_t sector_points = kMaxSectorPoints, LabelUse labels = LabelUse::none);
   ~PatchFormation();
   PatchFormation(PatchFormation&&) noexcept;
   PatchFormation& operator=(PatchFormation&&) noexcept;
@@ -63,6 +65,16 @@ class PatchFormation {
   // Valid after the stage `map`: power before speckle and noise, in the unit of map_image.hpp. With the algorithm
   // `report_1996`: brightness 0 to 1 before noise.
   const MapImage& image() const;
+  // Valid after the stage `map`: the labels of the constructor's argument `labels`.
+  const PixelLabels& labels() const;
+  // Valid in state `done`: moves image, picture and labels out, so that the caller has them without a copy. image(),
+  // picture() and labels() are then empty until the next map.
+  struct Result {
+    MapImage image;
+    std::vector<std::uint8_t> picture;
+    PixelLabels labels;
+  };
+  Result take_result();
   const PatchGeometry& geometry() const;  // valid after set_environment()
   geo::Duration formation() const;        // time in which the synthetic array is formed
   std::size_t triangles() const;          // number of triangles in the scene tiles near the window

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "model/hrm/map_labels.hpp"
 #include "model/hrm/polar_ground_simd.hpp"
 #include "model/physics/clutter_simd.hpp"
 #include "model/physics/reflectivity.hpp"
@@ -131,6 +132,7 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
   const bool materials = terrain.window->has_materials();
   const terrain::TerrainView& posts = terrain.posts == nullptr ? *terrain.window : *terrain.posts;
   if (arrays.crest_m != nullptr) strip_crest_.resize(strip_height_.size());
+  if (arrays.label != nullptr) strip_label_.resize(strip_height_.size());
   std::size_t pending = 0;
   for (int column = first; column < last; ++column) {
     const geo::Bearing azimuth = geometry.up() + geo::Angle::radians(std::atan(grid.tangent(column)));
@@ -146,11 +148,13 @@ std::size_t PolarGround::fill(const PatchOrder& order, const PatchGeometry& geom
       pending += read_window(order, geometry, azimuth, posts, detail, lane);
       clear_voids(lane);
     }
+    if (arrays.label != nullptr && (materials || number % step == 0)) read_labels(lane, materials);
     prefetch_strip(grid, column, arrays);
     if (number + 1 < kStripColumns) continue;
     if (step > 1) interpolate_columns(static_cast<std::size_t>(step), materials);
     store_strip(grid, column / kStripColumns, arrays);
     if (arrays.crest_m != nullptr) store_crests(grid, column / kStripColumns, arrays.crest_m);
+    if (arrays.label != nullptr) store_labels(grid, column / kStripColumns, materials ? 1 : step, arrays.label);
     interpolate_horizons(path_columns, arrays.horizon + column + 1 - kStripColumns);
   }
   return pending;
@@ -306,6 +310,28 @@ void PolarGround::store_crests(const PolarGrid& grid, int strip, float* crest_m)
   for (std::size_t row = 0; row < static_cast<std::size_t>(grid.rows); ++row)
     for (std::size_t lane = 0; lane < std::size_t{kStripColumns}; ++lane)
       points[row * kStripColumns + lane] = strip_crest_[lane * pitch_ + row];
+}
+
+// Labels of the current column: its surface materials, or water where the posts around are mostly at 0 m.
+void PolarGround::read_labels(std::size_t lane, bool materials) {
+  constexpr float kMostlyWater = 0.5F;
+  constexpr std::uint32_t kWater = ground_label(radar::kWaterMaterial);
+  std::uint32_t* const label = &strip_label_[lane * pitch_];
+  for (std::size_t row = 0; row < window_->positions.count; ++row) {
+    const auto code = materials ? static_cast<std::uint8_t>(ground_->materials()[row]) : std::uint8_t{0};
+    label[row] = code == 0 && window_->water[row] > kMostlyWater ? kWater : ground_label(code);
+  }
+}
+
+// Stores the labels of the strip. A column between sampled ones has the label of the nearest of them.
+void PolarGround::store_labels(const PolarGrid& grid, int strip, int step, std::uint32_t* label) const {
+  std::uint32_t* const points = label + grid.at(strip * kStripColumns, 0);
+  for (int lane = 0; lane < kStripColumns; ++lane) {
+    const std::uint32_t* const column =
+        &strip_label_[static_cast<std::size_t>((lane + step / 2) / step * step) * pitch_];
+    for (std::size_t row = 0; row < static_cast<std::size_t>(grid.rows); ++row)
+      points[row * kStripColumns + static_cast<std::size_t>(lane)] = column[row];
+  }
 }
 
 // Subtracts the map plane from the heights of the current column. Voids get gamma 0 and the height of the last known

@@ -50,6 +50,7 @@ struct GroundArrays {
   // For a crest between the previous row and this one, the height [m] above the map plane at which the line of sight
   // over the crest passes this row. -1e6 without a crest. Null: not computed.
   float* crest_m = nullptr;
+  std::uint32_t* label = nullptr;  // surface label (map_labels.hpp) of the ground; null: not computed
 };
 
 // Sampler of terrain on the polar grid, reused from map to map.
@@ -95,6 +96,8 @@ class PolarGround {
   void prefetch_strip(const PolarGrid& grid, int column, const GroundArrays& arrays) const;
   void store_strip(const PolarGrid& grid, int strip, const GroundArrays& arrays) const;
   void store_crests(const PolarGrid& grid, int strip, float* crest_m) const;
+  void read_labels(std::size_t lane, bool materials);
+  void store_labels(const PolarGrid& grid, int strip, int step, std::uint32_t* label) const;
 
   radar::Algorithm algorithm_;
   radar::Interpolation interpolation_;
@@ -107,6 +110,7 @@ class PolarGround {
   std::size_t pitch_ = 0;                                         // entries per column in the arrays below
   memory::CacheAlignedVector<float> strip_height_, strip_gamma_;  // sixteen columns, one after the other
   memory::CacheAlignedVector<float> strip_crest_;  // like strip_height_; empty unless crests are computed
+  std::vector<std::uint32_t> strip_label_;         // likewise; empty unless labels are computed
   float plain_gamma_;                              // gamma of land without culture
 };
 

@@ -74,6 +74,7 @@ HWY_INLINE Point with_image_row(const Strip& strip, int row, Point point) {
 struct RowInterval {
   Floats low, high;
   Floats density;  // power per row; 0: none
+  int source;      // row of the surface point that returns it, for labels
 };
 
 HWY_INLINE Floats power_in_row(const RowInterval& interval, Floats row) {
@@ -83,8 +84,41 @@ HWY_INLINE Floats power_in_row(const RowInterval& interval, Floats row) {
   return hn::Mul(interval.density, hn::Max(covered, hn::Zero(d)));
 }
 
+// Updates the labels of 16 cells, or of as many as a vector has lanes, with the power of an interval in their row.
+// `cell`: entry of the first cell. `row_power` is 0 in lanes without the interval.
+HWY_INLINE void label_row(const Strip& strip, std::size_t cell, const RowInterval& interval, Floats row,
+                          Floats row_power) {
+  const Tag d;
+  const SignedTag di;
+  const auto before = hn::Load(d, strip.strength + cell);
+  const auto stronger = hn::Gt(row_power, before);
+  hn::Store(hn::Max(row_power, before), d, strip.strength + cell);
+  hn::BlendedStore(hn::Set(di, interval.source), hn::RebindMask(di, stronger), di, strip.shown_row + cell);
+  const auto here =
+      hn::And(hn::Gt(interval.density, hn::Zero(d)), hn::And(hn::Le(interval.low, row), hn::Lt(row, interval.high)));
+  const auto count = hn::Load(di, strip.layers + cell);
+  hn::Store(hn::Sub(count, hn::VecFromMask(di, hn::RebindMask(di, here))), di, strip.layers + cell);
+}
+
+// The same for cells of different rows: `index` has the entry of each lane's cell. Lanes without power have index 0.
+HWY_INLINE void label_cells(const Strip& strip, hn::Vec<SignedTag> index, const RowInterval& interval, Floats row,
+                            Floats row_power) {
+  const Tag d;
+  const SignedTag di;
+  const auto before = hn::GatherIndex(d, strip.strength, index);
+  const auto stronger = hn::RebindMask(di, hn::Gt(row_power, before));
+  hn::ScatterIndex(hn::Max(row_power, before), d, strip.strength, index);
+  const auto shown = hn::GatherIndex(di, strip.shown_row, index);
+  hn::ScatterIndex(hn::IfThenElse(stronger, hn::Set(di, interval.source), shown), di, strip.shown_row, index);
+  const auto here =
+      hn::And(hn::Gt(row_power, hn::Zero(d)), hn::And(hn::Le(interval.low, row), hn::Lt(row, interval.high)));
+  const auto count = hn::GatherIndex(di, strip.layers, index);
+  hn::ScatterIndex(hn::Sub(count, hn::VecFromMask(di, hn::RebindMask(di, here))), di, strip.layers, index);
+}
+
 // Adds an interval to strip.power by gather and scatter. Each lane writes to its own column. An inactive lane adds 0 to
 // row 0.
+template <bool kLabels>
 HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInterval& interval) {
   const Tag d;
   const SignedTag di;
@@ -98,6 +132,7 @@ HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInter
     const auto row_power = hn::IfThenElseZero(active, power_in_row(interval, row));
     const auto index = hn::Add(hn::ShiftLeft<4>(hn::ConvertTo(di, hn::IfThenElseZero(active, row))), lanes);
     hn::ScatterIndex(hn::Add(hn::GatherIndex(d, strip.power, index), row_power), d, strip.power, index);
+    if constexpr (kLabels) label_cells(strip, index, interval, row, row_power);
     row = hn::Add(row, hn::Set(d, 1.0F));
     active = hn::And(active, hn::Le(row, last));
   }
@@ -105,6 +140,7 @@ HWY_INLINE void add_by_lane(const Strip& strip, std::size_t lane, const RowInter
 
 // Adds two intervals to strip.power. `wanted`: lanes whose intervals have power. Neighbouring columns are similar, so
 // the intervals of all lanes together usually cover few rows.
+template <bool kLabels>
 HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const RowInterval& first,
                     const RowInterval& second) {
   const Tag d;
@@ -117,15 +153,22 @@ HWY_INLINE void add(const Strip& strip, std::size_t lane, Mask wanted, const Row
   const auto end = hn::Min(hn::Floor(hn::Add(hn::MaxOfLanes(d, high), half)), last_row);
   const float rows = hn::GetLane(hn::Sub(end, begin));
   if (rows >= static_cast<float>(kMaxRows)) {
-    add_by_lane(strip, lane, first);
-    add_by_lane(strip, lane, second);
+    add_by_lane<kLabels>(strip, lane, first);
+    add_by_lane<kLabels>(strip, lane, second);
     return;
   }
   auto row = begin;
   float* power = strip.power + static_cast<std::size_t>(hn::GetLane(begin)) * kStripColumns + lane;
   const int count = rows >= 0.0F ? static_cast<int>(rows) + 1 : 0;
   for (int i = 0; i < count; ++i) {
-    hn::Store(hn::Add(hn::Add(hn::Load(d, power), power_in_row(first, row)), power_in_row(second, row)), d, power);
+    const auto first_power = power_in_row(first, row);
+    const auto second_power = power_in_row(second, row);
+    hn::Store(hn::Add(hn::Add(hn::Load(d, power), first_power), second_power), d, power);
+    if constexpr (kLabels) {
+      const auto cell = static_cast<std::size_t>(power - strip.power);
+      label_row(strip, cell, first, row, first_power);
+      label_row(strip, cell, second, row, second_power);
+    }
     row = hn::Add(row, hn::Set(d, 1.0F));
     power += kStripColumns;
   }
@@ -165,6 +208,7 @@ HWY_INLINE Floats gas_transmission(const GasRow& gas, Floats height_m) {
 
 // Adds the power of the visible part of the piece from `near` to `far`. `row`: row of `far`. `horizon`: greatest
 // tangent up to `near`. `seen`: lanes in which `far` is above the horizon.
+template <bool kLabels>
 HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const Point& near, const Point& far,
                            Mask seen, Floats horizon) {
   const Tag d;
@@ -208,20 +252,23 @@ HWY_INLINE void cast_piece(const Strip& strip, int row, std::size_t lane, const 
   const auto extent = hn::Max(hn::Abs(hn::Sub(far.row, start)), hn::Set(d, kMinExtent));
   const auto rows_inverse = hn::Div(one, extent);
   RowInterval first, second;
+  first.source = row - 1;
+  second.source = row;
   first.low = hn::Min(near.row, middle);
   first.high = hn::Add(first.low, extent);
   first.density = hn::IfThenElseZero(halves, hn::Mul(hn::Mul(half_area_m2, near.gamma), rows_inverse));
   second.low = hn::Min(start, far.row);
   second.high = hn::Add(second.low, extent);
   second.density = hn::IfThenElseZero(seen, hn::Mul(hn::IfThenElse(walls.present, built, open), rows_inverse));
-  add(strip, lane, seen, first, second);
+  add<kLabels>(strip, lane, seen, first, second);
 
   if (!(strip.double_bounce > 0.0F)) return;
   const auto foot = hn::And(walls.present, fully_visible);
   if (hn::AllFalse(d, foot)) return;
   // The double bounce path over wall and ground is as long as the path to the wall's foot and back.
   const auto bounce = hn::Mul(hn::Mul(face, walls.gamma), hn::Set(d, strip.double_bounce / kMinExtent));
-  add_by_lane(strip, lane, {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce)});
+  add_by_lane<false>(strip, lane,
+                     {foot_row, hn::Add(foot_row, hn::Set(d, kMinExtent)), hn::IfThenElseZero(foot, bounce), row});
 }
 
 // Sets the walls of a row to zero for the next map. Rows without walls, the majority, are not written, which saves
@@ -237,9 +284,9 @@ HWY_INLINE void clear_walls(const Strip& strip, int row, std::size_t lane) {
   hn::Store(hn::Zero(db), db, second);
 }
 
-void cast_profile(const Strip& given) {
+template <bool kLabels>
+HWY_INLINE void cast_columns(const Strip& strip) {
   const Tag d;
-  const Strip strip = given;  // a copy, so that the compiler knows that stores of power do not change it
   for (std::size_t lane = 0; lane < kStripColumns; lane += hn::Lanes(d)) {
     Point near = point_at(strip, 0, lane);
     auto horizon = hn::Max(hn::Load(d, strip.horizon + lane), near.tangent);
@@ -254,7 +301,7 @@ void cast_profile(const Strip& given) {
         if (!near_has_row) near = with_image_row(strip, row - 1, near);
         far = with_image_row(strip, row, far);
         top.row = far.row;
-        cast_piece(strip, row, lane, near, top, seen, horizon);
+        cast_piece<kLabels>(strip, row, lane, near, top, seen, horizon);
       }
       clear_walls(strip, row, lane);
       near_has_row = any;
@@ -262,6 +309,14 @@ void cast_profile(const Strip& given) {
       near = far;
     }
   }
+}
+
+void cast_profile(const Strip& given) {
+  const Strip strip = given;  // a copy, so that the compiler knows that stores of power do not change it
+  if (strip.strength == nullptr)
+    cast_columns<false>(strip);
+  else
+    cast_columns<true>(strip);
 }
 
 }  // namespace yars::model::hrm::simd::HWY_NAMESPACE

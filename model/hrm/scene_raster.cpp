@@ -192,9 +192,11 @@ void SceneRaster::transform(const PatchGeometry& geometry, const PolarGrid& grid
 void SceneRaster::read_kinds(const scene::SceneView& scene) {
   gamma_.clear();
   cardinal_.clear();
+  material_.clear();
   for (const scene::SurfaceKind& kind : scene.kinds()) {
     gamma_.push_back(static_cast<float>(surface_.gamma(kind.material)));
     cardinal_.push_back(static_cast<float>(surface_.cardinal(kind.material)));
+    material_.push_back(kind.material);
   }
 }
 
@@ -227,7 +229,8 @@ void SceneRaster::draw(const PatchGeometry& geometry, const PolarGrid& grid, con
 void SceneRaster::draw_tile(const scene::Tile& tile, const simd::Canvas& canvas) {
   const simd::GridVertices vertices = vertices_of(tile);
   const simd::Corners corners{tile.corner[0].data(), tile.corner[1].data(), tile.corner[2].data()};
-  const simd::TileSurfaces surfaces{tile.kind.data(), gamma_.data(), cardinal_.data()};
+  const simd::TileSurfaces surfaces{tile.kind.data(), tile.object.data(), material_.data(), gamma_.data(),
+                                    cardinal_.data()};
   simd::select_triangles(0, tile.on_ground, corners, vertices, canvas.limits, found_);
   simd::paint_ground(found_, surfaces, vertices, canvas);
   simd::select_triangles(tile.on_ground, tile.triangles(), corners, vertices, canvas.limits, found_);
@@ -245,7 +248,7 @@ void PolarScene::begin(const PatchData& data) {
   dirty_ = false;
 }
 
-void PolarScene::draw(const PatchInputs& inputs, PatchData& data) {
+void PolarScene::draw(const PatchInputs& inputs, PatchData& data, SurfacePoint* surface) {
   if (!drawn_) return;
   dirty_ = true;
   const parallel::Executor& executor = inputs.executor;
@@ -258,7 +261,7 @@ void PolarScene::draw(const PatchInputs& inputs, PatchData& data) {
   parallel::parallel_for(executor, bands, 1, [&](int first, int last, std::size_t thread) {
     for (auto band = static_cast<std::size_t>(first); band < static_cast<std::size_t>(last); ++band)
       rasters_[thread].draw(*data.geometry, data.grid, *inputs.environment.scene, placed_, begin[band] * kStripColumns,
-                            begin[band + 1] * kStripColumns, {data.surface.data(), walls_.data()});
+                            begin[band + 1] * kStripColumns, {surface, walls_.data(), data.labels.surface_labels()});
   });
 }
 

@@ -59,6 +59,7 @@ class SceneRaster {
   physics::SceneSurface surface_;
   std::vector<float> cardinal_effect_;                   // as simd::CardinalShape::effect
   std::vector<float> gamma_, cardinal_;                  // by surface kind of the scene
+  std::vector<std::uint8_t> material_;                   // the same
   std::vector<float> column_, row_, height_m_, facing_;  // current tile, by vertex
   simd::FoundTriangles found_;                           // triangles of the current tile that are to be drawn
   simd::Fragments fragments_;
@@ -72,7 +73,10 @@ class PolarScene {
   // Call before each map, before its sectors. If the map has tiles, enlarges the array of walls as needed, and sets the
   // array to zero if it has grown or if an earlier map has left walls in it.
   void begin(const PatchData& data);
-  void draw(const PatchInputs& inputs, PatchData& data);
+  // Draws onto `data.surface`, or onto a copy of it for an algorithm that reads the scene in another way. Also draws
+  // the labels of the surfaces if the map has labels.
+  void draw(const PatchInputs& inputs, PatchData& data) { draw(inputs, data, data.surface.data()); }
+  void draw(const PatchInputs& inputs, PatchData& data, SurfacePoint* surface);
 
   // Null if the map has no tiles. The stage that reads the walls must set them to zero and then call set_clear().
   WallPoint* walls() { return drawn_ ? walls_.data() : nullptr; }

@@ -52,7 +52,15 @@ HWY_INLINE void fill_wide(const Triangle& triangle, const Canvas& canvas, float 
   }
 }
 
-HWY_INLINE void draw_wide_surface(const Triangle& triangle, const Facet& facet, Floats gamma, const Canvas& canvas) {
+// Sets the surface labels of 16 grid points, or of as many as a vector has lanes.
+HWY_INLINE void set_labels(const Canvas& canvas, std::size_t at, Mask drawn, std::uint32_t label) {
+  if (canvas.arrays.label == nullptr) return;
+  const BitsTag db;
+  hn::BlendedStore(hn::Set(db, label), hn::RebindMask(db, drawn), db, canvas.arrays.label + at);
+}
+
+HWY_INLINE void draw_wide_surface(const Triangle& triangle, const Facet& facet, Floats gamma, std::uint32_t label,
+                                  const Canvas& canvas) {
   const Tag d;
   const auto negative = hn::Neg(gamma);
   fill_wide(triangle, canvas, kSurfaceReach, [&](std::size_t at, Floats column, Floats row, Mask wanted) HWY_ATTR {
@@ -68,6 +76,7 @@ HWY_INLINE void draw_wide_surface(const Triangle& triangle, const Facet& facet, 
     const auto drawn = hn::And(wanted, best);
     hn::StoreInterleaved2(hn::IfThenElse(drawn, negative, old_gamma), hn::IfThenElse(drawn, height, old_height), d,
                           points);
+    set_labels(canvas, at, drawn, label);
   });
 }
 
@@ -99,6 +108,7 @@ void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, con
     const Facet facet = facet_of(a, b, c, canvas.limits);
     if (!hn::AllTrue(d, hn::Gt(facet.area, hn::Zero(d)))) continue;
     auto gamma = set(tile.gamma[tile.kind[triangles.number[i]]]);
+    const std::uint32_t label = tile.label(triangles.number[i]);
     if (corners[0] >= vertices.first_with_normal) {
       const auto facing = [&](int k) HWY_ATTR { return set(vertices.facing[corners[k] - vertices.first_with_normal]); };
       gamma = hn::Mul(gamma, shading(facing(0), facing(1), facing(2), facet));
@@ -107,7 +117,9 @@ void paint_ground(const FoundTriangles& triangles, const TileSurfaces& tile, con
       auto* const points = &canvas.arrays.surface[at].gamma;
       Floats old, height;
       hn::LoadInterleaved2(d, points, old, height);
-      hn::StoreInterleaved2(hn::IfThenElse(hn::And(wanted, hn::Ge(old, hn::Zero(d))), gamma, old), height, d, points);
+      const auto drawn = hn::And(wanted, hn::Ge(old, hn::Zero(d)));
+      hn::StoreInterleaved2(hn::IfThenElse(drawn, gamma, old), height, d, points);
+      set_labels(canvas, at, drawn, label);
     });
   }
 }
@@ -142,8 +154,8 @@ HWY_INLINE Floats shaded(Floats gamma, const GridVertices& vertices, const Corne
 }
 
 // Draws those triangles of one vector that are wide (mask `wide`), one by one.
-void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* gamma, Mask wide,
-               const GridVertices& vertices, const Canvas& canvas) {
+void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* gamma, const std::uint32_t* label,
+               Mask wide, const GridVertices& vertices, const Canvas& canvas) {
   const Tag d;
   HWY_ALIGN float which[kStripColumns];
   hn::Store(hn::IfThenElseZero(wide, set(1.0F)), d, which);
@@ -153,7 +165,7 @@ void draw_wide(const FoundTriangles& triangles, std::size_t first, const float* 
     const Corner a = corner_of(vertices, corners[0]);
     const Corner b = corner_of(vertices, corners[1]);
     const Corner c = corner_of(vertices, corners[2]);
-    draw_wide_surface(ordered(a, b, c), facet_of(a, b, c, canvas.limits), set(gamma[lane]), canvas);
+    draw_wide_surface(ordered(a, b, c), facet_of(a, b, c, canvas.limits), set(gamma[lane]), label[lane], canvas);
   }
 }
 
@@ -161,8 +173,10 @@ void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, co
                    const Canvas& canvas, Fragments& fragments) {
   const Tag d;
   SmallTriangles small(canvas, fragments);
+  const bool labels = canvas.arrays.label != nullptr;
   HWY_ALIGN float gamma[kStripColumns] = {};
   HWY_ALIGN float cardinal[kStripColumns] = {};
+  HWY_ALIGN std::uint32_t label[kStripColumns] = {};
   const std::size_t step = hn::Lanes(d);
   for (std::size_t i = 0; i < triangles.count; i += step) {
     const std::size_t count = std::min(step, triangles.count - i);
@@ -170,6 +184,7 @@ void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, co
       const std::size_t kind = tile.kind[triangles.number[i + lane]];
       gamma[lane] = tile.gamma[kind];
       cardinal[lane] = tile.cardinal[kind];
+      if (labels) label[lane] = tile.label(triangles.number[i + lane]);
     }
     // Lanes beyond the last triangle contain zeros or corners of other triangles. Both are valid vertex indices. These
     // lanes are masked out.
@@ -182,17 +197,18 @@ void draw_standing(const FoundTriangles& triangles, const TileSurfaces& tile, co
     const Triangle triangle = ordered(a, b, c);
     const auto wall = hn::And(valid, hn::And(facet.steep, hn::Gt(facet.towards, hn::Zero(d))));
     if (!hn::AllFalse(d, wall))
-      small.draw_walls(triangle, wall_gamma(canvas.cardinal, facet, hn::Load(d, gamma), hn::Load(d, cardinal)), wall);
+      small.draw_walls(triangle, wall_gamma(canvas.cardinal, facet, hn::Load(d, gamma), hn::Load(d, cardinal)), label,
+                       wall);
     const auto above = hn::And(valid, hn::Gt(facet.area, hn::Zero(d)));
     if (hn::AllFalse(d, above)) continue;
     const auto shaded_gamma = shaded(hn::Load(d, gamma), vertices, corners, facet);
     const auto wide = hn::And(above, hn::Gt(hn::Sub(triangle.right.column, triangle.left.column), set(kWideColumns)));
-    small.draw_surfaces(triangle, facet, shaded_gamma, hn::AndNot(wide, above));
+    small.draw_surfaces(triangle, facet, shaded_gamma, label, hn::AndNot(wide, above));
     small.flush(false);
     if (hn::AllFalse(d, wide)) continue;
     HWY_ALIGN float gammas[kStripColumns];
     hn::Store(shaded_gamma, d, gammas);
-    draw_wide(triangles, i, gammas, wide, vertices, canvas);
+    draw_wide(triangles, i, gammas, label, wide, vertices, canvas);
   }
   small.flush(true);
 }

@@ -13,6 +13,7 @@
 #include <span>
 #include <vector>
 
+#include "model/hrm/map_labels.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/hrm/scene_vertices_simd.hpp"
 
@@ -22,11 +23,17 @@ namespace yars::model::hrm::simd {
 struct SceneArrays {
   SurfacePoint* surface = nullptr;  // on entry: the ground
   WallPoint* walls = nullptr;       // on entry: zeros
+  // Surface labels (map_labels.hpp) of `surface`; on entry: those of the ground. Null: not drawn.
+  std::uint32_t* label = nullptr;
 };
 
-// Surface kind by triangle of a tile. Gamma and cardinal effect by kind.
+// Surface kind and object by triangle of a tile. Gamma, cardinal effect and material by kind.
 struct TileSurfaces {
+  std::uint32_t label(std::size_t triangle) const { return surface_label(material[kind[triangle]], object[triangle]); }
+
   const std::uint16_t* kind = nullptr;
+  const std::uint32_t* object = nullptr;   // index into SceneView::objects()
+  const std::uint8_t* material = nullptr;  // code of DFAD
   const float* gamma = nullptr;
   const float* cardinal = nullptr;  // added return of a wall at right angles to the line of sight, relative to gamma
 };
@@ -53,6 +60,7 @@ struct Fragments {
     at.resize(2 * at.size() + kMinCapacity);
     height.resize(at.size());
     gamma.resize(at.size());
+    label.resize(at.size());
   }
   void grow_walls() {
     wall_at.resize(2 * wall_at.size() + kMinCapacity);
@@ -64,6 +72,7 @@ struct Fragments {
   std::vector<std::uint32_t> at, wall_at;               // PolarGrid::at()
   std::vector<std::uint32_t> height;                    // ordered_bits() of the height (small_triangles-inl.hpp)
   std::vector<float> gamma;                             // negated gamma of the surface, as in SurfacePoint
+  std::vector<std::uint32_t> label;                     // of the surface, if SceneArrays::label is not null
   std::vector<std::uint32_t> wall_height, wall_return;  // in steps of kWallStep_m, as in WallPoint
 };
 

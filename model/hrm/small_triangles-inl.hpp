@@ -71,7 +71,9 @@ class SmallTriangles {
 
   // Draws surfaces. In each column a surface is extended at both ends by half a row (kSurfaceReach). The first and the
   // last grid point drawn in a column are then on average as far apart as the edges.
-  void draw_surfaces(const Triangle& triangle, const Facet& facet, Floats gamma, Mask active) {
+  // `label`: surface labels of the triangles, by lane; used if the canvas has labels.
+  void draw_surfaces(const Triangle& triangle, const Facet& facet, Floats gamma, const std::uint32_t* label,
+                     Mask active) {
     const Tag d;
     const auto rows = set(static_cast<float>(canvas_.grid->rows));
     const auto end = hn::Min(hn::Ceil(triangle.right.column), set(canvas_.limits.last_column));
@@ -90,7 +92,7 @@ class SmallTriangles {
       const auto base = hn::Add(facet.value, hn::Mul(facet.by_column, column));
       while (!hn::AllFalse(d, wanted)) {
         const auto height = hn::Add(base, hn::Mul(facet.by_row, hn::Min(hn::Max(row, near), far)));
-        add_fragment(at, triangle.within(height), gamma, wanted);
+        add_fragment(at, triangle.within(height), gamma, label, wanted);
         at = hn::Add(at, hn::Set(BitsTag(), static_cast<std::uint32_t>(kStripColumns)));
         row = hn::Add(row, set(1.0F));
         wanted = hn::And(wanted, hn::Lt(row, last));
@@ -103,7 +105,7 @@ class SmallTriangles {
   // the column's profile (profile_simd.hpp) steps up. `gamma` of the wall is scaled by width / number of columns
   // crossed. A wall narrower than a column is not scaled: the probability that it crosses the centre of a column equals
   // its width in columns.
-  void draw_walls(const Triangle& triangle, Floats gamma, Mask active) {
+  void draw_walls(const Triangle& triangle, Floats gamma, const std::uint32_t* label, Mask active) {
     const Tag d;
     const auto width = hn::Sub(triangle.right.column, triangle.left.column);
     const auto columns = hn::Sub(hn::Ceil(triangle.right.column), hn::Ceil(triangle.left.column));
@@ -125,7 +127,7 @@ class SmallTriangles {
       const auto at = index_on(*canvas_.grid, hn::IfThenElseZero(wanted, column), hn::IfThenElseZero(wanted, row));
       add_wall_fragment(at, wall_height_m, gamma, wanted);
       // The top of a wall is drawn as a surface, for walls without a roof. A roof is higher and replaces this surface.
-      add_fragment(at, hn::Sub(hn::Max(on_long_edge, on_short_edge), set(kUnderRoof_m)), gamma, wanted);
+      add_fragment(at, hn::Sub(hn::Max(on_long_edge, on_short_edge), set(kUnderRoof_m)), gamma, label, wanted);
     }
   }
 
@@ -137,8 +139,10 @@ class SmallTriangles {
       SurfacePoint& point = canvas_.arrays.surface[fragments_.at[i]];
       const std::uint64_t height = fragments_.height[i];
       const auto fragment = static_cast<std::int64_t>(height << 32 | std::bit_cast<std::uint32_t>(fragments_.gamma[i]));
-      point = std::bit_cast<SurfacePoint>(
-          ordered_bits(std::max(ordered_bits(std::bit_cast<std::int64_t>(point)), fragment)));
+      const std::int64_t before = ordered_bits(std::bit_cast<std::int64_t>(point));
+      point = std::bit_cast<SurfacePoint>(ordered_bits(std::max(before, fragment)));
+      if (canvas_.arrays.label != nullptr && fragment > before)
+        canvas_.arrays.label[fragments_.at[i]] = fragments_.label[i];
     }
     for (std::size_t i = 0; i < walls_; ++i) {
       hwy::Prefetch(canvas_.arrays.walls + fragments_.wall_at[std::min(i + kPrefetchPoints, walls_ - 1)]);
@@ -154,13 +158,15 @@ class SmallTriangles {
   }
 
  private:
-  void add_fragment(Bits at, Floats height, Floats gamma, Mask wanted) {
+  void add_fragment(Bits at, Floats height, Floats gamma, const std::uint32_t* label, Mask wanted) {
     const BitsTag db;
     if (fragments_.at.size() < count_ + kStripColumns) fragments_.grow();
     const auto mask = hn::RebindMask(db, wanted);
     hn::StoreU(hn::Compress(at, mask), db, &fragments_.at[count_]);
     hn::StoreU(hn::Compress(ordered_bits(without_negative_zero(height)), mask), db, &fragments_.height[count_]);
     hn::StoreU(hn::Compress(hn::Neg(gamma), wanted), Tag(), &fragments_.gamma[count_]);
+    if (canvas_.arrays.label != nullptr)
+      hn::StoreU(hn::Compress(hn::Load(db, label), mask), db, &fragments_.label[count_]);
     count_ += hn::CountTrue(Tag(), wanted);
   }
   void add_wall_fragment(Bits at, Floats wall_height_m, Floats gamma, Mask wanted) {

@@ -76,7 +76,7 @@ void Standard::draw_scene(const PatchInputs& inputs, PatchData& data) {
   scene_.draw(inputs, data);
 }
 
-simd::Strip Standard::strip_of(const PatchData& data, int number) {
+simd::Strip Standard::strip_of(PatchData& data, int number) {
   const std::size_t at = data.grid.at(number * kStripColumns, 0);
   const auto column = static_cast<std::size_t>(number) * kStripColumns;
   simd::Strip strip;
@@ -96,6 +96,10 @@ simd::Strip Standard::strip_of(const PatchData& data, int number) {
   if (data.crests_m() != nullptr) strip.crest_m = data.crests_m() + at;
   if (scene_.walls() != nullptr) strip.walls = scene_.walls() + at;
   strip.power = cross_section_m2_.data() + at;
+  if (!data.labels.wanted()) return strip;
+  strip.strength = data.labels.strength() + at;
+  strip.shown_row = data.labels.shown_rows() + at;
+  strip.layers = data.labels.layers() + at;
   return strip;
 }
 
@@ -104,6 +108,10 @@ void Standard::cast_profiles(const PatchInputs& inputs, PatchData& data) {
     for (int number = first; number < last; ++number) {
       const simd::Strip strip = strip_of(data, number);
       std::fill_n(strip.power, data.grid.strip_size(), 0.0F);
+      if (strip.strength != nullptr) {
+        std::fill_n(strip.strength, data.grid.strip_size(), 0.0F);
+        std::fill_n(strip.layers, data.grid.strip_size(), 0);
+      }
       simd::cast_profile(strip);
     }
   });

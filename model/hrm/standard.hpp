@@ -33,7 +33,7 @@ class Standard : public Algorithm {
 
  private:
   void fit_gas_rows(const PatchData& data);
-  simd::Strip strip_of(const PatchData& data, int number);
+  simd::Strip strip_of(PatchData& data, int number);
 
   radar::Fidelity fidelity_;
   double double_bounce_db_;

@@ -25,5 +25,17 @@ TEST(SilenceOf, TheNoteFitsTheFlightRecorderAndSaysWhatToDo) {
             "b (192.168.10.2) exchanges nothing: compare `security`, open UDP ports");
 }
 
+TEST(RejoinLimit, AllowsThreeAtOnceAndThenOneEveryTwoMinutes) {
+  constexpr std::int64_t kMinute_ns = 60'000'000'000;
+  RejoinLimit limit;
+  for (int i = 0; i < RejoinLimit::kAtOnce; ++i) EXPECT_TRUE(limit.take(kMinute_ns));
+  EXPECT_FALSE(limit.take(kMinute_ns));
+  EXPECT_FALSE(limit.take(2 * kMinute_ns));
+  EXPECT_TRUE(limit.take(3 * kMinute_ns));
+  EXPECT_FALSE(limit.take(3 * kMinute_ns));
+  for (int i = 0; i < RejoinLimit::kAtOnce; ++i) EXPECT_TRUE(limit.take(60 * kMinute_ns));
+  EXPECT_FALSE(limit.take(60 * kMinute_ns));
+}
+
 }  // namespace
 }  // namespace yars::gateway::dds

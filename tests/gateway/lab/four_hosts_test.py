@@ -23,6 +23,7 @@ CELL_BYTES = 1201 * 1201 * 2  # of zeros: a plain at sea level
 FLIGHT = "fixed:37.5,-122.5,15000,90,480"
 OF_READER = "hosts probes clock clock_requests input_events lockstep"
 WITHIN_S = 60.0  # watchdog
+BAD_LINE_S = 6.0
 SUPERVISOR_LOOKS_S = 1.0  # between two tries of power-on
 
 
@@ -99,6 +100,18 @@ def fly(hosts, programs, folder, identities):
     one.end()
 
 
+def joins_over_a_line_that_was_bad(hosts, programs, folder):
+    """Handshakes of DDS Security that the line loses are made again when it is better."""
+    hosts.set_line(loss=30, delay=5, jitter=2, duplicate=1, reorder=2)
+    one = Set(hosts, programs, folder, True)
+    for host, roles in ROLES.items():
+        one.start(host, roles)
+    time.sleep(BAD_LINE_S)
+    hosts.set_line(loss=1, delay=5)
+    one.await_on(ROLES, lambda seen: seen.get("power") == "OPR" and seen.get("sweeps", 0) > 100, "a radar that sweeps, on all hosts")
+    one.end()
+
+
 def power_stays_as_the_pilot_set_it(hosts, programs, folder):
     """A state-machine that stands by sends no power-on: neither while it waits nor when it takes over."""
     one = Set(hosts, programs, folder, False)
@@ -136,6 +149,9 @@ def main():
             hosts.set_line(loss=1, delay=5, jitter=2, duplicate=1, reorder=2)
             fly(hosts, programs, pathlib.Path(folder), identities)
         print(f"four hosts{' with identities' if identities else ''}: ok", flush=True)
+    with tempfile.TemporaryDirectory() as folder, lab.Lab(ROLES, wire=str(programs / "wire")) as hosts:
+        joins_over_a_line_that_was_bad(hosts, programs, pathlib.Path(folder))
+    print("joins over a line that was bad: ok", flush=True)
     with tempfile.TemporaryDirectory() as folder, lab.Lab(ROLES, wire=str(programs / "wire")) as hosts:
         power_stays_as_the_pilot_set_it(hosts, programs, pathlib.Path(folder))
     print("power stays as the pilot set it: ok")

@@ -2,6 +2,10 @@
 // sectors in which it is computed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <string>
+
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/point_response.hpp"
 #include "tests/lib/simd/vector_targets.hpp"
@@ -14,7 +18,7 @@ namespace {
 
 // Map of hills with 60 boxes and a moving truck.
 hrm::PatchFormation busy_map(std::size_t threads, int size, std::size_t sector_points = hrm::kMaxSectorPoints,
-                             radar::RadarConfiguration configuration = {}) {
+                             radar::RadarConfiguration configuration = {}, hrm::LabelUse labels = hrm::LabelUse::none) {
   configuration.fidelity.map_size = size;
   configuration.fidelity.map_double_bounce = true;
   configuration.world.movers.push_back({"truck", kTarget, 8.0, 30.0, 200.0, 2.0});
@@ -24,7 +28,23 @@ hrm::PatchFormation busy_map(std::size_t threads, int size, std::size_t sector_p
   const hrm::PatchOrder order = order_from({});
   const auto hills = model::terrain::sine_hills({order.centre, geo::Bearing::degrees(20.0)}, 30.0, 700.0);
   return make_patch(configuration, order, ground_of([&](geo::GeoPoint position) { return 5.0 + hills(position); }),
-                    scene, threads, sector_points);
+                    scene, threads, sector_points, labels);
+}
+
+void expect_equal(const hrm::PixelLabels& found, const hrm::PixelLabels& expected, const std::string& what) {
+  EXPECT_EQ(found.shadow, expected.shadow) << what;
+  EXPECT_EQ(found.layover, expected.layover) << what;
+  EXPECT_EQ(found.object, expected.object) << what;
+  EXPECT_EQ(found.material, expected.material) << what;
+  EXPECT_EQ(found.height_m.size(), expected.height_m.size()) << what;
+  for (std::size_t i = 0; i < expected.height_m.size(); ++i) {
+    if (std::isnan(expected.height_m[i])) {
+      ASSERT_TRUE(std::isnan(found.height_m[i])) << what << ", pixel " << i;
+      continue;
+    }
+    ASSERT_EQ(found.height_m[i], expected.height_m[i]) << what << ", pixel " << i;
+    ASSERT_EQ(found.sin_grazing[i], expected.sin_grazing[i]) << what << ", pixel " << i;
+  }
 }
 
 // Sectors of about a quarter of the grid of a map of 240 pixels, and sectors of three strips, the least.
@@ -52,6 +72,31 @@ TEST(Patch, IsTheSameInSectors) {
         EXPECT_EQ(sectors.picture(), whole.picture()) << points << ", threads " << threads;
       }
     }
+  }
+}
+
+// Labels change no bit of the picture, and no bit of them depends on threads, sectors and vector target.
+TEST(PatchLabels, AreTheSameForAnyThreadsSectorsAndVectorTargetAndChangeNoPicture) {
+  for (const radar::Algorithm algorithm :
+       {radar::Algorithm::standard, radar::Algorithm::report_1996, radar::Algorithm::reference}) {
+    radar::RadarConfiguration configuration;
+    configuration.fidelity.algorithm = algorithm;
+    const int size = algorithm == radar::Algorithm::reference ? 64 : 240;
+    const auto labelled = [&](std::size_t threads, std::size_t points) {
+      return busy_map(threads, size, points, configuration, hrm::LabelUse::heights);
+    };
+    const auto whole = labelled(1, hrm::kMaxSectorPoints);
+    const auto plain = busy_map(1, size, hrm::kMaxSectorPoints, configuration);
+    EXPECT_EQ(whole.image().power, plain.image().power);
+    EXPECT_EQ(whole.picture(), plain.picture());
+    EXPECT_GT(std::count(whole.labels().shadow.begin(), whole.labels().shadow.end(), 1), size);
+    EXPECT_GT(std::ranges::max(whole.labels().object), 50);
+    expect_equal(labelled(3, hrm::kMaxSectorPoints).labels(), whole.labels(), "threads");
+    if (algorithm == radar::Algorithm::reference) continue;  // has no sectors, and takes long
+    expect_equal(labelled(2, kFewPoints).labels(), whole.labels(), "sectors");
+    expect_equal(labelled(1, kFewestPoints).labels(), whole.labels(), "least sectors");
+    for_each_vector_target(
+        [&](const char* name) { expect_equal(labelled(1, kFewPoints).labels(), whole.labels(), name); });
   }
 }
 

@@ -29,8 +29,12 @@ class MadeUpScene final : public model::scene::SceneView {
     objects_.push_back({"all", origin, ground_msl_m, 0.0, 0.0, 0.0, 0.0, 0});
   }
 
-  // Adds four walls and a roof.
-  void add(const Box& box) {
+  // Adds four walls and a roof as an object of its own. Output: its index in objects().
+  std::uint32_t add(const Box& box) {
+    const auto number = static_cast<std::uint32_t>(objects_.size());
+    objects_.push_back(
+        {"box", tile_.origin, tile_.zero_msl_m, box.height_m, box.length_m, box.width_m, box.heading_deg, 0});
+    object_ = number;
     const double heading_rad = box.heading_deg * geo::kRadiansPerDegree;
     const auto corner = [&](double along, double across, double up) {
       const double a = 0.5 * along * box.length_m;
@@ -49,9 +53,12 @@ class MadeUpScene final : public model::scene::SceneView {
           box.material);
     }
     add_quad({corner(-1, 1, 1), corner(1, 1, 1), corner(1, -1, 1), corner(-1, -1, 1)}, box.material);
+    object_ = 0;
+    return number;
   }
 
-  // Adds a quad. Corners: east, north, up [m], counter-clockwise as seen from outside.
+  // Adds a quad, of object 0 unless it is part of a box. Corners: east, north, up [m], counter-clockwise as seen from
+  // outside.
   void add_quad(const std::array<std::array<double, 3>, 4>& corners, std::uint8_t material) {
     const std::size_t first = tile_.east_m.size();
     std::array<double, 3> a{}, b{};
@@ -73,7 +80,7 @@ class MadeUpScene final : public model::scene::SceneView {
       for (std::size_t k = 0; k < triangle.size(); ++k)
         tile_.corner[k].insert(tile_.corner[k].begin() + at, static_cast<std::uint16_t>(first + triangle[k]));
       tile_.kind.insert(tile_.kind.begin() + at, static_cast<std::uint16_t>(kinds_.size()));
-      tile_.object.push_back(0);
+      tile_.object.insert(tile_.object.begin() + at, object_);
     }
     kinds_.push_back({material, 0, 0});
   }
@@ -105,6 +112,7 @@ class MadeUpScene final : public model::scene::SceneView {
   model::scene::Tile tile_;
   std::vector<model::scene::SurfaceKind> kinds_;
   std::vector<model::scene::SceneObject> objects_;
+  std::uint32_t object_ = 0;  // of the quads that are added
 };
 
 }  // namespace yars::test

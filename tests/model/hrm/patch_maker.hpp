@@ -69,8 +69,9 @@ inline parallel::Executor executor_of(std::size_t threads) {
 inline hrm::PatchFormation make_patch(const radar::RadarConfiguration& configuration, const hrm::PatchOrder& order,
                                       const model::terrain::TerrainViewPointer& ground,
                                       const model::scene::SceneViewPointer& scene = nullptr, std::size_t threads = 1,
-                                      std::size_t sector_points = hrm::kMaxSectorPoints) {
-  hrm::PatchFormation process(configuration, executor_of(threads), sector_points);
+                                      std::size_t sector_points = hrm::kMaxSectorPoints,
+                                      hrm::LabelUse labels = hrm::LabelUse::none) {
+  hrm::PatchFormation process(configuration, executor_of(threads), sector_points, labels);
   process.begin(order);
   process.set_environment({ground, ground, scene});
   while (process.state() != hrm::PatchState::done) process.advance();
