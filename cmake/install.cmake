@@ -16,7 +16,6 @@ install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copy
 # The start script: installed it finds the programs beside it.
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/start DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-start)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/supervise ${PROJECT_SOURCE_DIR}/scripts/nearest_word.py DESTINATION libexec/yars)
-install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/plot_trade DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-plot-trade)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/network_identities DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-network-identities)
 
 # Completions of commands and options, where Debian's shells look for them.
@@ -36,24 +35,29 @@ foreach(unit yars.service yars@.service)
 endforeach()
 install(DIRECTORY ${PROJECT_BINARY_DIR}/install/systemd/ DESTINATION lib/systemd/user)
 
-# Examples; yars.py goes where Python looks (cmake/libraries.cmake).
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${documents} PATTERN "yars.py" EXCLUDE PATTERN "__pycache__" EXCLUDE)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${documents} PATTERN "__pycache__" EXCLUDE)
 
-# compressed(SOURCE NAME DESTINATION): a file as man and Debian want it. Made while configuring: who builds the programs
+# compressed(SOURCE NAME DESTINATION COMPONENT): a file as man and Debian want it. Made while configuring: who builds the programs
 # alone, as scripts/start does, can install them.
-function(compressed source name destination)
-  set(packed ${PROJECT_BINARY_DIR}/install/${name}.gz)
+function(compressed source name destination component)
+  get_filename_component(folder ${destination} NAME)
+  set(packed ${PROJECT_BINARY_DIR}/install/${folder}/${name}.gz)
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/install/${folder})
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
   execute_process(COMMAND gzip --best --no-name --stdout ${source} OUTPUT_FILE ${packed} COMMAND_ERROR_IS_FATAL ANY)
-  install(FILES ${packed} DESTINATION ${destination})
+  install(FILES ${packed} DESTINATION ${destination} COMPONENT ${component})
 endfunction()
 file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/packaging/man/*.[15])
 foreach(page IN LISTS pages)
   get_filename_component(name ${page} NAME)
   string(REGEX MATCH "[0-9]$" section ${name})
-  compressed(${page} ${name} ${CMAKE_INSTALL_MANDIR}/man${section})
+  set(component Unspecified)
+  if(name STREQUAL yars-plot-trade.1)
+    set(component python)
+  endif()
+  compressed(${page} ${name} ${CMAKE_INSTALL_MANDIR}/man${section} ${component})
 endforeach()
-compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog ${documents})
+compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog ${documents} Unspecified)
 
 # What is installed names what is installed.
 find_package(Python3 COMPONENTS Interpreter REQUIRED)

@@ -1,10 +1,9 @@
-# What programs of others build with, below the prefix: headers, libyars-display, find_package(yars), pkg-config, import yars.
+# What programs of others build with, below the prefix: headers, libyars-display, find_package(yars), pkg-config.
 # All of it may be moved with the prefix. docs/attach.md shows the use.
 include(CMakePackageConfigHelpers)
 set(packages ${CMAKE_INSTALL_LIBDIR}/cmake/yars)
 set(made ${PROJECT_BINARY_DIR}/install)
 set(headers ${CMAKE_INSTALL_INCLUDEDIR}/yars)
-set(YARS_PYTHON_DIR lib/python3/dist-packages CACHE STRING "folder below the prefix that yars.py is installed in")
 
 # The client is headers alone, and is there without a build. The display is a component of its own: it must be built.
 install(TARGETS yars_client EXPORT yars-client)
@@ -29,5 +28,3 @@ foreach(part client display)
 endforeach()
 install(FILES ${made}/yars-client.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 install(FILES ${made}/yars-display.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT display)
-
-install(FILES ${PROJECT_SOURCE_DIR}/examples/yars.py DESTINATION ${YARS_PYTHON_DIR})

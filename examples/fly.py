@@ -5,11 +5,13 @@ model of its own (scripts/start --no-flight). If it has one, this program prevai
 
 usage: examples/fly.py [SESSION [LAT LON]]"""
 import math
+import pathlib
 import signal
 import sys
 import time
 
-from yars import Session, YarsError
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "python"))  # of the sources; else the installed one
+from yars.session import Session, YarsError  # noqa: E402
 
 
 def fly(session, latitude_deg, longitude_deg, radius_m=8000.0, speed_mps=200.0):

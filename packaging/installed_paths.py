@@ -12,21 +12,21 @@ import re
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
-FOLDERS = ("build|config|databuffer|display|docs|examples|gateway|inputmonitor|lib|model|packaging|scripts|shm|statemachine|tests|tools"
+FOLDERS = ("build|config|databuffer|display|docs|examples|gateway|inputmonitor|lib|model|packaging|python|scripts|shm|statemachine|tests|tools"
            "|worldgen")
 PATH = re.compile(rf"(?<![\w./<~$=-])(?:\./)?((?:{FOLDERS})/(?:[\w*@-]|[./](?=[\w*@-]))*/?)")
 LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")
 # What only a checkout needs, and the text that takes its place. The comment marks show the first in the sources.
 SOURCES_ONLY = re.compile(r"<!-- sources -->\n.*?<!-- installed\n(.*?)-->\n", re.S)
 # Before the paths: parts of commands.
-WORDS = [('"databuffer/client/yars.h"', "<yars/yars.h>"), ("PYTHONPATH=examples ", ""), ("cc -I. ", "cc "),
+WORDS = [('"databuffer/client/yars.h"', "<yars/yars.h>"), ("PYTHONPATH=python ", ""), ("cc -I. ", "cc "),
          ("-I. examples/", "")]
 PLACES = {
     "scripts/start": "yars-start", "scripts/plot_trade": "yars-plot-trade",
     "scripts/network_identities": "yars-network-identities", "build/release/bin": "bin",
     "scripts/supervise": "libexec/yars/supervise", "scripts/nearest_word.py": "libexec/yars/nearest_word.py",
     "build/terrain/default": "~/.cache/yars/terrain", "build/start.log": "yars-start's log",
-    "packaging/systemd": "lib/systemd/user", "examples/yars.py": "yars.py", "databuffer/client/yars.h": "yars/yars.h",
+    "packaging/systemd": "lib/systemd/user", "python/yars/session.py": "yars/session.py", "databuffer/client/yars.h": "yars/yars.h",
     "databuffer/client/yars_records.h": "yars/yars_records.h", "databuffer/client/yars_segment.h": "yars/yars_segment.h",
     "display/library/yars_display.h": "yars/yars_display.h", "gateway/yars_network.idl": "share/yars/idl/yars_network.idl",
 }

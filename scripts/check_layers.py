@@ -126,7 +126,7 @@ SYSTEM_HEADERS = {
     "dlfcn.h": ["display/gl/context.cpp", "lib/file/file_search.cpp"],
     "EGL/": ["display/gl"],
     "glm/": ["lib/geo", "lib/radar", "model/scene/openflight"],
-    "xxhash.h": ["model/kernel", "databuffer/messages"],
+    "xxhash.h": ["model/kernel", "databuffer/messages", "tools/patch", "python/core"],
     "yars/": ["examples", "tests"],  # headers for programs of others, as they are installed
     "hwy/": ["lib/simd", "lib/random", "model/terrain/sampling", "model/physics", "model/rbm", "model/hrm", "tests"],
     "embree3/": ["tests"],

@@ -15,9 +15,9 @@ import re
 import shutil
 import sys
 
-ROOTS = [pathlib.Path(root) for root in ("README.md", "HACKING.md", "docs", "lib", "shm", "config", "databuffer", "model",
-                                            "worldgen", "statemachine", "inputmonitor", "display", "tools",
-                                            "examples")]
+ROOTS = [pathlib.Path(root) for root in ("README.md", "HACKING.md", "CHANGELOG.md", "CONTRIBUTING.md", "ROADMAP.md", "SECURITY.md", "docs",
+                                            "lib", "shm", "config", "databuffer", "model", "worldgen", "statemachine", "inputmonitor",
+                                            "display", "gateway", "tools", "python", "examples", "tests/gateway/lab/README.md")]
 SOURCES = (".hpp", ".h", ".cpp", ".c")
 ANCHOR = r'<a id="([^"]*)"></a>'
 
@@ -76,7 +76,10 @@ def document(path):
     """Text of a Markdown file with Doxygen's commands for diagrams, labels and links."""
     def heading(match):
         anchor = slug(match[1])
-        return match[0] if anchor in anchors else f"{match[0]} {{#{label(path, anchor)}}}"
+        if anchor in anchors:  # its own, or that of an earlier heading of the same words
+            return match[0]
+        anchors.add(anchor)
+        return f"{match[0]} {{#{label(path, anchor)}}}"
 
     def target_of(link):
         return pathlib.Path(posixpath.normpath(path.parent / link))
@@ -89,7 +92,8 @@ def document(path):
         return f"]({target_of(match[1])})"
 
     def code(match):
-        return "<code>" + match[1].replace("\\", "\\\\") + "</code>" if "\\" in match[1] else match[0]
+        # Doxygen ends a span at an apostrophe, and takes a backslash in it for a command.
+        return f"<code>{escaped(match[1])}</code>" if re.search(r"[\\']", match[1]) else match[0]
 
     text = path.read_text(encoding="utf-8")
     anchors = set(re.findall(ANCHOR, text))

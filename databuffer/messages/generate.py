@@ -2,7 +2,7 @@
 """Generates code and documents from the IDL of the records (records.idl in this folder).
 
 usage: generate.py --build FOLDER   the C++ headers and sources, and the IDL for DDS, into FOLDER; the build calls it
-       generate.py --write YARS     databuffer/client/yars_records.h, and the marked parts of examples/yars.py and
+       generate.py --write YARS     databuffer/client/yars_records.h, and the marked parts of python/yars/session.py and
                                     docs/shared_memory.md
        generate.py --check YARS     checks that these files equal what --write would write; exit 1 if not
 YARS is the command `yars` built from the same records, such as build/dev/bin/yars. It prints the offsets of the
@@ -21,7 +21,7 @@ from generator import clients, cpp, dds, idl, schema, stability, tables  # noqa:
 
 ROOT = HERE.parents[1]
 HEADER = "databuffer/client/yars_records.h"
-PYTHON = "examples/yars.py"
+PYTHON = "python/yars/session.py"
 DOCUMENT = "docs/shared_memory.md"
 MARKS = {PYTHON: ("# begin: databuffer/messages/generate.py\n", "# end: databuffer/messages/generate.py\n"),
          DOCUMENT: ("<!-- begin: databuffer/messages/generate.py -->\n", "<!-- end: databuffer/messages/generate.py -->\n")}

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""A project of somebody else builds against an installed YARS and against the Debian package, and its programs run: by
-find_package(yars), by pkg-config, and by `import yars`. Both are unpacked where no compiler looks.
+"""A project of somebody else builds against an installed YARS and against the Debian packages, and its programs run: by
+find_package(yars), by pkg-config, and by `import yars`. The packages are unpacked where no compiler looks.
 
 usage: foreign_project_test.py CMAKE BUILD CC CXX FLAGS     FLAGS: of the compilers, such as those of the sanitizers
 """
+import json
 import os
 import pathlib
 import re
@@ -18,7 +19,8 @@ CMAKE, BUILD, CC, CXX = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3], sys
 FLAGS = shlex.split(sys.argv[5])
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 SESSION = f"foreign-{os.getpid()}"
-PARTS = ("Unspecified", "display")  # components: all but the programs, which are large with the sanitizers
+# Components: all but the programs, which are large with the sanitizers, and the compiled part of the Python module.
+PARTS = ("Unspecified", "display", "python")
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")  # a search crashes beside Mesa's threads
 # The strictest reader of the headers. The client's comes first, as it says.
 STRICT = """#include <yars/yars.h>
@@ -62,13 +64,20 @@ def installed(folder, parts):
 
 
 def unpacked(folder):
-    """The prefix within the Debian package, without its programs."""
+    """The prefix within the Debian packages, without their programs."""
     cpack = pathlib.Path(CMAKE).parent / "cpack"
-    projects = ";".join(f"{BUILD};yars;{part};/" for part in PARTS)
-    must(cpack, "-G", "DEB", "-B", folder, "-D", f"CPACK_INSTALL_CMAKE_PROJECTS={projects}", folder=BUILD)
-    package = next(folder.glob("*.deb"))
-    must("dpkg-deb", "-x", package, folder / "root")
+    must(cpack, "-G", "DEB", "-B", folder, "-D", f"CPACK_COMPONENTS_ALL={';'.join(PARTS)}", folder=BUILD)
+    packages = sorted(folder.glob("*.deb"))
+    expect("the packages", [path.name.partition("_")[0] for path in packages] == ["python3-yars", "yars"], packages)
+    for package in packages:
+        must("dpkg-deb", "-x", package, folder / "root")
+    python = must("dpkg-deb", "-f", packages[0])
+    expect("python3-yars recommends the programs of its own version", re.search(r"^Recommends: yars \(= [\d.]+-1\)", python, re.M), python)
+    expect("python3-yars replaces the client that was in yars", "Replaces: yars (<<" in python and "Breaks: yars (<<" in python, python)
+    package = packages[1]
     fields = must("dpkg-deb", "-f", package)
+    files = must("dpkg-deb", "-c", package)
+    expect("the package yars has nothing of the package python3-yars", "dist-packages" not in files and "plot-trade" not in files, files)
     expect("the package depends on what the library is linked with", "libepoxy0" in fields and "libspdlog" in fields, fields)
     control = must("dpkg-deb", "-I", package)
     expect("the package has ldconfig run", "triggers" in control and "shlibs" in control, control)
@@ -103,9 +112,13 @@ def check_programs(how, folder, prefix, **environment):
         time.sleep(0.05)
         client = run(folder / "fly", SESSION, folder=folder)  # ends at once: no set runs
     expect(f"{how}: the client in C takes part", client.returncode == 0, client)
-    python = run(sys.executable, "-B", "-c", f"import yars; print(yars.Session('{SESSION}', 'foreign').set_runs())",
-                 folder=folder, PYTHONPATH=prefix / "lib/python3/dist-packages")
-    expect(f"{how}: the client in Python takes part", python.stdout == "False\n", python)
+    modules = prefix / "lib/python3/dist-packages"
+    for program in (f"from yars.session import Session; print(Session('{SESSION}', 'foreign').set_runs())",
+                    f"import yars; print(yars.Session('{SESSION}', 'foreign').set_runs())"):
+        python = run(sys.executable, "-B", "-c", program, folder=folder, PYTHONPATH=modules)
+        expect(f"{how}: the client in Python takes part", python.stdout == "False\n", python)
+    example = run(sys.executable, "-B", prefix / "share/doc/yars/examples/fly.py", SESSION, folder=folder, PYTHONPATH=modules)
+    expect(f"{how}: the example in Python takes part", example.returncode == 0, example)
     errors = host.communicate(timeout=240)[1]
     expect(f"{how}: the embedding program", host.returncode == 0, errors)
     check_picture(how, folder / "scene.ppm")
@@ -178,10 +191,18 @@ def check_refusals(folder):
 
 
 def check_python(prefix):
-    """`import yars` after `apt install`: Debian's Python looks where the package puts it."""
+    """`import yars` after `apt install python3-yars`: Debian's Python looks where the package puts it."""
     looks = run("/usr/bin/python3", "-c", "import sys; print(*sys.path, sep='\\n')").stdout.splitlines()
-    at = [path for path in looks if (prefix.parent / path.lstrip("/") / "yars.py").is_file()]
-    expect("yars.py where Debian's python3 looks", at == ["/usr/lib/python3/dist-packages"], looks)
+    at = [path for path in looks if (prefix.parent / path.lstrip("/") / "yars/session.py").is_file()]
+    trade, value = prefix / "trade.json", {"mean": 1.0, "worst": 2.0}
+    trade.write_text(json.dumps({"axes": {"time": {"column": "ms", "title": "time"}, "errors": [{"column": "m", "title": "error"}] * 2},
+                                 "points": [{"point": "one", "family": "preset", "ms": value, "m": value}]}))
+    drawn = run("/usr/bin/python3", "-B", prefix / "bin/yars-plot-trade", trade, prefix / "trade.png")
+    expect("yars-plot-trade finds yars.plot beside it", (prefix / "trade.png").is_file() or "install the Debian package" in drawn.stderr, drawn)
+    by_itself = run("/usr/bin/python3", "-B", "-I", "-c", "import sys; sys.path.insert(0, sys.argv[1]); from yars.session import Session; "
+                    "print('numpy' in sys.modules)", prefix / "lib/python3/dist-packages")
+    expect("the session client needs no NumPy", by_itself.stdout == "False\n", by_itself)
+    expect("yars/session.py where Debian's python3 looks", at == ["/usr/lib/python3/dist-packages"], looks)
 
 
 with tempfile.TemporaryDirectory(dir=BUILD) as top:

@@ -37,7 +37,7 @@ def run(*arguments):
 
 class PlotTrade(unittest.TestCase):
     def test_no_label_covers_another(self):
-        _, panels = plot_trade.draw(crowd())
+        _, panels = plot_trade.draw(crowd(), plot_trade.drawing())
         self.assertEqual([len(boxes) for boxes in panels], [18, 17])  # 1996 has no shadow to compare
         for boxes in panels:
             for i, one in enumerate(boxes):
@@ -46,7 +46,7 @@ class PlotTrade(unittest.TestCase):
                     self.assertTrue(apart, (one, other))
 
     def test_the_front_is_what_no_other_point_beats_in_both(self):
-        self.assertEqual(plot_trade.pareto_front([(2, 5), (1, 9), (3, 6), (4, 1), (2, 7)]), [(1, 9), (2, 5), (4, 1)])
+        self.assertEqual(plot_trade.drawing().pareto_front([(2, 5), (1, 9), (3, 6), (4, 1), (2, 7)]), [(1, 9), (2, 5), (4, 1)])
 
     def test_a_picture_is_written(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -73,6 +73,6 @@ class PlotTrade(unittest.TestCase):
 
 if __name__ == "__main__":
     if importlib.util.find_spec("matplotlib") is None:
-        print("plot_trade_test: skipped: python3-matplotlib is not installed; scripts/setup --opinions brings it")
+        print("plot_trade_test: skipped: python3-matplotlib is not installed; scripts/setup --python brings it")
         sys.exit(77)
     unittest.main()

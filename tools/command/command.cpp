@@ -50,12 +50,20 @@ radar::RadarConfiguration read_configuration(const std::string& file, const Conf
   if (!loaded) throw_failure(loaded.error());
   for (const std::string& warning : loaded->warnings) std::fprintf(stderr, "yars: %s\n", warning.c_str());
   radar::RadarConfiguration configuration = std::move(loaded->radar);
+  apply_options(options, configuration);
+  return configuration;
+}
+
+void apply_options(const ConfigurationOptions& options, radar::RadarConfiguration& configuration) {
   if (!options.fidelity.empty()) configuration.fidelity = *radar::fidelity_preset(options.fidelity);
   if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
   if (options.seed) configuration.seed = *options.seed;
   if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
     throw_failure(error::usage_error(added.error()));
-  return configuration;
+}
+
+void add_seed_option(databuffer::Command command, ConfigurationOptions& options) {
+  command.option("--seed", options.seed, "seed of the noise").otherwise("the configuration's");
 }
 
 void add_pose_options(databuffer::Command command, PoseOptions& options) {

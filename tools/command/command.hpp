@@ -60,12 +60,16 @@ databuffer::Option add_preset_option(databuffer::Command command, const std::str
 // file on standard error. Throws CommandFailed for a file that cannot be loaded, or a scene option that is not valid.
 // Callers must include lib/radar/configuration.hpp, because RadarConfiguration is only declared here.
 radar::RadarConfiguration read_configuration(const std::string& file, const ConfigurationOptions& options);
+// Changes a configuration by `options`. Throws CommandFailed for a scene option that is not valid.
+void apply_options(const ConfigurationOptions& options, radar::RadarConfiguration& configuration);
 
 // Pose of the aircraft: altitude above mean sea level, true heading. The ground track equals the heading.
 struct PoseOptions {
   double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0;
 };
 
+// Adds --seed, which replaces that of the configuration.
+void add_seed_option(databuffer::Command command, ConfigurationOptions& options);
 // Adds --lat, --lon, --alt-ft and --heading.
 void add_pose_options(databuffer::Command command, PoseOptions& options);
 

@@ -136,39 +136,39 @@ std::optional<error::Error> beneath_ground(geo::AltitudeMsl altitude, double gro
 
 namespace {
 
-// Prints the number of unreadable files on standard error. Throws CommandFailed if all are unreadable. `things`: what
+// Warns of the number of unreadable files. Throws CommandFailed if all are unreadable. `things`: what
 // the files are, in the plural.
-void check_unreadable(const char* command, const std::string& subject, const char* things, std::size_t total,
+void check_unreadable(const Warn& warn, const std::string& subject, const char* things, std::size_t total,
                       std::size_t unreadable) {
   if (unreadable == 0) return;
   const std::string count = std::to_string(unreadable) + " of " + std::to_string(total);
   if (unreadable == total)
     throw_failure({subject, std::string(things) + " that can be read", "none: " + count + " cannot",
                    "see the lines above; repair or replace the files", false});
-  std::fprintf(stderr, "%s: %s %s cannot be read; the picture is made without them\n", command, count.c_str(), things);
-}
-
-void print_problems(const char* command, const std::vector<std::string>& problems) {
-  for (const std::string& problem : problems) std::fprintf(stderr, "%s: %s\n", command, problem.c_str());
+  warn(count + ' ' + things + " cannot be read; the picture is made without them");
 }
 
 }  // namespace
 
-void check_terrain_read(const char* command, const std::string& folder, model::terrain::TerrainStore& store,
+Warn warn_as(const char* command) {
+  return [command](const std::string& warning) { std::fprintf(stderr, "%s: %s\n", command, warning.c_str()); };
+}
+
+void check_terrain_read(const Warn& warn, const std::string& folder, model::terrain::TerrainStore& store,
                         model::terrain::TerrainStore* path_store) {
   std::vector<std::string> problems = store.take_problems();
   for (std::string& problem : path_store == nullptr ? std::vector<std::string>() : path_store->take_problems())
     if (std::find(problems.begin(), problems.end(), problem) == problems.end()) problems.push_back(std::move(problem));
-  print_problems(command, problems);
+  for (const std::string& problem : problems) warn(problem);
   const auto* const directory = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(&store);
   if (directory == nullptr) return;  // the built-in hills have no files
   const model::terrain::RegionCells cells = directory->region_cells();
-  check_unreadable(command, folder, "cells of the region", cells.files, cells.unreadable);
+  check_unreadable(warn, folder, "cells of the region", cells.files, cells.unreadable);
 }
 
-void check_scenes_read(const char* command, model::scene::SceneStore& scenes) {
-  print_problems(command, scenes.take_problems());
-  check_unreadable(command, "--scene", "scenes of the region", scenes.wanted().files, scenes.wanted().unreadable);
+void check_scenes_read(const Warn& warn, model::scene::SceneStore& scenes) {
+  for (const std::string& problem : scenes.take_problems()) warn(problem);
+  check_unreadable(warn, "--scene", "scenes of the region", scenes.wanted().files, scenes.wanted().unreadable);
 }
 
 }  // namespace yars::tools

@@ -4,7 +4,9 @@
 // Source: lib/radar/mapping.hpp (limits of maps).
 #pragma once
 
+#include <functional>
 #include <optional>
+#include <string>
 
 #include "lib/error/error.hpp"
 #include "lib/radar/mapping.hpp"
@@ -33,15 +35,20 @@ std::optional<error::Error> beyond_gimbal(geo::Angle elevation, geo::Angle width
 // Checks that the aircraft is not below the ground. `ground_m` [m] MSL: terrain at its position; NaN: unknown, passes.
 std::optional<error::Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m);
 
-// Both check_..._read functions print each problem of reading on standard error. They then count the files of the
-// region, the ground that the last prepare() has loaded. If some of these files are unreadable, they print how many. If
-// all are unreadable, they throw CommandFailed with code 1.
+// Takes a warning, one line without the command's name.
+using Warn = std::function<void(const std::string&)>;
+// Prints warnings on standard error. `command`: prefix of each line, such as "yars scan".
+Warn warn_as(const char* command);
 
-// Call after prepare() of the stores. `command`: prefix of messages, such as "yars scan". `folder`: terrain folder, for
-// messages. `path_store`: optional second store of the same folder, for the ground between aircraft and map. Problems
-// of this store are printed, but do not make the command fail.
-void check_terrain_read(const char* command, const std::string& folder, model::terrain::TerrainStore& store,
+// Both check_..._read functions warn of each problem of reading. They then count the files of the region, the ground
+// that the last prepare() has loaded. If some of these files are unreadable, they say how many. If all are unreadable,
+// they throw CommandFailed with code 1.
+
+// Call after prepare() of the stores. `folder`: terrain folder, for messages. `path_store`: optional second store of
+// the same folder, for the ground between aircraft and map. Problems of this store are printed, but do not make the
+// command fail.
+void check_terrain_read(const Warn& warn, const std::string& folder, model::terrain::TerrainStore& store,
                         model::terrain::TerrainStore* path_store = nullptr);
-void check_scenes_read(const char* command, model::scene::SceneStore& scenes);
+void check_scenes_read(const Warn& warn, model::scene::SceneStore& scenes);
 
 }  // namespace yars::tools

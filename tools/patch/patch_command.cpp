@@ -10,25 +10,19 @@
 #include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "databuffer/runtime/program.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/parallel/thread_pool.hpp"
-#include "lib/radar/configuration.hpp"
-#include "lib/radar/mapping.hpp"
 #include "model/hrm/patch_formation.hpp"
-#include "model/scene/index/scene_store.hpp"
 #include "model/terrain/gdal/map_writer.hpp"
 #include "model/terrain/gdal/raster.hpp"
-#include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/input_checks.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
+#include "tools/patch/patch_setup.hpp"
 
 namespace yars::tools {
 
@@ -116,20 +110,6 @@ namespace {
 
 namespace hrm = model::hrm;
 
-struct PatchOptions {
-  ConfigurationOptions configuration;
-  PoseOptions pose;
-  PatchOutput output;
-  double speed_kt = 480.0;
-  double target_latitude_deg = 37.9, target_longitude_deg = -122.3, time_s = 0.0;
-  std::optional<double> window_nm;  // nullopt: as at power-up
-  std::optional<int> looks, size;   // nullopt: as configured
-  std::optional<int> threads;       // nullopt: one for each processor
-  int repeat = 1;
-  bool force = false;
-  bool json = false;  // accepted, because all commands with facts have it; the summary is JSON without it, too
-};
-
 // Times of one map [ms]: wall time of all stages together, and of each stage of PatchFormation.
 struct Timing {
   double whole_ms = 0.0;
@@ -137,29 +117,11 @@ struct Timing {
   std::array<double, hrm::kPatchStages.size()> stages_ms{};
 };
 
-radar::RadarConfiguration configure(const CommonOptions& common, const PatchOptions& options) {
-  radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
-  if (options.size) configuration.fidelity.map_size = *options.size;
-  if (const int most = hrm::max_map_size(configuration.fidelity.algorithm); configuration.fidelity.map_size > most)
-    throw_failure(error::usage_error("--size", "at most " + std::to_string(most) + " with the algorithm reference",
-                                     std::to_string(configuration.fidelity.map_size),
-                                     "give a smaller --size, or --fidelity fine"));
-  return configuration;
-}
-
-hrm::PatchOrder order_of(const PatchOptions& options, const radar::RadarConfiguration& configuration) {
-  hrm::PatchOrder order;
-  order.apex = {options.pose.latitude_deg, options.pose.longitude_deg};
-  order.altitude = geo::AltitudeMsl::feet(options.pose.altitude_ft);
-  order.ground_track = geo::Bearing::degrees(options.pose.heading_deg);
-  order.ground_speed = geo::Speed::knots(options.speed_kt);
-  order.centre = {options.target_latitude_deg, options.target_longitude_deg};
-  order.window = geo::Length::nautical_miles(options.window_nm.value_or(configuration.window_limits.power_up_nm));
-  order.looks = options.looks.value_or(static_cast<int>(configuration.high_resolution.looks.front()));
-  order.sim_time = geo::Duration::seconds(options.time_s);
-  order.map = 1;
-  return order;
-}
+struct PatchCommandOptions : PatchOptions {
+  PatchOutput output;
+  int repeat = 1;
+  bool json = false;  // accepted, because all commands with facts have it; the summary is JSON without it, too
+};
 
 Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& order,
                 const hrm::PatchEnvironment& environment) {
@@ -179,35 +141,6 @@ Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
   return timing;
 }
 
-// Minimum target distance as a fraction of the window's side; --force does not override this minimum. Below 0.5 the
-// map would extend behind the aircraft. hrm::PatchOrder requires more than 0.71, half the window's diagonal.
-constexpr double kMinDistanceFraction = 0.75;
-
-void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& configuration, bool force) {
-  if (!force)
-    if (const auto problem = beyond_limits(order, configuration)) throw_failure(*problem);
-  const double distance_nm = geo::geodesic_inverse(order.apex, order.centre).distance.nautical_miles();
-  if (distance_nm < kMinDistanceFraction * order.window.nautical_miles())
-    throw_failure(error::usage_error("--target-lat, --target-lon",
-                                     "a target at a distance of at least 0.75 of the window's side",
-                                     std::to_string(distance_nm) + " NM"));
-}
-
-constexpr int kMaxThreads = 256;
-
-std::size_t threads_of(const PatchOptions& options) {
-  const auto processors = static_cast<int>(std::thread::hardware_concurrency());
-  return static_cast<std::size_t>(options.threads.value_or(std::clamp(processors, 1, kMaxThreads)));
-}
-
-void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& environment,
-                   const radar::RadarConfiguration& configuration) {
-  if (const auto problem = beneath_ground(order.altitude, environment.path->elevation_m(order.apex)))
-    throw_failure(*problem);
-  const double target_ground_m = environment.window->elevation_m(order.centre);
-  if (const auto problem = beyond_limits(order, configuration, target_ground_m)) throw_failure(*problem);
-}
-
 // Names the cause of black pixels on standard error, because the picture does not show it: the blind zone; or shadow
 // and horizon, if no pixel has a return.
 void report_dark_pixels(const hrm::MapImage& image) {
@@ -221,29 +154,19 @@ void report_dark_pixels(const hrm::MapImage& image) {
     std::fprintf(stderr, "yars patch: nothing of the map is seen: it lies in shadow or beyond the horizon\n");
 }
 
-void patch(const CommonOptions& common, const PatchOptions& options) {
+void patch(const CommonOptions& common, const PatchCommandOptions& options) {
   check_patch_output(options.output);
-  const radar::RadarConfiguration configuration = configure(common, options);
+  radar::RadarConfiguration configuration = read_configuration(common.config, {});
+  configure_patch(options, configuration);
   const hrm::PatchOrder order = order_of(options, configuration);
   check_order(order, configuration, options.force);
-  // Two stores: the ground of the map needs finer terrain than the ground between aircraft and map.
-  auto window_store = model::terrain::open_terrain(configuration.terrain);
-  if (!window_store) throw_failure(window_store.error());
-  auto path_store = model::terrain::open_terrain(configuration.terrain);
-  if (!path_store) throw_failure(path_store.error());
-
+  Theatre theatre(configuration.terrain, configuration.world.scenes, model::scene::SceneUse::triangles);
   parallel::ThreadPool workers(threads_of(options));
   hrm::PatchFormation patch_formation(
       configuration,
       {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) { workers.run(job); }});
   const double begin_ms = wall_ms();
-  const hrm::PatchNeed need = patch_formation.begin(order);
-  auto scenes = model::scene::open_scenes(configuration.world.scenes, configuration.terrain);
-  if (!scenes) throw_failure(scenes.error());
-  const hrm::PatchEnvironment environment{(*window_store)->prepare(need.window), (*path_store)->prepare(need.path),
-                                          *scenes ? (*scenes)->prepare(need.window) : nullptr};
-  if (*scenes) check_scenes_read("yars patch", **scenes);
-  check_terrain_read("yars patch", configuration.terrain.directory, **window_store, path_store->get());
+  const hrm::PatchEnvironment environment = theatre.prepare(patch_formation.begin(order), warn_as("yars patch"));
   if (!options.force) check_heights(order, environment, configuration);
   const double database_ms = wall_ms() - begin_ms;
   std::vector<double> whole_ms, cpu_ms;
@@ -268,6 +191,7 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
   line["terrain_bytes"] = environment.window->resident_bytes() + environment.path->resident_bytes();
   line["threads"] = workers.threads();
   line["fidelity"] = configuration.fidelity.name;
+  line["hash"] = picture_hash(patch_formation.picture());
   report_dark_pixels(patch_formation.image());
   if (names_file(options.output.file)) write_patch(options.output, order, patch_formation);
   print_json(line);
@@ -276,29 +200,12 @@ void patch(const CommonOptions& common, const PatchOptions& options) {
 }  // namespace
 
 void add_patch_command(databuffer::Command app, const CommonOptions& common) {
-  auto options = std::make_shared<PatchOptions>();
+  auto options = std::make_shared<PatchCommandOptions>();
   databuffer::Command command = app.subcommand("patch", "compute one patch map, without a session");
   add_terrain_option(command, options->configuration.terrain).otherwise("the configuration's");
   add_scene_options(command, options->configuration);
-  add_pose_options(command, options->pose);
-  command.option("--speed-kt", options->speed_kt, "[kt] speed over ground").range(0.0, 10000.0);
-  command.option("--target-lat", options->target_latitude_deg, "[deg] latitude of the map's centre").range(-90.0, 90.0);
-  command.option("--target-lon", options->target_longitude_deg, "[deg] longitude of the map's centre")
-      .range(-180.0, 180.0);
-  command.option("--window-nm", options->window_nm, "[NM] side of the map")
-      .range(0.01, 200.0)
-      .otherwise("the configuration's at power-up");
-  command.flag("--force", options->force, "ignore the radar's limits; the blind zone stays blank");
-  command.option("--looks", options->looks, "number of looks to average").range(1, 16).otherwise("that of ML1");
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset").otherwise("the configuration's");
-  command.option("--size", options->size, "[pixels] per side; up to 1024 with the preset reference")
-      .range(16, hrm::max_map_size(radar::Algorithm::standard))
-      .otherwise("the configuration's");
-  command.option("--time-s", options->time_s, "[s] sim time at the start, for moving targets").range(0.0, 1e8);
-  command.option("--threads", options->threads, "number of threads")
-      .range(1, kMaxThreads)
-      .otherwise("one for each processor");
-  command.option("--seed", options->configuration.seed, "seed of the noise").otherwise("the configuration's");
+  add_patch_options(command, *options);
   command.option("--repeat", options->repeat, "number of maps to time, after one untimed map").range(1, 1000000);
   command
       .option("--out", options->output.file,

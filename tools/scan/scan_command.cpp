@@ -22,16 +22,12 @@
 #include "lib/file/output_file.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/imageio/png.hpp"
-#include "lib/radar/configuration.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "model/kernel/sweep_chain.hpp"
-#include "model/kernel/tick_inputs.hpp"
-#include "model/scene/index/scene_store.hpp"
-#include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/input_checks.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
+#include "tools/scan/scan_setup.hpp"
 #include "tools/trade/scan_errors.hpp"
 
 namespace yars::tools {
@@ -127,41 +123,19 @@ void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader>
 
 namespace {
 
-struct ScanOptions {
-  ConfigurationOptions configuration;
-  PoseOptions pose;
+struct ScanCommandOptions : ScanOptions {
   std::string out = kNoFile, shadow = kNoFile;  // kNoFile: computed and reported, nothing written
   std::string color = "green";
-  double range_nm = 40.0, width_deg = 100.0, elevation_deg = 0.0;
-  std::optional<int> samples, size;  // nullopt: as configured
-  int threads = 1, gain = 3, repeat = 1, channel = 1;
-  double time_s = 0.0;
-  std::string band = "A";
-  bool force = false;
+  std::optional<int> size;  // nullopt: as configured
+  int repeat = 1;
   bool json = false;  // accepted, because all commands with facts have it; the summary is JSON without it, too
 };
 
-radar::RadarConfiguration configure(const CommonOptions& common, const ScanOptions& options) {
-  radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
-  if (options.samples) configuration.fidelity.samples = *options.samples;
+radar::RadarConfiguration configure(const CommonOptions& common, const ScanCommandOptions& options) {
+  radar::RadarConfiguration configuration = read_configuration(common.config, {});
+  configure_scan(options, configuration);
   if (options.size) configuration.view.size_pixels = *options.size;
   return configuration;
-}
-
-model::kernel::ScanRequest request_of(const ScanOptions& options) {
-  model::kernel::ScanRequest request;
-  request.pose.position = {options.pose.latitude_deg, options.pose.longitude_deg};
-  request.pose.altitude = geo::AltitudeMsl::feet(options.pose.altitude_ft);
-  request.pose.platform.heading = geo::Bearing::degrees(options.pose.heading_deg);
-  request.pose.platform.ground_track = request.pose.platform.heading;
-  request.range = geo::Length::nautical_miles(options.range_nm);
-  request.width = geo::Angle::degrees(options.width_deg);
-  request.elevation = geo::Angle::degrees(options.elevation_deg);
-  request.gain = options.gain;
-  request.sim_time_ns = static_cast<std::int64_t>(options.time_s * 1e9);
-  request.band = static_cast<std::uint8_t>(options.band.front() - 'A');
-  request.channel = static_cast<std::uint8_t>(options.channel);
-  return request;
 }
 
 // A header line, then one row for each sweep: number, azimuths of edges, range, hash, video [0, 255] of all samples.
@@ -180,7 +154,7 @@ void write_text_file(const std::string& path, const std::ostringstream& text) {
   if (const auto written = file::write_file(path, text.view()); !written) throw_failure(written.error());
 }
 
-void write_result(const ScanOptions& options, const radar::ViewConfiguration& view,
+void write_result(const ScanCommandOptions& options, const radar::ViewConfiguration& view,
                   const model::kernel::OfflineScan& work) {
   const std::filesystem::path path(options.out);
   const std::span<const databuffer::Sweep> sweeps = work.sweeps();
@@ -199,7 +173,7 @@ void write_result(const ScanOptions& options, const radar::ViewConfiguration& vi
   write_text_file(options.out, file);
 }
 
-void check_output(const ScanOptions& options) {
+void check_output(const ScanCommandOptions& options) {
   check_file_name("--out", options.out, {".png", ".csv", ".f32"});
   check_file_name("--shadow", options.shadow, {".csv"});
 }
@@ -251,32 +225,19 @@ nlohmann::ordered_json summary(std::span<const databuffer::Sweep> sweeps, const 
   return line;
 }
 
-void scan(const CommonOptions& common, const ScanOptions& options) {
+void scan(const CommonOptions& common, const ScanCommandOptions& options) {
   check_output(options);
   const radar::RadarConfiguration configuration = configure(common, options);
   const model::kernel::ScanRequest request = request_of(options);
-  if (!options.force)
-    if (const auto problem = beyond_gimbal(request.elevation, request.width, configuration.antenna))
-      throw_failure(*problem);
+  check_scan(options, configuration);
   const double opening_ms = wall_ms();
-  auto store = model::terrain::open_terrain(configuration.terrain);
-  if (!store) throw_failure(store.error());
-  auto scenes =
-      model::scene::open_scenes(configuration.world.scenes, configuration.terrain, model::scene::SceneUse::scatterers);
-  if (!scenes) throw_failure(scenes.error());
+  Theatre theatre(configuration.terrain, configuration.world.scenes, model::scene::SceneUse::scatterers);
   const double index_ms = wall_ms() - opening_ms;
   model::kernel::OfflineScan work(configuration, request, options.threads);
 
   const double begin_ms = wall_ms();
-  const model::terrain::TerrainRegion region{request.pose.position, request.range.metres(),
-                                             model::kernel::scan_detail(configuration.fidelity, request.range)};
-  const auto terrain = (*store)->prepare(region);
-  const auto scene = *scenes ? (*scenes)->prepare(region) : nullptr;
-  check_terrain_read("yars scan", configuration.terrain.directory, **store);
-  if (*scenes) check_scenes_read("yars scan", **scenes);
-  if (!options.force)
-    if (const auto problem = beneath_ground(request.pose.altitude, terrain->elevation_m(request.pose.position)))
-      throw_failure(*problem);
+  const auto [terrain, scene] = theatre.prepare(request, configuration.fidelity, warn_as("yars scan"));
+  check_scan_height(options, *terrain);
   const Times times = run_scans(work, {*terrain, scene.get()}, options.repeat, begin_ms);
 
   nlohmann::ordered_json line = summary(work.sweeps(), times, index_ms);
@@ -298,27 +259,12 @@ void scan(const CommonOptions& common, const ScanOptions& options) {
 }  // namespace
 
 void add_scan_command(databuffer::Command app, const CommonOptions& common) {
-  auto options = std::make_shared<ScanOptions>();
+  auto options = std::make_shared<ScanCommandOptions>();
   databuffer::Command command = app.subcommand("scan", "compute one scan of the real beam map, without a session");
   add_terrain_option(command, options->configuration.terrain).otherwise("the configuration's");
   add_scene_options(command, options->configuration);
-  add_pose_options(command, options->pose);
-  command.option("--range-nm", options->range_nm, "[NM] range of the scan").range(0.1, 1000.0);
-  command.option("--scan-width", options->width_deg, "[deg] width of the scan in azimuth").range(1.0, 120.0);
-  command.option("--elevation", options->elevation_deg, "[deg] antenna elevation above the horizontal")
-      .range(-90.0, 90.0);
-  command.flag("--force", options->force, "allow angles beyond the gimbal limits, and an aircraft below the ground");
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset").otherwise("the configuration's");
-  command.option("--samples", options->samples, "samples of a sweep")
-      .range(1, radar::kMaxSamples)
-      .otherwise("the configuration's");
-  command.option("--gain", options->gain, "receiver gain").range(0, 3);
-  command.option("--band", options->band, "band of the radar; a jammer acts only in its own bands")
-      .one_of({"A", "B", "C", "D", "E"});
-  command.option("--channel", options->channel, "frequency channel").range(1, 8);
-  command.option("--time-s", options->time_s, "[s] sim time of the first sweep, for moving targets").range(0.0, 1e8);
-  command.option("--threads", options->threads, "number of threads").range(1, 256);
-  command.option("--seed", options->configuration.seed, "seed of the noise").otherwise("the configuration's");
+  add_scan_options(command, *options);
   command.option("--repeat", options->repeat, "number of warm scans to time, after the first scan").range(1, 1000000);
   command.option("--size", options->size, "[pixels] per side of the picture")
       .range(16, 8192)

@@ -148,7 +148,7 @@ class SceneTerrain {
     auto store = model::terrain::open_terrain(configuration_);
     if (!store) throw_failure(store.error());
     auto view = (*store)->prepare({request_.pose.position, request_.range.metres(), detail});
-    check_terrain_read("yars trade", configuration_.directory, **store);
+    check_terrain_read(warn_as("yars trade"), configuration_.directory, **store);
     return *by_detail_.emplace(detail, std::move(view)).first->second;
   }
 

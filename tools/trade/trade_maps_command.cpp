@@ -50,7 +50,7 @@ class ViewEnvironment {
     auto store = model::terrain::open_terrain(configuration_.terrain);
     if (!store) throw_failure(store.error());
     auto view = (*store)->prepare(region);
-    check_terrain_read("yars trade maps", configuration_.terrain.directory, **store);
+    check_terrain_read(warn_as("yars trade maps"), configuration_.terrain.directory, **store);
     return known.emplace(region.detail, std::move(view)).first->second;
   }
 
@@ -59,7 +59,7 @@ class ViewEnvironment {
     if (!scenes) throw_failure(scenes.error());
     if (!*scenes) return nullptr;
     auto view = (*scenes)->prepare(need.window);
-    check_scenes_read("yars trade maps", **scenes);
+    check_scenes_read(warn_as("yars trade maps"), **scenes);
     return view;
   }
 

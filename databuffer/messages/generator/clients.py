@@ -1,4 +1,4 @@
-"""Writers of the records for programs in C and in Python: yars_records.h in C, and the records of examples/yars.py.
+"""Writers of the records for programs in C and in Python: yars_records.h in C, and the records of python/yars/session.py.
 
 Offsets and sizes of the segment are from `yars status --layout`, the records from the IDL.
 """
@@ -14,7 +14,7 @@ C_NAMES = {"ClockState": "yars_clock", "Ownship": "yars_ownship", "Nav": "yars_n
            "RadarState": "yars_radar_state", "ModelStatus": "yars_model_status", "Outputs": "yars_outputs",
            "TrafficEntity": "yars_traffic_entity", "Traffic": "yars_traffic", "GlassFrame": "yars_glass_frame",
            "Sweep": "yars_sweep", "CaptionLine": "yars_caption_line", "Caption": "yars_caption"}
-# Enumeration -> prefix of its values in yars_records.h, and name of its class in yars.py.
+# Enumeration -> prefix of its values in yars_records.h, and name of its class in session.py.
 ENUMERATIONS = {"EventKind": ("EVENT", "Event"), "Power": ("POWER", "Power"), "Mode": ("MODE", "Mode"),
                 "Master": ("MASTER", "Master"), "ScanWidth": ("SCAN", "ScanWidth"),
                 "CursorFunction": ("CURSOR", "CursorFunction"), "Navigator": ("NAVIGATOR", "Navigator"),
@@ -23,7 +23,7 @@ ENUMERATIONS = {"EventKind": ("EVENT", "Event"), "Power": ("POWER", "Power"), "M
                 "RadarFlags": ("RADAR", "RadarFlags"), "SweepFlags": ("SWEEP", "SweepFlags"),
                 "ModelFlags": ("MODEL", "ModelFlags"), "OwnshipFlags": ("OWNSHIP", "OwnshipFlags"),
                 "NavFlags": ("NAV", "NavFlags")}
-# Record -> its name in yars.py, for the records that yars.py reads or writes as a whole.
+# Record -> its name in session.py, for the records that session.py reads or writes as a whole.
 PYTHON_NAMES = {"ClockState": "CLOCK", "Ownship": "OWNSHIP", "Nav": "NAV", "InputEvent": "INPUT_EVENT",
                 "GlassFrame": "GLASS_FRAME", "Sweep": "SWEEP", "Outputs": "OUTPUTS", "Mark": "MARK",
                 "CaptionLine": "CAPTION_LINE", "Caption": "CAPTION"}
@@ -195,7 +195,7 @@ def python_constants(names_and_numbers):
 
 
 def python_records(chapters, layout):
-    """Text for the generated part of yars.py, which lies between two marks."""
+    """Text for the generated part of session.py, which lies between two marks."""
     parts, constants = layout["containers"], constants_of(chapters)
     named = {one.name: one for one in schema.records_of(chapters)}
     text = python_constants([("VERSION", layout["version"]), ("SIZE", layout["size"]), ("HASH", f"0x{layout['hash'].upper()}")])

@@ -130,7 +130,7 @@ class TheRecordsOfTheTree(unittest.TestCase):
 
     def test_come_back_from_python_as_they_went(self):
         made = {"enum": enum}
-        exec(clients.python_records(self.chapters, layout_of(self.chapters)), made)  # what yars.py has
+        exec(clients.python_records(self.chapters, layout_of(self.chapters)), made)  # what session.py has
         for name, python_name in clients.PYTHON_NAMES.items():
             at, fields = 0, {field.name: field.offset for field in self.records[name].fields}
             for field, code in made[python_name]:
@@ -259,7 +259,7 @@ class TheFilesOfTheTree(unittest.TestCase):
         self.assertIn(message, str(caught.exception))
 
     def test_are_written_and_then_found_fresh(self):
-        self.refuses(generate.StaleError, "examples/yars.py, docs/shared_memory.md: expected what records.idl says, found otherwise; run "
+        self.refuses(generate.StaleError, "python/yars/session.py, docs/shared_memory.md: expected what records.idl says, found otherwise; run "
                                           "databuffer/messages/generate.py --write")
         self.run_with("--write")
         self.run_with("--check")
@@ -279,7 +279,7 @@ class TheFilesOfTheTree(unittest.TestCase):
 
     def test_need_their_marks(self):
         (self.root / generate.PYTHON).write_text("nothing\n")
-        self.refuses(generate.StaleError, "examples/yars.py: expected the lines '# begin: databuffer/messages/generate.py'")
+        self.refuses(generate.StaleError, "python/yars/session.py: expected the lines '# begin: databuffer/messages/generate.py'")
 
     def test_need_a_program_of_the_same_records(self):
         layout = layout_of(self.chapters)

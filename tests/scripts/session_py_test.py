@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Compares every number of examples/yars.py with `yars status --layout`, and lets it take part in a made-up session: its
-errors, its sweeps, the end of a set. usage: yars_py_test.py YARS"""
+"""Compares every number of python/yars/session.py with `yars status --layout`, and lets it take part in a made-up session: its
+errors, its sweeps, the end of a set. usage: session_py_test.py YARS"""
 import fcntl
 import json
 import os
@@ -11,8 +11,8 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "examples"))
-import yars
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "python"))
+from yars import session as yars
 
 layout = json.loads(subprocess.run([sys.argv[1], "status", "--layout"], capture_output=True, check=True).stdout)
 faults = []
@@ -244,11 +244,11 @@ def a_map_is_that_of_the_command():
 
 a_name_leads_nowhere_else()
 a_map_is_that_of_the_command()
-with MadeUpSession() as made_up, yars.Session(made_up.name, "yars_py_test") as session:
+with MadeUpSession() as made_up, yars.Session(made_up.name, "session_py_test") as session:
     what_cannot_be_done_is_an_error(session)
     a_caption_is_there_while_its_tour_runs(session)
     a_misspelled_field_is_answered_with_the_nearest(session)
     sweeps_come_once_and_the_lost_are_counted(session, made_up)
     a_set_runs_while_a_role_is_held(session, made_up)
-print("\n".join(faults) or "yars.py: as the layout")
+print("\n".join(faults) or "yars.session: as the layout")
 sys.exit(1 if faults else 0)

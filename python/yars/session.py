@@ -1,4 +1,4 @@
-"""Python client of a running YARS session, the counterpart of yars.h. Needs Python 3.9+, no compiler.
+"""Python client of a running YARS session, the counterpart of yars.h. Needs Python 3.9+ alone: no NumPy, no compiled part.
 Without a session: patch_map() makes a patch map by the command `yars patch`.
 Inputs to the session: ownship, navigators, events. Outputs: radar state, outputs, sweeps, frames of the display.
 Errors: YarsError. No error means only that a record was sent; `yars status` shows the refused ones.
@@ -19,6 +19,9 @@ import struct
 import subprocess
 import tempfile
 import time
+import typing
+
+from . import Error
 
 MAGIC, LINE, SLOTS = 0x314D485353524159, 64, 4
 # begin: databuffer/messages/generate.py
@@ -245,7 +248,7 @@ EXPECTED = {"d": "a number", "q": "a whole number of 64 bits", "Q": "a whole num
             "h": "a whole number -32768 to 32767"}  # covers the codes of OWNSHIP, NAV and INPUT_EVENT
 
 
-class YarsError(Exception):
+class YarsError(Error):
     """Its message says what is wrong, mostly with the expected value, the found one and a remedy."""
 
 
@@ -317,7 +320,7 @@ def unpack(fields, record):
                    if not name.startswith("_")})
 
 
-def patch_map(yars="yars", **options):
+def patch_map(yars: "str | pathlib.Path" = "yars", **options: typing.Any) -> "tuple[Record, array.array]":
     """facts, power = patch_map(lat=37.45, lon=-122.65, target_lat=37.51, target_lon=-122.45, size=4096): a patch map
     without a session. `options` are those of `yars patch` with _ for -; True for a flag, a list for a repeated option,
     None or False for an option that is not given.
@@ -354,7 +357,9 @@ def patch_map(yars="yars", **options):
 class Session:
     """with Session("default", "my-program") as session: ..."""
 
-    def __init__(self, name="default", program="python"):
+    sweeps_lost: int
+
+    def __init__(self, name: str = "default", program: str = "python") -> None:
         shown = text_bytes("program", program[:23], 24)
         if not re.fullmatch("[0-9A-Za-z_-]{1,40}", name):
             raise YarsError(f"session: expected 1 to 40 letters, digits, '-' or '_', found {name!r}")
@@ -389,7 +394,7 @@ class Session:
         if found != (MAGIC, SIZE, HASH, VERSION):
             self.close()
             raise YarsError(f"{self.path}: expected layout version {VERSION}, hash {HASH:016x}, found version "
-                            f"{found[3]}, hash {found[2]:016x}; take the yars.py of its build")
+                            f"{found[3]}, hash {found[2]:016x}; take the Python package yars of its build")
         self.process = self._claim(FIRST_PROCESS_BYTE, PROCESSES)
         if self.process is not None:
             entry = AT_PROCESSES + PROCESS_STRIDE * self.process
@@ -397,13 +402,13 @@ class Session:
             self.heartbeat()
             self.words[(entry + 8) // 8] = os.getpid()
 
-    def __enter__(self):
+    def __enter__(self) -> "Session":
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self.close()
 
-    def close(self):
+    def close(self) -> None:
         """Releases all lanes and detaches. The last process that detaches removes the segment."""
         if self.lane is not None:
             for at in (self._ownship_at(), self._nav_at()):
@@ -421,33 +426,33 @@ class Session:
         self.memory.close()
         os.close(self.descriptor)
 
-    def set_runs(self):
+    def set_runs(self) -> bool:
         """True while radar-model or state-machine is attached, even if stopped or hanging. False for a short time if
         both were killed, until the set restarts them. When it is False, close this Session and make a new one:
         a set that starts later may have another segment."""
         return self._is_held(RADAR_MODEL_BYTE) or self._is_held(STATE_MACHINE_BYTE)
 
     # ---- time
-    def clock(self):
+    def clock(self) -> "Record | None":
         return self._read(AT_CLOCK, CLOCK)
 
-    def epoch(self):
+    def epoch(self) -> int:
         clock = self.clock()
         return clock["epoch"] if clock else 0
 
-    def sim_time_ns(self):
+    def sim_time_ns(self) -> int:
         clock = self.clock()
         if not clock or not clock["running"]:
             return clock["base_sim_ns"] if clock else 0
         return clock["base_sim_ns"] + int(clock["rate"] * (time.monotonic_ns() - clock["base_monotonic_ns"]))
 
-    def heartbeat(self):
+    def heartbeat(self) -> None:
         """Shows in `yars status` that this program is alive. Call it about once a second."""
         if self.process is not None:
             self.words[(AT_PROCESSES + PROCESS_STRIDE * self.process) // 8] = time.monotonic_ns()
 
     # ---- writing
-    def claim_ownship_lane(self, priority):
+    def claim_ownship_lane(self, priority: int) -> None:
         """Claims a lane. The radar uses the lane with the highest priority among those with fresh records. The flight
         models of YARS have priority 10."""
         if not isinstance(priority, int) or not 0 <= priority <= 0xFFFFFFFF:
@@ -460,21 +465,21 @@ class Session:
         at = AT_OWNSHIP_PRIORITY + 4 * self.lane
         self.memory[at:at + 4] = struct.pack("<I", priority)
 
-    def publish_ownship(self, **values):
+    def publish_ownship(self, **values: typing.Any) -> None:
         """Publishes the record Ownship (fields: yars_records.h). Call it 20 to 100 times a second.
         Defaults: radar_altitude_m NaN (no radar altimeter), epoch of the session, other fields 0."""
         self._needs(self.lane, "publish_ownship", "an ownship lane", "claim_ownship_lane(priority)")
         self._publish("publish_ownship", self._ownship_at(), OWNSHIP,
                       {"epoch": self.epoch(), "radar_altitude_m": math.nan, **values})
 
-    def publish_nav(self, **values):
+    def publish_nav(self, **values: typing.Any) -> None:
         """Publishes the record Nav: positions and velocity of the navigators. Without it the navigators have no error.
         Defaults: magnetic_variation_deg NaN (the configuration's), epoch of the session, other fields 0."""
         self._needs(self.lane, "publish_nav", "an ownship lane", "claim_ownship_lane(priority)")
         self._publish("publish_nav", self._nav_at(), NAV,
                       {"epoch": self.epoch(), "magnetic_variation_deg": math.nan, **values})
 
-    def claim_input_lane(self, source):
+    def claim_input_lane(self, source: "str | bytes") -> None:
         """Claims a free and empty input lane. `source`: name of the sender, at most 23 characters."""
         name = text_bytes("claim_input_lane: source", source, 24)
         for lane in range(INPUT_LANES):
@@ -488,7 +493,7 @@ class Session:
             self._release(FIRST_INPUT_BYTE + lane)
         raise YarsError("input lane: all are taken; `yars status` names the sources")
 
-    def push_event(self, kind, argument=0, x=0.0, y=0.0, text=""):
+    def push_event(self, kind: int, argument: int = 0, x: float = 0.0, y: float = 0.0, text: "str | bytes" = "") -> None:
         """Sends an input event. `kind`: an Event, which names the argument. Example: push_event(Event.PUSH_BUTTON, 13)."""
         self._needs(self.input_lane, "push_event", "an input lane", "claim_input_lane(source)")
         record = pack("push_event", INPUT_EVENT, {
@@ -504,7 +509,7 @@ class Session:
         self.words[at // 8] = number + 1
 
     # ---- reading
-    def radar_state(self):
+    def radar_state(self) -> "Record | None":
         """Dict of the numbers and texts of the record RadarState (yars_records.h), such as mode
         and range. `legends`: list of the legends, with that of button n at index n. None before the first record."""
         record = self._read_bytes(AT_RADAR_STATE, RADAR_STATE_SIZE)
@@ -515,7 +520,7 @@ class Session:
         state["legends"] = [text_of(record[LEGENDS_AT + 8 * i:LEGENDS_AT + 8 * i + 8]) for i in range(LEGENDS)]
         return state
 
-    def outputs(self):
+    def outputs(self) -> "Record | None":
         """Dict of the record Outputs (yars_records.h): what the radar reports to the rest of the
         aircraft. Cue; designated target with ranging and steering (NaN: no target); `marks`, a list of dicts, oldest
         first. The elevation of a point is NaN while it is unknown. None before the first record."""
@@ -528,7 +533,7 @@ class Session:
         outputs["marks"] = [unpack(MARK, record) for record in records if len(record) == size]
         return outputs
 
-    def caption(self):
+    def caption(self) -> "Record | None":
         """Dict of the record Caption (yars_records.h) of the tour that runs; `lines` is a list of
         texts. None while no tour runs, or while it shows no caption."""
         caption = self._read(AT_CAPTION, CAPTION) if self._is_held(TOUR_BYTE) else None
@@ -538,7 +543,7 @@ class Session:
         lines = [text_of(caption["lines"][at:at + size]) for at in range(0, len(caption["lines"]), size)]
         return Record({**caption, "title": text_of(caption["title"]), "lines": [line for line in lines if line]})
 
-    def sweeps(self):
+    def sweeps(self) -> "list[Record]":
         """List of the sweeps since the last call, oldest first. The first call returns all sweeps in the segment, those
         of the last seconds. Each is a dict of the record Sweep with `video`: bytes from near to far, 0 black to 255
         white. Sweeps that were overwritten before they could be read are counted in session.sweeps_lost."""
@@ -565,7 +570,7 @@ class Session:
             self.next_sweep += 1
         return found
 
-    def newest_frame(self, after=0):
+    def newest_frame(self, after: int = 0) -> "tuple[Record, bytes] | None":
         """(frame, pixels) of a display started with --publish. None if there is no frame, or if the id of the newest
         frame is `after`. `frame`: dict of the record GlassFrame; pass its "id" as `after` of the next call. `pixels`:
         rows from the top; 4 bytes per pixel: red, green, blue, 255."""
