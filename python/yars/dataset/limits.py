@@ -30,7 +30,7 @@ class Limits:
 
 def command():
     """The program `yars`: of $YARS_BIN, beside the package in a build tree, or of the path."""
-    here = pathlib.Path(__file__).resolve()
+    here = pathlib.Path(__file__).absolute()  # in a build tree a link, which is not followed
     places = [os.environ.get("YARS_BIN"), *(str(folder / "bin") for folder in here.parents[2:5])]
     for place in filter(None, places):
         path = pathlib.Path(place) / "yars"
