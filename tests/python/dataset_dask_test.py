@@ -44,7 +44,7 @@ class Cluster:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
         self.address, self._folder, self.kills = f"tcp://127.0.0.1:{port}", folder, 0
-        paths = os.pathsep.join([str(HERE.parents[1] / "python"), str(HERE), os.environ.get("PYTHONPATH", "")])
+        paths = os.pathsep.join([path for path in sys.path if path])
         self._environment = {**os.environ, "PYTHONPATH": paths, **environment}
         self._scheduler = self._start("dask_scheduler", "--host", "127.0.0.1", "--port", str(port), "--no-dashboard")
         self._count, self.workers = 0, []

@@ -45,7 +45,8 @@ class BlockMaker:
     def __init__(self, spec, store, sampler, maker, class_ids):
         self.spec, self.store, self.sampler, self.maker = spec, store, sampler, maker
         self._class_ids = np.asarray(class_ids, np.int32)
-        self._encoder = formats.codec(spec.compression) if spec.format == "zarr" else None
+        self._ignores = bool((self._class_ids < 0).any())
+        self._encoders = {name: formats.codec(spec.compression, name) for name in spec.arrays} if spec.format == "zarr" else {}
         self._npz = formats.Npz(spec.compression != "none")
         self._drawn = sampler.settings.drawn()
         if spec.geotiff:
@@ -73,7 +74,7 @@ class BlockMaker:
                 hashes[name] = [self.store.hash(item) for item in array]
         if self.spec.format == "zarr":
             for name, array in arrays.items():
-                put(f"chips.zarr/{name}/{block}.0.0", formats.zarr_chunk(array, self.spec.block, self._encoder))
+                put(f"chips.zarr/{name}/{block}.0.0", formats.zarr_chunk(array, self.spec.block, self._encoders[name]))
             if boxes is not None:
                 put(self.store.boxes_name(block), _npy(boxes))
         edges = np.searchsorted(boxes["item"], sample.items[0] + np.arange(len(sample.items) + 1)) if boxes is not None else None
@@ -106,12 +107,20 @@ class BlockMaker:
 
     def _boxes(self, found, items):
         """Boxes as BOX, in the order of items, without ignored classes and those with too few pixels."""
-        kept = found[(found["pixels"] >= self.spec.min_pixels) & (self._class_ids[found["object"]] >= 0)] if len(found) else found
-        kept = kept[np.lexsort((kept["object"], kept["order"]))]
+        kept = np.flatnonzero(found["pixels"] >= self.spec.min_pixels)
+        order, thing = found["order"][kept], found["object"][kept]
+        if self._ignores:
+            wanted = self._class_ids[thing] >= 0
+            kept, order, thing = kept[wanted], order[wanted], thing[wanted]
+        key = (order.astype(np.int64) << 32) + thing
+        if (key[1:] < key[:-1]).any():
+            by = np.argsort(key, kind="stable")
+            kept, order, thing = kept[by], order[by], thing[by]
         boxes = np.empty(len(kept), BOX)
-        boxes["item"], boxes["object"], boxes["class"] = items[kept["order"]], kept["object"], self._class_ids[kept["object"]]
+        boxes["item"], boxes["object"], boxes["class"] = items[order], thing, self._class_ids[thing]
+        rows = found.view(f"V{found.dtype.itemsize}")[kept].view(found.dtype)  # whole rows are copied faster than structured ones
         for name in ("pixels", "aspect_deg", "corners"):
-            boxes[name] = kept[name]
+            boxes[name] = rows[name]
         return boxes
 
     def _write_items(self, sample, arrays, geo, boxes, edges, put):

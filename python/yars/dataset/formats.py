@@ -10,6 +10,8 @@ from .errors import DatasetError
 # Type and fill value of each array (pixels outside a picture do not exist; the fill value is never seen).
 TYPES = {"video": "|u1", "power": "<f4", "shadow": "|u1", "layover": "|u1", "object": "<i4", "material": "|u1",
          "height": "<f4", "grazing_angle": "<f4"}
+# Blosc's: 1 by bytes for floats, 2 by bits for flags and codes.
+_SHUFFLES = {"power": 1, "height": 1, "grazing_angle": 1, "shadow": 2, "layover": 2, "material": 2}
 UNITS = {"video": "1", "power": "1", "shadow": "1", "layover": "1", "object": "1", "material": "1", "height": "m", "grazing_angle": "deg"}
 MEANINGS = {"video": "0 black to 255 white", "power": "gamma of level ground, before speckle and noise",
             "shadow": "1: no surface that the radar sees returns here", "layover": "1: two or more visible surfaces at this slant range",
@@ -18,8 +20,8 @@ MEANINGS = {"video": "0 black to 255 white", "power": "gamma of level ground, be
             "grazing_angle": "between line of sight and surface"}
 
 
-def codec(name):
-    """Encoder of chunks: None for uncompressed ones."""
+def codec(name, array):
+    """Encoder of an array's chunks: None for uncompressed ones. The order of bytes before compression is the fastest of each kind."""
     if name == "none":
         return None
     try:
@@ -29,15 +31,14 @@ def codec(name):
         raise DatasetError("expected the Python package numcodecs for output.compression, found none; install python3-numcodecs, or "
                            "write compression: none") from None
     numcodecs.blosc.use_threads = False  # one process a core; and bytes do not depend on threads
-    return numcodecs.Blosc(cname=name, clevel=1, shuffle=numcodecs.Blosc.SHUFFLE)
+    return numcodecs.Blosc(cname=name, clevel=1, shuffle=_SHUFFLES.get(array, numcodecs.Blosc.NOSHUFFLE))
 
 
 def zarr_metadata(spec):
     """{path: text} of the metadata of a Zarr group, version 2."""
-    encoder = codec(spec.compression)
     files = {".zgroup": {"zarr_format": 2}, ".zattrs": {"description": "radar chips of YARS; see dataset.json"}}
     for name in spec.arrays:
-        kind = np.dtype(TYPES[name])
+        encoder, kind = codec(spec.compression, name), np.dtype(TYPES[name])
         files[f"{name}/.zarray"] = {
             "zarr_format": 2, "shape": [spec.count, spec.size, spec.size], "chunks": [spec.block, spec.size, spec.size],
             "dtype": kind.str, "compressor": encoder and encoder.get_config(), "fill_value": "NaN" if kind.kind == "f" else 0,

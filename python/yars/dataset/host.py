@@ -8,10 +8,12 @@ import ctypes
 import gc
 import json
 import os
+import re
 import select
 import signal
 import sys
 import traceback
+import warnings
 
 from .errors import DatasetError
 
@@ -25,6 +27,19 @@ def die_with_parent(parent):
         os._exit(1)
 
 
+def show_warnings_once():
+    """Has a warning printed on standard error the first time; texts that differ by numbers alone count as one."""
+    seen = set()
+
+    def show(message, *_, **__):
+        kind = re.sub(r"[-+0-9.]+", "", str(message))
+        if kind not in seen:
+            seen.add(kind)
+            print(f"yars dataset: {message}", file=sys.stderr)
+    warnings.simplefilter("always")  # the other filters would remember every text
+    warnings.showwarning = show
+
+
 class Lines:
     """Lines of a pipe, without blocking."""
 
@@ -36,6 +51,13 @@ class Lines:
         data = os.read(self.file, 1 << 16)
         *lines, self._rest = (self._rest + data).split(b"\n")
         return lines, not data
+
+
+def fault_text():
+    """The present exception, as an error that a user may report."""
+    kind, value, _ = sys.exc_info()
+    places = traceback.format_exc(limit=-3).strip()
+    return f"expected no fault of this program, found {kind.__name__}: {value}; report it with these lines:\n{places}"
 
 
 def write_all(file, text):
@@ -62,7 +84,7 @@ def work(maker, commands, results):
                 write_all(results, json.dumps({"error": "expected memory for a block, found none left; use fewer workers or a smaller "
                                                         "output.block"}) + "\n")
             except Exception:  # pylint: disable=broad-except
-                write_all(results, json.dumps({"error": "fault of this program: " + traceback.format_exc()}) + "\n")
+                write_all(results, json.dumps({"error": fault_text()}) + "\n")
         if end:
             return
 
@@ -78,6 +100,7 @@ class Worker:
             try:
                 die_with_parent(parent)
                 signal.signal(signal.SIGTERM, signal.SIG_DFL)
+                warnings.simplefilter("ignore")  # the host has shown those of items from the whole set
                 for file in [0, self.commands, result_read] + [file for worker in others for file in (worker.commands, worker.results.file)]:
                     os.close(file)
                 os.dup2(2, 1)  # what a library prints must not get into the host's answers
@@ -167,6 +190,7 @@ def main(arguments):
     output = os.dup(1)
     os.dup2(2, 1)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the coordinator decides what Ctrl-C does
+    show_warnings_once()
     from .context import load
     host = None
     try:
@@ -180,7 +204,7 @@ def main(arguments):
     except BrokenPipeError:
         return 1  # nobody listens any more
     except Exception:  # pylint: disable=broad-except
-        write_all(output, json.dumps({"error": "fault of this program: " + traceback.format_exc()}) + "\n")
+        write_all(output, json.dumps({"error": fault_text()}) + "\n")
         return 1
     finally:
         if host:

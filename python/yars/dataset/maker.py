@@ -26,6 +26,14 @@ def scene_text(path, at):
     return str(path) + ("@" + ",".join(f"{number:.12g}" for number in at) if at else "")
 
 
+def converted(rows, kind):
+    """A structured array with the fields of another type, by name."""
+    result = np.empty(len(rows), kind)
+    for name in result.dtype.names:
+        result[name] = rows[name]
+    return result
+
+
 class YarsMaker:
     """The kernels of YARS over one terrain and its scenes."""
 
@@ -34,6 +42,7 @@ class YarsMaker:
         import yars
         self._yars, self._spec = yars, spec
         try:
+            yars.Terrain  # raises MissingPart, an Error, without the compiled part  # pylint: disable=pointless-statement
             self._terrain = yars.Terrain(terrain) if terrain else yars.Terrain()
             without = sorted({name for _, _, names in scenes for name in names})
             files = [scene_text(path, at) for path, at, _ in scenes]
@@ -55,9 +64,9 @@ class YarsMaker:
 
     def patches(self, orders, movers, settings):
         spec = self._spec
-        arguments = {"movers": movers.astype(self._yars.MOVER, copy=False)} if len(movers) else {}
+        arguments = {"movers": converted(movers, self._yars.MOVER)} if len(movers) else {}
         try:
-            return self._radar(settings).patches(self._terrain, orders.astype(self._yars.PATCH_ORDER, copy=False),
+            return self._radar(settings).patches(self._terrain, converted(orders, self._yars.PATCH_ORDER),
                                                  scene=self._scene, arrays=spec.arrays, threads=1,
                                                  force=spec.geometry["force"], **arguments)
         except (ValueError, self._yars.Error) as error:
