@@ -40,8 +40,7 @@ file(WRITE ${PROJECT_BINARY_DIR}/install/shlibs
 file(WRITE ${PROJECT_BINARY_DIR}/install/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_YARS_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/install/shlibs ${PROJECT_BINARY_DIR}/install/triggers)
 
-# The session client needs Python alone. The compiled part needs the Python that it is built for, and NumPy. Releases before
-# 0.2.0 had the client and yars-plot-trade in the package yars.
+# The session client needs Python alone. The compiled part needs the Python that it is built for, and NumPy.
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_NAME python3-yars)
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON3-YARS_DESCRIPTION "air-to-ground radar simulation after the APG-70 (Python 3)
@@ -52,8 +51,6 @@ session: ownship and events in, sweeps and pictures out.")
 set(recommended "python3-matplotlib, python3-xarray, python3-zarr, python3-numcodecs, python3-yaml, python3-dask, python3-distributed")
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_RECOMMENDS "yars (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), ${recommended}")
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_SUGGESTS "python3-rasterio")
-set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_BREAKS "yars (<< 0.2.0)")
-set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_REPLACES "yars (<< 0.2.0)")
 # Compiles the module's sources when it is installed, as Debian's own packages do.
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_CONTROL_EXTRA
   ${PROJECT_SOURCE_DIR}/packaging/debian/postinst ${PROJECT_SOURCE_DIR}/packaging/debian/prerm)

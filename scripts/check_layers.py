@@ -89,13 +89,14 @@ LAYERS = {
     "tools/scene": SHELL + SCENE + WORLD + ["worldgen/scene", "tools/command"],
     "tools/session": SHELL + WORLD + ["statemachine", "tools/command", "tools/recording"],
     "tools": SHELL + ["gateway/checks", "tools/command"],
+    "python/core": SHELL + KERNEL + WORLD + ["worldgen/scene", "tools/command", "tools/recording", "tools/trade", "tools/scan", "tools/patch"],
     "examples": ["databuffer/client"],
     "tests": None,  # None: everything
 }
 
 # Shells: folders that may use the segment, the log and clocks. They have the programs, and code that programs share.
 SHELLS = ["lib/log", "databuffer/session", "databuffer/runtime", "databuffer/app", "databuffer/client", "model/app", "statemachine/app",
-          "inputmonitor/app", "display/host", "display/library", "display/app", "gateway/exchange", "gateway/app", "tools", "tests", "examples"]
+          "inputmonitor/app", "display/host", "display/library", "display/app", "gateway/exchange", "gateway/app", "tools", "python/core", "tests", "examples"]
 
 # Third-party and system headers: a header, or a folder of headers with "/" at the end -> who may include it: folders,
 # single files, or "shells" for SHELLS.
@@ -134,6 +135,7 @@ SYSTEM_HEADERS = {
     "spdlog/": ["shells"],
     "CLI/": ["databuffer/runtime"],
     "nlohmann/": ["tools", "tests"],
+    "pybind11/": ["python/core"],
     "gtest/": ["tests"],
     "gmock/": ["tests"],
     "benchmark/": ["tests"],

@@ -17,7 +17,7 @@ import platform
 
 # Module of the package -> its names that are names of the package. Typed in __init__.pyi.
 _NAMES = {
-    "_core": ("Terrain", "Scene", "Radar", "Recording", "trade", "PATCH_ORDER", "MOVER"),
+    "results": ("Terrain", "Scene", "Radar", "Scan", "Patch", "PATCH_ORDER", "MOVER"),
     "session": ("Session", "YarsError", "UnknownField", "Record", "patch_map", "Event", "Power", "Mode", "Master", "ScanWidth",
                 "CursorFunction", "Navigator", "PointKind", "Recall", "SteeringLine", "SteeringCommand", "RadarFlags",
                 "SweepFlags", "ModelFlags", "OwnshipFlags", "NavFlags"),
@@ -81,7 +81,7 @@ def _available():
         except ImportError:
             return False
 
-    needs = {"_core": ("numpy", "._core"), "session": (".session",), "plot": ("numpy", "matplotlib", ".plot"),
+    needs = {"results": ("numpy", "._core", ".results"), "session": (".session",), "plot": ("numpy", "matplotlib", ".plot"),
              "dataset": ("numpy", "._core", ".dataset")}
     there = {module for module, others in needs.items() if all(map(found, others))}
     return ["Error", "MissingPart", *(name for name in _MODULES if name in there),
@@ -95,7 +95,9 @@ def __getattr__(name):
         return _available()
     if name not in _MODULE_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    module = _compiled(name) if _MODULE_OF[name] == "_core" else importlib.import_module("." + _MODULE_OF[name], __name__)
+    if _MODULE_OF[name] == "results":
+        _compiled(name)
+    module = importlib.import_module("." + _MODULE_OF[name], __name__)
     globals()[name] = value = getattr(module, name)
     return value
 

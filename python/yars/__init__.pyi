@@ -1,14 +1,16 @@
 # Names of the package: __init__.py loads each at its first use.
+from types import ModuleType
+
 from . import dataset as dataset
 from . import plot as plot
 from . import session as session
-from ._core import MOVER as MOVER
-from ._core import PATCH_ORDER as PATCH_ORDER
-from ._core import Radar as Radar
-from ._core import Recording as Recording
-from ._core import Scene as Scene
-from ._core import Terrain as Terrain
-from ._core import trade as trade
+from .results import MOVER as MOVER
+from .results import PATCH_ORDER as PATCH_ORDER
+from .results import Radar as Radar
+from .results import Scene as Scene
+from .results import Terrain as Terrain
+from .results import Patch as Patch
+from .results import Scan as Scan
 from .session import CursorFunction as CursorFunction
 from .session import Event as Event
 from .session import Master as Master
@@ -30,6 +32,8 @@ from .session import SweepFlags as SweepFlags
 from .session import UnknownField as UnknownField
 from .session import YarsError as YarsError
 from .session import patch_map as patch_map
+
+def _require(name: str, purpose: str) -> ModuleType: ...
 
 class Error(RuntimeError): ...
 class MissingPart(Error, ImportError): ...

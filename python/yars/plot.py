@@ -149,7 +149,7 @@ def _values(result, quantity):
         values = numpy.ma.masked_less(values, 0)
     else:
         values = numpy.ma.masked_invalid(values)
-    return values, style, None if quantity in _WITHOUT_UNIT else f"{words} [{unit}]"
+    return values, style, None if quantity in _WITHOUT_UNIT or not unit else f"{words} [{unit}]"
 
 
 def _metres(result, quantity):
@@ -166,13 +166,15 @@ def _color_bar(ax, drawn, label):
 
 
 def _filled(rows):
-    """Rows whose unknown elements follow the line of their known neighbours."""
+    """Rows whose unknown elements follow the line of their known neighbours; a row without these is that before it."""
     filled = numpy.array(rows, float)
     at = numpy.arange(filled.shape[1])
+    good = numpy.flatnonzero(numpy.isfinite(filled).sum(axis=1) >= 2)
+    if not good.size:
+        raise ValueError("ground_range: expected a sweep with at least two known samples, found none")
+    filled = filled[good[numpy.maximum(numpy.searchsorted(good, numpy.arange(len(filled)), side="right") - 1, 0)]]
     for row in filled:
         known = numpy.flatnonzero(numpy.isfinite(row))
-        if known.size < 2:
-            raise ValueError("ground_range: expected at least two known samples in each sweep, found fewer")
         first, last = known[0], known[-1]
         row[:] = numpy.interp(at, known, row[known])
         step = (row[last] - row[first]) / (last - first)
@@ -182,7 +184,8 @@ def _filled(rows):
 
 
 def _edges(centres, axis):
-    """Edges of cells with these centres: one more along `axis`, half a step beyond the first and the last."""
+    """Edges of cells with these centres: one more along `axis`, half a step beyond the first and the last. A single sweep is 1
+    degree wide."""
     centres = numpy.moveaxis(centres, axis, 0)
     if len(centres) < 2:
         edges = numpy.stack([centres[0] - 0.5, centres[0] + 0.5]) if axis == 0 and centres.ndim == 1 else numpy.stack([centres[0]] * 2)
@@ -228,7 +231,7 @@ def _around(outlines):
 # ---- parts of the picture of a trade; plot_trade draws panels with them
 def pareto_front(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
     """Of (time, error) pairs those that no other beats in both, by time."""
-    front = []
+    front: list[tuple[float, float]] = []
     for point in sorted(points):
         if not front or point[1] < front[-1][1]:
             front.append(point)
@@ -245,10 +248,10 @@ def _error_of(rows, error):
 
 def draw_front(rows: dict[str, Any], ax: Axes, error: str | None = None) -> list[tuple[float, float, float, str, str]]:
     """Draws all of trade_front but the names of the points, and returns these for label_points."""
-    error, time = _error_of(rows, error), rows["axes"]["time"]
+    chosen, time = _error_of(rows, error), rows["axes"]["time"]
     families = list(dict.fromkeys(point["family"] for point in rows["points"]))
-    points = [(point[time["column"]]["mean"], point[error["column"]]["mean"], point[error["column"]]["worst"], point)
-              for point in rows["points"] if point[error["column"]]["mean"] is not None]
+    points = [(point[time["column"]]["mean"], point[chosen["column"]]["mean"], point[chosen["column"]]["worst"], point)
+              for point in rows["points"] if point[chosen["column"]]["mean"] is not None]
     floor = min((mean for _, mean, _, _ in points if mean > 0), default=1.0) / 3  # the row of those without an error
     ax.set_xscale("log")
     ax.set_yscale("log")
@@ -271,7 +274,7 @@ def draw_front(rows: dict[str, Any], ax: Axes, error: str | None = None) -> list
         ax.text(0.995, floor, "none", transform=ax.get_yaxis_transform(), fontsize=9, va="bottom", ha="right", color="#555555")
     ax.margins(x=0.12, y=0.12)
     ax.set_xlabel(time["title"])
-    ax.set_ylabel(error["title"])
+    ax.set_ylabel(chosen["title"])
     ax.grid(True, which="major", color="#e4e4e4")
     return labels
 

@@ -358,6 +358,9 @@ class Session:
     """with Session("default", "my-program") as session: ..."""
 
     sweeps_lost: int
+    lane: typing.Any  # number, or None while none is claimed; so are these
+    input_lane: typing.Any
+    next_sweep: typing.Any
 
     def __init__(self, name: str = "default", program: str = "python") -> None:
         shown = text_bytes("program", program[:23], 24)

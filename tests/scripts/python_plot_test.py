@@ -118,6 +118,18 @@ class Ppi(Pictures):
                                 ("height", ["height [m MSL]"]), ("grazing_angle", ["grazing angle [deg]"])):
             self.assertEqual(bars(self.drawn(plot.ppi(scan, quantity=quantity))), label)
 
+    def test_one_sweep_is_a_sector_of_a_degree(self):
+        scan = made_up_scan(195.0, 195.0, 1)
+        far = self.drawn(plot.ppi(scan)).collections[0].get_coordinates()[:, -1]
+        self.assertAlmostEqual(far[1, 0] - far[0, 0], 2 * 40.0 * math.sin(math.radians(0.5)), places=6)
+
+    def test_a_sweep_over_a_void_has_the_ranges_of_its_neighbour(self):
+        scan = made_up_scan()
+        whole = plot.ppi(scan).collections[0].get_coordinates()
+        for sweep in (0, 1, 50, 100):
+            scan.ground_range[sweep] = numpy.nan
+        self.assertTrue(numpy.allclose(plot.ppi(scan).collections[0].get_coordinates(), whole))
+
     def test_power_is_in_decibels(self):
         scan = made_up_scan()
         scan.power[:] = 0.01
@@ -131,7 +143,7 @@ class Ppi(Pictures):
         for bad, said in ((lambda: plot.ppi(scan, quantity="colour"), "expected one of video, power"),
                           (lambda: plot.ppi(types.SimpleNamespace(**{**vars(scan), "azimuth": scan.azimuth[1:]})), "each of its 101 sweeps"),
                           (lambda: plot.ppi(types.SimpleNamespace(**{**vars(scan), "ground_range": scan.ground_range * numpy.nan})),
-                           "at least two known samples"),
+                           "a sweep with at least two known samples"),
                           (lambda: plot.ppi(types.SimpleNamespace(**{**vars(scan), "units": {"ground_range": "ft"}})), "found 'ft'")):
             with self.assertRaises(ValueError) as caught:
                 bad()

@@ -1,0 +1,82 @@
+#include "python/core/support.hpp"
+
+#include <cmath>
+
+#include "tools/command/command.hpp"
+
+namespace yars::python {
+
+namespace {
+// The class yars.Error, which the package defines so that it exists without this part.
+py::object error_class() {
+  return py::module_::import("yars").attr("Error");
+}
+}  // namespace
+
+void register_exceptions(py::module_& /*module*/) {
+  py::register_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) std::rethrow_exception(pointer);
+    } catch (const tools::CommandFailed& failed) {
+      const py::object type =
+          failed.code == databuffer::kExitUsage ? py::reinterpret_borrow<py::object>(PyExc_ValueError) : error_class();
+      PyErr_SetString(type.ptr(), failed.message.c_str());
+    }
+  });
+}
+
+void raise(const error::Error& error) {
+  tools::throw_failure(error);
+}
+void raise_value_error(const std::string& message) {
+  throw tools::CommandFailed{message, databuffer::kExitUsage};
+}
+
+namespace {
+// Value of an option as text. Python's own number texts are the shortest that give the same number again.
+std::string text_of(const py::handle& value) {
+  if (PyUnicode_Check(value.ptr())) return py::cast<std::string>(value);
+  if (py::hasattr(value, "__fspath__")) return py::cast<std::string>(value.attr("__fspath__")());
+  if (PyIndex_Check(value.ptr())) return py::str(py::int_(py::reinterpret_borrow<py::object>(value)));
+  if (py::hasattr(value, "__float__")) return py::repr(py::float_(py::reinterpret_borrow<py::object>(value)));
+  return py::repr(value);
+}
+}  // namespace
+
+std::vector<std::string> words_of(const py::kwargs& arguments) {
+  std::vector<std::string> words;
+  for (const auto& [key, value] : arguments) {
+    std::string option = "--" + py::cast<std::string>(key);
+    for (char& letter : option)
+      if (letter == '_') letter = '-';
+    if (value.is_none() || value.ptr() == Py_False) continue;
+    if (value.ptr() == Py_True) {
+      words.push_back(option);
+      continue;
+    }
+    if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+      for (const py::handle& entry : value) words.push_back(option + "=" + text_of(entry));
+      continue;
+    }
+    words.push_back(option + "=" + text_of(value));
+  }
+  return words;
+}
+
+void read_options(const std::string& name, const py::kwargs& arguments,
+                  const std::function<void(databuffer::Command)>& add_options) {
+  databuffer::CommandLine line("", name);
+  add_options(line);
+  if (const auto fault = line.read(words_of(arguments))) raise_value_error(*fault);
+}
+
+void Warnings::show(const std::string& command) {
+  for (const std::string& line : std::exchange(lines_, {}))
+    if (PyErr_WarnEx(PyExc_UserWarning, (command + ": " + line).c_str(), 2) != 0) throw py::error_already_set();
+}
+
+py::array flags_of(const std::shared_ptr<const void>& owner, const std::uint8_t* data, std::vector<py::ssize_t> shape) {
+  return array_of<std::uint8_t>(owner, data, std::move(shape)).attr("view")(py::dtype::of<bool>());
+}
+
+}  // namespace yars::python

@@ -1,0 +1,206 @@
+"""Terrain, scenes and a radar in this process: scans of the real beam map and patch maps as NumPy arrays.
+
+    radar = yars.Radar("standard", samples=480)
+    scan = radar.scan(yars.Terrain("DIR"), lat=36.5, lon=-121.5, alt_ft=15000, heading=30, range_nm=20, seed=1)
+    scan.power, scan.units["power"], scan.to_xarray()
+
+Arguments are the options of the commands `yars scan` and `yars patch`, checked by the same table: --alt-ft is alt_ft. The
+arrays are bit for bit those of the commands, and `hash` is the hash that they print.
+Errors: ValueError for arguments, yars.Error for files; the message is that of the command. Problems of single files are
+warnings. While a picture is computed other threads of Python run.
+"""
+from . import _require
+from ._core import MOVER, PATCH_ORDER, Scene, Terrain, xxh3
+from . import _core
+
+__all__ = ["Radar", "Scan", "Patch", "Terrain", "Scene", "PATCH_ORDER", "MOVER"]
+
+# Unit of each array; "1": a ratio; "": none. Meaning of each, for xarray and help.
+UNITS = {"power": "1", "video": "", "shadow": "", "layover": "", "object": "", "material": "", "height": "m",
+         "grazing_angle": "degree", "slant_range": "m", "ground_range": "m", "latitude": "degree", "longitude": "degree",
+         "azimuth": "degree", "sample": "", "x": "m", "y": "m"}
+MEANINGS = {
+    "power": "received power before noise and azimuth smear, full scale 1 (scan); gamma of level ground with equal return, "
+             "before speckle and noise, NaN in the blind zone (patch)",
+    "video": "brightness, 0 black to 255 white",
+    "shadow": "True: no surface that the radar sees returns here",
+    "layover": "True: two or more separate surfaces that the radar sees have this slant range",
+    "object": "index into Scene.objects of what returns here; -1: ground or shadow",
+    "material": "surface material code of DFAD; 0: land without culture, 6: water",
+    "height": "of the surface above mean sea level",
+    "grazing_angle": "between line of sight and surface, along the line of sight",
+    "slant_range": "from the aircraft",
+    "ground_range": "over ground from the aircraft",
+    "latitude": "WGS84, north positive", "longitude": "WGS84, east positive",
+    "azimuth": "true bearing of the sweep's middle", "sample": "number of the sample, from near to far",
+    "x": "from the map's centre, to the right of the line of sight", "y": "from the map's centre, away from the aircraft",
+}
+ARRAYS = ("power", "video", "shadow", "layover", "slant_range", "ground_range", "latitude", "longitude", "height",
+          "grazing_angle", "material", "object")
+# Of a patch map: labels that are computed with it; latitude, longitude and ranges are those of its plane.
+PATCHES = ("video", "shadow", "layover", "object", "material")
+
+
+def _array(name, shape):
+    def get(self):
+        return self._result.array(name)
+
+    unit = f" [{UNITS[name]}]" if UNITS[name] else ""
+    return property(get, doc=f"Array {shape}{unit}: {MEANINGS[name]}.")
+
+
+class _Picture:
+    """Arrays with units and axes. Each array lies in the memory of the result; it is computed when first asked for."""
+
+    axes = ()
+    _shape = ""
+
+    def __init_subclass__(cls):
+        for name in ARRAYS:
+            setattr(cls, name, _array(name, cls._shape))
+
+    def __init__(self, result):
+        self._result = result
+
+    @property
+    def units(self):
+        """Unit of each array by its name: "m", "degree", "1" for ratios, "" for none."""
+        return {name: UNITS[name] for name in (*ARRAYS, *self.axes)}
+
+    @property
+    def hash(self):
+        """Hash of the video, as `yars scan` and `yars patch` print it (XXH3, 64 bits)."""
+        return self._result.hash
+
+    @property
+    def facts(self):
+        """Numbers of the whole picture, by name: position [deg], altitude and ranges [m], angles [deg], fidelity."""
+        return self._result.facts()
+
+    def to_xarray(self, arrays=ARRAYS):
+        """xarray.Dataset of the arrays named, with coordinates, units and meanings. Needs python3-xarray.
+
+        Latitude, longitude, ranges are coordinates. Attributes are the facts.
+        """
+        xarray = _require("xarray", f"yars.{type(self).__name__}.to_xarray")
+        coordinates = {"latitude", "longitude", "slant_range", "ground_range"}
+        variables, coords = {}, {}
+        for name in arrays:
+            if name not in ARRAYS:
+                raise ValueError(f"yars.{type(self).__name__}.to_xarray: arrays: expected {', '.join(ARRAYS)}, found '{name}'")
+            attributes = {"units": UNITS[name], "long_name": MEANINGS[name]}
+            (coords if name in coordinates else variables)[name] = (self.axes, getattr(self, name), attributes)
+        for axis in self.axes:
+            coords[axis] = ((axis,), getattr(self, axis), {"units": UNITS[axis], "long_name": MEANINGS[axis]})
+        attributes = {key: int(value) if isinstance(value, bool) else value for key, value in self.facts.items()}
+        return xarray.Dataset(variables, coords, {**attributes, "hash": f"{self.hash:016x}"})
+
+    def __repr__(self):
+        shape = " x ".join(str(length) for length in self.video.shape)
+        return f"<yars.{type(self).__name__} {shape} {' x '.join(self.axes)}, {self.facts['fidelity']}, hash {self.hash}>"
+
+
+class Scan(_Picture):
+    """One scan of the real beam map: arrays of shape (azimuth, sample), sweeps clockwise, samples from near to far."""
+
+    axes = ("azimuth", "sample")
+    _shape = "(azimuth, sample)"
+
+    @property
+    def azimuth(self):
+        """Array (azimuth,) [degree]: true bearing of each sweep's middle, at the aircraft."""
+        return self._result.array("azimuth")
+
+    @property
+    def sample(self):
+        """Array (sample,): numbers of the samples. Their ground ranges are `ground_range`."""
+        return _require("numpy", "yars.Scan.sample").arange(self.video.shape[1])
+
+
+class Patch(_Picture):
+    """One patch map: arrays of shape (y, x). Row 0 is the far edge, column 0 the left one as seen from the aircraft.
+
+    latitude, longitude, slant_range and ground_range are those of the pixel on the map's plane; height, grazing_angle,
+    material and object are those of the surface with the strongest return there.
+    """
+
+    axes = ("y", "x")
+    _shape = "(y, x)"
+
+    @property
+    def x(self):
+        """Array (x,) [m]: pixel centres to the right of the line of sight to the map's centre."""
+        return self._result.array("x")
+
+    @property
+    def y(self):
+        """Array (y,) [m]: pixel centres from the map's centre away from the aircraft; descends."""
+        return self._result.array("y")
+
+
+class Radar:
+    """A radar: a configuration, and the pictures that it gives over a terrain.
+
+    preset: 1996, draft, standard, fine or reference; None: that of the file, else standard.
+    config: a GUF file; None: the built-in APG-70. settings: GUF text with forms that go before those of the file, such
+    as "( Sea :state 3 )". knobs: slots of the form Fidelity in lower case, such as samples=480, map_size=256,
+    sub_beams=8. Errors: ValueError for a wrong value or name, yars.Error for the file.
+    """
+
+    def __init__(self, preset=None, *, config=None, settings="", **knobs):
+        self._core = _core.Radar(preset, config, settings, **knobs)
+
+    @property
+    def name(self):
+        """Name of the radar in its configuration."""
+        return self._core.name
+
+    @property
+    def fidelity(self):
+        """Name of the preset."""
+        return self._core.fidelity
+
+    @property
+    def map_size(self):
+        """Pixels on an edge of a patch map."""
+        return self._core.map_size
+
+    @property
+    def samples(self):
+        """Samples of a sweep."""
+        return self._core.samples
+
+    @property
+    def guf(self):
+        """The whole configuration as GUF text."""
+        return self._core.guf
+
+    def scan(self, terrain, scene=None, **options):
+        """One scan of the real beam map, as `yars scan`. Returns a Scan.
+
+        terrain: Terrain. scene: Scene on it; None: the scenes in the terrain's folder, and of the configuration.
+        options: lat, lon [deg], alt_ft [ft MSL], heading [deg true], range_nm [NM], scan_width, elevation [deg], gain 0 to
+        3, band A to E, channel 1 to 8, samples, time_s [s], threads, seed, force (beyond gimbal limits, below ground).
+        """
+        return Scan(self._core.scan(terrain, scene, **options))
+
+    def patch(self, terrain, scene=None, **options):
+        """One patch map, as `yars patch`. Returns a Patch.
+
+        terrain, scene: as scan(). options: lat, lon [deg], alt_ft [ft MSL], heading [deg true], speed_kt [kt], target_lat,
+        target_lon [deg], window_nm [NM], looks 1 to 16, size [pixels], map (number, selects the noise with the seed),
+        time_s [s], threads, seed, force (beyond the radar's limits).
+        """
+        return Patch(self._core.patch(terrain, scene, **options))
+
+    def patches(self, terrain, orders, scene=None, *, movers=None, arrays=PATCHES, threads=1, force=False):
+        """Many patch maps in one call. Returns a dict of arrays.
+
+        orders: structured array of dtype PATCH_ORDER, shape (n,). movers: structured array of dtype MOVER; each names its
+        order. arrays: of video, power, shadow, layover, object, material, height, grazing_angle; each has the shape
+        (n, map_size, map_size). Also: hash (n,) of each video; geo (n,), the place of the pixels on an azimuthal
+        equidistant plane about the aircraft (plane_from_pixel: GDAL's affine, metres east and north) and numbers of each
+        map; boxes, with the footprint of each object in each picture (column, row), its aspect and its pixels.
+        Errors: ValueError names the order that is beyond the radar's limits; force leaves the limits out.
+        """
+        return self._core.patches(terrain, orders, scene, movers, list(arrays), threads, force)
