@@ -21,8 +21,8 @@ TYPES = {"video": "u1", "power": "f4", "shadow": "u1", "layover": "u1", "object"
 
 
 class FakeMaker:
-    def __init__(self, spec):
-        self.spec = spec
+    def __init__(self, plan):
+        self.plan = plan
         self.objects = np.array([(f"house{number}" if number % 3 else f"car_{number}", 37.5 + number * 1e-3, -122.3, 5.0)
                                  for number in range(12)], OBJECT)
 
@@ -37,7 +37,7 @@ class FakeMaker:
         deadly = os.environ.get("FAKE_MAKER_DEADLY_MAP")  # the item with this number ends its worker
         if deadly and int(deadly) in orders["map"] and len(orders) > 1:
             os.kill(os.getpid(), 9)
-        size, count = self.spec.size, len(orders)
+        size, count = self.plan.size, len(orders)
         seeds = []
         for at in range(count):
             mine = movers[movers["order"] == at].copy()
@@ -47,7 +47,7 @@ class FakeMaker:
         words = np.array(seeds, np.uint64)[:, None, None] + np.arange(size * size, dtype=np.uint64).reshape(size, size) * np.uint64(0x9E3779B97F4A7C15)
         words ^= words >> np.uint64(29)
         result = {name: (words >> np.uint64(7 * number) & np.uint64(1 if name in ("shadow", "layover") else 7)).astype(TYPES[name])
-                  for number, name in enumerate(self.spec.arrays)}
+                  for number, name in enumerate(self.plan.arrays)}
         result["hash"] = np.array(seeds, np.uint64)
         result["geo"] = np.zeros(count, GEO)
         result["geo"]["origin_latitude"], result["geo"]["origin_longitude"] = orders["latitude"], orders["longitude"]
@@ -72,10 +72,10 @@ def fill_disk(after):
     files.os = types.SimpleNamespace(**{**vars(os), "write": write})
 
 
-def open_maker(spec, terrain, scenes):
+def open_maker(plan, terrain, scenes):
     if "FAKE_MAKER_FULL" in os.environ:
         fill_disk(int(os.environ["FAKE_MAKER_FULL"]))
-    return FakeMaker(spec)
+    return FakeMaker(plan)
 
 
 if __name__ == "__main__":

@@ -37,13 +37,13 @@ MORE = "movers: [{count: {uniform: [0, 2]}, north_m: {uniform: [-300, 300]}}]\nw
 class Kernels(Case):
     count, size, triangles, more = 2000, 128, 100000, MORE
 
-    def write_spec(self, name="spec.yaml", **changes):
+    def write_spec(self, name="specification.yaml", **changes):
         path = self.folder / name
         path.write_text(SPEC.format(count=self.count, size=self.size, triangles=self.triangles, more=self.more, **changes))
         return path
 
-    def command(self, *arguments, out=None, spec=None):
-        return [sys.executable, "-m", "yars.dataset", str(spec or self.spec), "--out", str(out or self.out), *map(str, arguments)]
+    def command(self, *arguments, out=None, plan=None):
+        return [sys.executable, "-m", "yars.dataset", str(plan or self.plan), "--out", str(out or self.out), *map(str, arguments)]
 
 
 class EqualFiles(Kernels):

@@ -83,24 +83,24 @@ class Case(unittest.TestCase):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="yars-dataset-"))
         self.addCleanup(shutil.rmtree, self.folder, True)
         (self.folder / "town.flt").write_bytes(b"a scene that the made-up radar does not read")
-        self.spec = self.write_spec()
+        self.plan = self.write_spec()
         self.out = self.folder / "out"
 
-    def write_spec(self, name="spec.yaml", **changes):
+    def write_spec(self, name="specification.yaml", **changes):
         values = {"count": self.count, "block": self.block, "output": self.output, **changes}
         path = self.folder / name
         path.write_text(SPEC.format(**values))
         return path
 
-    def command(self, *arguments, out=None, spec=None):
-        return [sys.executable, str(HERE / "dataset_fake_maker.py"), str(spec or self.spec), "--out", str(out or self.out), *map(str, arguments)]
+    def command(self, *arguments, out=None, plan=None):
+        return [sys.executable, str(HERE / "dataset_fake_maker.py"), str(plan or self.plan), "--out", str(out or self.out), *map(str, arguments)]
 
     def start(self, *arguments, environment=None, **options):
         return subprocess.Popen(self.command(*arguments), env={**os.environ, **(environment or {})}, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                 text=True, **options)
 
-    def run_it(self, *arguments, code=0, out=None, spec=None, environment=None, **options):
-        done = subprocess.run(self.command(*arguments, out=out, spec=spec), env={**os.environ, **(environment or {})}, capture_output=True, text=True,
+    def run_it(self, *arguments, code=0, out=None, plan=None, environment=None, **options):
+        done = subprocess.run(self.command(*arguments, out=out, plan=plan), env={**os.environ, **(environment or {})}, capture_output=True, text=True,
                               check=False, timeout=300, **options)
         self.assertEqual(done.returncode, code, done.stderr + done.stdout)
         return done
@@ -138,7 +138,7 @@ class EqualFiles(Case):
 
     def test_items_do_not_depend_on_the_block(self):
         self.reference()
-        self.run_it(spec=self.write_spec("other.yaml", block=37))
+        self.run_it(plan=self.write_spec("other.yaml", block=37))
         first, second = Dataset(self.folder / "reference"), Dataset(self.out)
         for item in (0, 36, 37, 1999):
             for name in ("video", "object", "boxes"):
@@ -162,7 +162,7 @@ class Formats(Case):
         self.run_it()
         for compression in ("none", "lz4"):
             out = self.folder / compression
-            self.run_it(out=out, spec=self.write_spec("npz.yaml", output=f", format: npz, compression: {compression}"))
+            self.run_it(out=out, plan=self.write_spec("npz.yaml", output=f", format: npz, compression: {compression}"))
             for item in (0, 20):
                 with np.load(out / f"items/000000/{item:09d}.npz") as archive:
                     self.assertEqual(archive["video"].tolist(), Dataset(self.out)[item]["video"].tolist())
@@ -189,7 +189,7 @@ class Formats(Case):
             data[21]
 
     def test_coco_and_png(self):
-        self.run_it(spec=self.write_spec("coco.yaml", output=", coco: true, png: true, manifest_boxes: true"))
+        self.run_it(plan=self.write_spec("coco.yaml", output=", coco: true, png: true, manifest_boxes: true"))
         coco = json.loads((self.out / "annotations.json").read_text())
         self.assertEqual(len(coco["images"]), 21)
         self.assertEqual(len(coco["annotations"]), 42)
@@ -210,13 +210,13 @@ class Formats(Case):
             import rasterio
         except ImportError:
             self.skipTest("rasterio is not installed")
-        self.run_it(spec=self.write_spec("tif.yaml", output=", geotiff: [video, object]"))
+        self.run_it(plan=self.write_spec("tif.yaml", output=", geotiff: [video, object]"))
         with rasterio.open(self.out / "geotiff/000000/000000003.object.tif") as raster:
             self.assertEqual(raster.read(1).tolist(), Dataset(self.out)[3]["object"].tolist())
             self.assertIn("Azimuthal", raster.crs.to_wkt())
             self.assertEqual(raster.transform.a, 10.0)
         again = self.folder / "again"
-        self.run_it(out=again, spec=self.folder / "tif.yaml")
+        self.run_it(out=again, plan=self.folder / "tif.yaml")
         self.assertEqual(tree(again), tree(self.out))
 
 
@@ -260,7 +260,7 @@ class Resume(Case):
         self.run_it()
         before = tree(self.out)
         for changes in ({"count": 201}, {"block": 9}, {"output": ", compression: zstd"}):
-            done = self.run_it(spec=self.write_spec("other.yaml", **changes), code=1)
+            done = self.run_it(plan=self.write_spec("other.yaml", **changes), code=1)
             self.assertIn("another specification", done.stderr)
         (self.folder / "town.flt").write_bytes(b"another scene")
         self.assertIn("fingerprint", self.run_it(code=1).stderr)
@@ -268,7 +268,7 @@ class Resume(Case):
 
     def test_comments_may_change(self):
         self.run_it()
-        self.spec.write_text("# a comment\n" + self.spec.read_text())
+        self.plan.write_text("# a comment\n" + self.plan.read_text())
         self.run_it()
 
     def test_a_folder_with_other_files_is_refused(self):
@@ -418,18 +418,18 @@ class Arguments(Case):
             self.assertIn(word, self.run_it(*arguments, code=2).stderr)
 
     def test_no_specification(self):
-        done = self.run_it(spec=self.folder / "none.yaml", code=1)
+        done = self.run_it(plan=self.folder / "none.yaml", code=1)
         self.assertIn("none.yaml: expected a specification, found none", done.stderr)
         self.assertNotIn("Traceback", done.stderr)
 
     def test_absent_scene(self):
         (self.folder / "town.flt").unlink()
-        self.assertIn("spec.yaml:4: expected an OpenFlight file, found none", self.run_it(code=1).stderr)
+        self.assertIn("specification.yaml:4: expected an OpenFlight file, found none", self.run_it(code=1).stderr)
 
     def test_unknown_class(self):
-        text = self.spec.read_text().replace("objects: house", "objects: hause")
-        self.spec.write_text(text)
-        self.assertIn("spec.yaml:7: expected a class of the scenes' objects (car, house)", self.run_it(code=1).stderr)
+        text = self.plan.read_text().replace("objects: house", "objects: hause")
+        self.plan.write_text(text)
+        self.assertIn("specification.yaml:7: expected a class of the scenes' objects (car, house)", self.run_it(code=1).stderr)
 
     def test_check(self):
         self.assertIn("good; 200 items in 25 blocks", self.run_it("--check").stdout)

@@ -45,11 +45,11 @@ def sampler_of(text, ground=elevation):
     with tempfile.NamedTemporaryFile("w", suffix=".yaml") as file:
         file.write(text)
         file.flush()
-        spec = read_spec(file.name)
+        plan = read_spec(file.name)
     objects = np.array([("house", 37.51, -122.51), ("car", 37.52, -122.52), ("house", 37.53, -122.53)],
                        [("name", "U8"), ("latitude", "f8"), ("longitude", "f8")])
-    centres = np.array([scene.at[:2] for scene in spec.scenes]).reshape(-1, 2)
-    return sampling.Sampler(spec, LIMITS, sampling.World(ground, centres, objects, [str(name) for name in objects["name"]]))
+    centres = np.array([scene.at[:2] for scene in plan.scenes]).reshape(-1, 2)
+    return sampling.Sampler(plan, LIMITS, sampling.World(ground, centres, objects, [str(name) for name in objects["name"]]))
 
 
 def kolmogorov(values, cumulative):
@@ -200,7 +200,7 @@ class Items(unittest.TestCase):
         self.assertEqual(texts, [sampler_of(SPEC).settings.text(run) for run in range(40)])
         self.assertEqual(len(set(texts)), 40)
         self.assertTrue(any("RainCell" in text for text in texts) and any("RainCell" not in text for text in texts))
-        self.assertIsInstance(Settings.fields(sampler.spec), list)
+        self.assertIsInstance(Settings.fields(sampler.plan), list)
 
     def test_an_impossible_item_is_one_clear_error(self):
         sampler = sampler_of(SPEC.replace("[500, 25000]", "[500, 600]"), lambda latitude, longitude: np.full(np.shape(latitude), 5000.0))

@@ -27,7 +27,7 @@ geometry:
 def faults_of(text, opened=False):
     """Messages of a specification, without the path of its file."""
     with tempfile.TemporaryDirectory() as folder:
-        path = pathlib.Path(folder) / "spec.yaml"
+        path = pathlib.Path(folder) / "specification.yaml"
         path.write_bytes(text if isinstance(text, bytes) else text.encode())
         try:
             if opened:

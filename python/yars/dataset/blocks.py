@@ -42,14 +42,14 @@ def _finite(value):
 class BlockMaker:
     """Makes blocks of a data set. `class_ids`: index of each object's class in `classes`; -1: ignored."""
 
-    def __init__(self, spec, store, sampler, maker, class_ids):
-        self.spec, self.store, self.sampler, self.maker = spec, store, sampler, maker
+    def __init__(self, plan, store, sampler, maker, class_ids):
+        self.plan, self.store, self.sampler, self.maker = plan, store, sampler, maker
         self._class_ids = np.asarray(class_ids, np.int32)
         self._ignores = bool((self._class_ids < 0).any())
-        self._encoders = {name: formats.codec(spec.compression, name) for name in spec.arrays} if spec.format == "zarr" else {}
-        self._npz = formats.Npz(spec.compression != "none")
+        self._encoders = {name: formats.codec(plan.compression, name) for name in plan.arrays} if plan.format == "zarr" else {}
+        self._npz = formats.Npz(plan.compression != "none")
         self._drawn = sampler.settings.drawn()
-        if spec.geotiff:
+        if plan.geotiff:
             import rasterio  # noqa: F401  loaded before the fork: shared by all workers
 
     def draw(self, blocks):
@@ -72,9 +72,9 @@ class BlockMaker:
         for name, array in arrays.items():
             if name != "video":
                 hashes[name] = [self.store.hash(item) for item in array]
-        if self.spec.format == "zarr":
+        if self.plan.format == "zarr":
             for name, array in arrays.items():
-                put(f"chips.zarr/{name}/{block}.0.0", formats.zarr_chunk(array, self.spec.block, self._encoders[name]))
+                put(f"chips.zarr/{name}/{block}.0.0", formats.zarr_chunk(array, self.plan.block, self._encoders[name]))
             if boxes is not None:
                 put(self.store.boxes_name(block), _npy(boxes))
         edges = np.searchsorted(boxes["item"], sample.items[0] + np.arange(len(sample.items) + 1)) if boxes is not None else None
@@ -93,13 +93,13 @@ class BlockMaker:
             part = slice_sample(sample, first, last)
             result = self.maker.patches(part.orders, part.movers, self.sampler.settings.text(int(runs[first])))
             results.append(result)
-            if "object" in self.spec.arrays:
+            if "object" in self.plan.arrays:
                 boxes.append(self._boxes(result["boxes"], part.items))
         def joined(name):
             return results[0][name] if len(results) == 1 else np.concatenate([result[name] for result in results])
-        shape = (len(runs), self.spec.size, self.spec.size)
+        shape = (len(runs), self.plan.size, self.plan.size)
         arrays = {}
-        for name in self.spec.arrays:
+        for name in self.plan.arrays:
             arrays[name] = np.ascontiguousarray(joined(name), formats.TYPES[name])
             if arrays[name].shape != shape:
                 raise DatasetError(f"expected the array {name} with the shape {shape}, found {arrays[name].shape}; this is a fault of YARS")
@@ -107,7 +107,7 @@ class BlockMaker:
 
     def _boxes(self, found, items):
         """Boxes as BOX, in the order of items, without ignored classes and those with too few pixels."""
-        kept = np.flatnonzero(found["pixels"] >= self.spec.min_pixels)
+        kept = np.flatnonzero(found["pixels"] >= self.plan.min_pixels)
         order, thing = found["order"][kept], found["object"][kept]
         if self._ignores:
             wanted = self._class_ids[thing] >= 0
@@ -125,19 +125,19 @@ class BlockMaker:
 
     def _write_items(self, sample, arrays, geo, boxes, edges, put):
         """Files of single items: NPZ, PNG, GeoTIFF."""
-        spec = self.spec
-        if spec.format != "npz" and not spec.png and not spec.geotiff:
+        plan = self.plan
+        if plan.format != "npz" and not plan.png and not plan.geotiff:
             return
         for at, item in enumerate(sample.items.tolist()):
-            if spec.format == "npz":
+            if plan.format == "npz":
                 content = {name: array[at] for name, array in arrays.items()}
                 content["geo"], content["order"] = geo[at:at + 1], sample.orders[at:at + 1]
                 if boxes is not None:
                     content["boxes"] = boxes[edges[at]:edges[at + 1]]
                 put(self.store.item_name("items", item, ".npz"), self._npz.encode(content))
-            if spec.png:
+            if plan.png:
                 put(self.store.item_name("png", item, ".png"), formats.png(arrays["video"][at]))
-            for name in spec.geotiff:
+            for name in plan.geotiff:
                 put(self.store.item_name("geotiff", item, f".{name}.tif"), formats.geotiff(arrays[name][at], geo[at]))
 
     def _lines(self, sample, geo, hashes, boxes, edges):
@@ -162,7 +162,7 @@ class BlockMaker:
                 line["movers"] = movers[at]
             if settings:
                 line["settings"] = settings[runs[at]]
-            if self.spec.manifest_boxes and boxes is not None:
+            if self.plan.manifest_boxes and boxes is not None:
                 line["box_list"] = [dict(zip(BOX.names[1:], _plain(box)[1:])) for box in boxes[edges[at]:edges[at + 1]].tolist()]
             lines.append(dump(line))
         return ("\n".join(lines) + "\n").encode()
@@ -170,7 +170,7 @@ class BlockMaker:
     def _settings(self, run):
         values = self.sampler.settings.values(run)
         rain = self.sampler.settings.rain(run)
-        return {**values, "rain": rain} if self.spec.rain else values
+        return {**values, "rain": rain} if self.plan.rain else values
 
 
 def _plain(values):

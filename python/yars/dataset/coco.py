@@ -10,19 +10,19 @@ from .blocks import dump
 
 def annotations(store):
     """Parts of the file, as bytes. Categories count from 1; ids of images are items, ids of annotations count from 1."""
-    spec = store.spec
+    plan = store.plan
     classes = json.loads(files.read(store.path("objects.json")))["classes"]
     categories = [{"id": number + 1, "name": name} for number, name in enumerate(classes)]
     info = {"description": "radar chips of YARS", "version": store.mark}
     yield f'{{"info":{dump(info)},"licenses":[],"categories":{dump(categories)},\n"images":[\n'.encode()
-    for block in range(spec.blocks):
+    for block in range(plan.blocks):
         first, last = store.items(block)
-        images = [dump({"id": item, "width": spec.size, "height": spec.size, "file_name": picture(store, item)})
+        images = [dump({"id": item, "width": plan.size, "height": plan.size, "file_name": picture(store, item)})
                   for item in range(first, last)]
         yield (("" if block == 0 else ",\n") + ",\n".join(images)).encode()
     yield b'\n],\n"annotations":[\n'
     number = 1
-    for block in range(spec.blocks):
+    for block in range(plan.blocks):
         boxes = boxes_of(store, block)
         if not len(boxes):
             continue
@@ -34,12 +34,12 @@ def annotations(store):
 
 def picture(store, item):
     """Picture of an item, relative to the folder."""
-    return store.item_name("png", item, ".png") if store.spec.png else store.item_name("geotiff", item, ".video.tif")
+    return store.item_name("png", item, ".png") if store.plan.png else store.item_name("geotiff", item, ".video.tif")
 
 
 def boxes_of(store, block):
     """Boxes of a block as BOX."""
-    if store.spec.format == "zarr":
+    if store.plan.format == "zarr":
         return np.load(store.path(store.boxes_name(block)))
     return np.concatenate([np.load(store.path(store.item_name("items", item, ".npz")))["boxes"] for item in range(*store.items(block))])
 

@@ -26,31 +26,31 @@ WARM_ITEMS = 16
 
 
 def open_store(spec_path, folder):
-    """(spec, limits, store) of a specification, with all checks that need no terrain. Raises SpecError, DatasetError."""
-    spec = read_spec(spec_path)
-    settings = Settings(spec, Streams(spec.seed, Settings.fields(spec)))
-    limits = read_limits(spec, settings.checked_lines())
-    feasibility.check(spec, limits)
-    store = Store(spec, folder, "")
-    store.mark = fingerprint(spec, scene_paths(spec, store))
-    return spec, limits, store
+    """(plan, limits, store) of a specification, with all checks that need no terrain. Raises SpecError, DatasetError."""
+    plan = read_spec(spec_path)
+    settings = Settings(plan, Streams(plan.seed, Settings.fields(plan)))
+    limits = read_limits(plan, settings.checked_lines())
+    feasibility.check(plan, limits)
+    store = Store(plan, folder, "")
+    store.mark = fingerprint(plan, scene_paths(plan, store))
+    return plan, limits, store
 
 
 def prepare(spec_path, folder):
-    """(spec, store) of a folder that is ready for blocks: general files, made-up terrain and scenes."""
-    spec, _, store = open_store(spec_path, folder)
+    """(plan, store) of a folder that is ready for blocks: general files, made-up terrain and scenes."""
+    plan, _, store = open_store(spec_path, folder)
     store.begin()
     files.remove_leftovers(folder)
-    for scene, path in zip(spec.scenes, scene_paths(spec, store)):
+    for scene, path in zip(plan.scenes, scene_paths(plan, store)):
         if scene.generate and not os.path.exists(path):
             origin = ",".join(f"{number:.12g}" for number in scene.at)
             _generate(path, ["scene", "generate", "--kind", scene.generate, "--triangles", str(scene.triangles), "--seed", str(scene.seed),
                              f"--origin={origin}"])
-    made = spec.terrain_generate
+    made = plan.terrain_generate
     if made and not os.path.isdir(store.path("terrain")):
         _generate(store.path("terrain"), ["terrain", "generate"] + [
             f"--{name.replace('_', '-')}={value}" for name, value in made.items()] + ["--airfields=soil"])
-    return spec, store
+    return plan, store
 
 
 def _generate(path, arguments):
@@ -76,8 +76,8 @@ def _generate(path, arguments):
             pathlib.Path(temporary).unlink(missing_ok=True)
 
 
-def scene_paths(spec, store):
-    return [scene.file or store.path(f"scenes/{number}_{scene.generate}.flt") for number, scene in enumerate(spec.scenes)]
+def scene_paths(plan, store):
+    return [scene.file or store.path(f"scenes/{number}_{scene.generate}.flt") for number, scene in enumerate(plan.scenes)]
 
 
 def _centre(scene, path):
@@ -95,26 +95,26 @@ def _centre(scene, path):
 def load(spec_path, folder, maker_name=MAKER, mark=None, warm=True):
     """BlockMaker of a prepared folder. Reads terrain and scenes; with `warm`, those of items from the whole set. `mark`: the
     fingerprint that the coordinator found."""
-    spec, limits, store = open_store(spec_path, folder)
+    plan, limits, store = open_store(spec_path, folder)
     if mark and mark != store.mark:
         raise DatasetError(f"{spec_path}: expected the specification, terrain and scenes that the run began with (fingerprint {mark}), found others "
                            f"({store.mark}); have all computers see the same files")
-    paths = scene_paths(spec, store)
-    terrain = store.path("terrain") if spec.terrain_generate else spec.terrain
+    paths = scene_paths(plan, store)
+    terrain = store.path("terrain") if plan.terrain_generate else plan.terrain
     module, _, function = maker_name.partition(":")
-    scenes = [(path, scene.at if scene.file else None, scene.without) for scene, path in zip(spec.scenes, paths)]
-    maker = getattr(importlib.import_module(module), function)(spec, terrain, scenes)
-    labels = [spec.class_of(str(name)) for name in maker.objects["name"]]
+    scenes = [(path, scene.at if scene.file else None, scene.without) for scene, path in zip(plan.scenes, paths)]
+    maker = getattr(importlib.import_module(module), function)(plan, terrain, scenes)
+    labels = [plan.class_of(str(name)) for name in maker.objects["name"]]
     classes = sorted({label for label in labels if label})
     ids = [classes.index(label) if label else -1 for label in labels]
     # For targets at scenes only: a given file without `at` is asked for its origin.
-    centres = [_centre(scene, path) for scene, path in zip(spec.scenes, paths)] if any(target.scenes for target in spec.targets) else []
-    sampler = Sampler(spec, limits, World(maker.elevation, np.array(centres, float).reshape(-1, 2), maker.objects, labels))
+    centres = [_centre(scene, path) for scene, path in zip(plan.scenes, paths)] if any(target.scenes for target in plan.targets) else []
+    sampler = Sampler(plan, limits, World(maker.elevation, np.array(centres, float).reshape(-1, 2), maker.objects, labels))
     _write_objects(store, maker.objects, labels, classes)
     if warm:
-        step = max(1, spec.count // WARM_ITEMS)
-        maker.warm(sampler.draw(np.arange(0, spec.count, step)[:WARM_ITEMS]), sampler.settings.text(0))
-    return BlockMaker(spec, store, sampler, maker, ids)
+        step = max(1, plan.count // WARM_ITEMS)
+        maker.warm(sampler.draw(np.arange(0, plan.count, step)[:WARM_ITEMS]), sampler.settings.text(0))
+    return BlockMaker(plan, store, sampler, maker, ids)
 
 
 def _write_objects(store, objects, labels, classes):

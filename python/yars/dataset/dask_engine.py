@@ -22,8 +22,8 @@ class SharedHost:
     """The host process of this Dask worker, used by all its threads."""
 
     def __init__(self, key, workers):
-        spec, folder, maker, mark = self.key = key
-        self._process = HostProcess(spec, folder, workers, maker, mark, with_parent=False)
+        plan, folder, maker, mark = self.key = key
+        self._process = HostProcess(plan, folder, workers, maker, mark, with_parent=False)
         self._waiting, self._guard, self.dead = {}, threading.Lock(), False
         self._reader = threading.Thread(target=self._read, daemon=True)
         self._reader.start()
@@ -67,11 +67,11 @@ class SharedHost:
         self._process.close()
 
 
-def make_block(spec, folder, maker, mark, block):
+def make_block(plan, folder, maker, mark, block):
     """Task: makes a block on this Dask worker. Returns the answer of its host; an error is an answer, too."""
     global _host  # pylint: disable=global-statement
     from distributed import get_worker
-    key = spec, folder, maker, mark
+    key = plan, folder, maker, mark
     with _lock:
         if _host is None or _host.dead or _host.key != key:
             if _host is not None:
@@ -123,7 +123,7 @@ def _submit_all(client, options, mark, blocks, progress):
 
     def submit(block):
         tries[block] += 1
-        future = client.submit(make_block, options.spec, options.out, options.maker, mark, block, pure=False,
+        future = client.submit(make_block, options.plan, options.out, options.maker, mark, block, pure=False,
                                key=f"yars-{mark[:8]}-{block}-{tries[block]}")
         flying[future.key] = block
         return future

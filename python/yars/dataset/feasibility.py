@@ -24,16 +24,16 @@ def impossible(law, intervals):
     return ", ".join(f"{a:g} to {b:g}" for a, b in pieces)
 
 
-def windows_of(spec, limits):
+def windows_of(plan, limits):
     """Windows [NM] that the specification can give; None: an interval of them."""
-    if spec.window_nm is None:
+    if plan.window_nm is None:
         return [limits.power_up_nm]
-    return list(spec.window_nm.ends()) if isinstance(spec.window_nm, (Fixed, Choice)) else None
+    return list(plan.window_nm.ends()) if isinstance(plan.window_nm, (Fixed, Choice)) else None
 
 
-def range_intervals(spec, limits, window):
+def range_intervals(plan, limits, window):
     """Ground ranges [NM] at which a window can be mapped."""
-    low, high = (0.0, math.inf) if spec.geometry["force"] else limits.windows[window]
+    low, high = (0.0, math.inf) if plan.geometry["force"] else limits.windows[window]
     return [(max(low, NEAREST_WINDOWS * window), high)]
 
 
@@ -43,44 +43,44 @@ def squint_intervals(limits):
     return [(low, min(high, limits.azimuth_deg))] if low < limits.azimuth_deg else []
 
 
-def check(spec, limits):
+def check(plan, limits):
     """Raises SpecError with every fault at its line."""
     faults = []
 
     def fault(key, expected, found, action):
-        faults.append(f"{spec.where(key)}: expected {expected}, found {found}; {action}")
+        faults.append(f"{plan.where(key)}: expected {expected}, found {found}; {action}")
 
     forced = "or set geometry.force: true"
-    for setting in spec.settings:
+    for setting in plan.settings:
         slots = DECIDING.get(setting.form, ())
         if not isinstance(setting.value, (list, Fixed)) and (slots is None or setting.slot in slots):
-            faults.append(f"{spec.path}:{setting.line}: expected one value for {setting.form}.{setting.slot}, found a "
+            faults.append(f"{plan.path}:{setting.line}: expected one value for {setting.form}.{setting.slot}, found a "
                           "distribution; it decides what the radar can map and has to be the same for all items")
-    windows = windows_of(spec, limits)
-    if not spec.geometry["force"]:
+    windows = windows_of(plan, limits)
+    if not plan.geometry["force"]:
         known = ", ".join(f"{window:g}" for window in limits.windows)
         unknown = ["an interval"] if windows is None else [f"{window:g}" for window in windows if window not in limits.windows]
         if unknown:
             fault("chip.window_nm", f"windows of the radar ({known} NM)", ", ".join(unknown), f"choose from them, {forced}")
             windows = []
-        outside = impossible(spec.geometry["squint_deg"], squint_intervals(limits))
+        outside = impossible(plan.geometry["squint_deg"], squint_intervals(limits))
         if outside:
             low, high = (squint_intervals(limits) or [(0, 0)])[0]
             fault("geometry.squint_deg", f"angles off the track between blind zone and gimbal ({low:g} to {high:g} deg)", outside,
                   f"give others, {forced}")
-    for window in windows if windows is not None else [spec.window_nm.ends()[-1]]:
-        low, high = range_intervals(spec, limits, window)[0]
-        outside = impossible(spec.geometry["range_nm"], [(low, high)])
+    for window in windows if windows is not None else [plan.window_nm.ends()[-1]]:
+        low, high = range_intervals(plan, limits, window)[0]
+        outside = impossible(plan.geometry["range_nm"], [(low, high)])
         if outside:
             fault("geometry.range_nm", f"ranges at which the window of {window:g} NM can be mapped ({low:g} to {high:g} NM)", outside,
                   f"give others, {forced}")
-    _check_heights(spec, limits, fault)
+    _check_heights(plan, limits, fault)
     if faults:
         raise SpecError("\n".join(faults))
 
 
-def _check_heights(spec, limits, fault):
-    geometry = spec.geometry
+def _check_heights(plan, limits, fault):
+    geometry = plan.geometry
     if geometry["force"]:
         return
     if "depression_deg" in geometry:

@@ -34,13 +34,13 @@ def codec(name, array):
     return numcodecs.Blosc(cname=name, clevel=1, shuffle=_SHUFFLES.get(array, numcodecs.Blosc.NOSHUFFLE))
 
 
-def zarr_metadata(spec):
+def zarr_metadata(plan):
     """{path: text} of the metadata of a Zarr group, version 2."""
     files = {".zgroup": {"zarr_format": 2}, ".zattrs": {"description": "radar chips of YARS; see dataset.json"}}
-    for name in spec.arrays:
-        encoder, kind = codec(spec.compression, name), np.dtype(TYPES[name])
+    for name in plan.arrays:
+        encoder, kind = codec(plan.compression, name), np.dtype(TYPES[name])
         files[f"{name}/.zarray"] = {
-            "zarr_format": 2, "shape": [spec.count, spec.size, spec.size], "chunks": [spec.block, spec.size, spec.size],
+            "zarr_format": 2, "shape": [plan.count, plan.size, plan.size], "chunks": [plan.block, plan.size, plan.size],
             "dtype": kind.str, "compressor": encoder and encoder.get_config(), "fill_value": "NaN" if kind.kind == "f" else 0,
             "order": "C", "filters": None}
         files[f"{name}/.zattrs"] = {"_ARRAY_DIMENSIONS": ["item", "row", "column"], "units": UNITS[name], "long_name": MEANINGS[name]}

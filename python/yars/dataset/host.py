@@ -184,7 +184,7 @@ class Host:
 
 
 def main(arguments):
-    spec, folder, count, maker_name, mark, with_parent = arguments
+    plan, folder, count, maker_name, mark, with_parent = arguments
     if int(with_parent):
         die_with_parent(int(with_parent))
     output = os.dup(1)
@@ -194,7 +194,7 @@ def main(arguments):
     from .context import load
     host = None
     try:
-        maker = load(spec, folder, maker_name, mark)
+        maker = load(plan, folder, maker_name, mark)
         host = Host(maker, int(count))
         signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
         host.run(output)

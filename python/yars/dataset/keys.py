@@ -1,4 +1,4 @@
-"""Table of all keys of a specification: kind, range, unit, default, purpose. spec.py checks files by it, and
+"""Table of all keys of a specification: kind, range, unit, default, purpose. yars.dataset.spec checks files by it, and
 `python3 -m yars.dataset --keys` prints it for docs/datasets.md. A key of a list's item has the path of its list."""
 import collections
 

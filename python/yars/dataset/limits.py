@@ -74,13 +74,13 @@ def printed(path):
     return output
 
 
-def read_limits(spec, lines):
+def read_limits(plan, lines):
     """Limits of the specification's radar. `lines`: (GUF text of one line, line of the specification) of its knobs and
     settings, which are checked here. Raises SpecError at the specification's line."""
     try:
-        text = printed(spec.config)
+        text = printed(plan.config)
     except DatasetError as error:
-        raise SpecError(f"{spec.where('radar.config')}: {error}") from None
+        raise SpecError(f"{plan.where('radar.config')}: {error}") from None
     if not lines:
         return parse(text)
     first = text.count("\n") + 1
@@ -93,10 +93,10 @@ def read_limits(spec, lines):
         for match in filter(None, map(found.match, (messages + output).splitlines())):
             at = int(match.group(1)) - first
             if 0 <= at < len(lines) and ("ignored" in match.group(2) or "expected" in match.group(2)):
-                faults.append(f"{spec.path}:{lines[at][1]}: {match.group(2)}")
+                faults.append(f"{plan.path}:{lines[at][1]}: {match.group(2)}")
         if faults:
             raise SpecError("\n".join(dict.fromkeys(faults)))
         try:
             return parse(printed(path))
         except DatasetError as error:
-            raise SpecError(f"{spec.where('radar')}: {error}") from None
+            raise SpecError(f"{plan.where('radar')}: {error}") from None

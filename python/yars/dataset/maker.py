@@ -37,10 +37,10 @@ def converted(rows, kind):
 class YarsMaker:
     """The kernels of YARS over one terrain and its scenes."""
 
-    def __init__(self, spec, terrain, scenes):
+    def __init__(self, plan, terrain, scenes):
         """`terrain`: folder or None; `scenes`: list of (path, at, without)."""
         import yars
-        self._yars, self._spec = yars, spec
+        self._yars, self._spec = yars, plan
         try:
             yars.Terrain  # raises MissingPart, an Error, without the compiled part  # pylint: disable=pointless-statement
             self._terrain = yars.Terrain(terrain) if terrain else yars.Terrain()
@@ -56,19 +56,19 @@ class YarsMaker:
 
     @functools.lru_cache(maxsize=4)
     def _radar(self, settings):
-        spec = self._spec
-        arguments = dict(spec.knobs, map_size=spec.size, settings=settings)
-        if spec.config:
-            arguments["config"] = spec.config
-        return self._yars.Radar(*([spec.preset] if spec.preset else []), **arguments)
+        plan = self._spec
+        arguments = dict(plan.knobs, map_size=plan.size, settings=settings)
+        if plan.config:
+            arguments["config"] = plan.config
+        return self._yars.Radar(*([plan.preset] if plan.preset else []), **arguments)
 
     def patches(self, orders, movers, settings):
-        spec = self._spec
+        plan = self._spec
         arguments = {"movers": converted(movers, self._yars.MOVER)} if len(movers) else {}
         try:
             return self._radar(settings).patches(self._terrain, converted(orders, self._yars.PATCH_ORDER),
-                                                 scene=self._scene, arrays=spec.arrays, threads=1,
-                                                 force=spec.geometry["force"], **arguments)
+                                                 scene=self._scene, arrays=plan.arrays, threads=1,
+                                                 force=plan.geometry["force"], **arguments)
         except (ValueError, self._yars.Error) as error:
             raise DatasetError(str(error)) from None
 
@@ -77,5 +77,5 @@ class YarsMaker:
         self.patches(sample.orders, sample.movers, settings)
 
 
-def open_maker(spec, terrain, scenes):
-    return YarsMaker(spec, terrain, scenes)
+def open_maker(plan, terrain, scenes):
+    return YarsMaker(plan, terrain, scenes)

@@ -40,11 +40,11 @@ def raise_interrupted(number, _):
 class HostProcess:
     """A host process and its pipes. `with_parent`: it dies with the thread that starts it."""
 
-    def __init__(self, spec, folder, workers, maker, mark, with_parent=True):
+    def __init__(self, plan, folder, workers, maker, mark, with_parent=True):
         package = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
         paths = os.pathsep.join([package] + [path for path in sys.path if path and path != package])
         self.process = subprocess.Popen(
-            [sys.executable, "-m", "yars.dataset.host", str(spec), str(folder), str(workers), maker, mark,
+            [sys.executable, "-m", "yars.dataset.host", str(plan), str(folder), str(workers), maker, mark,
              str(os.getpid() if with_parent else 0)],
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0, start_new_session=True, env={**os.environ, "PYTHONPATH": paths})
         self.lines = Lines(self.process.stdout.fileno())
@@ -119,7 +119,7 @@ def run_local(options, mark, blocks, progress):
     """Makes blocks with the workers of one host process."""
     workers = max(1, min(options.workers, len(blocks)))
     todo, flying, restarts = collections.deque(batches(blocks, workers)), set(), 0
-    host = HostProcess(options.spec, options.out, workers, options.maker, mark)
+    host = HostProcess(options.plan, options.out, workers, options.maker, mark)
     try:
         while todo or flying:
             while todo and len(flying) < 2 * MOST_BATCH * workers:
@@ -145,7 +145,7 @@ def run_local(options, mark, blocks, progress):
                                        "Try fewer --workers")
                 todo.extendleft([block] for block in sorted(flying, reverse=True))
                 flying.clear()
-                host = HostProcess(options.spec, options.out, workers, options.maker, mark)
+                host = HostProcess(options.plan, options.out, workers, options.maker, mark)
     finally:
         host.close()
 
@@ -174,7 +174,7 @@ def count_of(text):
 
 def parser():
     result = argparse.ArgumentParser(prog="yars dataset", description="make radar chips with labels by a specification file")
-    result.add_argument("spec", metavar="SPEC", nargs="?", help="specification, a YAML file (docs/datasets.md)")
+    result.add_argument("plan", metavar="SPEC", nargs="?", help="specification, a YAML file (docs/datasets.md)")
     result.add_argument("--out", metavar="DIR", help="folder of the data set; an interrupted one is completed")
     result.add_argument("--workers", metavar="N", type=count_of, default=len(os.sched_getaffinity(0)),
                         help="number of processes (default: one for each core of this process)")
@@ -193,10 +193,10 @@ def main(arguments=None, maker=context.MAKER):
     if options.keys:
         print(keys.markdown())
         return 0
-    if not options.spec or not (options.out or options.check):
-        parser().error("expected SPEC" + (", found none; give a specification file" if not options.spec else " and --out DIR, found no --out"))
+    if not options.plan or not (options.out or options.check):
+        parser().error("expected SPEC" + (", found none; give a specification file" if not options.plan else " and --out DIR, found no --out"))
     options.maker = maker
-    options.spec = os.path.abspath(options.spec) if options.dask else options.spec
+    options.plan = os.path.abspath(options.plan) if options.dask else options.plan
     options.out = os.path.abspath(options.out) if options.out and options.dask else options.out
     handlers = {number: signal.signal(number, raise_interrupted) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
@@ -215,12 +215,12 @@ def main(arguments=None, maker=context.MAKER):
 
 def run(options):
     if options.check:
-        spec = context.open_store(options.spec, options.out or os.curdir)[0]
-        print(f"{options.spec}: good; {spec.count:,} items in {spec.blocks:,} blocks")
+        plan = context.open_store(options.plan, options.out or os.curdir)[0]
+        print(f"{options.plan}: good; {plan.count:,} items in {plan.blocks:,} blocks")
         return 0
-    spec, store = context.prepare(options.spec, options.out)
+    plan, store = context.prepare(options.plan, options.out)
     shard, shards = options.shard
-    blocks = [] if options.merge else list(range(shard, spec.blocks, shards))
+    blocks = [] if options.merge else list(range(shard, plan.blocks, shards))
     faults = {block: store.fault(block, options.verify) for block in blocks}
     todo = [block for block in blocks if faults[block]]
     for block in [block for block in todo if faults[block] != "absent"][:MOST_ERROR_LINES]:

@@ -1,7 +1,7 @@
 """Items of a data set: poses of the aircraft, targets and movers, drawn by counter. Item k is a function of the
 specification and k. A block of items is drawn by array operations; order and size of blocks change no bit.
 
-    sampler = Sampler(spec, limits, world)      # world: ground, scenes, objects; see World
+    sampler = Sampler(plan, limits, world)      # world: ground, scenes, objects; see World
     sample = sampler.draw(numpy.arange(0, 64))  # orders and movers for radar.patches"""
 import collections
 import dataclasses
@@ -41,53 +41,53 @@ class Sample:
     items: np.ndarray
     orders: np.ndarray    # ORDER
     movers: np.ndarray    # MOVER; `order` counts from the first item of the sample
-    entry: np.ndarray     # index into spec.targets
+    entry: np.ndarray     # index into plan.targets
     object: np.ndarray    # index of the target's object; -1: none
     attempt: np.ndarray   # redraws of each item
 
 
 class Sampler:
-    def __init__(self, spec, limits, world):
-        self.spec, self.limits, self.world = spec, limits, world
+    def __init__(self, plan, limits, world):
+        self.plan, self.limits, self.world = plan, limits, world
         # Drawn once for an item, so that redraws do not shift the weights of entries and windows.
-        self._kept = Streams(spec.seed, ["target.entry", "geometry.side", "chip.window_nm", "chip.looks"])
+        self._kept = Streams(plan.seed, ["target.entry", "geometry.side", "chip.window_nm", "chip.looks"])
         names = ["target.first", "target.second"]
         names += [f"target.{name}" for name in ("north_m", "east_m")] + [f"geometry.{name}" for name in _GEOMETRY]
-        self._streams = Streams(spec.seed, names)
-        fields = Settings.fields(spec)
-        self.settings = Settings(spec, Streams(spec.seed, fields))
-        self._movers = [Streams(spec.seed, [f"movers.{group}.{name}" for name in ("count", *_MOVER)])
-                        for group in range(len(spec.movers))]
-        self._entries = Choice(range(len(spec.targets)), [target.weight for target in spec.targets])
-        self._picks = [self._candidates(target) for target in spec.targets]
-        self._offsets = any(law.plain() != 0.0 for target in spec.targets for law in (target.north_m, target.east_m))
-        self._window = spec.window_nm or Fixed(limits.power_up_nm)
-        self._looks = spec.looks or Fixed(limits.looks)
+        self._streams = Streams(plan.seed, names)
+        fields = Settings.fields(plan)
+        self.settings = Settings(plan, Streams(plan.seed, fields))
+        self._movers = [Streams(plan.seed, [f"movers.{group}.{name}" for name in ("count", *_MOVER)])
+                        for group in range(len(plan.movers))]
+        self._entries = Choice(range(len(plan.targets)), [target.weight for target in plan.targets])
+        self._picks = [self._candidates(target) for target in plan.targets]
+        self._offsets = any(law.plain() != 0.0 for target in plan.targets for law in (target.north_m, target.east_m))
+        self._window = plan.window_nm or Fixed(limits.power_up_nm)
+        self._looks = plan.looks or Fixed(limits.looks)
         self._reach = np.array([[window, *ends] for window, ends in sorted(limits.windows.items())])
 
     def _candidates(self, target):
         """Objects, or scenes, at which an entry's centres lie."""
         if target.scenes is not None:
-            return np.arange(len(self.spec.scenes)) if target.scenes == "all" else np.array(target.scenes)
+            return np.arange(len(self.plan.scenes)) if target.scenes == "all" else np.array(target.scenes)
         if target.objects is None:
             return None
         known = sorted({label for label in self.world.classes if label})
         for label in target.objects:
             if label not in known:
-                raise SpecError(f"{self.spec.path}:{target.line}: expected a class of the scenes' objects "
+                raise SpecError(f"{self.plan.path}:{target.line}: expected a class of the scenes' objects "
                                 f"({', '.join(known) or 'none'}) for targets.objects, found {label}")
         return np.flatnonzero([label in target.objects for label in self.world.classes])
 
     def run_of(self, items):
         """Runs of items that share settings and weather."""
-        return np.asarray(items) // self.spec.every if self.settings.drawn() else np.zeros(len(items), np.int64)
+        return np.asarray(items) // self.plan.every if self.settings.drawn() else np.zeros(len(items), np.int64)
 
     def draw(self, items):
         """Sample of the items. Raises DatasetError if an item stays impossible."""
         items = np.asarray(items, np.int64)
         sample = Sample(items, np.zeros(len(items), ORDER), None, np.zeros(len(items), np.int32),
                         np.full(len(items), -1, np.int32), np.zeros(len(items), np.int32))
-        left, reasons, most = np.arange(len(items)), collections.Counter(), self.spec.geometry["attempts"]
+        left, reasons, most = np.arange(len(items)), collections.Counter(), self.plan.geometry["attempts"]
         begin, width = 0, 1
         kept = self._kept.uniform(items)
         while begin < most:
@@ -106,13 +106,13 @@ class Sampler:
             reasons.update(_REASONS[code] for code in problem[problem > 0])
             left, begin, width = left[problem[row] > 0], begin + width, width * 4
         text = ", ".join(f"{reason} {number} times" for reason, number in reasons.most_common())
-        raise DatasetError(f"{self.spec.where('geometry')}: expected a possible geometry for item {items[left[0]]} in "
-                           f"{self.spec.geometry['attempts']} draws, found none: {text}; change geometry or targets, or raise "
+        raise DatasetError(f"{self.plan.where('geometry')}: expected a possible geometry for item {items[left[0]]} in "
+                           f"{self.plan.geometry['attempts']} draws, found none: {text}; change geometry or targets, or raise "
                            "geometry.attempts")
 
     def _attempt(self, items, attempt, kept):
         u = dict(zip(self._streams.names + self._kept.names, [*self._streams.uniform(items, attempt), *kept]))
-        spec, geometry = self.spec, self.spec.geometry
+        plan, geometry = self.plan, self.plan.geometry
         window, looks = self._window.sample(u["chip.window_nm"]), self._looks.sample(u["chip.looks"])
         entry, latitude, longitude, thing = self._draw_targets(u)
         drawn = {name: geometry[name].sample(u[f"geometry.{name}"]) for name in _GEOMETRY if name in geometry}
@@ -146,11 +146,11 @@ class Sampler:
 
     def _draw_targets(self, u):
         """(entry, latitude, longitude, object) of each item."""
-        spec = self.spec
+        plan = self.plan
         entry = self._entries.index(u["target.entry"]).astype(np.int32)
         latitude, longitude, north_m, east_m = np.zeros((4, len(entry)))
         thing = np.full(len(entry), -1, np.int32)
-        for number, target in enumerate(spec.targets):
+        for number, target in enumerate(plan.targets):
             at = np.flatnonzero(entry == number)
             if not len(at):
                 continue
@@ -178,7 +178,7 @@ class Sampler:
     def _range_limits(self, window):
         """Least and greatest ground range [NM] for each window."""
         nearest = NEAREST_WINDOWS * window
-        if self.spec.geometry["force"]:
+        if self.plan.geometry["force"]:
             return nearest, np.full(len(window), np.inf)
         row = self._reach[np.minimum(np.searchsorted(self._reach[:, 0], window), len(self._reach) - 1)]
         return np.maximum(row[:, 1], nearest), row[:, 2]
@@ -187,14 +187,14 @@ class Sampler:
         """Index into _REASONS for each item; 0: possible."""
         problem = np.zeros(len(orders), np.int8)
         problem[(range_nm < limits_nm[0]) | (range_nm > limits_nm[1])] = 1
-        if not self.spec.geometry["force"]:
+        if not self.plan.geometry["force"]:
             off = np.minimum(squint, 180.0 - squint)
             problem[off < self.limits.blind_zone_deg] = 2
             problem[squint > self.limits.azimuth_deg] = 3
             steep = np.degrees(np.arctan2(np.abs(orders["altitude_ft"] * FOOT_M - target_m), range_nm * MILE_M))
             problem[steep > self.limits.elevation_deg] = 4
             problem[orders["altitude_ft"] * FOOT_M < beneath_m + 0.01] = 5
-        for number, target in enumerate(self.spec.targets):
+        for number, target in enumerate(self.plan.targets):
             if target.on != "any":
                 sea = target_m == 0.0
                 problem[(entry == number) & (sea if target.on == "land" else ~sea)] = 6
@@ -202,7 +202,7 @@ class Sampler:
 
     def _draw_movers(self, sample):
         parts = []
-        for streams, group in zip(self._movers, self.spec.movers):
+        for streams, group in zip(self._movers, self.plan.movers):
             most = max(group["count"].ends())
             if most == 0:
                 continue

@@ -21,10 +21,10 @@ def guf(value):
     return f"{round(float(value), 9):.12g}"
 
 
-def fidelity_line(spec):
+def fidelity_line(plan):
     """The form Fidelity of preset and knobs; None without them."""
-    slots = [f":preset {spec.preset}"] if spec.preset else []
-    slots += [f":{re.sub('_([a-z0-9])', lambda found: found.group(1).upper(), name)} {guf(value)}" for name, value in spec.knobs.items()]
+    slots = [f":preset {plan.preset}"] if plan.preset else []
+    slots += [f":{re.sub('_([a-z0-9])', lambda found: found.group(1).upper(), name)} {guf(value)}" for name, value in plan.knobs.items()]
     return f"( Fidelity {' '.join(slots)} )" if slots else None
 
 
@@ -35,23 +35,23 @@ def is_drawn(value):
 class Settings:
     """Settings of a specification. `text(run)`: GUF of a run of items; `values(run)`: its drawn values by name."""
 
-    def __init__(self, spec, streams):
-        self.spec, self._streams = spec, streams
-        self._slots = [(setting.form, setting.slot, setting.value) for setting in spec.settings]
-        self._slots += [("Sea", _WEATHER[name], value) for name, value in spec.weather.items()]
+    def __init__(self, plan, streams):
+        self.plan, self._streams = plan, streams
+        self._slots = [(setting.form, setting.slot, setting.value) for setting in plan.settings]
+        self._slots += [("Sea", _WEATHER[name], value) for name, value in plan.weather.items()]
 
     @staticmethod
-    def fields(spec):
+    def fields(plan):
         """Names of the streams that settings draw from."""
-        names = [f"radar.{setting.form}.{setting.slot}" for setting in spec.settings]
-        names += [f"radar.Sea.{_WEATHER[name]}" for name in spec.weather]
-        if spec.rain:
+        names = [f"radar.{setting.form}.{setting.slot}" for setting in plan.settings]
+        names += [f"radar.Sea.{_WEATHER[name]}" for name in plan.weather]
+        if plan.rain:
             names += [f"rain.{name}" for name in ("cells", "latitude", "longitude", *_RAIN)]
         return list(dict.fromkeys(names))
 
     def drawn(self):
         """True if not all runs have equal settings."""
-        return self.spec.rain is not None or any(is_drawn(value) for _, _, value in self._slots)
+        return self.plan.rain is not None or any(is_drawn(value) for _, _, value in self._slots)
 
     def values(self, run):
         """{form.slot: value} of the drawn slots of a run."""
@@ -65,15 +65,15 @@ class Settings:
 
     def rain(self, run):
         """List of showers of a run: (latitude, longitude, radius, rate, top)."""
-        if not self.spec.rain:
+        if not self.plan.rain:
             return []
         row = self._streams.row
-        count = int(self.spec.rain["cells"].sample(self._streams.uniform(np.array([run]))[row["rain.cells"]])[0])
+        count = int(self.plan.rain["cells"].sample(self._streams.uniform(np.array([run]))[row["rain.cells"]])[0])
         u = self._streams.uniform(np.full(count, run), draw=np.arange(count))
-        south, west, north, east = self.spec.rain_area
+        south, west, north, east = self.plan.rain_area
         latitude = south + u[row["rain.latitude"]] * (north - south)
         longitude = (west + u[row["rain.longitude"]] * ((east - west) % 360.0) + 180.0) % 360.0 - 180.0
-        others = [self.spec.rain[name].sample(u[row[f"rain.{name}"]]) for name in _RAIN]
+        others = [self.plan.rain[name].sample(u[row[f"rain.{name}"]]) for name in _RAIN]
         return [tuple(round(float(value), 9) for value in cell) for cell in zip(latitude, longitude, *others)]
 
     def text(self, run):
@@ -84,18 +84,18 @@ class Settings:
             value = drawn.get(f"{form}.{slot}", value.value if isinstance(value, Fixed) else value)
             forms.setdefault(form, []).append(f":{slot} {guf(value)}")
         lines = [f"( {form} {' '.join(slots)} )" for form, slots in forms.items()]
-        if self.spec.rain:
+        if self.plan.rain:
             lines.append("( Rain `( " + " ".join(f"( RainCell {' '.join(map(guf, cell))} )" for cell in self.rain(run)) + " ) )")
-        return " ".join([f"( Noise :seed {self.spec.seed} )"] + lines)
+        return " ".join([f"( Noise :seed {self.plan.seed} )"] + lines)
 
     def checked_lines(self):
         """[(GUF, line of the specification)]: each end that a setting can have, for a check by YARS."""
         lines = []
-        fidelity = fidelity_line(self.spec)
+        fidelity = fidelity_line(self.plan)
         if fidelity:
-            known = [self.spec.lines[key] for key in ("radar.knobs", "radar.preset", "radar") if key in self.spec.lines]
+            known = [self.plan.lines[key] for key in ("radar.knobs", "radar.preset", "radar") if key in self.plan.lines]
             lines.append((fidelity, known[0]))
-        for setting in self.spec.settings:
+        for setting in self.plan.settings:
             value = setting.value
             ends = [value] if isinstance(value, list) else value.ends()
             if isinstance(value, Normal):

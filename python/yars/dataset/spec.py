@@ -1,6 +1,6 @@
 """Specification of a data set: a YAML file, read, checked and completed by defaults. Keys: keys.py, docs/datasets.md.
 
-    spec = read_spec("town.yaml")         # SpecError: every fault as FILE:LINE: expected ..., found ...; ...
+    plan = read_spec("town.yaml")         # SpecError: every fault as FILE:LINE: expected ..., found ...; ...
 Checks that need the radar's limits, terrain or scenes follow in world.py."""
 import dataclasses
 import fnmatch
@@ -107,31 +107,31 @@ class Spec:
 class _SpecReader(Reader):
     def __init__(self, path, text):
         super().__init__(path, text)
-        self.spec = Spec(path)
+        self.plan = Spec(path)
 
     def note(self, path, node):
-        self.spec.lines.setdefault(path, node.start_mark.line + 1)
+        self.plan.lines.setdefault(path, node.start_mark.line + 1)
 
     def read(self):
         if self.root is None:
             raise SpecError(f"{self.path}: expected a specification, found an empty file; begin with examples/dataset_town.yaml")
         top = self.section(self.root, "")
-        spec = self.spec
+        plan = self.plan
         for name, node in top.items():
             self.note(name, node)
         for name in ("count", "seed"):
             if name in top:
-                setattr(spec, name, self.key_number(top[name], KEYS[name]) or 0)
+                setattr(plan, name, self.key_number(top[name], KEYS[name]) or 0)
         for name in ("chip", "radar", "weather", "terrain", "scenes", "targets", "geometry", "movers", "classes", "output"):
             if name in top:
                 getattr(self, "_" + name)(top[name])
-        if not spec.targets and spec.scenes and "targets" not in top:
-            spec.targets.append(Target(1, Fixed(0.0), Fixed(0.0), scenes="all"))
-        elif not spec.targets and not self.faults:
+        if not plan.targets and plan.scenes and "targets" not in top:
+            plan.targets.append(Target(1, Fixed(0.0), Fixed(0.0), scenes="all"))
+        elif not plan.targets and not self.faults:
             self.fault(self.root, "targets, or scenes to put them on", "neither", "add targets: with an area")
         self._together()
         self.finish()
-        return spec
+        return plan
 
     def values(self, node, path, names=None):
         """{name: value} of the scalar and drawn keys of a section."""
@@ -160,7 +160,7 @@ class _SpecReader(Reader):
 
     def _path(self, node, key):
         text = self.text(node, key)
-        return None if text is None else str(self.spec.folder / text)
+        return None if text is None else str(self.plan.folder / text)
 
     def _place(self, node, path, least_count):
         """[latitude, longitude, ...] or [south, west, north, east]."""
@@ -180,22 +180,22 @@ class _SpecReader(Reader):
     def _chip(self, node):
         for name, value in self.values(node, "chip").items():
             if value is not None:
-                setattr(self.spec, name, value)
+                setattr(self.plan, name, value)
 
     def _output(self, node):
         for name, value in self.values(node, "output").items():
             if value is not None:
-                setattr(self.spec, name, value)
+                setattr(self.plan, name, value)
 
     def _radar(self, node):
         values = self.values(node, "radar")
         for name in ("preset", "config", "every"):
             if values.get(name) is not None:
-                setattr(self.spec, name, values[name])
+                setattr(self.plan, name, values[name])
         if "knobs" in values:
             for name, (key, value) in self.mapping(values["knobs"], "knobs as a section").items():
                 self.note(f"radar.knobs.{name}", key)
-                self.spec.knobs[name] = self._slot_value(value, KEYS["radar.knobs"])
+                self.plan.knobs[name] = self._slot_value(value, KEYS["radar.knobs"])
         if "settings" in values:
             for form, (key, slots) in self.mapping(values["settings"], "settings as a section of GUF forms").items():
                 if not _SLOT.match(form):
@@ -211,7 +211,7 @@ class _SpecReader(Reader):
         else:
             value = self.drawn(node, KEYS["radar.settings"]._replace(path=f"radar.settings.{form}.{slot}"), self._slot_value)
         if value is not None:
-            self.spec.settings.append(Setting(form, slot, value, at.start_mark.line + 1))
+            self.plan.settings.append(Setting(form, slot, value, at.start_mark.line + 1))
 
     def _slot_value(self, node, key):
         """Number, true, false or text of a GUF slot; a quoted text stays a string."""
@@ -231,13 +231,13 @@ class _SpecReader(Reader):
     def _weather(self, node):
         values = self.values(node, "weather")
         rain = values.pop("rain", None)
-        self.spec.weather = {name: value for name, value in values.items() if value is not None}
+        self.plan.weather = {name: value for name, value in values.items() if value is not None}
         if rain is None:
             return
         values = self.values(rain, "weather.rain")
         if "area" in values:
-            self.spec.rain_area = self._place(values.pop("area"), "weather.rain.area", 4)
-        self.spec.rain = self._complete(values, "weather.rain")
+            self.plan.rain_area = self._place(values.pop("area"), "weather.rain.area", 4)
+        self.plan.rain = self._complete(values, "weather.rain")
 
     def _complete(self, values, path):
         """Values of the drawn keys with their defaults."""
@@ -248,7 +248,7 @@ class _SpecReader(Reader):
 
     def _terrain(self, node):
         if isinstance(node, yaml.ScalarNode):
-            self.spec.terrain = self._path(node, KEYS["terrain"])
+            self.plan.terrain = self._path(node, KEYS["terrain"])
             return
         inner = self.section(node, "terrain").get("generate")
         if inner is None:
@@ -256,7 +256,7 @@ class _SpecReader(Reader):
                 self.fault(node, "a folder, or {generate: ...} for terrain", "neither")
             return
         defaults = {"cells_lat": 1, "cells_lon": 1, "level": 1, "seed": 12, "edge": "coast"}
-        self.spec.terrain_generate = {**defaults, **self.values(inner, "terrain.generate")}
+        self.plan.terrain_generate = {**defaults, **self.values(inner, "terrain.generate")}
 
     def _scenes(self, node):
         for item in self.items(node, "a list of scenes"):
@@ -271,7 +271,7 @@ class _SpecReader(Reader):
                 self.fault(item, "one of file and generate in an entry of scenes", "both" if "file" in values else "neither")
             if "generate" in values and "at" not in values:
                 self.fault(item, "the key at with a made-up scene", "none", "add at: [LATITUDE, LONGITUDE]")
-            self.spec.scenes.append(scene)
+            self.plan.scenes.append(scene)
 
     def _targets(self, node):
         for item in self.items(node, "a list of targets"):
@@ -285,10 +285,10 @@ class _SpecReader(Reader):
                 self.fault(item, "one of area, scenes and objects in an entry of targets", " and ".join(kinds) or "none")
             if "on" in values and "area" not in values:
                 self.fault(item, "the key on with an area", "it without")
-            if "objects" in values and not self.spec.scenes and self.root is not None and not self._has("scenes"):
+            if "objects" in values and not self.plan.scenes and self.root is not None and not self._has("scenes"):
                 self.fault(item, "scenes in the specification, for targets at objects", "none", "add scenes:")
-            self.spec.targets.append(Target(item.start_mark.line + 1, **values))
-        if self.spec.targets and not self.faults and sum(target.weight for target in self.spec.targets) <= 0:
+            self.plan.targets.append(Target(item.start_mark.line + 1, **values))
+        if self.plan.targets and not self.faults and sum(target.weight for target in self.plan.targets) <= 0:
             self.fault(node, "a weight above 0 in targets", "none")
 
     def _has(self, name):
@@ -298,7 +298,7 @@ class _SpecReader(Reader):
         if isinstance(node, yaml.ScalarNode) and node.value == "all":
             return "all"
         nodes = node.value if isinstance(node, yaml.SequenceNode) else [node]
-        most = len(self.spec.scenes) - 1
+        most = len(self.plan.scenes) - 1
         expected = f"all, or numbers of scenes in [0, {most}], for targets.scenes" if most >= 0 else "scenes in the specification"
         return [self.number(item, expected, True, 0, most) for item in nodes]
 
@@ -307,38 +307,38 @@ class _SpecReader(Reader):
         if ("altitude_ft" in values) == ("depression_deg" in values) and "range_nm" in values:
             self.fault(node, "one of altitude_ft and depression_deg in geometry",
                        "both" if "altitude_ft" in values else "neither")
-        self.spec.geometry = self._complete(values, "geometry")
+        self.plan.geometry = self._complete(values, "geometry")
         for name, value in (("side", "both"), ("force", False), ("attempts", 100)):
-            self.spec.geometry.setdefault(name, value)
+            self.plan.geometry.setdefault(name, value)
 
     def _movers(self, node):
         for item in self.items(node, "a list of groups of movers"):
-            self.spec.movers.append(self._complete(self.values(item, "movers"), "movers"))
+            self.plan.movers.append(self._complete(self.values(item, "movers"), "movers"))
 
     def _classes(self, node):
         for name, (_, value) in self.mapping(node, "classes as a section: NAME: PATTERN or [PATTERN, ...]").items():
             self.note(f"classes.{name}", value)
-            self.spec.classes[name] = [pattern for pattern in self.names(value, KEYS["scenes.without"]) if pattern]
+            self.plan.classes[name] = [pattern for pattern in self.names(value, KEYS["scenes.without"]) if pattern]
 
     def _together(self):
         """Faults of keys that do not fit each other."""
-        spec = self.spec
+        plan = self.plan
 
         def fault(key, text):
-            self.faults.append(f"{spec.where(key)}: {text}")
-        if not spec.arrays:
+            self.faults.append(f"{plan.where(key)}: {text}")
+        if not plan.arrays:
             fault("chip.arrays", f"expected at least one array, found none; choose from {', '.join(ARRAYS)}")
-        for name in spec.geotiff:
-            if name not in spec.arrays:
+        for name in plan.geotiff:
+            if name not in plan.arrays:
                 fault("output.geotiff", f"expected arrays of chip.arrays, found {name}; add it to chip.arrays")
-        for key, wanted in (("output.png", spec.png), ("output.coco", spec.coco and "object")):
+        for key, wanted in (("output.png", plan.png), ("output.coco", plan.coco and "object")):
             need = "object" if wanted == "object" else "video"
-            if wanted and need not in spec.arrays:
+            if wanted and need not in plan.arrays:
                 fault(key, f"expected the array {need} in chip.arrays, found none; add it")
-        if spec.coco and not spec.png and "video" not in spec.geotiff:
+        if plan.coco and not plan.png and "video" not in plan.geotiff:
             fault("output.coco", "expected pictures for it, found none; add png: true, or video to geotiff")
-        if spec.preset == "reference" and spec.size > 1024:
-            fault("chip.size", f"expected at most 1024 pixels with the preset reference, found {spec.size}")
+        if plan.preset == "reference" and plan.size > 1024:
+            fault("chip.size", f"expected at most 1024 pixels with the preset reference, found {plan.size}")
 
 
 def read_spec(path):

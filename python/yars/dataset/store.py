@@ -1,7 +1,7 @@
 """Folder of a data set: where its files lie, which blocks are whole, and the last step that joins the blocks' parts.
 
     DIR/dataset.json            count, arrays, fingerprint of the specification
-    DIR/spec.yaml               copy of the specification
+    DIR/specification.yaml   copy of the specification
     DIR/objects.json            classes, and the objects of the scenes
     DIR/chips.zarr/NAME/B.0.0   block B of an array; or DIR/items/KKK/K.npz
     DIR/boxes/BBB/B.npy         boxes of block B
@@ -20,33 +20,33 @@ from .maker import hasher
 FORMAT = 1  # of the folder; part of the fingerprint
 
 
-def fingerprint(spec, scene_paths):
+def fingerprint(plan, scene_paths):
     """Hash of everything that decides the items: the specification, and contents of the files that it names."""
     digest = hashlib.blake2b(digest_size=16)
-    digest.update(json.dumps([FORMAT, spec.plain()], sort_keys=True).encode())
-    for scene, path in zip(spec.scenes, scene_paths):
+    digest.update(json.dumps([FORMAT, plan.plain()], sort_keys=True).encode())
+    for scene, path in zip(plan.scenes, scene_paths):
         data = files.read(path) if scene.file else b""
         if data is None:
-            raise DatasetError(f"{spec.path}:{scene.line}: expected an OpenFlight file, found none: {path}; check the path")
+            raise DatasetError(f"{plan.path}:{scene.line}: expected an OpenFlight file, found none: {path}; check the path")
         digest.update(hashlib.blake2b(data, digest_size=16).digest())
-    if spec.config:
-        digest.update(limits.printed(spec.config).encode())
-    if spec.terrain:
-        if not os.path.isdir(spec.terrain):
-            raise DatasetError(f"{spec.where('terrain')}: expected a folder of elevation cells, found none: {spec.terrain}; check the path")
-        for folder, folders, names in os.walk(spec.terrain):
+    if plan.config:
+        digest.update(limits.printed(plan.config).encode())
+    if plan.terrain:
+        if not os.path.isdir(plan.terrain):
+            raise DatasetError(f"{plan.where('terrain')}: expected a folder of elevation cells, found none: {plan.terrain}; check the path")
+        for folder, folders, names in os.walk(plan.terrain):
             folders.sort()
             for name in sorted(names):
                 path = os.path.join(folder, name)
-                digest.update(f"{os.path.relpath(path, spec.terrain)} {os.path.getsize(path)}\n".encode())
+                digest.update(f"{os.path.relpath(path, plan.terrain)} {os.path.getsize(path)}\n".encode())
     return digest.hexdigest()
 
 
 class Store:
     """Paths and states of the blocks of one data set."""
 
-    def __init__(self, spec, folder, mark):
-        self.spec, self.folder, self.mark = spec, str(folder), mark
+    def __init__(self, plan, folder, mark):
+        self.plan, self.folder, self.mark = plan, str(folder), mark
         self.hash_name, self.hash = hasher()
 
     def path(self, name):
@@ -54,7 +54,7 @@ class Store:
 
     def items(self, block):
         """First item of a block, and the item after its last."""
-        return block * self.spec.block, min((block + 1) * self.spec.block, self.spec.count)
+        return block * self.plan.block, min((block + 1) * self.plan.block, self.plan.count)
 
     @staticmethod
     def part_name(block):
@@ -70,8 +70,8 @@ class Store:
 
     def begin(self):
         """Makes the folder and its general files, or checks that it belongs to this specification."""
-        about = {"format": FORMAT, "fingerprint": self.mark, "count": self.spec.count, "block": self.spec.block, "seed": self.spec.seed,
-                 "size": self.spec.size, "arrays": list(self.spec.arrays), "files": self.spec.format, "hash": self.hash_name}
+        about = {"format": FORMAT, "fingerprint": self.mark, "count": self.plan.count, "block": self.plan.block, "seed": self.plan.seed,
+                 "size": self.plan.size, "arrays": list(self.plan.arrays), "files": self.plan.format, "hash": self.hash_name}
         text = json.dumps(about, indent=1) + "\n"
         try:
             os.makedirs(self.folder, exist_ok=True)
@@ -83,15 +83,15 @@ class Store:
                 differs = [name for name, value in about.items() if json.loads(there).get(name) != value]
             except (ValueError, AttributeError):
                 differs = ["dataset.json, which is no JSON"]
-            raise DatasetError(f"{self.folder}: expected the data set of {self.spec.path}, found one of another specification (different: "
+            raise DatasetError(f"{self.folder}: expected the data set of {self.plan.path}, found one of another specification (different: "
                                f"{', '.join(differs)}); choose another --out, or remove this folder")
         if there is None:
             if any(name not in ("scenes", "terrain") and not name.startswith(".") for name in os.listdir(self.folder)):
                 raise DatasetError(f"{self.folder}: expected a new or empty folder, or a data set, found other files; choose another --out")
             files.write(self.path("dataset.json"), text.encode())
-        if not os.path.exists(self.path("spec.yaml")):
-            files.write(self.path("spec.yaml"), pathlib.Path(self.spec.path).read_bytes())
-        for name, content in (formats.zarr_metadata(self.spec) if self.spec.format == "zarr" else {}).items():
+        if not os.path.exists(self.path("specification.yaml")):
+            files.write(self.path("specification.yaml"), pathlib.Path(self.plan.path).read_bytes())
+        for name, content in (formats.zarr_metadata(self.plan) if self.plan.format == "zarr" else {}).items():
             if files.read(self.path(f"chips.zarr/{name}")) != content.encode():
                 files.write(self.path(f"chips.zarr/{name}"), content.encode())
 
@@ -129,25 +129,25 @@ class Store:
 
     def complete(self):
         """True if the parts of all blocks are there."""
-        return all(os.path.exists(self.path(self.part_name(block))) for block in range(self.spec.blocks))
+        return all(os.path.exists(self.path(self.part_name(block))) for block in range(self.plan.blocks))
 
     def merge(self, again):
         """Joins the parts to manifest.jsonl, and annotations.json if wanted. Several shards may do it at once: they write
         the same bytes. Without `again` only if something is absent. Returns blocks that are not whole."""
-        names = ["manifest.jsonl"] + (["annotations.json"] if self.spec.coco else [])
+        names = ["manifest.jsonl"] + (["annotations.json"] if self.plan.coco else [])
         if not again and all(os.path.exists(self.path(name)) for name in names):
             return []
         broken = []
 
         def lines():
-            for block in range(self.spec.blocks):
+            for block in range(self.plan.blocks):
                 head, text = self.read_part(block)
                 if head is None:
                     broken.append(block)
                 else:
                     yield text
         write_stream(self.path("manifest.jsonl"), lines(), lambda: not broken)
-        if self.spec.coco and not broken:
+        if self.plan.coco and not broken:
             from .coco import annotations
             write_stream(self.path("annotations.json"), annotations(self), lambda: True)
         return broken
