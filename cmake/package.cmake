@@ -50,7 +50,7 @@ yars.plot draws them by matplotlib. yars.session is the client of a running
 session: ownship and events in, sweeps and pictures out.")
 set(recommended "python3-matplotlib, python3-xarray, python3-zarr, python3-numcodecs, python3-yaml, python3-dask, python3-distributed")
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_RECOMMENDS "yars (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), ${recommended}")
-set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_SUGGESTS "python3-rasterio")
+set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_SUGGESTS "python3-rasterio, python3-pil")
 # Compiles the module's sources when it is installed, as Debian's own packages do.
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_CONTROL_EXTRA
   ${PROJECT_SOURCE_DIR}/packaging/debian/postinst ${PROJECT_SOURCE_DIR}/packaging/debian/prerm)

@@ -47,7 +47,6 @@ class BlockMaker:
         self._class_ids = np.asarray(class_ids, np.int32)
         self._ignores = bool((self._class_ids < 0).any())
         self._encoders = {name: formats.codec(plan.compression, name) for name in plan.arrays} if plan.format == "zarr" else {}
-        self._npz = formats.Npz(plan.compression != "none")
         self._drawn = sampler.settings.drawn()
         if plan.geotiff:
             import rasterio  # noqa: F401  loaded before the fork: shared by all workers
@@ -134,7 +133,7 @@ class BlockMaker:
                 content["geo"], content["order"] = geo[at:at + 1], sample.orders[at:at + 1]
                 if boxes is not None:
                     content["boxes"] = boxes[edges[at]:edges[at + 1]]
-                put(self.store.item_name("items", item, ".npz"), self._npz.encode(content))
+                put(self.store.item_name("items", item, ".npz"), formats.npz(content, plan.compression != "none"))
             if plan.png:
                 put(self.store.item_name("png", item, ".png"), formats.png(arrays["video"][at]))
             for name in plan.geotiff:
