@@ -105,16 +105,12 @@ class BlockMaker:
         return arrays, joined("hash").tolist(), joined("geo"), np.concatenate(boxes) if boxes else None
 
     def _boxes(self, found, items):
-        """Boxes as BOX, in the order of items, without ignored classes and those with too few pixels."""
+        """Boxes as BOX, in the order of items and of the radar, without ignored classes and those with too few pixels."""
         kept = np.flatnonzero(found["pixels"] >= self.plan.min_pixels)
         order, thing = found["order"][kept], found["object"][kept]
         if self._ignores:
             wanted = self._class_ids[thing] >= 0
             kept, order, thing = kept[wanted], order[wanted], thing[wanted]
-        key = (order.astype(np.int64) << 32) + thing
-        if (key[1:] < key[:-1]).any():
-            by = np.argsort(key, kind="stable")
-            kept, order, thing = kept[by], order[by], thing[by]
         boxes = np.empty(len(kept), BOX)
         boxes["item"], boxes["object"], boxes["class"] = items[order], thing, self._class_ids[thing]
         rows = found.view(f"V{found.dtype.itemsize}")[kept].view(found.dtype)  # whole rows are copied faster than structured ones
