@@ -38,15 +38,20 @@ struct Formation {
 };
 
 // Formations of one configuration that no call uses. A new one costs as much as some ten small maps.
+// A child of fork() has no threads of its parent; it makes formations of its own.
 class FormationPool {
  public:
+  ~FormationPool() { forget_those_of_the_parent(); }
   std::unique_ptr<Formation> take(const radar::RadarConfiguration& configuration, std::size_t threads,
                                   model::hrm::LabelUse labels);
   void give_back(std::unique_ptr<Formation> formation);
 
  private:
+  void forget_those_of_the_parent();
+
   std::mutex mutex_;
   std::vector<std::unique_ptr<Formation>> free_;
+  int process_ = 0;  // that has made the formations
 };
 
 py::dict patch_series(const radar::RadarConfiguration& configuration, FormationPool& pool,

@@ -41,6 +41,13 @@ std::string text_of(const py::handle& value) {
   if (py::hasattr(value, "__float__")) return py::repr(py::float_(py::reinterpret_borrow<py::object>(value)));
   return py::repr(value);
 }
+
+// Whether a value is this truth value, of Python or NumPy.
+bool is_truth(const py::handle& value, bool truth) {
+  if (py::isinstance<py::bool_>(value)) return value.ptr() == (truth ? Py_True : Py_False);
+  return py::isinstance(value, py::module_::import("numpy").attr("bool_")) &&
+         py::cast<bool>(value.attr("item")()) == truth;
+}
 }  // namespace
 
 std::vector<std::string> words_of(const py::kwargs& arguments) {
@@ -49,8 +56,8 @@ std::vector<std::string> words_of(const py::kwargs& arguments) {
     std::string option = "--" + py::cast<std::string>(key);
     for (char& letter : option)
       if (letter == '_') letter = '-';
-    if (value.is_none() || value.ptr() == Py_False) continue;
-    if (value.ptr() == Py_True) {
+    if (value.is_none() || is_truth(value, false)) continue;
+    if (is_truth(value, true)) {
       words.push_back(option);
       continue;
     }

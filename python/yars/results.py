@@ -9,11 +9,13 @@ arrays are bit for bit those of the commands, and `hash` is the hash that they p
 Errors: ValueError for arguments, yars.Error for files; the message is that of the command. Problems of single files are
 warnings. While a picture is computed other threads of Python run.
 """
+import json
+
 from . import _require
-from ._core import MOVER, PATCH_ORDER, Scene, Terrain, xxh3
+from ._core import MOVER, PATCH_ORDER, Recording, Scene, Terrain
 from . import _core
 
-__all__ = ["Radar", "Scan", "Patch", "Terrain", "Scene", "PATCH_ORDER", "MOVER"]
+__all__ = ["Radar", "Scan", "Patch", "Terrain", "Scene", "Recording", "trade", "PATCH_ORDER", "MOVER"]
 
 # Unit of each array; "1": a ratio; "": none. Meaning of each, for xarray and help.
 UNITS = {"power": "1", "video": "", "shadow": "", "layover": "", "object": "", "material": "", "height": "m",
@@ -95,6 +97,10 @@ class _Picture:
         attributes = {key: int(value) if isinstance(value, bool) else value for key, value in self.facts.items()}
         return xarray.Dataset(variables, coords, {**attributes, "hash": f"{self.hash:016x}"})
 
+    def __reduce__(self):
+        name = f"yars.{type(self).__name__}"
+        raise TypeError(f"{name}: expected an object that can be pickled, found a picture in memory; keep its arrays, or to_xarray()")
+
     def __repr__(self):
         shape = " x ".join(str(length) for length in self.video.shape)
         return f"<yars.{type(self).__name__} {shape} {' x '.join(self.axes)}, {self.facts['fidelity']}, hash {self.hash}>"
@@ -138,6 +144,10 @@ class Patch(_Picture):
         return self._result.array("y")
 
 
+def _radar(preset, config, settings, knobs):
+    return Radar(preset, config=config, settings=settings, **knobs)
+
+
 class Radar:
     """A radar: a configuration, and the pictures that it gives over a terrain.
 
@@ -149,6 +159,13 @@ class Radar:
 
     def __init__(self, preset=None, *, config=None, settings="", **knobs):
         self._core = _core.Radar(preset, config, settings, **knobs)
+        self._arguments = preset, config, settings, knobs
+
+    def __reduce__(self):  # made again from its arguments, in another process
+        return _radar, self._arguments
+
+    def __repr__(self):
+        return f"<yars.Radar {self.name!r}, {self.fidelity}>"
 
     @property
     def name(self):
@@ -203,4 +220,18 @@ class Radar:
         map; boxes, with the footprint of each object in each picture (column, row), its aspect and its pixels.
         Errors: ValueError names the order that is beyond the radar's limits; force leaves the limits out.
         """
-        return self._core.patches(terrain, orders, scene, movers, list(arrays), threads, force)
+        names = [arrays] if isinstance(arrays, str) else list(arrays)
+        return self._core.patches(terrain, orders, scene, movers, names, threads, force)
+
+
+def trade(terrain=None, radar=None, *, maps=False, **options):
+    """Speed against accuracy of presets and knobs, as `yars trade`; with maps=True as `yars trade maps`.
+
+    Returns a dict of the layout of `yars trade --out FILE.json`, which yars.plot.trade_front draws: points, a dict for each
+    candidate with mean, worst, worst_scene and scenes of each column (None: no value); scenes; axes.
+    terrain: Terrain; None: that of the radar's configuration, else the built-in hills. radar: Radar whose configuration is
+    used; its fidelity is not. options: those of the command, such as presets="1996,standard", knob=["samples=120,240"],
+    base, ruler, repeat, scene or view (lists of texts), scan_width, out and csv (files to write).
+    Other threads of Python run meanwhile, and make the times larger. Errors: ValueError for options, yars.Error for files.
+    """
+    return json.loads(_core.trade(maps, terrain, (radar or Radar())._core, **options))
