@@ -106,9 +106,12 @@ const ScanLabels& ScanResult::labels() {
         // Grazing angle on the profile: that on the level, plus the slope from the sample before.
         const double slope_rad =
             std::isnan(before_height_m) ? 0.0 : std::atan2(height_m - before_height_m, sample.distance_m - before_m);
-        if (sample.lit)
-          to.grazing_deg[i] = static_cast<float>(
-              std::max(std::asin(std::clamp(sight.sin_grazing, -1.0, 1.0)) + slope_rad, 0.0) / geo::kRadiansPerDegree);
+        if (sample.lit) {
+          const double grazing_deg =
+              (std::asin(std::clamp(sight.sin_grazing, -1.0, 1.0)) + slope_rad) / geo::kRadiansPerDegree;
+          // Below the aircraft a slope that faces it may be seen from beyond its perpendicular.
+          to.grazing_deg[i] = static_cast<float>(std::max(std::min(grazing_deg, 180.0 - grazing_deg), 0.0));
+        }
         before_m = sample.distance_m;
         before_height_m = height_m;
       }

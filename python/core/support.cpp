@@ -1,5 +1,6 @@
 #include "python/core/support.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/command/command.hpp"
@@ -78,7 +79,16 @@ void read_options(const std::string& name, const py::kwargs& arguments,
 }
 
 void Warnings::show(const std::string& command) {
+  constexpr std::size_t kMostLines = 5;  // of one call
+  std::vector<std::string> lines;
   for (const std::string& line : std::exchange(lines_, {}))
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+  if (lines.size() > kMostLines) {
+    const std::size_t more = lines.size() - kMostLines;
+    lines.resize(kMostLines);
+    lines.push_back("and " + std::to_string(more) + " more warnings");
+  }
+  for (const std::string& line : lines)
     if (PyErr_WarnEx(PyExc_UserWarning, (command + ": " + line).c_str(), 2) != 0) throw py::error_already_set();
 }
 
