@@ -134,7 +134,7 @@ TEST(DisplayFrames, InLockstepEqualThePngOfTheirTick) {
                                    "with Session(sys.argv[2], 'test') as session:\n"
                                    "    frame, pixels = session.newest_frame()\n"
                                    "    open(sys.argv[3], 'wb').write(pixels); print(frame['tick'], frame['width'])\n",
-                                   YARS_SOURCE_DIR "/examples", set.session(), (folder / "raw").string()});
+                                   YARS_SOURCE_DIR "/python", set.session(), (folder / "raw").string()});
   EXPECT_EQ(in_python.output, "800 480\n") << in_python.errors;
   EXPECT_TRUE(file_bytes(folder / "raw") == last->pixels);
 }

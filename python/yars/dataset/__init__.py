@@ -1,0 +1,19 @@
+"""Data sets of radar chips: made by `python3 -m yars.dataset SPEC --out DIR`, read by `Dataset(DIR)`.
+
+Inputs: a specification (YAML), terrain, scenes. Outputs: arrays with labels, oriented boxes, a manifest. docs/datasets.md."""
+from .errors import DatasetError, SpecError
+
+__all__ = ["Dataset", "DatasetError", "SpecError", "main", "read_spec"]
+
+
+def __getattr__(name):  # what needs numpy or yaml is loaded at first use
+    if name == "Dataset":
+        from .reader import Dataset
+        return Dataset
+    if name == "read_spec":
+        from .spec import read_spec
+        return read_spec
+    if name == "main":
+        from .run import main
+        return main
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

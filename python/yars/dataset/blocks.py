@@ -1,0 +1,184 @@
+"""Makes one block: draws its items, has the radar make their arrays, writes arrays, boxes and the block's part.
+
+All work is done by array operations over the block. The part is written last, so a block with a part is whole."""
+import io
+import json
+
+import numpy as np
+
+from . import files, formats
+from .errors import DatasetError
+from .sampling import Sample
+
+BOX = np.dtype([("item", "<i8"), ("object", "<i4"), ("class", "<i4"), ("pixels", "<i4"), ("aspect_deg", "<f4"),
+                ("corners", "<f4", (4, 2))])
+
+
+def slice_sample(sample, first, last):
+    """Items [first, last) of a sample."""
+    low, high = np.searchsorted(sample.movers["order"], (first, last))
+    movers = sample.movers[low:high].copy()
+    movers["order"] -= first
+    return Sample(sample.items[first:last], sample.orders[first:last], movers, sample.entry[first:last], sample.object[first:last],
+                  sample.attempt[first:last])
+
+
+def dump(value):
+    """One line of JSON; what is not finite is null."""
+    try:
+        return json.dumps(value, separators=(",", ":"), allow_nan=False)
+    except ValueError:
+        return json.dumps(_finite(value), separators=(",", ":"))
+
+
+def _finite(value):
+    if isinstance(value, dict):
+        return {name: _finite(item) for name, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not np.isfinite(value) else value
+
+
+class BlockMaker:
+    """Makes blocks of a data set. `class_ids`: index of each object's class in `classes`; -1: ignored."""
+
+    def __init__(self, plan, store, sampler, maker, class_ids):
+        self.plan, self.store, self.sampler, self.maker = plan, store, sampler, maker
+        self._class_ids = np.asarray(class_ids, np.int32)
+        self._ignores = bool((self._class_ids < 0).any())
+        self._encoders = {name: formats.codec(plan.compression, name) for name in plan.arrays} if plan.format == "zarr" else {}
+        self._npz = formats.Npz(plan.compression != "none")
+        self._drawn = sampler.settings.drawn()
+        if plan.geotiff:
+            import rasterio  # noqa: F401  loaded before the fork: shared by all workers
+
+    def draw(self, blocks):
+        """{block: Sample} of several blocks, drawn together."""
+        ranges = [np.arange(*self.store.items(block)) for block in blocks]
+        sample = self.sampler.draw(np.concatenate(ranges))
+        edges = np.cumsum([0] + [len(items) for items in ranges])
+        return {block: slice_sample(sample, edges[at], edges[at + 1]) for at, block in enumerate(blocks)}
+
+    def make(self, block, sample=None):
+        """Makes and writes a block. Returns (items, redraws). Raises DatasetError."""
+        sample = sample or self.draw([block])[block]
+        arrays, checks, geo, boxes = self.compute(sample)
+        names = {}
+
+        def put(name, data):
+            files.write(self.store.path(name), data)
+            names[name] = [memoryview(data).nbytes, f"{self.store.hash(data):016x}"]
+        hashes = {"video": checks} if "video" in arrays else {}
+        for name, array in arrays.items():
+            if name != "video":
+                hashes[name] = [self.store.hash(item) for item in array]
+        if self.plan.format == "zarr":
+            for name, array in arrays.items():
+                put(f"chips.zarr/{name}/{block}.0.0", formats.zarr_chunk(array, self.plan.block, self._encoders[name]))
+            if boxes is not None:
+                put(self.store.boxes_name(block), _npy(boxes))
+        edges = np.searchsorted(boxes["item"], sample.items[0] + np.arange(len(sample.items) + 1)) if boxes is not None else None
+        self._write_items(sample, arrays, geo, boxes, edges, put)
+        lines = self._lines(sample, geo, hashes, boxes, edges)
+        head = dump({"block": block, "dataset": self.store.mark, "files": names, "lines": f"{self.store.hash(lines):016x}"})
+        files.write(self.store.path(self.store.part_name(block)), head.encode() + b"\n", lines)
+        return len(sample.items), int(sample.attempt.sum())
+
+    def compute(self, sample):
+        """(arrays, video hashes, geo, boxes) of a sample: one call of the radar for each run of equal settings."""
+        runs = self.sampler.run_of(sample.items)
+        edges = np.concatenate([[0], np.flatnonzero(np.diff(runs)) + 1, [len(runs)]])
+        results, boxes = [], []
+        for first, last in zip(edges[:-1], edges[1:]):
+            part = slice_sample(sample, first, last)
+            result = self.maker.patches(part.orders, part.movers, self.sampler.settings.text(int(runs[first])))
+            results.append(result)
+            if "object" in self.plan.arrays:
+                boxes.append(self._boxes(result["boxes"], part.items))
+        def joined(name):
+            return results[0][name] if len(results) == 1 else np.concatenate([result[name] for result in results])
+        shape = (len(runs), self.plan.size, self.plan.size)
+        arrays = {}
+        for name in self.plan.arrays:
+            arrays[name] = np.ascontiguousarray(joined(name), formats.TYPES[name])
+            if arrays[name].shape != shape:
+                raise DatasetError(f"expected the array {name} with the shape {shape}, found {arrays[name].shape}; this is a fault of YARS")
+        return arrays, joined("hash").tolist(), joined("geo"), np.concatenate(boxes) if boxes else None
+
+    def _boxes(self, found, items):
+        """Boxes as BOX, in the order of items, without ignored classes and those with too few pixels."""
+        kept = np.flatnonzero(found["pixels"] >= self.plan.min_pixels)
+        order, thing = found["order"][kept], found["object"][kept]
+        if self._ignores:
+            wanted = self._class_ids[thing] >= 0
+            kept, order, thing = kept[wanted], order[wanted], thing[wanted]
+        key = (order.astype(np.int64) << 32) + thing
+        if (key[1:] < key[:-1]).any():
+            by = np.argsort(key, kind="stable")
+            kept, order, thing = kept[by], order[by], thing[by]
+        boxes = np.empty(len(kept), BOX)
+        boxes["item"], boxes["object"], boxes["class"] = items[order], thing, self._class_ids[thing]
+        rows = found.view(f"V{found.dtype.itemsize}")[kept].view(found.dtype)  # whole rows are copied faster than structured ones
+        for name in ("pixels", "aspect_deg", "corners"):
+            boxes[name] = rows[name]
+        return boxes
+
+    def _write_items(self, sample, arrays, geo, boxes, edges, put):
+        """Files of single items: NPZ, PNG, GeoTIFF."""
+        plan = self.plan
+        if plan.format != "npz" and not plan.png and not plan.geotiff:
+            return
+        for at, item in enumerate(sample.items.tolist()):
+            if plan.format == "npz":
+                content = {name: array[at] for name, array in arrays.items()}
+                content["geo"], content["order"] = geo[at:at + 1], sample.orders[at:at + 1]
+                if boxes is not None:
+                    content["boxes"] = boxes[edges[at]:edges[at + 1]]
+                put(self.store.item_name("items", item, ".npz"), self._npz.encode(content))
+            if plan.png:
+                put(self.store.item_name("png", item, ".png"), formats.png(arrays["video"][at]))
+            for name in plan.geotiff:
+                put(self.store.item_name("geotiff", item, f".{name}.tif"), formats.geotiff(arrays[name][at], geo[at]))
+
+    def _lines(self, sample, geo, hashes, boxes, edges):
+        """One line of JSON for each item."""
+        order_names, geo_names = sample.orders.dtype.names, geo.dtype.names
+        mover_names = sample.movers.dtype.names[1:]
+        movers = [[] for _ in sample.items]
+        for row in sample.movers.tolist():
+            movers[row[0]].append(dict(zip(mover_names, row[1:])))
+        runs = self.sampler.run_of(sample.items).tolist()
+        settings = {run: self._settings(run) for run in set(runs)} if self._drawn else {}
+        texts = {name: [f"{value:016x}" for value in values] for name, values in hashes.items()}
+        counts = np.diff(edges).tolist() if edges is not None else [0] * len(runs)
+        lines = []
+        for at, (item, order, place, entry, thing, redraws) in enumerate(zip(
+                sample.items.tolist(), sample.orders.tolist(), geo.tolist(), sample.entry.tolist(), sample.object.tolist(),
+                sample.attempt.tolist())):
+            line = {"item": item, "hash": {name: values[at] for name, values in texts.items()}, "order": dict(zip(order_names, order)),
+                    "target": entry, "target_object": thing, "redraws": redraws, "geo": dict(zip(geo_names, _plain(place))),
+                    "boxes": counts[at]}
+            if movers[at]:
+                line["movers"] = movers[at]
+            if settings:
+                line["settings"] = settings[runs[at]]
+            if self.plan.manifest_boxes and boxes is not None:
+                line["box_list"] = [dict(zip(BOX.names[1:], _plain(box)[1:])) for box in boxes[edges[at]:edges[at + 1]].tolist()]
+            lines.append(dump(line))
+        return ("\n".join(lines) + "\n").encode()
+
+    def _settings(self, run):
+        values = self.sampler.settings.values(run)
+        rain = self.sampler.settings.rain(run)
+        return {**values, "rain": rain} if self.plan.rain else values
+
+
+def _plain(values):
+    return [value.tolist() if isinstance(value, np.ndarray) else value for value in values]
+
+
+def _npy(array):
+    """Bytes of an .npy file."""
+    stream = io.BytesIO()
+    np.lib.format.write_array(stream, array, version=(1, 0))
+    return stream.getvalue()

@@ -1,0 +1,155 @@
+"""Table of all keys of a specification: kind, range, unit, default, purpose. yars.dataset.spec checks files by it, and
+`python3 -m yars.dataset --keys` prints it for docs/datasets.md. A key of a list's item has the path of its list."""
+import collections
+
+INFINITY = float("inf")
+
+# kind: whole, number, text, yes/no, list, section, path, place, names, any. `drawn`: a distribution is allowed. `most`: a
+# whole number or number lies in [least, most]; of a text, `values` are the words allowed.
+Key = collections.namedtuple("Key", "path kind least most unit drawn default text values", defaults=((),))
+
+ARRAYS = ("video", "power", "shadow", "layover", "object", "material", "height", "grazing_angle")
+PRESETS = ("1996", "draft", "standard", "fine", "reference")
+COMPRESSIONS = ("lz4", "zstd", "none")
+# Groups of sections, in the order of the documentation.
+SECTIONS = ("chip", "radar", "weather", "weather.rain", "terrain.generate", "scenes", "targets", "geometry", "movers",
+            "classes", "output")
+
+
+def _key(path, kind, ends=None, unit="", drawn=False, default="required", text="", values=()):
+    least, most = ends or (-INFINITY, INFINITY)
+    return Key(path, kind, least, most, unit, drawn, default, text, tuple(values))
+
+
+_ROWS = [
+    _key("count", "whole", (1, 10**12), text="number of items (chips)"),
+    _key("seed", "whole", (0, 2**53), default="1", text="seed of every draw; item k depends on the seed and on k alone"),
+    _key("chip", "section", default="see below", text="the picture"),
+    _key("radar", "section", default="the radar of YARS", text="the sensor"),
+    _key("weather", "section", default="the configuration's", text="sea, wind and rain"),
+    _key("terrain", "path", default="built-in hills", text="folder of elevation cells; or {generate: ...}"),
+    _key("scenes", "list", default="none", text="polygonal scenes on the terrain, given or generated"),
+    _key("targets", "list", default="at the scenes", text="where the chips' centres lie; an item takes one entry, by weight"),
+    _key("geometry", "section", text="where the aircraft is, seen from the target"),
+    _key("movers", "list", default="none", text="groups of moving targets"),
+    _key("classes", "section", default="names without digits", text="class: pattern or list of patterns of object names"),
+    _key("output", "section", default="see below", text="the files"),
+
+    _key("chip.size", "whole", (16, 4096), "pixels", default="128", text="pixels along the edge"),
+    _key("chip.window_nm", "number", (0.01, 200), "NM", True, "the radar's at power-up", "edge of the ground shown"),
+    _key("chip.looks", "whole", (1, 16), "", True, "the radar's for ML1", "number of looks to average"),
+    _key("chip.arrays", "names", default="[video, shadow, layover, object, material]", text="arrays to keep", values=ARRAYS),
+
+    _key("radar.preset", "text", default="the configuration's", text="fidelity", values=PRESETS),
+    _key("radar.config", "path", default="built-in APG-70", text="GUF file of the radar"),
+    _key("radar.knobs", "any", default="none", text="slots of the form Fidelity in snake_case, such as map_noise"),
+    _key("radar.settings", "any", drawn=True, default="none", text="GUF slots by form: {Receiver: {frequency: 9.4}}"),
+    _key("radar.every", "whole", (1, 10**9), "items", default="64",
+         text="settings and weather are drawn once for so many successive items"),
+
+    _key("weather.sea_state", "number", (0, 6), "WMO code 3700", True, "by the wind", "state of the sea"),
+    _key("weather.wind_speed_kt", "number", (0, 120), "kt", True, "the configuration's", "wind over the sea"),
+    _key("weather.wind_from_deg", "number", (0, 360), "deg", True, "the configuration's", "true direction of the wind's origin"),
+    _key("weather.rain", "section", default="the configuration's", text="showers"),
+    _key("weather.rain.cells", "whole", (0, 64), "", True, "1", "number of showers"),
+    _key("weather.rain.area", "place", unit="deg", text="[south, west, north, east] of their centres"),
+    _key("weather.rain.radius_nm", "number", (0.1, 100), "NM", True, "5", "radius of the rim"),
+    _key("weather.rain.rate_mm_h", "number", (0.1, 300), "mm/h", True, "10", "rate in the middle"),
+    _key("weather.rain.top_ft", "number", (500, 60000), "ft", True, "15000", "top above mean sea level"),
+
+    _key("terrain.generate", "section", default="none", text="made-up terrain, written to DIR/terrain"),
+    _key("terrain.generate.south", "whole", (-90, 89), "deg", text="south edge"),
+    _key("terrain.generate.west", "whole", (-180, 179), "deg", text="west edge"),
+    _key("terrain.generate.cells_lat", "whole", (1, 180), "", default="1", text="cells northward"),
+    _key("terrain.generate.cells_lon", "whole", (1, 360), "", default="1", text="cells eastward"),
+    _key("terrain.generate.level", "whole", (0, 2), "", default="1", text="DTED level"),
+    _key("terrain.generate.seed", "whole", (0, 2**53), "", default="12", text="seed of the landscape"),
+    _key("terrain.generate.edge", "text", default="coast", text="what is at the area's edge", values=("coast", "cut")),
+
+    _key("scenes.file", "path", default="none", text="OpenFlight file; this or `generate`"),
+    _key("scenes.generate", "text", default="none", text="kind of a made-up scene, written to DIR/scenes",
+         values=("airfield", "harbour", "bridge", "town")),
+    _key("scenes.triangles", "whole", (1, 8000000), "", default="20000", text="of a made-up scene: approximate number"),
+    _key("scenes.seed", "whole", (0, 2**53), "", default="1", text="of a made-up scene"),
+    _key("scenes.at", "place", unit="deg", default="the file's own", text="[latitude, longitude] or [latitude, longitude, heading]"),
+    _key("scenes.without", "names", default="[]", text="of a file: names of nodes to leave out, with * and ?"),
+
+    _key("targets.weight", "number", (0, 1e9), "", default="1", text="how often, relative to the other entries"),
+    _key("targets.area", "place", unit="deg", default="none", text="[south, west, north, east]: anywhere in it"),
+    _key("targets.on", "text", default="any", text="of an area: draw again until the centre is on",
+         values=("any", "land", "sea")),
+    _key("targets.scenes", "any", default="none", text="at the centre of a scene: all, or numbers from 0"),
+    _key("targets.objects", "names", default="none", text="at an object of these classes"),
+    _key("targets.north_m", "number", (-1e6, 1e6), "m", True, "0", "offset of the centre to the north"),
+    _key("targets.east_m", "number", (-1e6, 1e6), "m", True, "0", "offset of the centre to the east"),
+
+    _key("geometry.range_nm", "number", (0.01, 1000), "NM", True, text="ground range from the aircraft to the target"),
+    _key("geometry.altitude_ft", "number", (-3000, 600000), "ft", True, "this or depression_deg",
+         "altitude above mean sea level"),
+    _key("geometry.depression_deg", "number", (0.01, 89), "deg", True, "this or altitude_ft",
+         "angle of the line of sight below the horizontal, on a flat earth"),
+    _key("geometry.bearing_deg", "number", (-360, 360), "deg", True, "{uniform: [0, 360]}",
+         "true bearing of the target, at the target, of the line from the aircraft"),
+    _key("geometry.squint_deg", "number", (0, 180), "deg", True, "{uniform: [20, 60]}", "angle of the target off the ground track"),
+    _key("geometry.side", "text", default="both", text="side of the track on which the target lies",
+         values=("left", "right", "both")),
+    _key("geometry.speed_kt", "number", (0, 10000), "kt", True, "480", "speed over ground"),
+    _key("geometry.time_s", "number", (0, 1e8), "s", True, "0", "sim time, for movers of the configuration"),
+    _key("geometry.force", "yes/no", default="false", text="ignore the radar's limits"),
+    _key("geometry.attempts", "whole", (1, 10000), "", default="100",
+         text="draws of an item before the run ends with an error"),
+
+    _key("movers.count", "whole", (0, 64), "", True, "1", "number in an item"),
+    _key("movers.north_m", "number", (-1e6, 1e6), "m", True, "0", "position relative to the target"),
+    _key("movers.east_m", "number", (-1e6, 1e6), "m", True, "0", "position relative to the target"),
+    _key("movers.heading_deg", "number", (-360, 360), "deg", True, "{uniform: [0, 360]}", "true heading"),
+    _key("movers.speed_kt", "number", (0, 1000), "kt", True, "20", "speed"),
+    _key("movers.cross_section_m2", "number", (0.001, 1e7), "m2", True, "10", "radar cross section"),
+    _key("movers.height_m", "number", (0, 1000), "m", True, "3", "height above the ground"),
+
+    _key("output.format", "text", default="zarr", text="of the arrays", values=("zarr", "npz")),
+    _key("output.block", "whole", (1, 65536), "items", default="64", text="items of a block: the unit of work and of a chunk"),
+    _key("output.compression", "text", default="lz4", text="of the arrays, without loss", values=COMPRESSIONS),
+    _key("output.min_pixels", "whole", (0, 10**8), "pixels", default="1", text="boxes of objects with fewer labelled pixels are left out"),
+    _key("output.manifest_boxes", "yes/no", default="false", text="boxes in the lines of the manifest, too"),
+    _key("output.png", "yes/no", default="false", text="the video of each item as PNG"),
+    _key("output.geotiff", "names", default="[]", text="arrays to write as GeoTIFF, one file an item and array", values=ARRAYS),
+    _key("output.coco", "yes/no", default="false", text="annotations.json for COCO readers; needs png, or video in geotiff"),
+]
+
+KEYS = {row.path: row for row in _ROWS}
+
+
+def children(section):
+    """Names of the keys directly in a section; '' is the top of the file."""
+    prefix = section + "." if section else ""
+    return [path[len(prefix):] for path in KEYS if path.startswith(prefix) and "." not in path[len(prefix):]]
+
+
+def value_text(key):
+    """What a value of the key has to be, in words."""
+    bounds = ""
+    if key.least > -INFINITY:
+        bounds = f" in [{key.least:g}, {key.most:g}]" if key.most < 1e15 else f" in [{key.least:g}, 2^53]"
+    words = {"whole": f"a whole number{bounds}", "number": f"a number{bounds}", "yes/no": "true or false",
+             "list": "a list", "section": "a section (key: value, indented)", "path": "a path", "names": "a list of names",
+             "place": key.text.split(":")[0], "any": key.text, "text": "a word"}[key.kind]
+    if key.values:
+        words = ("a list of " if key.kind == "names" else "one of ") + ", ".join(key.values)
+    return words + (f" {key.unit}" if key.unit and key.kind in ("whole", "number") else "")
+
+
+def markdown():
+    """Tables of all keys for docs/datasets.md."""
+    lines = []
+    for section in ("",) + SECTIONS:
+        names = children(section)
+        if not names:
+            continue
+        lines += [f"### {section or 'The file'}", "", "| key | value | drawn | default | means |", "| --- | --- | --- | --- | --- |"]
+        for name in names:
+            key = KEYS[f"{section}.{name}" if section else name]
+            value = value_text(key) if key.kind not in ("any", "place") else key.kind.replace("any", "see right")
+            lines.append(f"| `{name}` | {value} | {'yes' if key.drawn else ''} | {key.default} | {key.text} |")
+        lines.append("")
+    return "\n".join(lines)

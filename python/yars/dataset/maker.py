@@ -1,0 +1,81 @@
+"""What makes the arrays: the compiled part of YARS. Tests put another maker in its place.
+
+A maker has `objects` (structured: name, latitude, longitude, ...), `elevation(latitudes, longitudes)` [m MSL],
+`patches(orders, movers, settings)` -> dict of arrays, and `warm(sample)`, which reads what workers are to share."""
+import functools
+import hashlib
+
+import numpy as np
+
+from .errors import DatasetError
+
+OBJECT = np.dtype([("name", "U64"), ("latitude", "f8"), ("longitude", "f8")])
+
+
+def hasher():
+    """(name, function bytes -> 64-bit hash): XXH3 of the compiled part, else BLAKE2b."""
+    try:
+        from yars._core import xxh3
+        return "XXH3-64", xxh3
+    except ImportError:
+        return "BLAKE2b-64", lambda data: int.from_bytes(hashlib.blake2b(data, digest_size=8).digest(), "little")
+
+
+def scene_text(path, at):
+    """FILE@LAT,LON,HDG as `yars patch --scene` takes it."""
+    return str(path) + ("@" + ",".join(f"{number:.12g}" for number in at) if at else "")
+
+
+def converted(rows, kind):
+    """A structured array with the fields of another type, by name."""
+    result = np.empty(len(rows), kind)
+    for name in result.dtype.names:
+        result[name] = rows[name]
+    return result
+
+
+class YarsMaker:
+    """The kernels of YARS over one terrain and its scenes."""
+
+    def __init__(self, plan, terrain, scenes):
+        """`terrain`: folder or None; `scenes`: list of (path, at, without)."""
+        import yars
+        self._yars, self._spec = yars, plan
+        try:
+            yars.Terrain  # raises MissingPart, an Error, without the compiled part  # pylint: disable=pointless-statement
+            self._terrain = yars.Terrain(terrain) if terrain else yars.Terrain()
+            without = sorted({name for _, _, names in scenes for name in names})
+            files = [scene_text(path, at) for path, at, _ in scenes]
+            self._scene = yars.Scene(files, self._terrain, without=without) if scenes else None
+        except (ValueError, yars.Error) as error:
+            raise DatasetError(str(error)) from None
+        self.objects = self._scene.objects if scenes else np.empty(0, OBJECT)
+
+    def elevation(self, latitude, longitude):
+        return self._terrain.elevation(latitude, longitude)
+
+    @functools.lru_cache(maxsize=4)
+    def _radar(self, settings):
+        plan = self._spec
+        arguments = dict(plan.knobs, map_size=plan.size, settings=settings)
+        if plan.config:
+            arguments["config"] = plan.config
+        return self._yars.Radar(*([plan.preset] if plan.preset else []), **arguments)
+
+    def patches(self, orders, movers, settings):
+        plan = self._spec
+        arguments = {"movers": converted(movers, self._yars.MOVER)} if len(movers) else {}
+        try:
+            return self._radar(settings).patches(self._terrain, converted(orders, self._yars.PATCH_ORDER),
+                                                 scene=self._scene, arrays=plan.arrays, threads=1,
+                                                 force=plan.geometry["force"], **arguments)
+        except (ValueError, self._yars.Error) as error:
+            raise DatasetError(str(error)) from None
+
+    def warm(self, sample, settings):
+        """Reads terrain and scenes of the sample, so that workers share them."""
+        self.patches(sample.orders, sample.movers, settings)
+
+
+def open_maker(plan, terrain, scenes):
+    return YarsMaker(plan, terrain, scenes)
