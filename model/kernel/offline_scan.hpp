@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "databuffer/messages/model_records.hpp"
@@ -50,6 +51,13 @@ class OfflineScan {
   // Geometry and settings of each sweep. power() has the power of all samples, sweep after sweep.
   std::span<const SweepHeader> headers() const { return positions_; }
   std::span<const float> power() const { return power_; }
+  // What the functions above give, taken out of this object. Call it last.
+  struct Result {
+    std::vector<databuffer::Sweep> sweeps;
+    std::vector<SweepHeader> headers;
+    memory::CacheAlignedVector<float> power;
+  };
+  Result take_result() { return {std::move(sweeps_), std::move(positions_), std::move(power_)}; }
   // Number of rays of the last scan, which sweeps share. Threads measure some rays at the ends of their pieces twice.
   std::size_t rays() const;
 

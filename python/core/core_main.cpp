@@ -1,8 +1,10 @@
 // The module yars._core: the kernels of scans and patch maps for Python. The package yars wraps it (results.py).
 
+#include "python/core/offline_runs.hpp"
 #include "python/core/patch_series.hpp"
 #include "python/core/places.hpp"
 #include "python/core/radar_class.hpp"
+#include "python/core/recording_class.hpp"
 #include "python/core/results.hpp"
 #include "python/core/support.hpp"
 
@@ -13,4 +15,6 @@ PYBIND11_MODULE(_core, module) {
   yars::python::add_results(module);
   yars::python::add_radar(module);
   yars::python::add_series(module);
+  yars::python::add_recording(module);
+  yars::python::add_offline_runs(module);
 }

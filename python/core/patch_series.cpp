@@ -1,6 +1,7 @@
 #include "python/core/patch_series.hpp"
 
 #define XXH_INLINE_ALL
+#include <unistd.h>
 #include <xxhash.h>
 
 #include <algorithm>
@@ -167,8 +168,7 @@ void check_numbers(const Order& order) {
   if (!valid)
     raise_value_error(
         "expected degrees, finite numbers, window_nm from 0.01 to 200, looks from 1 to 16 and time_s from 0 to 1e8, "
-        "found "
-        "others");
+        "found others");
 }
 
 hrm::PatchOrder order_of(const Order& order) {
@@ -428,10 +428,19 @@ Formation::Formation(const radar::RadarConfiguration& given, std::size_t threads
                       {threads, [this](const std::function<void(std::size_t)>& job) { workers.run(job); }},
                       hrm::kMaxSectorPoints, labels) {}
 
+// Their destructors would wait for threads that do not exist here.
+void FormationPool::forget_those_of_the_parent() {
+  if (process_ == ::getpid()) return;
+  for (std::unique_ptr<Formation>& formation : free_) static_cast<void>(formation.release());
+  free_.clear();
+  process_ = ::getpid();
+}
+
 std::unique_ptr<Formation> FormationPool::take(const radar::RadarConfiguration& configuration, std::size_t threads,
                                                hrm::LabelUse labels) {
   {
     const std::lock_guard guard(mutex_);
+    forget_those_of_the_parent();
     const auto found = std::find_if(free_.begin(), free_.end(), [&](const std::unique_ptr<Formation>& formation) {
       return formation->workers.threads() == threads && formation->use == labels;
     });

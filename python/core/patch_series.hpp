@@ -1,8 +1,8 @@
 // Many patch maps in one call: an array of orders gives arrays of pictures and labels, one entry for each order.
 // Inputs: structured arrays PATCH_ORDER and MOVER. Outputs: a dict of arrays; geometry and boxes as structured arrays.
-// Units: as the suffix of each name says; degrees, and feet, knots and nautical miles, as in the options of `yars
-// patch`. Errors: ValueError names the index of the order that is beyond the radar's limits. Source: docs/python.md,
-// "Many maps".
+// Units: as the suffix of each name says. Others are degrees, feet, knots and nautical miles, as the options have them.
+// Errors: ValueError names the index of the order that is beyond the radar's limits.
+// Source: docs/python.md, "Many maps".
 #pragma once
 
 #include <memory>
@@ -38,15 +38,20 @@ struct Formation {
 };
 
 // Formations of one configuration that no call uses. A new one costs as much as some ten small maps.
+// A child of fork() has no threads of its parent; it makes formations of its own.
 class FormationPool {
  public:
+  ~FormationPool() { forget_those_of_the_parent(); }
   std::unique_ptr<Formation> take(const radar::RadarConfiguration& configuration, std::size_t threads,
                                   model::hrm::LabelUse labels);
   void give_back(std::unique_ptr<Formation> formation);
 
  private:
+  void forget_those_of_the_parent();
+
   std::mutex mutex_;
   std::vector<std::unique_ptr<Formation>> free_;
+  int process_ = 0;  // that has made the formations
 };
 
 py::dict patch_series(const radar::RadarConfiguration& configuration, FormationPool& pool,

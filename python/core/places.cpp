@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
+#include <span>
 
 #include "lib/geo/earth.hpp"
 #include "model/scene/index/scene_index.hpp"
@@ -30,6 +32,36 @@ tools::Theatre& Terrain::theatre(const std::vector<radar::Scene>& scenes, SceneU
   return *theatre;
 }
 
+namespace {
+
+// Fills in elevations, cell by cell. One view serves all positions of a cell but those near its edges.
+void fill_elevations(tools::Theatre& theatre, std::span<const double> latitude_deg,
+                     std::span<const double> longitude_deg, double* height_m, const tools::Warn& warn) {
+  constexpr double kNear_m = 100.0, kEdge_deg = 0.001;
+  const auto cell_of = [&](std::size_t i) {
+    return static_cast<int>(std::floor(latitude_deg[i])) * 400 + static_cast<int>(std::floor(longitude_deg[i]));
+  };
+  std::vector<std::size_t> order(latitude_deg.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, cell_of);
+  const auto at_edge = [](double part, double margin_deg) { return part < margin_deg || part > 1.0 - margin_deg; };
+  model::terrain::TerrainViewPointer view;
+  int cell_of_view = 0;
+  for (const std::size_t i : order) {
+    const geo::GeoPoint position{latitude_deg[i], longitude_deg[i]};
+    const double east_deg = kEdge_deg / std::max(std::cos(position.latitude_deg * geo::kRadiansPerDegree), 1e-6);
+    const bool alone = at_edge(position.latitude_deg - std::floor(position.latitude_deg), kEdge_deg) ||
+                       at_edge(position.longitude_deg - std::floor(position.longitude_deg), east_deg);
+    const bool fits = view && !alone && cell_of_view == cell_of(i);
+    if (!fits) view = theatre.terrain_near(position, kNear_m, warn);
+    height_m[i] = view->elevation_m(position);
+    cell_of_view = cell_of(i);
+    if (alone) view = nullptr;
+  }
+}
+
+}  // namespace
+
 py::array Terrain::elevation(const py::object& latitude_deg, const py::object& longitude_deg) {
   using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
   const py::sequence pair = py::module_::import("numpy").attr("broadcast_arrays")(latitude_deg, longitude_deg);
@@ -52,12 +84,8 @@ py::array Terrain::elevation(const py::object& latitude_deg, const py::object& l
   {
     const py::gil_scoped_release released;
     const std::lock_guard guard(mutex_);
-    tools::Theatre& all = theatre({}, SceneUse::scatterers);
-    for (std::size_t i = 0; i < count; ++i) {
-      constexpr double kNear_m = 100.0;
-      const geo::GeoPoint position{latitude[i], longitude[i]};
-      height_m[i] = all.terrain_near(position, kNear_m, warnings.sink())->elevation_m(position);
-    }
+    fill_elevations(theatre({}, SceneUse::scatterers), {latitude, count}, {longitude, count}, height_m,
+                    warnings.sink());
   }
   warnings.show("yars.Terrain");
   return heights;
@@ -93,7 +121,7 @@ std::vector<FootprintGroup> groups_of(const std::vector<SceneObject>& objects) {
 
 Scene::Scene(const std::vector<std::string>& files, std::shared_ptr<Terrain> terrain,
              const std::vector<std::string>& without)
-    : terrain_(std::move(terrain)) {
+    : files_(files), without_(without), terrain_(std::move(terrain)) {
   if (auto added = model::scene::add_scenes(scenes_, files, without); !added) raise(error::usage_error(added.error()));
   std::vector<std::string> problems;
   const auto index = model::scene::index_scenes(scenes_, problems);
@@ -136,6 +164,15 @@ py::array Scene::object_table() const {
   return py::module_::import("numpy").attr("array")(numbers, fields);
 }
 
+void check_same_terrain(const Scene* scene, const Terrain& terrain) {
+  if (scene == nullptr || scene->terrain()->directory() == terrain.directory()) return;
+  const auto name_of = [](const Terrain& one) {
+    return one.directory().empty() ? "the built-in hills" : '\'' + one.directory() + '\'';
+  };
+  raise_value_error("scene: expected a scene on the terrain of this call, " + name_of(terrain) + ", found one on " +
+                    name_of(*scene->terrain()) + "; make a Scene with this terrain");
+}
+
 void add_places(py::module_& module) {
   py::class_<Terrain, std::shared_ptr<Terrain>>(module, "Terrain",
                                                 R"(Elevation, and the scenes in its folder.
@@ -149,6 +186,12 @@ Errors: yars.Error for a folder that is missing or has no cell.)")
                                      : py::cast<std::string>(py::module_::import("os").attr("fspath")(directory)));
            }),
            py::arg("directory") = py::none())
+      .def("__reduce__",
+           [](const py::object& self) {
+             const auto& directory = py::cast<const Terrain&>(self).directory();
+             return py::make_tuple(py::type::of(self),
+                                   py::make_tuple(directory.empty() ? py::object(py::none()) : py::str(directory)));
+           })
       .def_property_readonly("directory", &Terrain::directory, "Folder of the cells; empty: the built-in hills.")
       .def("elevation", &Terrain::elevation, py::arg("latitude"), py::arg("longitude"),
            "Elevation [m] above mean sea level at positions [deg], bilinear between posts of the finest level.\n\n"
@@ -170,8 +213,18 @@ Errors: ValueError for a text that is no scene, yars.Error for a file that canno
              };
              return std::make_shared<Scene>(texts(files), std::move(terrain), texts(without));
            }),
-           py::arg("files"), py::arg("terrain"), py::arg("without") = py::tuple())
-      .def_property_readonly("terrain", &Scene::terrain)
+           py::arg("files"), py::arg("terrain").none(false), py::arg("without") = py::tuple())
+      .def("__reduce__",
+           [](const py::object& self) {
+             const auto& scene = py::cast<const Scene&>(self);
+             return py::make_tuple(py::type::of(self), py::make_tuple(scene.files(), scene.terrain(), scene.without()));
+           })
+      .def("__repr__",
+           [](const Scene& scene) {
+             return "<yars.Scene " + std::to_string(scene.objects().size()) + " objects, " +
+                    std::to_string(scene.triangles()) + " triangles>";
+           })
+      .def_property_readonly("terrain", &Scene::terrain, "The Terrain that the scene was read for.")
       .def_property_readonly("triangles", &Scene::triangles, "Number of triangles of all files.")
       .def_property_readonly("objects", &Scene::object_table, R"(Structured array of all objects, shape (objects,).
 

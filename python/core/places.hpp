@@ -63,6 +63,8 @@ class Scene {
         const std::vector<std::string>& without);
 
   const std::shared_ptr<Terrain>& terrain() const { return terrain_; }
+  const std::vector<std::string>& files() const { return files_; }
+  const std::vector<std::string>& without() const { return without_; }
   const std::vector<radar::Scene>& scenes() const { return scenes_; }
   const std::vector<model::scene::SceneObject>& objects() const { return view_->objects(); }
   const std::vector<FootprintGroup>& groups() const { return groups_; }
@@ -70,12 +72,17 @@ class Scene {
   py::array object_table() const;  // structured array
 
  private:
+  std::vector<std::string> files_, without_;  // as given
   std::shared_ptr<Terrain> terrain_;
   std::vector<radar::Scene> scenes_;
   model::scene::SceneViewPointer view_;
   std::vector<FootprintGroup> groups_;
   std::size_t triangles_ = 0;
 };
+
+// Throws ValueError for a scene that was read for another folder of terrain: its objects stand at other heights there.
+// Null: no scene.
+void check_same_terrain(const Scene* scene, const Terrain& terrain);
 
 void add_places(py::module_& module);
 

@@ -92,6 +92,7 @@ std::shared_ptr<ScanResult> Radar::scan(const std::shared_ptr<Terrain>& terrain,
   radar::RadarConfiguration configuration = configuration_;
   tools::configure_scan(options, configuration);
   configuration.terrain = terrain->configuration();
+  check_same_terrain(scene.get(), *terrain);
   if (scene) configuration.world.scenes = scene->scenes();
   const model::kernel::ScanRequest request = tools::request_of(options);
   check_arguments([&] { tools::check_scan(options, configuration); });
@@ -121,6 +122,7 @@ std::shared_ptr<PatchResult> Radar::patch(const std::shared_ptr<Terrain>& terrai
   radar::RadarConfiguration configuration = configuration_;
   check_arguments([&] { tools::configure_patch(options, configuration); });
   configuration.terrain = terrain->configuration();
+  check_same_terrain(scene.get(), *terrain);
   if (scene) configuration.world.scenes = scene->scenes();
   const hrm::PatchOrder order = tools::order_of(options, configuration);
   check_arguments([&] { tools::check_order(order, configuration, options.force); });
@@ -152,6 +154,7 @@ std::shared_ptr<PatchResult> Radar::patch(const std::shared_ptr<Terrain>& terrai
 py::dict Radar::patches(const std::shared_ptr<Terrain>& terrain, const py::array& orders, std::shared_ptr<Scene> scene,
                         const py::object& movers, const std::vector<std::string>& arrays, int threads,
                         bool force) const {
+  check_same_terrain(scene.get(), *terrain);
   return patch_series(configuration_, *pool_, {terrain, std::move(scene), orders, movers, arrays, threads, force});
 }
 
@@ -163,10 +166,10 @@ void add_radar(py::module_& module) {
   py::class_<Radar>(module, "Radar")
       .def(py::init<const py::object&, const py::object&, const std::string&, const py::kwargs&>(), py::arg("preset"),
            py::arg("config"), py::arg("settings"))
-      .def("scan", &Radar::scan, py::arg("terrain"), py::arg("scene"))
-      .def("patch", &Radar::patch, py::arg("terrain"), py::arg("scene"))
-      .def("patches", &Radar::patches, py::arg("terrain"), py::arg("orders"), py::arg("scene"), py::arg("movers"),
-           py::arg("arrays"), py::arg("threads"), py::arg("force"))
+      .def("scan", &Radar::scan, py::arg("terrain").none(false), py::arg("scene").none(true))
+      .def("patch", &Radar::patch, py::arg("terrain").none(false), py::arg("scene").none(true))
+      .def("patches", &Radar::patches, py::arg("terrain").none(false), py::arg("orders"), py::arg("scene").none(true),
+           py::arg("movers"), py::arg("arrays"), py::arg("threads"), py::arg("force"))
       .def_property_readonly("guf", &Radar::text)
       .def_property_readonly("name", [](const Radar& radar) { return radar.configuration().name; })
       .def_property_readonly("fidelity", [](const Radar& radar) { return radar.configuration().fidelity.name; })

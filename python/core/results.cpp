@@ -42,11 +42,10 @@ std::int32_t object_at(const Scene& scene, geo::GeoPoint position) {
 
 ScanResult::ScanResult(const radar::RadarConfiguration& configuration, const model::kernel::ScanRequest& request,
                        int threads, tools::ScanEnvironment environment, std::shared_ptr<Scene> scene)
-    : configuration_(configuration),
-      work_(configuration_, request, threads),
-      environment_(std::move(environment)),
-      scene_(std::move(scene)) {
-  work_.run({*environment_.terrain, environment_.scene.get()});
+    : configuration_(configuration), environment_(std::move(environment)), scene_(std::move(scene)) {
+  model::kernel::OfflineScan work(configuration_, request, threads);
+  work.run({*environment_.terrain, environment_.scene.get()});
+  scan_ = work.take_result();  // without its threads
 }
 
 // Fills the labels of one sweep that need its neighbours: grazing angle and layover.
@@ -74,9 +73,9 @@ void ScanResult::label_sweep(std::size_t sweep, std::size_t samples) {
 
 const ScanLabels& ScanResult::labels() {
   std::call_once(labelled_, [this] {
-    const auto samples = tools::trade::ray_samples(configuration_, work_.headers(), *environment_.terrain);
+    const auto samples = tools::trade::ray_samples(configuration_, scan_.headers, *environment_.terrain);
     const std::size_t count = samples.size();
-    const std::size_t width = count / work_.headers().size();
+    const std::size_t width = count / scan_.headers.size();
     ScanLabels& to = labels_;
     for (auto* flags : {&to.shadow, &to.layover, &to.material}) flags->assign(count, 0);
     to.object.assign(count, -1);
@@ -84,8 +83,8 @@ const ScanLabels& ScanResult::labels() {
       numbers->assign(count, kNoNumber);
     for (auto* numbers : {&to.height_m, &to.grazing_deg})
       numbers->assign(count, std::numeric_limits<float>::quiet_NaN());
-    for (std::size_t sweep = 0; sweep < work_.headers().size(); ++sweep) {
-      const auto geometry = model::kernel::geometry_of(work_.headers()[sweep]);
+    for (std::size_t sweep = 0; sweep < scan_.headers.size(); ++sweep) {
+      const auto geometry = model::kernel::geometry_of(scan_.headers[sweep]);
       const auto earth = model::physics::effective_earth(configuration_.fidelity, geometry.apex, geometry.azimuth);
       double before_m = 0.0, before_height_m = kNoNumber;
       for (std::size_t i = sweep * width; i < (sweep + 1) * width; ++i) {
@@ -107,9 +106,12 @@ const ScanLabels& ScanResult::labels() {
         // Grazing angle on the profile: that on the level, plus the slope from the sample before.
         const double slope_rad =
             std::isnan(before_height_m) ? 0.0 : std::atan2(height_m - before_height_m, sample.distance_m - before_m);
-        if (sample.lit)
-          to.grazing_deg[i] = static_cast<float>(
-              std::max(std::asin(std::clamp(sight.sin_grazing, -1.0, 1.0)) + slope_rad, 0.0) / geo::kRadiansPerDegree);
+        if (sample.lit) {
+          const double grazing_deg =
+              (std::asin(std::clamp(sight.sin_grazing, -1.0, 1.0)) + slope_rad) / geo::kRadiansPerDegree;
+          // Below the aircraft a slope that faces it may be seen from beyond its perpendicular.
+          to.grazing_deg[i] = static_cast<float>(std::max(std::min(grazing_deg, 180.0 - grazing_deg), 0.0));
+        }
         before_m = sample.distance_m;
         before_height_m = height_m;
       }
@@ -121,11 +123,11 @@ const ScanLabels& ScanResult::labels() {
 
 py::array ScanResult::array(const std::string& name) {
   const auto self = shared_from_this();
-  const std::size_t sweeps = work_.headers().size();
-  const std::vector<py::ssize_t> shape{axis(sweeps), axis(work_.power().size() / sweeps)};
-  if (name == "power") return array_of<float>(self, work_.power().data(), shape);
+  const std::size_t sweeps = scan_.headers.size();
+  const std::vector<py::ssize_t> shape{axis(sweeps), axis(scan_.power.size() / sweeps)};
+  if (name == "power") return array_of<float>(self, scan_.power.data(), shape);
   if (name == "video") {
-    const databuffer::Sweep& first = work_.sweeps().front();
+    const databuffer::Sweep& first = scan_.sweeps.front();
     auto* const kept = new std::shared_ptr<const void>(self);
     const py::capsule keeper(kept, [](void* pointer) { delete static_cast<std::shared_ptr<const void>*>(pointer); });
     return py::array_t<std::uint8_t>(shape, std::vector<py::ssize_t>{axis(sizeof(databuffer::Sweep)), 1},
@@ -133,7 +135,7 @@ py::array ScanResult::array(const std::string& name) {
   }
   if (name == "azimuth") {
     std::vector<double> azimuths;
-    for (const auto& header : work_.headers()) azimuths.push_back(model::kernel::geometry_of(header).azimuth.degrees());
+    for (const auto& header : scan_.headers) azimuths.push_back(model::kernel::geometry_of(header).azimuth.degrees());
     return array_from(std::move(azimuths), {shape[0]});
   }
   {
@@ -154,11 +156,11 @@ py::array ScanResult::array(const std::string& name) {
 }
 
 std::uint64_t ScanResult::hash() const {
-  return model::kernel::scan_hash(work_.sweeps());
+  return model::kernel::scan_hash(scan_.sweeps);
 }
 
 py::dict ScanResult::facts() const {
-  const model::kernel::SweepHeader& header = work_.headers().front();
+  const model::kernel::SweepHeader& header = scan_.headers.front();
   py::dict facts;
   facts["latitude"] = header.apex.latitude_deg;
   facts["longitude"] = header.apex.longitude_deg;

@@ -42,7 +42,7 @@ class ScanResult : public std::enable_shared_from_this<ScanResult> {
   void label_sweep(std::size_t sweep, std::size_t samples);
 
   radar::RadarConfiguration configuration_;
-  model::kernel::OfflineScan work_;
+  model::kernel::OfflineScan::Result scan_;
   tools::ScanEnvironment environment_;
   std::shared_ptr<Scene> scene_;
   std::once_flag labelled_;

@@ -1,5 +1,6 @@
 #include "python/core/support.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tools/command/command.hpp"
@@ -41,6 +42,13 @@ std::string text_of(const py::handle& value) {
   if (py::hasattr(value, "__float__")) return py::repr(py::float_(py::reinterpret_borrow<py::object>(value)));
   return py::repr(value);
 }
+
+// Whether a value is this truth value, of Python or NumPy.
+bool is_truth(const py::handle& value, bool truth) {
+  if (py::isinstance<py::bool_>(value)) return value.ptr() == (truth ? Py_True : Py_False);
+  return py::isinstance(value, py::module_::import("numpy").attr("bool_")) &&
+         py::cast<bool>(value.attr("item")()) == truth;
+}
 }  // namespace
 
 std::vector<std::string> words_of(const py::kwargs& arguments) {
@@ -49,8 +57,8 @@ std::vector<std::string> words_of(const py::kwargs& arguments) {
     std::string option = "--" + py::cast<std::string>(key);
     for (char& letter : option)
       if (letter == '_') letter = '-';
-    if (value.is_none() || value.ptr() == Py_False) continue;
-    if (value.ptr() == Py_True) {
+    if (value.is_none() || is_truth(value, false)) continue;
+    if (is_truth(value, true)) {
       words.push_back(option);
       continue;
     }
@@ -71,7 +79,16 @@ void read_options(const std::string& name, const py::kwargs& arguments,
 }
 
 void Warnings::show(const std::string& command) {
+  constexpr std::size_t kMostLines = 5;  // of one call
+  std::vector<std::string> lines;
   for (const std::string& line : std::exchange(lines_, {}))
+    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+  if (lines.size() > kMostLines) {
+    const std::size_t more = lines.size() - kMostLines;
+    lines.resize(kMostLines);
+    lines.push_back("and " + std::to_string(more) + " more warnings");
+  }
+  for (const std::string& line : lines)
     if (PyErr_WarnEx(PyExc_UserWarning, (command + ": " + line).c_str(), 2) != 0) throw py::error_already_set();
 }
 

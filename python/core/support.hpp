@@ -53,7 +53,8 @@ class Warnings {
   tools::Warn sink() {
     return [this](const std::string& warning) { lines_.push_back(warning); };
   }
-  // Call with the interpreter's lock. `command`: prefix of each line, such as "yars scan".
+  // Each line once, at most five of a call. Call with the interpreter's lock. `command`: prefix of each line, such as
+  // "yars scan".
   void show(const std::string& command);
 
  private:

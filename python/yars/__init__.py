@@ -17,7 +17,7 @@ import platform
 
 # Module of the package -> its names that are names of the package. Typed in __init__.pyi.
 _NAMES = {
-    "results": ("Terrain", "Scene", "Radar", "Scan", "Patch", "PATCH_ORDER", "MOVER"),
+    "results": ("Terrain", "Scene", "Radar", "Scan", "Patch", "Recording", "trade", "PATCH_ORDER", "MOVER"),
     "session": ("Session", "YarsError", "UnknownField", "Record", "patch_map", "Event", "Power", "Mode", "Master", "ScanWidth",
                 "CursorFunction", "Navigator", "PointKind", "Recall", "SteeringLine", "SteeringCommand", "RadarFlags",
                 "SweepFlags", "ModelFlags", "OwnshipFlags", "NavFlags"),

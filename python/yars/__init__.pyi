@@ -7,10 +7,12 @@ from . import session as session
 from .results import MOVER as MOVER
 from .results import PATCH_ORDER as PATCH_ORDER
 from .results import Radar as Radar
+from .results import Recording as Recording
 from .results import Scene as Scene
 from .results import Terrain as Terrain
 from .results import Patch as Patch
 from .results import Scan as Scan
+from .results import trade as trade
 from .session import CursorFunction as CursorFunction
 from .session import Event as Event
 from .session import Master as Master

@@ -9,11 +9,13 @@ arrays are bit for bit those of the commands, and `hash` is the hash that they p
 Errors: ValueError for arguments, yars.Error for files; the message is that of the command. Problems of single files are
 warnings. While a picture is computed other threads of Python run.
 """
+import json
+
 from . import _require
-from ._core import MOVER, PATCH_ORDER, Scene, Terrain, xxh3
+from ._core import MOVER, PATCH_ORDER, Recording, Scene, Terrain
 from . import _core
 
-__all__ = ["Radar", "Scan", "Patch", "Terrain", "Scene", "PATCH_ORDER", "MOVER"]
+__all__ = ["Radar", "Scan", "Patch", "Terrain", "Scene", "Recording", "trade", "PATCH_ORDER", "MOVER"]
 
 # Unit of each array; "1": a ratio; "": none. Meaning of each, for xarray and help.
 UNITS = {"power": "1", "video": "", "shadow": "", "layover": "", "object": "", "material": "", "height": "m",
@@ -95,13 +97,24 @@ class _Picture:
         attributes = {key: int(value) if isinstance(value, bool) else value for key, value in self.facts.items()}
         return xarray.Dataset(variables, coords, {**attributes, "hash": f"{self.hash:016x}"})
 
+    def __reduce__(self):
+        name = f"yars.{type(self).__name__}"
+        raise TypeError(f"{name}: expected an object that can be pickled, found a picture in memory; keep its arrays, or to_xarray()")
+
     def __repr__(self):
         shape = " x ".join(str(length) for length in self.video.shape)
         return f"<yars.{type(self).__name__} {shape} {' x '.join(self.axes)}, {self.facts['fidelity']}, hash {self.hash}>"
 
 
 class Scan(_Picture):
-    """One scan of the real beam map: arrays of shape (azimuth, sample), sweeps clockwise, samples from near to far."""
+    """One scan of the real beam map: arrays of shape (azimuth, sample), sweeps clockwise, samples from near to far.
+
+    >>> scan = yars.Radar("draft").scan(yars.Terrain(), lat=37.8, lon=-122.5, range_nm=10, seed=1)
+    >>> scan.power.shape == (len(scan.azimuth), len(scan.sample))
+    True
+    >>> scan.units["slant_range"], scan.axes
+    ('m', ('azimuth', 'sample'))
+    """
 
     axes = ("azimuth", "sample")
     _shape = "(azimuth, sample)"
@@ -122,6 +135,13 @@ class Patch(_Picture):
 
     latitude, longitude, slant_range and ground_range are those of the pixel on the map's plane; height, grazing_angle,
     material and object are those of the surface with the strongest return there.
+
+    >>> radar = yars.Radar("draft", map_size=64)
+    >>> patch = radar.patch(yars.Terrain(), lat=37.5, lon=-122.5, heading=350, target_lat=37.62, target_lon=-122.4, window_nm=1.3)
+    >>> patch.video.shape, patch.video.dtype.name
+    ((64, 64), 'uint8')
+    >>> bool(patch.ground_range[0, 0] > patch.ground_range[-1, 0])  # row 0 is the far edge
+    True
     """
 
     axes = ("y", "x")
@@ -138,17 +158,34 @@ class Patch(_Picture):
         return self._result.array("y")
 
 
+def _radar(preset, config, settings, knobs):
+    return Radar(preset, config=config, settings=settings, **knobs)
+
+
 class Radar:
     """A radar: a configuration, and the pictures that it gives over a terrain.
 
     preset: 1996, draft, standard, fine or reference; None: that of the file, else standard.
     config: a GUF file; None: the built-in APG-70. settings: GUF text with forms that go before those of the file, such
     as "( Sea :state 3 )". knobs: slots of the form Fidelity in lower case, such as samples=480, map_size=256,
-    sub_beams=8. Errors: ValueError for a wrong value or name, yars.Error for the file.
+    sub_beams=8. Errors: ValueError for a wrong value or name, yars.Error for the file. A Radar can be pickled.
+
+    >>> yars.Radar("fine", samples=320).samples
+    320
+    >>> yars.Radar("fast")  # doctest: +ELLIPSIS
+    Traceback (most recent call last):
+    ValueError: yars.Radar:1:20: expected one of 1996, draft, standard, fine, reference, auto for :preset, found the identifier fast; ...
     """
 
     def __init__(self, preset=None, *, config=None, settings="", **knobs):
         self._core = _core.Radar(preset, config, settings, **knobs)
+        self._arguments = preset, config, settings, knobs
+
+    def __reduce__(self):  # made again from its arguments, in another process
+        return _radar, self._arguments
+
+    def __repr__(self):
+        return f"<yars.Radar {self.name!r}, {self.fidelity}>"
 
     @property
     def name(self):
@@ -202,5 +239,33 @@ class Radar:
         equidistant plane about the aircraft (plane_from_pixel: GDAL's affine, metres east and north) and numbers of each
         map; boxes, with the footprint of each object in each picture (column, row), its aspect and its pixels.
         Errors: ValueError names the order that is beyond the radar's limits; force leaves the limits out.
+
+        >>> import numpy
+        >>> orders = numpy.zeros(2, yars.PATCH_ORDER)
+        >>> for field, value in dict(latitude=37.5, longitude=-122.5, altitude_ft=12000, heading=350, speed_kt=480, looks=1,
+        ...                          target_latitude=37.62, target_longitude=-122.4, window_nm=1.3).items():
+        ...     orders[field] = value
+        >>> orders["map"] = 1, 2
+        >>> maps = yars.Radar("draft", map_size=64).patches(yars.Terrain(), orders)
+        >>> maps["video"].shape, maps["geo"]["plane_from_pixel"].shape
+        ((2, 64, 64), (2, 6))
         """
-        return self._core.patches(terrain, orders, scene, movers, list(arrays), threads, force)
+        names = [arrays] if isinstance(arrays, str) else list(arrays)
+        return self._core.patches(terrain, orders, scene, movers, names, threads, force)
+
+
+def trade(terrain=None, radar=None, *, maps=False, **options):
+    """Speed against accuracy of presets and knobs, as `yars trade`; with maps=True as `yars trade maps`.
+
+    Returns a dict of the layout of `yars trade --out FILE.json`, which yars.plot.trade_front draws: points, a dict for each
+    candidate with mean, worst, worst_scene and scenes of each column (None: no value); scenes; axes.
+    terrain: Terrain; None: that of the radar's configuration, else the built-in hills. radar: Radar whose configuration is
+    used; its fidelity is not. options: those of the command, such as presets="1996,standard", knob=["samples=120,240"],
+    base, ruler, repeat, scene or view (lists of texts), scan_width, out and csv (files to write).
+    >>> rows = yars.trade(presets="draft", scene="37,-122,15000,60,10", repeat=1, ruler_samples=60)
+    >>> rows["points"][0]["point"], rows["scenes"]
+    ('draft', ['37 -122 15000 ft 60 deg 10 NM'])
+
+    Other threads of Python run meanwhile, and make the times larger. Errors: ValueError for options, yars.Error for files.
+    """
+    return json.loads(_core.trade(maps, terrain, (radar or Radar())._core, **options))

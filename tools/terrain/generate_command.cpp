@@ -1,6 +1,8 @@
 // `yars terrain generate`: writes a made-up landscape as a DTED tree. Each cell has a culture file beside it, unless
 // --no-culture is set.
 
+#include "tools/terrain/generate_command.hpp"
+
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -29,25 +31,8 @@ namespace {
 
 using namespace model::terrain;
 
-struct GenerateOptions {
-  using Default = worldgen::DefaultLandscape;
-  std::string out;
-  int south_deg = Default::kSouth_deg;
-  int west_deg = Default::kWest_deg;
-  int cells_latitude = Default::kCellsNorth;
-  int cells_longitude = Default::kCellsEast;
-  int level = 1;
-  std::uint64_t seed = Default::kSeed;
-  std::string edge = "coast";
-  bool culture = true;
-  std::string airfields = "paved";
-  bool sea = false;
-  int threads = 0;  // 0: one per core of the machine
-  bool json = false;
-};
-
 // Cells of the area in blocks of 8 x 8: consecutive cells are neighbours and share cached features and relief.
-std::vector<CellCorner> corners_of(const GenerateOptions& options) {
+std::vector<CellCorner> corners_of(const TerrainGenerateOptions& options) {
   constexpr int kBlock = 8;
   std::vector<CellCorner> corners;
   for (int south = 0; south < options.cells_latitude; south += kBlock)
@@ -62,7 +47,7 @@ std::vector<CellCorner> corners_of(const GenerateOptions& options) {
 // threads work on one cell.
 class Generation {
  public:
-  explicit Generation(const GenerateOptions& options)
+  explicit Generation(const TerrainGenerateOptions& options)
       : options_(options),
         landscape_(options.seed, island_of(options), options.airfields == "paved"),
         corners_(corners_of(options)),
@@ -74,24 +59,17 @@ class Generation {
     threads_per_cell_ = cells >= 2 * threads ? 1 : std::max(1, threads / workers_);
   }
 
-  void run() {
+  GeneratedCells run() {
     std::vector<std::thread> helpers;
     for (int worker = 1; worker < workers_; ++worker) helpers.emplace_back([this] { work(); });
     work();
     for (std::thread& other : helpers) other.join();
     if (failed_) throw_failure(*failed_);
-    const std::size_t land = written_, sea = corners_.size() - land;
-    if (options_.json)
-      return print_json({{"folder", options_.out},
-                         {"land_cells", land},
-                         {"sea_cells", sea},
-                         {"files", options_.sea ? land + sea : land}});
-    std::printf("%s with land in %s; %s with only sea, %s\n", text::counted(land, "cell").c_str(), options_.out.c_str(),
-                text::counted(sea, "cell").c_str(), options_.sea ? "with files, too" : "without files");
+    return {written_, corners_.size() - written_};
   }
 
  private:
-  static std::optional<worldgen::LandscapeBox> island_of(const GenerateOptions& options) {
+  static std::optional<worldgen::LandscapeBox> island_of(const TerrainGenerateOptions& options) {
     if (options.edge == "cut") return std::nullopt;
     return worldgen::LandscapeBox{options.south_deg, options.west_deg, options.cells_latitude, options.cells_longitude};
   }
@@ -134,7 +112,7 @@ class Generation {
     if (!failed_) failed_ = error;
   }
 
-  GenerateOptions options_;
+  TerrainGenerateOptions options_;
   worldgen::Landscape landscape_;
   std::vector<CellCorner> corners_;
   int workers_ = 1;
@@ -147,7 +125,7 @@ class Generation {
   std::optional<error::Error> failed_;
 };
 
-void add_area(databuffer::Command command, GenerateOptions& options) {
+void add_area(databuffer::Command command, TerrainGenerateOptions& options) {
   command.option("--south", options.south_deg, "[deg] south edge").range(-90, 89);
   command.option("--west", options.west_deg, "[deg] west edge").range(-180, 179);
   command.option("--cells-lat", options.cells_latitude, "cells northward").range(1, 180);
@@ -156,36 +134,52 @@ void add_area(databuffer::Command command, GenerateOptions& options) {
 
 }  // namespace
 
-void add_terrain_generate(databuffer::Command terrain) {
-  const auto options = std::make_shared<GenerateOptions>();
-  databuffer::Command command =
-      terrain.subcommand("generate", "a made-up landscape with rivers and towns, as DTED cells");
-  command.option("--out", options->out, "folder for the cells").value_name("DIR").required();
-  add_area(command, *options);
-  command.option("--level", options->level, "DTED level").range(0, 2);
-  command.option("--seed", options->seed, "seed of the landscape; each seed gives another earth");
+void add_terrain_generate_options(databuffer::Command command, TerrainGenerateOptions& options) {
+  command.option("--out", options.out, "folder for the cells").value_name("DIR").required();
+  add_area(command, options);
+  command.option("--level", options.level, "DTED level").range(0, 2);
+  command.option("--seed", options.seed, "seed of the landscape; each seed gives another earth");
   command
       .option(
-          "--edge", options->edge,
+          "--edge", options.edge,
           "coast: land ends at the sea inside the area's edge; cut: land continues to the edge, for areas that join")
       .one_of({"coast", "cut"});
-  command.flag("--culture,!--no-culture", options->culture,
+  command.flag("--culture,!--no-culture", options.culture,
                "surface materials beside each cell, wLLL/nBB.smc.png; on by default");
   command
-      .option("--airfields", options->airfields,
+      .option("--airfields", options.airfields,
               "culture of airfields: paved, with runway, apron and hangars; soil, for scenes that have these")
       .one_of({"paved", "soil"});
-  command.flag("--sea", options->sea, "also write cells with only sea (a cell without a file is sea)");
-  command.option("--threads", options->threads, "number of threads, 0 for one per core; the files do not depend on it")
+  command.flag("--sea", options.sea, "also write cells with only sea (a cell without a file is sea)");
+  command.option("--threads", options.threads, "number of threads, 0 for one per core; the files do not depend on it")
       .range(0, 256);
-  add_json_flag(command, options->json);
+  add_json_flag(command, options.json);
+}
+
+GeneratedCells generate_terrain_files(const TerrainGenerateOptions& options) {
+  check_folder_name("--out", options.out);
+  if (options.south_deg + options.cells_latitude > 90)
+    throw CommandFailed{"--cells-lat: expected at most " + std::to_string(90 - options.south_deg) +
+                            " cells from --south to the north pole, found " + std::to_string(options.cells_latitude),
+                        2};
+  return Generation(options).run();
+}
+
+void add_terrain_generate(databuffer::Command terrain) {
+  const auto options = std::make_shared<TerrainGenerateOptions>();
+  databuffer::Command command =
+      terrain.subcommand("generate", "a made-up landscape with rivers and towns, as DTED cells");
+  add_terrain_generate_options(command, *options);
   command.callback([options] {
-    check_folder_name("--out", options->out);
-    if (options->south_deg + options->cells_latitude > 90)
-      throw CommandFailed{"--cells-lat: expected at most " + std::to_string(90 - options->south_deg) +
-                              " cells from --south to the north pole, found " + std::to_string(options->cells_latitude),
-                          2};
-    Generation(*options).run();
+    const GeneratedCells cells = generate_terrain_files(*options);
+    if (options->json)
+      return print_json({{"folder", options->out},
+                         {"land_cells", cells.land},
+                         {"sea_cells", cells.sea},
+                         {"files", options->sea ? cells.land + cells.sea : cells.land}});
+    std::printf("%s with land in %s; %s with only sea, %s\n", text::counted(cells.land, "cell").c_str(),
+                options->out.c_str(), text::counted(cells.sea, "cell").c_str(),
+                options->sea ? "with files, too" : "without files");
   });
 }
 

@@ -9,6 +9,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "databuffer/runtime/program.hpp"
@@ -28,7 +29,6 @@ namespace yars::tools {
 
 namespace {
 
-// JSON object that scripts/plot_trade reads. NaN becomes null.
 nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::PlotAxes& axes) {
   nlohmann::ordered_json all;
   const auto axis = [&table](const trade::PlotAxes::Axis& one) {
@@ -94,15 +94,24 @@ std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::
   return std::move(*candidates);
 }
 
-void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes) {
-  const std::string json = json_of(table, axes).dump(2);
+std::string json_text(const TradeResult& result) {
+  return json_of(result.table, result.axes).dump(2);
+}
+
+void write_trade_files(const TradeOptions& options, const TradeResult& result) {
   if (!options.csv.empty()) {
-    if (auto written = file::write_file(options.csv, trade::csv_text(table)); !written) throw_failure(written.error());
+    if (auto written = file::write_file(options.csv, trade::csv_text(result.table)); !written)
+      throw_failure(written.error());
   }
   if (!options.out.empty()) {
-    if (auto written = file::write_file(options.out, json + "\n"); !written) throw_failure(written.error());
+    if (auto written = file::write_file(options.out, json_text(result) + "\n"); !written)
+      throw_failure(written.error());
   }
-  std::printf("%s\n", options.json ? json.c_str() : trade::table_text(table).c_str());
+}
+
+void write_trade(const TradeOptions& options, const TradeResult& result) {
+  write_trade_files(options, result);
+  std::printf("%s\n", options.json ? json_text(result).c_str() : trade::table_text(result.table).c_str());
 }
 
 geo::GeoPoint default_position(const std::string& directory) {
@@ -129,18 +138,12 @@ namespace {
 using model::kernel::ScanRequest;
 using model::terrain::TerrainView;
 
-struct ScanTradeOptions : TradeOptions {
-  std::vector<std::string> scenes;
-  double width_deg = 100.0;
-  int ruler_samples = 1024;
-};
-
 // Terrain views of one scene, one view per detail level (TerrainRegion::detail). Each view has a separate store, so
 // resident_bytes() counts the cells of that level only.
 class SceneTerrain {
  public:
-  SceneTerrain(const radar::TerrainConfiguration& configuration, const ScanRequest& request)
-      : configuration_(configuration), request_(request) {}
+  SceneTerrain(const radar::TerrainConfiguration& configuration, const ScanRequest& request, const Warn& warn)
+      : configuration_(configuration), request_(request), warn_(warn) {}
 
   const TerrainView& at(int detail) {
     const auto known = by_detail_.find(detail);
@@ -148,13 +151,14 @@ class SceneTerrain {
     auto store = model::terrain::open_terrain(configuration_);
     if (!store) throw_failure(store.error());
     auto view = (*store)->prepare({request_.pose.position, request_.range.metres(), detail});
-    check_terrain_read(warn_as("yars trade"), configuration_.directory, **store);
+    check_terrain_read(warn_, configuration_.directory, **store);
     return *by_detail_.emplace(detail, std::move(view)).first->second;
   }
 
  private:
   const radar::TerrainConfiguration& configuration_;
   const ScanRequest& request_;
+  const Warn& warn_;
   std::map<int, model::terrain::TerrainViewPointer> by_detail_;
 };
 
@@ -189,11 +193,12 @@ radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity&
 // Measures the candidates for one scene. With --ruler reference, all candidates are compared with the same scan.
 class SceneTrade {
  public:
-  SceneTrade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::Scene& scene)
+  SceneTrade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::Scene& scene,
+             const Warn& warn)
       : options_(options),
         configuration_(configuration),
         request_(trade::request_of(scene, geo::Angle::degrees(options.width_deg), configuration.antenna)),
-        terrain_(configuration_.terrain, request_) {
+        terrain_(configuration_.terrain, request_, warn) {
     // Jammers, rain and ships stay as configured in all scans. Jammers affect only the video; rain and ships cast no
     // shadow.
     if (options_.ruler == "reference") shared_ = measured_ruler(configuration_.fidelity);
@@ -243,7 +248,10 @@ std::vector<trade::Scene> scenes_of(const ScanTradeOptions& options, const std::
   return scenes;
 }
 
-trade::TradeTable run_trade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration) {
+}  // namespace
+
+TradeResult measure_trade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration,
+                          const Warn& warn) {
   trade::TradeTable table;
   table.columns = trade::kScanColumns;
   table.scene_fields = trade::kScanFields;
@@ -253,41 +261,40 @@ trade::TradeTable run_trade(const ScanTradeOptions& options, const radar::RadarC
   Progress progress(table.candidates.size() * scenes.size());
   for (const trade::Scene& scene : scenes) {
     table.scenes.push_back(trade::row_of(scene));
-    SceneTrade scene_trade(options, configuration, scene);
+    SceneTrade scene_trade(options, configuration, scene, warn);
     for (std::size_t i = 0; i < table.candidates.size(); ++i) {
       table.values[i].push_back(scene_trade.values(table.candidates[i].fidelity));
       progress.done(table.candidates[i].name + ", " + trade::scene_name(scene));
     }
   }
-  return table;
+  return {std::move(table),
+          {{trade::kScanMs, "time per scan (ms of one core)"},
+           {{{trade::kScanGray, "video error (gray levels of 255 RMS)"},
+             {trade::kScanShadow, "shadow mismatch (% of ground)"}}}}};
 }
 
-void trade_off(const CommonOptions& common, const ScanTradeOptions& options) {
-  check_trade_output(options);
-  const radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
-  write_trade(options, run_trade(options, configuration),
-              {{trade::kScanMs, "time per scan (ms of one core)"},
-               {{{trade::kScanGray, "video error (gray levels of 255 RMS)"},
-                 {trade::kScanShadow, "shadow mismatch (% of ground)"}}}});
+void add_scan_trade_options(databuffer::Command command, ScanTradeOptions& options) {
+  add_trade_options(command, options);
+  command.option("--scene", options.scenes, "place and range of a scan: LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable")
+      .value_name("SCENE")
+      .repeatable()
+      .otherwise("three ranges in the middle of the terrain");
+  command.option("--scan-width", options.width_deg, "[deg] width of the scans in azimuth").range(1.0, 120.0);
+  command.option("--ruler-samples", options.ruler_samples, "samples per sweep of --ruler reference")
+      .range(1, radar::kMaxSamples);
 }
-
-}  // namespace
 
 void add_trade_command(databuffer::Command app, const CommonOptions& common) {
   auto options = std::make_shared<ScanTradeOptions>();
   databuffer::Command command =
       app.subcommand("trade", "speed against accuracy of the real beam map; `trade maps`: of patch maps");
-  add_trade_options(command, *options);
-  command.option("--scene", options->scenes, "place and range of a scan: LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable")
-      .value_name("SCENE")
-      .repeatable()
-      .otherwise("three ranges in the middle of the terrain");
-  command.option("--scan-width", options->width_deg, "[deg] width of the scans in azimuth").range(1.0, 120.0);
-  command.option("--ruler-samples", options->ruler_samples, "samples per sweep of --ruler reference")
-      .range(1, radar::kMaxSamples);
+  add_scan_trade_options(command, *options);
   add_trade_maps(command, common);
   command.callback([command, options, &common] {
-    if (!command.has_subcommand()) trade_off(common, *options);
+    if (command.has_subcommand()) return;
+    check_trade_output(*options);
+    const radar::RadarConfiguration configuration = read_configuration(common.config, options->configuration);
+    write_trade(*options, measure_trade(*options, configuration, warn_as("yars trade")));
   });
 }
 

@@ -1,5 +1,5 @@
-// Common parts of `yars trade` and `yars trade maps`: options, candidates, clock, output files.
-// Errors: functions that check options, read a directory or write files throw CommandFailed.
+// `yars trade` and `yars trade maps`: options, measurement, output. The Python module measures with the same functions.
+// Errors: functions that check options, measure, read a directory or write files throw CommandFailed.
 #pragma once
 
 #include <string>
@@ -8,6 +8,7 @@
 #include "databuffer/runtime/command_line.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/input_checks.hpp"
 #include "tools/trade/candidate.hpp"
 #include "tools/trade/trade_table.hpp"
 
@@ -26,15 +27,45 @@ struct TradeOptions {
   bool json = false;
 };
 
-void add_trade_options(databuffer::Command command, TradeOptions& options);
+struct ScanTradeOptions : TradeOptions {
+  std::vector<std::string> scenes;
+  double width_deg = 100.0;
+  int ruler_samples = 1024;
+};
+struct MapTradeOptions : TradeOptions {
+  std::vector<std::string> views;
+  int ruler_size = 480;
+};
+
+void add_trade_options(databuffer::Command command, TradeOptions& options);  // those that both have
+void add_scan_trade_options(databuffer::Command command, ScanTradeOptions& options);
+void add_map_trade_options(databuffer::Command command, MapTradeOptions& options);
+
+// What a trade found, and the axes of its plots.
+struct TradeResult {
+  trade::TradeTable table;
+  trade::PlotAxes axes;
+};
+
+// Measure all candidates. The fidelity of the configuration is not used. `warn` takes warnings about input files.
+// Progress goes to standard error if that is a terminal.
+TradeResult measure_trade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration,
+                          const Warn& warn);
+TradeResult measure_trade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration,
+                          const Warn& warn);
+
+// JSON object that --out writes and plot_trade reads. NaN becomes null.
+std::string json_text(const TradeResult& result);
 
 // Call before the measurement. Throws if the name in --out or --csv does not end in .json or .csv, or if that file
 // cannot be created.
 void check_trade_output(const TradeOptions& options);
 // The candidates of --presets and --knob. Throws if an option is not valid or there is no candidate.
 std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::Subject subject);
-// Writes the table, or JSON with --json, to standard output. Also writes the files of --csv and --out.
-void write_trade(const TradeOptions& options, const trade::TradeTable& table, const trade::PlotAxes& axes);
+// Writes the files of --csv and --out.
+void write_trade_files(const TradeOptions& options, const TradeResult& result);
+// Writes the files, and the table, or JSON with --json, to standard output.
+void write_trade(const TradeOptions& options, const TradeResult& result);
 
 // Centre of the cell in the middle of a directory's index, which is sorted from south to north, then from west to east.
 // For an empty name (built-in hills): 37 N 122 W. Throws if the directory is missing or has no usable cell.

@@ -24,16 +24,12 @@ namespace {
 
 namespace hrm = model::hrm;
 
-struct MapTradeOptions : TradeOptions {
-  std::vector<std::string> views;
-  int ruler_size = 480;
-};
-
 // Terrain and scenes of one map view. Each detail level of the terrain (TerrainRegion::detail) has a separate store, so
 // resident_bytes() counts only the cells of that level.
 class ViewEnvironment {
  public:
-  explicit ViewEnvironment(const radar::RadarConfiguration& configuration) : configuration_(configuration) {}
+  ViewEnvironment(const radar::RadarConfiguration& configuration, const Warn& warn)
+      : configuration_(configuration), warn_(warn) {}
 
   hrm::PatchEnvironment of(const hrm::PatchNeed& need) {
     if (!scene_known_) scene_ = read_scene(need);
@@ -50,7 +46,7 @@ class ViewEnvironment {
     auto store = model::terrain::open_terrain(configuration_.terrain);
     if (!store) throw_failure(store.error());
     auto view = (*store)->prepare(region);
-    check_terrain_read(warn_as("yars trade maps"), configuration_.terrain.directory, **store);
+    check_terrain_read(warn_, configuration_.terrain.directory, **store);
     return known.emplace(region.detail, std::move(view)).first->second;
   }
 
@@ -59,11 +55,12 @@ class ViewEnvironment {
     if (!scenes) throw_failure(scenes.error());
     if (!*scenes) return nullptr;
     auto view = (*scenes)->prepare(need.window);
-    check_scenes_read(warn_as("yars trade maps"), **scenes);
+    check_scenes_read(warn_, **scenes);
     return view;
   }
 
   const radar::RadarConfiguration& configuration_;
+  const Warn& warn_;
   ByDetail window_, path_;
   model::scene::SceneViewPointer scene_;
   bool scene_known_ = false;
@@ -72,8 +69,12 @@ class ViewEnvironment {
 // Measures the candidates for one map view. With --ruler reference, all candidates are compared with the same map.
 class ViewTrade {
  public:
-  ViewTrade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::MapView& view)
-      : options_(options), configuration_(configuration), order_(trade::order_of(view)), environment_(configuration_) {
+  ViewTrade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::MapView& view,
+            const Warn& warn)
+      : options_(options),
+        configuration_(configuration),
+        order_(trade::order_of(view)),
+        environment_(configuration_, warn) {
     if (options_.ruler == "same") return;
     radar::Fidelity reference = *radar::fidelity_preset("reference");
     reference.map_size = options_.ruler_size;
@@ -147,7 +148,10 @@ std::vector<trade::MapView> views_of(const MapTradeOptions& options, const std::
   return views.empty() ? default_views(directory) : views;
 }
 
-trade::TradeTable run_trade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration) {
+}  // namespace
+
+TradeResult measure_trade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration,
+                          const Warn& warn) {
   trade::TradeTable table;
   table.columns = trade::kMapColumns;
   table.scene_fields = trade::kMapFields;
@@ -157,38 +161,38 @@ trade::TradeTable run_trade(const MapTradeOptions& options, const radar::RadarCo
   Progress progress(table.candidates.size() * views.size());
   for (const trade::MapView& view : views) {
     table.scenes.push_back(trade::row_of(view));
-    ViewTrade view_trade(options, configuration, view);
+    ViewTrade view_trade(options, configuration, view, warn);
     for (std::size_t i = 0; i < table.candidates.size(); ++i) {
       table.values[i].push_back(view_trade.values(table.candidates[i].fidelity));
       progress.done(table.candidates[i].name + ", " + trade::map_view_name(view));
     }
   }
-  return table;
+  return {std::move(table),
+          {{trade::kMapMs, "time per map (ms of one core)"},
+           {{{trade::kMapPower, "power error (dB RMS)"}, {trade::kMapShadow, "shadow mismatch (% of pixels)"}}}}};
 }
 
-void trade_off(const CommonOptions& common, const MapTradeOptions& options) {
-  check_trade_output(options);
-  const radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
-  write_trade(options, run_trade(options, configuration),
-              {{trade::kMapMs, "time per map (ms of one core)"},
-               {{{trade::kMapPower, "power error (dB RMS)"}, {trade::kMapShadow, "shadow mismatch (% of pixels)"}}}});
-}
-
-}  // namespace
-
-void add_trade_maps(databuffer::Command trade, const CommonOptions& common) {
-  auto options = std::make_shared<MapTradeOptions>();
-  databuffer::Command command = trade.subcommand("maps", "speed against accuracy of patch maps");
-  add_trade_options(command, *options);
-  add_scene_options(command, options->configuration);
+void add_map_trade_options(databuffer::Command command, MapTradeOptions& options) {
+  add_trade_options(command, options);
+  add_scene_options(command, options.configuration);
   command
-      .option("--view", options->views,
+      .option("--view", options.views,
               "place and window of a map: LAT,LON,ALT_FT,TARGET_LAT,TARGET_LON,WINDOW_NM; repeatable")
       .value_name("VIEW")
       .repeatable()
       .otherwise("three windows in the middle of the terrain");
-  command.option("--ruler-size", options->ruler_size, "[pixels] edge of the map of --ruler reference").range(16, 1024);
-  command.callback([options, &common] { trade_off(common, *options); });
+  command.option("--ruler-size", options.ruler_size, "[pixels] edge of the map of --ruler reference").range(16, 1024);
+}
+
+void add_trade_maps(databuffer::Command trade, const CommonOptions& common) {
+  auto options = std::make_shared<MapTradeOptions>();
+  databuffer::Command command = trade.subcommand("maps", "speed against accuracy of patch maps");
+  add_map_trade_options(command, *options);
+  command.callback([options, &common] {
+    check_trade_output(*options);
+    const radar::RadarConfiguration configuration = read_configuration(common.config, options->configuration);
+    write_trade(*options, measure_trade(*options, configuration, warn_as("yars trade maps")));
+  });
 }
 
 }  // namespace yars::tools

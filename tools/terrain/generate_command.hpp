@@ -1,0 +1,40 @@
+// `yars terrain generate`: options and generation, which the Python module shares.
+// Errors: functions throw CommandFailed.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "databuffer/runtime/command_line.hpp"
+#include "worldgen/terrain/landscape.hpp"
+
+namespace yars::tools {
+
+struct TerrainGenerateOptions {
+  using Default = worldgen::DefaultLandscape;
+  std::string out;
+  int south_deg = Default::kSouth_deg;
+  int west_deg = Default::kWest_deg;
+  int cells_latitude = Default::kCellsNorth;
+  int cells_longitude = Default::kCellsEast;
+  int level = 1;
+  std::uint64_t seed = Default::kSeed;
+  std::string edge = "coast";
+  bool culture = true;
+  std::string airfields = "paved";
+  bool sea = false;
+  int threads = 0;  // 0: one per core of the machine
+  bool json = false;
+};
+
+struct GeneratedCells {
+  std::size_t land = 0, sea = 0;  // cells with land, cells with only sea
+};
+
+void add_terrain_generate_options(databuffer::Command command, TerrainGenerateOptions& options);
+
+// Generates the landscape and writes its cells. Progress goes to standard error if that is a terminal.
+GeneratedCells generate_terrain_files(const TerrainGenerateOptions& options);
+
+}  // namespace yars::tools
