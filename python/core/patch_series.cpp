@@ -234,7 +234,8 @@ double layover_factor(const hrm::PatchGeometry& geometry, hrm::MapPoint point, d
 // Boxes of the objects whose footprint overlaps the picture, in the order of the scene's groups.
 class Boxes {
  public:
-  Boxes(const Scene& scene, int size) : scene_(scene), size_(size), pixels_(scene.objects().size(), 0) {}
+  Boxes(const Scene& scene, int size, int min_pixels)
+      : scene_(scene), size_(size), min_pixels_(min_pixels), pixels_(scene.objects().size(), 0) {}
 
   void add(std::int32_t order, const hrm::PatchGeometry& geometry, const std::int32_t* object) {
     const std::size_t count = static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_);
@@ -262,6 +263,8 @@ class Boxes {
     // One factor serves the whole footprint, because it changes little over an object.
     const double factor = layover_factor(geometry, middle, footprint.base_msl_m - geometry.plane_msl_m());
     Box box{};
+    box.pixels = pixels_[static_cast<std::size_t>(footprint.object)];
+    if (box.pixels < min_pixels_) return;
     float left = 1e9F, right = -1e9F, top = 1e9F, bottom = -1e9F;
     constexpr int kSigns[4][2] = {{1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
     for (int k = 0; k < 4; ++k) {
@@ -279,7 +282,6 @@ class Boxes {
     }
     const auto edge = static_cast<float>(size_);
     const bool overlaps = right > 0.0F && left < edge && bottom > 0.0F && top < edge;
-    box.pixels = pixels_[static_cast<std::size_t>(footprint.object)];
     if (!overlaps && box.pixels == 0) return;
     box.order = order;
     box.object = footprint.object;
@@ -290,7 +292,7 @@ class Boxes {
   }
 
   const Scene& scene_;
-  int size_;
+  int size_, min_pixels_;
   std::vector<std::int32_t> pixels_;  // by object: pixels with its label in the current map
   std::vector<Box> boxes_;
 };
@@ -355,7 +357,8 @@ class Series {
         outputs_(outputs),
         formation_(formation.patch_formation),
         scenes_(request.scene ? request.scene->scenes() : configuration_.world.scenes) {
-    if (request.scene && outputs.object != nullptr) boxes_.emplace(*request.scene, configuration_.fidelity.map_size);
+    if (request.scene && outputs.object != nullptr)
+      boxes_.emplace(*request.scene, configuration_.fidelity.map_size, request.min_pixels);
   }
 
   // Forms map `index`. Throws CommandFailed that names the index.

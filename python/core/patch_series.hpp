@@ -26,6 +26,7 @@ struct SeriesRequest {
   std::vector<std::string> arrays;
   int threads = 1;
   bool force = false;
+  int min_pixels = 0;  // boxes of objects with fewer labelled pixels are left out
 };
 
 // A patch formation with its threads. The configuration must not move, because the formation refers to it.

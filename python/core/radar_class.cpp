@@ -152,10 +152,11 @@ std::shared_ptr<PatchResult> Radar::patch(const std::shared_ptr<Terrain>& terrai
 }
 
 py::dict Radar::patches(const std::shared_ptr<Terrain>& terrain, const py::array& orders, std::shared_ptr<Scene> scene,
-                        const py::object& movers, const std::vector<std::string>& arrays, int threads,
-                        bool force) const {
+                        const py::object& movers, const std::vector<std::string>& arrays, int threads, bool force,
+                        int min_pixels) const {
   check_same_terrain(scene.get(), *terrain);
-  return patch_series(configuration_, *pool_, {terrain, std::move(scene), orders, movers, arrays, threads, force});
+  return patch_series(configuration_, *pool_,
+                      {terrain, std::move(scene), orders, movers, arrays, threads, force, min_pixels});
 }
 
 std::string Radar::text() const {
@@ -169,7 +170,7 @@ void add_radar(py::module_& module) {
       .def("scan", &Radar::scan, py::arg("terrain").none(false), py::arg("scene").none(true))
       .def("patch", &Radar::patch, py::arg("terrain").none(false), py::arg("scene").none(true))
       .def("patches", &Radar::patches, py::arg("terrain").none(false), py::arg("orders"), py::arg("scene").none(true),
-           py::arg("movers"), py::arg("arrays"), py::arg("threads"), py::arg("force"))
+           py::arg("movers"), py::arg("arrays"), py::arg("threads"), py::arg("force"), py::arg("min_pixels"))
       .def_property_readonly("guf", &Radar::text)
       .def_property_readonly("name", [](const Radar& radar) { return radar.configuration().name; })
       .def_property_readonly("fidelity", [](const Radar& radar) { return radar.configuration().fidelity.name; })

@@ -29,7 +29,8 @@ class Radar {
                                      const py::kwargs& arguments) const;
   // Many maps, as patch_series.hpp says.
   py::dict patches(const std::shared_ptr<Terrain>& terrain, const py::array& orders, std::shared_ptr<Scene> scene,
-                   const py::object& movers, const std::vector<std::string>& arrays, int threads, bool force) const;
+                   const py::object& movers, const std::vector<std::string>& arrays, int threads, bool force,
+                   int min_pixels) const;
 
   const radar::RadarConfiguration& configuration() const { return configuration_; }
   std::string text() const;  // the configuration as GUF

@@ -103,6 +103,7 @@ class Radar:
         arrays: list[str],
         threads: int,
         force: bool,
+        min_pixels: int,
     ) -> dict[str, NDArray[Any]]: ...
     @property
     def guf(self) -> str: ...

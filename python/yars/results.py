@@ -230,14 +230,15 @@ class Radar:
         """
         return Patch(self._core.patch(terrain, scene, **options))
 
-    def patches(self, terrain, orders, scene=None, *, movers=None, arrays=PATCHES, threads=1, force=False):
+    def patches(self, terrain, orders, scene=None, *, movers=None, arrays=PATCHES, threads=1, force=False,
+                min_pixels=0):
         """Many patch maps in one call. Returns a dict of arrays.
 
         orders: structured array of dtype PATCH_ORDER, shape (n,). movers: structured array of dtype MOVER; each names its
         order. arrays: of video, power, shadow, layover, object, material, height, grazing_angle; each has the shape
         (n, map_size, map_size). Also: hash (n,) of each video; geo (n,), the place of the pixels on an azimuthal
         equidistant plane about the aircraft (plane_from_pixel: GDAL's affine, metres east and north) and numbers of each
-        map; boxes, with the footprint of each object in each picture (column, row), its aspect and its pixels.
+        map; boxes, with the footprint of each object in each picture (column, row), its aspect and its pixels; of objects with fewer pixels than min_pixels there are none.
         Errors: ValueError names the order that is beyond the radar's limits; force leaves the limits out.
 
         >>> import numpy
@@ -251,7 +252,7 @@ class Radar:
         ((2, 64, 64), (2, 6))
         """
         names = [arrays] if isinstance(arrays, str) else list(arrays)
-        return self._core.patches(terrain, orders, scene, movers, names, threads, force)
+        return self._core.patches(terrain, orders, scene, movers, names, threads, force, min_pixels)
 
 
 def trade(terrain=None, radar=None, *, maps=False, **options):

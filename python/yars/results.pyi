@@ -136,6 +136,7 @@ class Radar:
         arrays: str | Iterable[str] = ...,
         threads: int = 1,
         force: bool = False,
+        min_pixels: int = 0,
     ) -> dict[str, NDArray[Any]]: ...
 
 def trade(

@@ -68,7 +68,7 @@ class YarsMaker:
         try:
             return self._radar(settings).patches(self._terrain, converted(orders, self._yars.PATCH_ORDER),
                                                  scene=self._scene, arrays=plan.arrays, threads=1,
-                                                 force=plan.geometry["force"], **arguments)
+                                                 force=plan.geometry["force"], min_pixels=plan.min_pixels, **arguments)
         except (ValueError, self._yars.Error) as error:
             raise DatasetError(str(error)) from None
 
