@@ -26,7 +26,7 @@ print(terrain.elevation(numpy.linspace(37.4, 38.2, 5), -122.2).round(1), "m MSL 
 # options of the command `yars scan`. The antenna looks 4 degrees down.
 
 # %%
-pose = {"lat": 37.45, "lon": -122.5, "heading": 5, "range_nm": 40, "elevation": -4, "seed": 1}
+pose = {"lat": 37.45, "lon": -122.3, "heading": 5, "range_nm": 40, "elevation": -4, "seed": 1}
 radar = yars.Radar("standard")
 scan = radar.scan(terrain, alt_ft=12000, **pose)
 print(scan)
@@ -60,7 +60,7 @@ figure, axes = pyplot.subplots(2, 2, figsize=(10.5, 7.6), constrained_layout=Tru
 for ax, quantity in zip(axes.flat, ("video", "power", "shadow")):
     plot.ppi(scan, ax=ax, quantity=quantity)
     ax.set_title({"video": "video: what the pilot sees", "power": "power before noise", "shadow": "shadow (black)"}[quantity])
-plot.map(terrain, scan, ax=axes[1, 1], bounds=(37.2, -123.0, 38.4, -121.4))
+plot.map(terrain, scan, ax=axes[1, 1], bounds=(37.2, -123.0, 38.4, -121.5))
 axes[1, 1].set_title("elevation, coast, outline of the scan")
 figure.savefig("python_scan.png", dpi=80)
 

@@ -76,7 +76,7 @@ print(f"{len(boxes)} boxes, {len(tall)} of objects taller than 8 m that return; 
 # %%
 figure, axes = pyplot.subplots(2, 3, figsize=(12.5, 8), constrained_layout=True)
 plot.patch(one, ax=axes[0, 0])
-axes[0, 0].set_title("video, and boxes of what is taller than 8 m")
+axes[0, 0].set_title("video, boxes of what exceeds 8 m")
 edge_m = one.facts["window_m"]
 for box in tall:
     corners = (box["corners"] / radar.map_size - 0.5) * (edge_m, -edge_m)
