@@ -6,6 +6,7 @@
 # %%
 import numpy
 from matplotlib import patches, pyplot
+from matplotlib.colors import to_rgb
 
 import yars
 from yars import plot
@@ -53,10 +54,12 @@ print(one, {name: round(one.facts[name], 2) for name in ("slant_range_m", "grazi
 # %%
 MATERIALS = {0: "land", 1: "metal", 2: "part metal", 3: "masonry", 4: "composition", 5: "earthworks", 6: "water", 7: "sand",
              8: "rock", 9: "concrete", 10: "soil", 11: "marsh", 12: "trees", 13: "snow", 14: "asphalt"}
+COLORS = ["#e8e0c8", "#c81e1e", "#f08232", "#823ca0", "#e6c81e", "#8c6e46", "#1e5abe", "#f0dca0", "#787878", "#505050", "#c8a878",
+          "#5a9696", "#1e8c46", "#f0f0ff", "#282828"]
 labelled = one.object[one.object >= 0]
 print(f"shadow {one.shadow.mean():.1%}, layover {one.layover.mean():.1%}, {numpy.unique(labelled).size} objects return")
 for code, pixels in zip(*numpy.unique(one.material[~one.shadow], return_counts=True)):
-    print(f"  {MATERIALS.get(int(code), int(code)):12} {pixels / one.material.size:.1%} of the map")
+    print(f"  {MATERIALS[code]:12} {pixels / one.material.size:.1%} of the map")
 
 # %% [markdown]
 # ## Boxes
@@ -84,12 +87,11 @@ for box in tall:
 plot.patch(one, ax=axes[0, 1], quantity="object")
 axes[0, 1].set_title("object (a colour each; white: ground)")
 codes = numpy.unique(one.material[~one.shadow])
-colors = pyplot.get_cmap("tab20")(codes % 20)
 extent = (-edge_m / 2, edge_m / 2, -edge_m / 2, edge_m / 2)
-picture = pyplot.get_cmap("tab20")(one.material % 20)
+picture = numpy.array([to_rgb(color) for color in COLORS])[one.material]
 picture[one.shadow] = 1
 axes[0, 2].imshow(picture, extent=extent)
-axes[0, 2].legend([patches.Patch(color=color) for color in colors], [MATERIALS.get(int(code), str(code)) for code in codes],
+axes[0, 2].legend([patches.Patch(color=COLORS[code]) for code in codes], [MATERIALS[code] for code in codes],
                   fontsize=8, loc="upper left", framealpha=1)
 axes[0, 2].set_title("material (white: shadow)")
 axes[0, 2].set_xlabel("across the line of sight [m]")
