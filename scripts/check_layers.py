@@ -90,7 +90,7 @@ LAYERS = {
     "tools/dataset": SHELL + ["tools/command"],
     "tools/session": SHELL + WORLD + ["statemachine", "tools/command", "tools/recording"],
     "tools": SHELL + ["gateway/checks", "tools/command"],
-    "python/core": SHELL + KERNEL + WORLD + ["worldgen/scene", "tools/command", "tools/recording", "tools/trade", "tools/scan", "tools/patch"],
+    "python/core": SHELL + KERNEL + WORLD + ["worldgen/scene", "tools/command", "tools/recording", "tools/trade", "tools/scan", "tools/patch", "tools/scene", "tools/terrain"],
     "examples": ["databuffer/client"],
     "tests": None,  # None: everything
 }

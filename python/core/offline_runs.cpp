@@ -78,6 +78,18 @@ std::string trade(bool maps, const std::shared_ptr<Terrain>& terrain, const Rada
 }
 
 void add_offline_runs(py::module_& module) {
+  py::reinterpret_borrow<py::class_<Terrain, std::shared_ptr<Terrain>>>(module.attr("Terrain"))
+      .def_static("generate", &generate_terrain, py::arg("directory"), R"(Writes a made-up landscape as DTED cells.
+
+As `yars terrain generate`: options south, west [deg], cells_lat, cells_lon, level 0 to 2, seed, edge ("coast" or "cut"),
+culture (False: none), airfields ("paved" or "soil"), sea, threads. Returns the directory.
+Errors: ValueError for options, yars.Error for files that cannot be written.)");
+  py::reinterpret_borrow<py::class_<Scene, std::shared_ptr<Scene>>>(module.attr("Scene"))
+      .def_static("generate", &generate_scene, py::arg("path"), R"(Writes a made-up scene as an OpenFlight file.
+
+As `yars scene generate`: kind ("airfield", "harbour", "bridge" or "town"), triangles (about as many), seed,
+origin=(latitude, longitude) or (latitude, longitude, heading) [deg]. Returns the path.
+Errors: ValueError for options, yars.Error for a file that cannot be written.)");
   module.def("trade", &trade, py::arg("maps"), py::arg("terrain").none(true), py::arg("radar"));
 }
 

@@ -20,6 +20,7 @@ std::string generate_terrain(const py::object& directory, const py::kwargs& argu
 // JSON that `yars trade --out` writes. Null terrain: that of the radar's configuration, else the built-in hills.
 std::string trade(bool maps, const std::shared_ptr<Terrain>& terrain, const Radar& radar, const py::kwargs& arguments);
 
+// Adds trade(), and generate() of the classes Terrain and Scene. Call it after add_places().
 void add_offline_runs(py::module_& module);
 
 }  // namespace yars::python

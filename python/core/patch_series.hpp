@@ -1,8 +1,8 @@
 // Many patch maps in one call: an array of orders gives arrays of pictures and labels, one entry for each order.
 // Inputs: structured arrays PATCH_ORDER and MOVER. Outputs: a dict of arrays; geometry and boxes as structured arrays.
-// Units: as the suffix of each name says; degrees, and feet, knots and nautical miles, as in the options of `yars
-// patch`. Errors: ValueError names the index of the order that is beyond the radar's limits. Source: docs/python.md,
-// "Many maps".
+// Units: as the suffix of each name says. Others are degrees, feet, knots and nautical miles, as the options have them.
+// Errors: ValueError names the index of the order that is beyond the radar's limits.
+// Source: docs/python.md, "Many maps".
 #pragma once
 
 #include <memory>

@@ -10,7 +10,6 @@
 
 #include "lib/geo/earth.hpp"
 #include "model/scene/index/scene_index.hpp"
-#include "python/core/offline_runs.hpp"
 #include "tools/command/command.hpp"
 
 namespace yars::python {
@@ -187,11 +186,6 @@ Errors: yars.Error for a folder that is missing or has no cell.)")
                                      : py::cast<std::string>(py::module_::import("os").attr("fspath")(directory)));
            }),
            py::arg("directory") = py::none())
-      .def_static("generate", &generate_terrain, py::arg("directory"), R"(Writes a made-up landscape as DTED cells.
-
-As `yars terrain generate`: options south, west [deg], cells_lat, cells_lon, level 0 to 2, seed, edge ("coast" or "cut"),
-culture (False: none), airfields ("paved" or "soil"), sea, threads. Returns the directory.
-Errors: ValueError for options, yars.Error for files that cannot be written.)")
       .def("__reduce__",
            [](const py::object& self) {
              const auto& directory = py::cast<const Terrain&>(self).directory();
@@ -220,11 +214,6 @@ Errors: ValueError for a text that is no scene, yars.Error for a file that canno
              return std::make_shared<Scene>(texts(files), std::move(terrain), texts(without));
            }),
            py::arg("files"), py::arg("terrain").none(false), py::arg("without") = py::tuple())
-      .def_static("generate", &generate_scene, py::arg("path"), R"(Writes a made-up scene as an OpenFlight file.
-
-As `yars scene generate`: kind ("airfield", "harbour", "bridge" or "town"), triangles (about as many), seed,
-origin=(latitude, longitude) or (latitude, longitude, heading) [deg]. Returns the path.
-Errors: ValueError for options, yars.Error for a file that cannot be written.)")
       .def("__reduce__",
            [](const py::object& self) {
              const auto& scene = py::cast<const Scene&>(self);

@@ -18,7 +18,7 @@ import unittest
 import warnings
 
 sys.dont_write_bytecode = True
-BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve().parent
 sys.path.insert(0, str(BUILD / "python"))
 if not list((BUILD / "python/yars").glob("_core*.so")):
     print("no compiled part in this build: skipped")

@@ -15,7 +15,7 @@ import unittest
 import warnings
 
 sys.dont_write_bytecode = True
-BUILD = pathlib.Path(sys.argv.pop(1)).resolve()
+BUILD = pathlib.Path(sys.argv.pop(1)).resolve().parent
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 PROGRAMS = ("yars", "flight-model", "input-monitor", "state-machine", "radar-model")
 sys.path.insert(0, str(BUILD / "python"))
