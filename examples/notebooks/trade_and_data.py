@@ -75,7 +75,7 @@ for item, ax in enumerate(axes.flat):
     ax.set_title(f"{item}: {len(chip['boxes'])} boxes", fontsize=9)
     ax.set_xticks([])
     ax.set_yticks([])
-figure.savefig("python_chips.png", dpi=70)
+figure.savefig("python_chips.png", dpi=66)
 
 # %% [markdown]
 # ## Statistics of the theatre
