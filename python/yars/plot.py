@@ -103,6 +103,7 @@ def map(terrain: Any, *results: Any, ax: Axes | None = None, bounds: tuple[float
     ax.set_xlim(west, east)
     ax.set_ylim(south, north)
     ax.set_aspect(1.0 / math.cos(math.radians(0.5 * (south + north))))
+    ax.locator_params(axis="x", nbins=5)
     ax.set_xlabel("longitude [deg]")
     ax.set_ylabel("latitude [deg]")
     return ax
