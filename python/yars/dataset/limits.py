@@ -39,7 +39,7 @@ def command():
     found = shutil.which("yars")
     if not found:
         raise DatasetError("expected the command yars, found none; install the package yars, or set YARS_BIN to the folder "
-                           "build/release/bin")
+                           "of the programs")
     return found
 
 
