@@ -77,9 +77,12 @@ void add_dataset_command(databuffer::Command app) {
   auto options = std::make_shared<DatasetOptions>();
   databuffer::Command command =
       app.subcommand("dataset", "make training data: patch maps with labels, by a specification");
-  command.option("SPECIFICATION", options->specification, "what to make (YAML)").value_name("FILE");
+  command.option("SPECIFICATION", options->specification, "what to make (YAML)")
+      .value_name("FILE")
+      .otherwise("none, for --keys");
   command.option("--out", options->out, "folder of the data set; one that was interrupted is completed")
-      .value_name("DIR");
+      .value_name("DIR")
+      .otherwise("none, for --check");
   command.option("--workers", options->workers, "number of processes")
       .range(1, kMaxWorkers)
       .otherwise("one for each processor");
