@@ -6,6 +6,7 @@ import collections
 import concurrent.futures
 import json
 import threading
+import uuid
 
 from .errors import DatasetError
 from .run import HostProcess, check_answer
@@ -16,6 +17,7 @@ TASKS_PER_THREAD = 4  # that wait at the scheduler
 
 _lock = threading.Lock()
 _host = None
+_ended = set()  # runs whose tasks may still arrive at this worker
 
 
 class SharedHost:
@@ -67,12 +69,14 @@ class SharedHost:
         self._process.close()
 
 
-def make_block(plan, folder, maker, mark, block):
-    """Task: makes a block on this Dask worker. Returns the answer of its host; an error is an answer, too."""
+def make_block(run, plan, folder, maker, mark, block):
+    """Task: makes a block on this Dask worker. Returns the answer of its host; an error is an answer, too. `run`: name of the run."""
     global _host  # pylint: disable=global-statement
     from distributed import get_worker
     key = plan, folder, maker, mark
     with _lock:
+        if run in _ended:  # a new host would outlive the run
+            raise RuntimeError("the run has ended")
         if _host is None or _host.dead or _host.key != key:
             if _host is not None:
                 _host.close()
@@ -82,10 +86,11 @@ def make_block(plan, folder, maker, mark, block):
     return host.make(block)
 
 
-def close_host():
-    """Ends the host process of this Dask worker."""
+def close_host(run):
+    """Ends the host process of this Dask worker. Tasks of the run that come later make no other one."""
     global _host  # pylint: disable=global-statement
     with _lock:
+        _ended.add(run)
         if _host is not None:
             _host.close()
             _host = None
@@ -107,24 +112,25 @@ def run_dask(options, mark, blocks, progress):
     except (TimeoutError, distributed.TimeoutError):
         client.close()
         raise DatasetError(f"--dask: expected workers at {options.dask}, found none in {WORKERS_WITHIN_S} s; start dask-worker") from None
+    run = uuid.uuid4().hex
     try:
-        _submit_all(client, options, mark, blocks, progress)
+        _submit_all(client, (run, options.plan, options.out, options.maker, mark), blocks, progress)
     finally:
         try:
-            client.run(close_host, on_error="ignore")
+            client.run(close_host, run, on_error="ignore")
         finally:
             client.close()
 
 
-def _submit_all(client, options, mark, blocks, progress):
+def _submit_all(client, arguments, blocks, progress):
+    """`arguments`: of make_block() without the block."""
     import distributed
     todo, tries = collections.deque(blocks), collections.Counter()
     flying = {}
 
     def submit(block):
         tries[block] += 1
-        future = client.submit(make_block, options.plan, options.out, options.maker, mark, block, pure=False,
-                               key=f"yars-{mark[:8]}-{block}-{tries[block]}")
+        future = client.submit(make_block, *arguments, block, pure=False, key=f"yars-{arguments[0][:8]}-{block}-{tries[block]}")
         flying[future.key] = block
         return future
     threads = sum(client.nthreads().values())
