@@ -113,6 +113,7 @@ std::vector<FootprintGroup> groups_of(const std::vector<SceneObject>& objects) {
     group.reach_m = std::max(group.reach_m, std::hypot(at.x_m, at.y_m) + std::hypot(object.length_m, object.width_m));
   }
   std::vector<FootprintGroup> list;
+  list.reserve(groups.size());
   for (auto& [key, group] : groups) list.push_back(std::move(group));
   return list;
 }

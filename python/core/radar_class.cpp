@@ -114,7 +114,7 @@ std::shared_ptr<ScanResult> Radar::scan(const std::shared_ptr<Terrain>& terrain,
   return result;
 }
 
-std::shared_ptr<PatchResult> Radar::patch(const std::shared_ptr<Terrain>& terrain, std::shared_ptr<Scene> scene,
+std::shared_ptr<PatchResult> Radar::patch(const std::shared_ptr<Terrain>& terrain, const std::shared_ptr<Scene>& scene,
                                           const py::kwargs& arguments) const {
   tools::PatchOptions options;
   read_options("yars patch", arguments,

@@ -25,7 +25,7 @@ class Radar {
 
   std::shared_ptr<ScanResult> scan(const std::shared_ptr<Terrain>& terrain, std::shared_ptr<Scene> scene,
                                    const py::kwargs& arguments) const;
-  std::shared_ptr<PatchResult> patch(const std::shared_ptr<Terrain>& terrain, std::shared_ptr<Scene> scene,
+  std::shared_ptr<PatchResult> patch(const std::shared_ptr<Terrain>& terrain, const std::shared_ptr<Scene>& scene,
                                      const py::kwargs& arguments) const;
   // Many maps, as patch_series.hpp says.
   py::dict patches(const std::shared_ptr<Terrain>& terrain, const py::array& orders, std::shared_ptr<Scene> scene,

@@ -15,15 +15,17 @@ py::object error_class() {
 }  // namespace
 
 void register_exceptions(py::module_& /*module*/) {
-  py::register_exception_translator([](std::exception_ptr pointer) {
-    try {
-      if (pointer) std::rethrow_exception(pointer);
-    } catch (const tools::CommandFailed& failed) {
-      const py::object type =
-          failed.code == databuffer::kExitUsage ? py::reinterpret_borrow<py::object>(PyExc_ValueError) : error_class();
-      PyErr_SetString(type.ptr(), failed.message.c_str());
-    }
-  });
+  py::register_exception_translator(
+      [](std::exception_ptr pointer) {  // NOLINT(performance-unnecessary-value-param): pybind11's form
+        try {
+          if (pointer) std::rethrow_exception(pointer);
+        } catch (const tools::CommandFailed& failed) {
+          const py::object type = failed.code == databuffer::kExitUsage
+                                      ? py::reinterpret_borrow<py::object>(PyExc_ValueError)
+                                      : error_class();
+          PyErr_SetString(type.ptr(), failed.message.c_str());
+        }
+      });
 }
 
 void raise(const error::Error& error) {
@@ -89,7 +91,8 @@ void Warnings::show(const std::string& command) {
     lines.push_back("and " + std::to_string(more) + " more warnings");
   }
   for (const std::string& line : lines)
-    if (PyErr_WarnEx(PyExc_UserWarning, (command + ": " + line).c_str(), 2) != 0) throw py::error_already_set();
+    if (PyErr_WarnFormat(PyExc_UserWarning, 2, "%s: %s", command.c_str(), line.c_str()) != 0)
+      throw py::error_already_set();
 }
 
 py::array flags_of(const std::shared_ptr<const void>& owner, const std::uint8_t* data, std::vector<py::ssize_t> shape) {

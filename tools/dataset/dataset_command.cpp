@@ -65,6 +65,7 @@ std::vector<std::string> words_of(const DatasetOptions& options) {
   std::vector<std::string> words{python, "-m", "yars.dataset"};
   for (std::string& word : words_of(options)) words.push_back(std::move(word));
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   ::execvp(python.c_str(), arguments.data());
