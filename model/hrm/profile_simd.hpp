@@ -2,6 +2,7 @@
 // layover in one pass away from the aircraft.
 // Inputs: heights, gammas, crests and walls by row and column. Outputs: power, as cross section [m^2], by apparent row:
 // the row at which the map plane has the slant range of the scatterer (layover).
+// With labels, also what each row shows: the strongest surface, and how many surfaces lie there.
 // The profile of a column is a polyline through its heights, with one piece between two rows. The part of a piece above
 // the lines of sight over all nearer pieces is visible.
 // The power of a piece is gamma times its projected area: column width * angle subtended at the radar * slant range.

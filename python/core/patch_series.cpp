@@ -107,8 +107,7 @@ std::vector<Entry> entries_of(const py::array& given, const py::dtype& type, con
                       text_of(type) + ", found " + std::to_string(given.ndim()) + " axes of " + text_of(given.dtype()));
   const py::array whole = py::module_::import("numpy").attr("ascontiguousarray")(given);
   std::vector<Entry> entries(static_cast<std::size_t>(whole.size()));
-  if (static_cast<std::size_t>(whole.itemsize()) != sizeof(Entry))
-    raise_value_error("yars.Radar.patches: internal layout");
+  YARS_REQUIRE(static_cast<std::size_t>(whole.itemsize()), ==, sizeof(Entry));
   std::memcpy(entries.data(), whole.data(), entries.size() * sizeof(Entry));
   return entries;
 }
@@ -186,14 +185,10 @@ hrm::PatchOrder order_of(const Order& order) {
 }
 
 Geo geo_of(const hrm::PatchGeometry& geometry, int size) {
-  const double pixel_m = geometry.window_m() / size;
-  const double sine = std::sin(geometry.up().radians()), cosine = std::cos(geometry.up().radians());
-  const double left_m = -0.5 * geometry.window_m(), top_m = geometry.distance_m() + 0.5 * geometry.window_m();
   Geo geo{};
   geo.origin_latitude = geometry.apex().latitude_deg;
   geo.origin_longitude = geometry.apex().longitude_deg;
-  const std::array<double, 6> plane{left_m * cosine + top_m * sine,  pixel_m * cosine, -pixel_m * sine,
-                                    -left_m * sine + top_m * cosine, -pixel_m * sine,  -pixel_m * cosine};
+  const std::array<double, 6> plane = tools::plane_from_pixel(geometry, size);
   std::copy(plane.begin(), plane.end(), &geo.plane_from_pixel[0]);
   geo.up_deg = geometry.up().degrees();
   geo.distance_m = geometry.distance_m();

@@ -49,19 +49,6 @@ namespace {
 namespace gdal = model::terrain::gdal;
 namespace hrm = model::hrm;
 
-// Affine transform from pixel to the file's plane [m], in GDAL's order of coefficients. The map's plane is azimuthal
-// equidistant about the aircraft. The file's plane has the same origin with north up, so the transform rotates by the
-// bearing of the map's centre.
-std::array<double, 6> plane_from_pixel(const hrm::PatchGeometry& geometry, int size) {
-  const double pixel_m = geometry.window_m() / size;
-  const double sine = std::sin(geometry.up().radians());
-  const double cosine = std::cos(geometry.up().radians());
-  const double left_m = -0.5 * geometry.window_m();
-  const double top_m = geometry.distance_m() + 0.5 * geometry.window_m();
-  return {left_m * cosine + top_m * sine,  pixel_m * cosine, -pixel_m * sine,
-          -left_m * sine + top_m * cosine, -pixel_m * sine,  -pixel_m * cosine};
-}
-
 void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchFormation& patch_formation) {
   const int size = patch_formation.image().size;
   gdal::MapPicture picture;

@@ -3,6 +3,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 #include <thread>
@@ -90,6 +91,16 @@ void check_heights(const hrm::PatchOrder& order, const hrm::PatchEnvironment& en
     throw_failure(*problem);
   const double target_ground_m = environment.window->elevation_m(order.centre);
   if (const auto problem = beyond_limits(order, configuration, target_ground_m)) throw_failure(*problem);
+}
+
+std::array<double, 6> plane_from_pixel(const model::hrm::PatchGeometry& geometry, int size) {
+  const double pixel_m = geometry.window_m() / size;
+  const double sine = std::sin(geometry.up().radians());
+  const double cosine = std::cos(geometry.up().radians());
+  const double left_m = -0.5 * geometry.window_m();
+  const double top_m = geometry.distance_m() + 0.5 * geometry.window_m();
+  return {left_m * cosine + top_m * sine,  pixel_m * cosine, -pixel_m * sine,
+          -left_m * sine + top_m * cosine, -pixel_m * sine,  -pixel_m * cosine};
 }
 
 std::uint64_t picture_hash(std::span<const std::uint8_t> picture) {

@@ -4,6 +4,7 @@
 // Source of names and ranges: docs/spec/commands.md#patch.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -45,5 +46,10 @@ void check_heights(const model::hrm::PatchOrder& order, const model::hrm::PatchE
 
 // Hash of a picture: XXH3, 64 bits, of its video, row after row.
 std::uint64_t picture_hash(std::span<const std::uint8_t> picture);
+
+// Affine transform from pixel to the plane of a GeoTIFF [m], in GDAL's order of coefficients. The map's plane is
+// azimuthal equidistant about the aircraft. That plane has the same origin with north up, so the transform rotates by
+// the bearing of the map's centre.
+std::array<double, 6> plane_from_pixel(const model::hrm::PatchGeometry& geometry, int size);
 
 }  // namespace yars::tools

@@ -1,4 +1,5 @@
 // `yars scene generate`: options and generation, which the Python module shares.
+// Inputs: options of a made-up scene. Outputs: one OpenFlight file.
 // Errors: functions throw CommandFailed.
 #pragma once
 

@@ -1,4 +1,5 @@
 // `yars terrain generate`: options and generation, which the Python module shares.
+// Inputs: options of a made-up landscape. Outputs: files of its cells; their numbers.
 // Errors: functions throw CommandFailed.
 #pragma once
 
