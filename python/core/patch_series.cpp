@@ -117,16 +117,20 @@ struct Outputs {
   py::dict arrays;
   std::uint8_t *video = nullptr, *shadow = nullptr, *layover = nullptr, *material = nullptr;
   float *power = nullptr, *height = nullptr, *grazing = nullptr;
-  std::int32_t* object = nullptr;
+  std::int16_t* object = nullptr;          // if all indices fit
+  std::int32_t* object_of_many = nullptr;  // if not
 
+  bool objects() const { return object != nullptr || object_of_many != nullptr; }
   hrm::LabelUse labels() const {
     if (height != nullptr || grazing != nullptr) return hrm::LabelUse::heights;
-    return shadow != nullptr || layover != nullptr || material != nullptr || object != nullptr ? hrm::LabelUse::surfaces
+    return shadow != nullptr || layover != nullptr || material != nullptr || objects() ? hrm::LabelUse::surfaces
                                                                                                : hrm::LabelUse::none;
   }
 };
 
-Outputs make_outputs(const std::vector<std::string>& names, std::size_t count, int size) {
+Outputs make_outputs(const SeriesRequest& request, std::size_t count, int size) {
+  const bool few_objects =
+      request.scene && request.scene->objects().size() <= std::size_t{std::numeric_limits<std::int16_t>::max()};
   Outputs outputs;
   const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(count), size, size};
   const auto make = [&](const std::string& name, auto*& data) {
@@ -135,7 +139,7 @@ Outputs make_outputs(const std::vector<std::string>& names, std::size_t count, i
     data = array.mutable_data();
     outputs.arrays[name.c_str()] = std::move(array);
   };
-  for (const std::string& name : names) {
+  for (const std::string& name : request.arrays) {
     if (name == "video")
       make(name, outputs.video);
     else if (name == "power")
@@ -144,8 +148,10 @@ Outputs make_outputs(const std::vector<std::string>& names, std::size_t count, i
       make(name, outputs.shadow);
     else if (name == "layover")
       make(name, outputs.layover);
-    else if (name == "object")
+    else if (name == "object" && few_objects)
       make(name, outputs.object);
+    else if (name == "object")
+      make(name, outputs.object_of_many);
     else if (name == "material")
       make(name, outputs.material);
     else if (name == "height")
@@ -232,10 +238,9 @@ class Boxes {
   Boxes(const Scene& scene, int size, int min_pixels)
       : scene_(scene), size_(size), min_pixels_(min_pixels), pixels_(scene.objects().size(), 0) {}
 
-  void add(std::int32_t order, const hrm::PatchGeometry& geometry, const std::int32_t* object) {
-    const std::size_t count = static_cast<std::size_t>(size_) * static_cast<std::size_t>(size_);
-    for (std::size_t i = 0; i < count; ++i)
-      if (object[i] >= 0) ++pixels_[static_cast<std::size_t>(object[i])];
+  void add(std::int32_t order, const hrm::PatchGeometry& geometry, const std::vector<std::int32_t>& labels) {
+    for (const std::int32_t object : labels)
+      if (object >= 0) ++pixels_[static_cast<std::size_t>(object)];
     const geo::GeoPoint centre = geometry.position_of({});
     for (const FootprintGroup& group : scene_.groups()) {
       const double north_m = (group.origin.latitude_deg - centre.latitude_deg) * geo::kMetresPerDegree;
@@ -245,8 +250,8 @@ class Boxes {
       if (std::abs(transform.at.right_m) > reach_m || std::abs(transform.at.up_m) > 1.5 * reach_m) continue;
       for (const Footprint& footprint : group.footprints) add_box(order, geometry, transform, footprint);
     }
-    for (std::size_t i = 0; i < count; ++i)
-      if (object[i] >= 0) pixels_[static_cast<std::size_t>(object[i])] = 0;
+    for (const std::int32_t object : labels)
+      if (object >= 0) pixels_[static_cast<std::size_t>(object)] = 0;
   }
   const std::vector<Box>& boxes() const { return boxes_; }
 
@@ -328,7 +333,10 @@ void store(const hrm::PatchFormation& formation, std::size_t index, const Output
   copy(formation.picture(), outputs.video);
   copy(labels.shadow, outputs.shadow);
   copy(labels.layover, outputs.layover);
-  copy(labels.object, outputs.object);
+  if (outputs.object != nullptr)
+    std::transform(labels.object.begin(), labels.object.end(), outputs.object + at,
+                   [](std::int32_t object) { return static_cast<std::int16_t>(object); });
+  copy(labels.object, outputs.object_of_many);
   copy(labels.material, outputs.material);
   copy(labels.height_m, outputs.height);
   if (outputs.power != nullptr)
@@ -352,7 +360,7 @@ class Series {
         outputs_(outputs),
         formation_(formation.patch_formation),
         scenes_(request.scene ? request.scene->scenes() : configuration_.world.scenes) {
-    if (request.scene && outputs.object != nullptr)
+    if (request.scene && outputs.objects())
       boxes_.emplace(*request.scene, configuration_.fidelity.map_size, request.min_pixels);
   }
 
@@ -368,9 +376,7 @@ class Series {
     store(formation_, index, outputs_);
     hashes_.push_back(tools::picture_hash(formation_.picture()));
     geometries_.push_back(geo_of(formation_.geometry(), configuration_.fidelity.map_size));
-    if (boxes_)
-      boxes_->add(static_cast<std::int32_t>(index), formation_.geometry(),
-                  outputs_.object + index * formation_.picture().size());
+    if (boxes_) boxes_->add(static_cast<std::int32_t>(index), formation_.geometry(), formation_.labels().object);
   }
 
   // Adds geometry, boxes and hashes to the arrays. Call it with the interpreter's lock.
@@ -463,7 +469,7 @@ py::dict patch_series(const radar::RadarConfiguration& configuration, FormationP
   auto traffic = traffic_of(request.movers, orders);
   if (request.threads < 1 || request.threads > 256)
     raise_value_error("yars.Radar.patches: threads: expected 1 to 256, found " + std::to_string(request.threads));
-  const Outputs outputs = make_outputs(request.arrays, orders.size(), configuration.fidelity.map_size);
+  const Outputs outputs = make_outputs(request, orders.size(), configuration.fidelity.map_size);
   std::unique_ptr<Formation> formation =
       pool.take(configuration, static_cast<std::size_t>(request.threads), outputs.labels());
   Series series(*formation, request, outputs);
@@ -486,6 +492,18 @@ void add_series(py::module_& module) {
         return XXH3_64bits(info.ptr, static_cast<std::size_t>(info.size * info.itemsize));
       },
       py::arg("bytes"), "XXH3 hash, 64 bits, of the bytes of a contiguous buffer.");
+  module.def(
+      "xxh3_items",
+      [](const py::buffer& array) {
+        const py::buffer_info info = array.request();
+        std::vector<std::uint64_t> hashes(info.ndim > 0 ? static_cast<std::size_t>(info.shape[0]) : 0);
+        const std::size_t bytes =
+            hashes.empty() ? 0 : static_cast<std::size_t>(info.size * info.itemsize) / hashes.size();
+        for (std::size_t i = 0; i < hashes.size(); ++i)
+          hashes[i] = XXH3_64bits(static_cast<const std::uint8_t*>(info.ptr) + i * bytes, bytes);
+        return hashes;
+      },
+      py::arg("array"), "XXH3 hashes, 64 bits each, of the entries along the first axis of a contiguous array.");
 }
 
 }  // namespace yars::python

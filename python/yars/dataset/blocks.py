@@ -1,8 +1,8 @@
 """Makes one block: draws its items, has the radar make their arrays, writes arrays, boxes and the block's part.
 
 All work is done by array operations over the block. The part is written last, so a block with a part is whole."""
-import io
 import json
+import re
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from .sampling import Sample
 
 BOX = np.dtype([("item", "<i8"), ("object", "<i4"), ("class", "<i4"), ("pixels", "<i4"), ("aspect_deg", "<f4"),
                 ("corners", "<f4", (4, 2))])
+_ENCODE = json.JSONEncoder(separators=(",", ":"), allow_nan=False).encode
 
 
 def slice_sample(sample, first, last):
@@ -26,9 +27,9 @@ def slice_sample(sample, first, last):
 def dump(value):
     """One line of JSON; what is not finite is null."""
     try:
-        return json.dumps(value, separators=(",", ":"), allow_nan=False)
+        return _ENCODE(value)
     except ValueError:
-        return json.dumps(_finite(value), separators=(",", ":"))
+        return _ENCODE(_finite(value))
 
 
 def _finite(value):
@@ -39,6 +40,23 @@ def _finite(value):
     return None if isinstance(value, float) and not np.isfinite(value) else value
 
 
+# A row of a structured array as JSON is made by one format: it takes half the time of json.dumps on a dict.
+_NOT_FINITE = re.compile(r"(?<=[:,\[])-?(?:nan|inf)\b")
+
+
+def _template(kind):
+    """Format of a row of numbers: %r for each number of _flat."""
+    parts = (f'"{name}":' + ("[" + ",".join(["%r"] * kind[name].shape[0]) + "]" if kind[name].shape else "%r") for name in kind.names)
+    return "{" + ",".join(parts) + "}"
+
+
+def _flat(rows):
+    """Tuples of the numbers of a structured array of numbers and vectors."""
+    kinds = [(f"{name}{at}", rows.dtype[name].base) for name in rows.dtype.names
+             for at in range(rows.dtype[name].shape[0] if rows.dtype[name].shape else 1)]
+    return rows.view(kinds).tolist()
+
+
 class BlockMaker:
     """Makes blocks of a data set. `class_ids`: index of each object's class in `classes`; -1: ignored."""
 
@@ -46,6 +64,7 @@ class BlockMaker:
         self.plan, self.store, self.sampler, self.maker = plan, store, sampler, maker
         self._class_ids = np.asarray(class_ids, np.int32)
         self._ignores = bool((self._class_ids < 0).any())
+        self._types = formats.types(len(maker.objects))
         self._encoders = {name: formats.codec(plan.compression, name) for name in plan.arrays} if plan.format == "zarr" else {}
         self._drawn = sampler.settings.drawn()
         if plan.geotiff:
@@ -67,15 +86,13 @@ class BlockMaker:
         def put(name, data):
             files.write(self.store.path(name), data)
             names[name] = [memoryview(data).nbytes, f"{self.store.hash(data):016x}"]
-        hashes = {"video": checks} if "video" in arrays else {}
+        hashes = {}
         for name, array in arrays.items():
-            if name != "video":
-                hashes[name] = [self.store.hash(item) for item in array]
-        if self.plan.format == "zarr":
-            for name, array in arrays.items():
+            hashes[name] = checks if name == "video" else self.store.hash_items(array)
+            if self.plan.format == "zarr":
                 put(f"chips.zarr/{name}/{block}.0.0", formats.zarr_chunk(array, self.plan.block, self._encoders[name]))
-            if boxes is not None:
-                put(self.store.boxes_name(block), _npy(boxes))
+        if self.plan.format == "zarr" and boxes is not None:
+            put(self.store.boxes_name(block), boxes.base)
         edges = np.searchsorted(boxes["item"], sample.items[0] + np.arange(len(sample.items) + 1)) if boxes is not None else None
         self._write_items(sample, arrays, geo, boxes, edges, put)
         lines = self._lines(sample, geo, hashes, boxes, edges)
@@ -87,35 +104,40 @@ class BlockMaker:
         """(arrays, video hashes, geo, boxes) of a sample: one call of the radar for each run of equal settings."""
         runs = self.sampler.run_of(sample.items)
         edges = np.concatenate([[0], np.flatnonzero(np.diff(runs)) + 1, [len(runs)]])
-        results, boxes = [], []
+        results, found = [], []
         for first, last in zip(edges[:-1], edges[1:]):
             part = slice_sample(sample, first, last)
             result = self.maker.patches(part.orders, part.movers, self.sampler.settings.text(int(runs[first])))
             results.append(result)
             if "object" in self.plan.arrays:
-                boxes.append(self._boxes(result["boxes"], part.items))
+                found.append(self._wanted(result["boxes"], part.items))
         def joined(name):
             return results[0][name] if len(results) == 1 else np.concatenate([result[name] for result in results])
         shape = (len(runs), self.plan.size, self.plan.size)
         arrays = {}
         for name in self.plan.arrays:
-            arrays[name] = np.ascontiguousarray(joined(name), formats.TYPES[name])
+            arrays[name] = np.ascontiguousarray(joined(name), self._types[name])
             if arrays[name].shape != shape:
                 raise DatasetError(f"expected the array {name} with the shape {shape}, found {arrays[name].shape}; this is a fault of YARS")
-        return arrays, joined("hash").tolist(), joined("geo"), np.concatenate(boxes) if boxes else None
+        return arrays, joined("hash").tolist(), joined("geo"), self._boxes(found) if found else None
 
-    def _boxes(self, found, items):
-        """Boxes as BOX, in the order of items and of the radar, without ignored classes and those with too few pixels."""
-        kept = np.flatnonzero(found["pixels"] >= self.plan.min_pixels)
-        order, thing = found["order"][kept], found["object"][kept]
+    def _wanted(self, rows, items):
+        """(item of each box, boxes of the radar), without those of ignored classes."""
         if self._ignores:
-            wanted = self._class_ids[thing] >= 0
-            kept, order, thing = kept[wanted], order[wanted], thing[wanted]
-        boxes = np.empty(len(kept), BOX)
-        boxes["item"], boxes["object"], boxes["class"] = items[order], thing, self._class_ids[thing]
-        rows = found.view(f"V{found.dtype.itemsize}")[kept].view(found.dtype)  # whole rows are copied faster than structured ones
-        for name in ("pixels", "aspect_deg", "corners"):
-            boxes[name] = rows[name]
+            # Whole rows are copied faster than structured ones.
+            rows = rows.view(f"V{rows.dtype.itemsize}")[self._class_ids[rows["object"]] >= 0].view(rows.dtype)
+        return items[rows["order"]], rows
+
+    def _boxes(self, found):
+        """Boxes as BOX, in the order of items and of the radar. Their `base` is the whole .npy file."""
+        boxes = formats.npy_room(BOX, sum(len(rows) for _, rows in found))
+        at = 0
+        for items, rows in found:
+            part = boxes[at:at + len(rows)]
+            part["item"], part["class"] = items, self._class_ids[rows["object"]]
+            for name in ("object", "pixels", "aspect_deg", "corners"):
+                part[name] = rows[name]
+            at += len(rows)
         return boxes
 
     def _write_items(self, sample, arrays, geo, boxes, edges, put):
@@ -137,29 +159,31 @@ class BlockMaker:
 
     def _lines(self, sample, geo, hashes, boxes, edges):
         """One line of JSON for each item."""
-        order_names, geo_names = sample.orders.dtype.names, geo.dtype.names
+        names = list(hashes)
+        form = ('{"item":%r,"hash":{' + ",".join(f'"{name}":"%016x"' for name in names) + '},"order":' + _template(sample.orders.dtype) +
+                ',"target":%r,"target_object":%r,"redraws":%r,"geo":' + _template(geo.dtype) + ',"boxes":%r')
         mover_names = sample.movers.dtype.names[1:]
         movers = [[] for _ in sample.items]
         for row in sample.movers.tolist():
             movers[row[0]].append(dict(zip(mover_names, row[1:])))
         runs = self.sampler.run_of(sample.items).tolist()
         settings = {run: self._settings(run) for run in set(runs)} if self._drawn else {}
-        texts = {name: [f"{value:016x}" for value in values] for name, values in hashes.items()}
         counts = np.diff(edges).tolist() if edges is not None else [0] * len(runs)
         lines = []
-        for at, (item, order, place, entry, thing, redraws) in enumerate(zip(
-                sample.items.tolist(), sample.orders.tolist(), geo.tolist(), sample.entry.tolist(), sample.object.tolist(),
-                sample.attempt.tolist())):
-            line = {"item": item, "hash": {name: values[at] for name, values in texts.items()}, "order": dict(zip(order_names, order)),
-                    "target": entry, "target_object": thing, "redraws": redraws, "geo": dict(zip(geo_names, _plain(place))),
-                    "boxes": counts[at]}
+        for at, (item, checks, order, entry, thing, redraws, place, count) in enumerate(zip(
+                sample.items.tolist(), zip(*hashes.values()), _flat(sample.orders), sample.entry.tolist(), sample.object.tolist(),
+                sample.attempt.tolist(), _flat(geo), counts)):
+            line = form % (item, *checks, *order, entry, thing, redraws, *place, count)
+            if "nan" in line or "inf" in line:
+                line = _NOT_FINITE.sub("null", line)
+            more = {}
             if movers[at]:
-                line["movers"] = movers[at]
+                more["movers"] = movers[at]
             if settings:
-                line["settings"] = settings[runs[at]]
+                more["settings"] = settings[runs[at]]
             if self.plan.manifest_boxes and boxes is not None:
-                line["box_list"] = [dict(zip(BOX.names[1:], _plain(box)[1:])) for box in boxes[edges[at]:edges[at + 1]].tolist()]
-            lines.append(dump(line))
+                more["box_list"] = [dict(zip(BOX.names[1:], _plain(box)[1:])) for box in boxes[edges[at]:edges[at + 1]].tolist()]
+            lines.append(line + ("," + dump(more)[1:] if more else "}"))
         return ("\n".join(lines) + "\n").encode()
 
     def _settings(self, run):
@@ -170,10 +194,3 @@ class BlockMaker:
 
 def _plain(values):
     return [value.tolist() if isinstance(value, np.ndarray) else value for value in values]
-
-
-def _npy(array):
-    """Bytes of an .npy file."""
-    stream = io.BytesIO()
-    np.lib.format.write_array(stream, array, version=(1, 0))
-    return stream.getvalue()

@@ -11,7 +11,7 @@ import subprocess
 
 import numpy as np
 
-from . import feasibility, files
+from . import feasibility, files, formats
 from .blocks import BlockMaker, dump
 from .errors import DatasetError
 from .limits import command, read_limits
@@ -111,6 +111,7 @@ def load(spec_path, folder, maker_name=MAKER, mark=None, warm=True):
     centres = [_centre(scene, path) for scene, path in zip(plan.scenes, paths)] if any(target.scenes for target in plan.targets) else []
     sampler = Sampler(plan, limits, World(maker.elevation, np.array(centres, float).reshape(-1, 2), maker.objects, labels))
     _write_objects(store, maker.objects, labels, classes)
+    store.describe_arrays(formats.types(len(maker.objects)))
     if warm:
         step = max(1, plan.count // WARM_ITEMS)
         maker.warm(sampler.draw(np.arange(0, plan.count, step)[:WARM_ITEMS]), sampler.settings.text(0))

@@ -6,17 +6,22 @@ import numpy as np
 
 from .errors import DatasetError
 
-# Type and fill value of each array (pixels outside a picture do not exist; the fill value is never seen).
-TYPES = {"video": "|u1", "power": "<f4", "shadow": "|u1", "layover": "|u1", "object": "<i4", "material": "|u1",
+_TYPES = {"video": "|u1", "power": "<f4", "shadow": "|u1", "layover": "|u1", "object": "<i4", "material": "|u1",
          "height": "<f4", "grazing_angle": "<f4"}
 # Blosc's: 1 by bytes for floats, 2 by bits for flags and codes.
 _SHUFFLES = {"power": 1, "height": 1, "grazing_angle": 1, "shadow": 2, "layover": 2, "material": 2}
 UNITS = {"video": "1", "power": "1", "shadow": "1", "layover": "1", "object": "1", "material": "1", "height": "m", "grazing_angle": "deg"}
+_INT16_OBJECTS = 32767  # indices up to 32766 and -1
 MEANINGS = {"video": "0 black to 255 white", "power": "gamma of level ground, before speckle and noise",
             "shadow": "1: no surface that the radar sees returns here", "layover": "1: two or more visible surfaces at this slant range",
             "object": "index into objects.json of the strongest surface; -1: ground or none",
             "material": "surface material code; 0: land without culture", "height": "above mean sea level",
             "grazing_angle": "between line of sight and surface"}
+
+
+def types(objects):
+    """{array: type} of a data set over scenes with so many objects: indices of few objects take 16 bits."""
+    return {**_TYPES, "object": "<i2"} if objects <= _INT16_OBJECTS else _TYPES
 
 
 def codec(name, array):
@@ -33,11 +38,11 @@ def codec(name, array):
     return numcodecs.Blosc(cname=name, clevel=1, shuffle=_SHUFFLES.get(array, numcodecs.Blosc.NOSHUFFLE))
 
 
-def zarr_metadata(plan):
-    """{path: text} of the metadata of a Zarr group, version 2."""
+def zarr_metadata(plan, kinds):
+    """{path: text} of the metadata of a Zarr group, version 2. `kinds`: types of the arrays."""
     files = {".zgroup": {"zarr_format": 2}, ".zattrs": {"description": "radar chips of YARS; see dataset.json"}}
     for name in plan.arrays:
-        encoder, kind = codec(plan.compression, name), np.dtype(TYPES[name])
+        encoder, kind = codec(plan.compression, name), np.dtype(kinds[name])
         files[f"{name}/.zarray"] = {
             "zarr_format": 2, "shape": [plan.count, plan.size, plan.size], "chunks": [plan.block, plan.size, plan.size],
             "dtype": kind.str, "compressor": encoder and encoder.get_config(), "fill_value": "NaN" if kind.kind == "f" else 0,
@@ -52,6 +57,15 @@ def zarr_chunk(array, block, encoder):
     if len(array) < block:
         array = np.concatenate([array, np.zeros((block - len(array),) + array.shape[1:], array.dtype)])
     return encoder.encode(np.ascontiguousarray(array)) if encoder else np.ascontiguousarray(array)
+
+
+def npy_room(kind, count):
+    """Array of one axis to be filled. Its `base` has the bytes of its .npy file, the header included."""
+    head = io.BytesIO()
+    np.lib.format.write_array_header_1_0(head, {"descr": np.lib.format.dtype_to_descr(kind), "fortran_order": False, "shape": (count,)})
+    file = np.empty(head.tell() + count * kind.itemsize, np.uint8)
+    file[:head.tell()] = np.frombuffer(head.getvalue(), np.uint8)
+    return file[head.tell():].view(kind)
 
 
 def npz(arrays, compressed):

@@ -13,12 +13,15 @@ OBJECT = np.dtype([("name", "U64"), ("latitude", "f8"), ("longitude", "f8")])
 
 
 def hasher():
-    """(name, function bytes -> 64-bit hash): XXH3 of the compiled part, else BLAKE2b."""
+    """(name, function bytes -> 64-bit hash, function array -> list of the hashes of its items): XXH3 of the compiled part, else
+    BLAKE2b."""
     try:
-        from yars._core import xxh3
-        return "XXH3-64", xxh3
+        from yars._core import xxh3, xxh3_items
+        return "XXH3-64", xxh3, xxh3_items
     except ImportError:
-        return "BLAKE2b-64", lambda data: int.from_bytes(hashlib.blake2b(data, digest_size=8).digest(), "little")
+        def blake2b(data):
+            return int.from_bytes(hashlib.blake2b(data, digest_size=8).digest(), "little")
+        return "BLAKE2b-64", blake2b, lambda array: [blake2b(item) for item in array]
 
 
 def scene_text(path, at):

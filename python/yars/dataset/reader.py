@@ -8,7 +8,7 @@ import pathlib
 
 import numpy as np
 
-from . import files, formats
+from . import files
 from .errors import DatasetError
 from .store import Store
 
@@ -56,11 +56,11 @@ class Dataset:
             data = files.read(self.folder / f"chips.zarr/{name}/{block}.0.0")
             if data is None:
                 raise DatasetError(f"{self.folder}: expected block {block} of {name}, found none; complete the data set")
-            encoder = json.loads(files.read(self.folder / f"chips.zarr/{name}/.zarray"))["compressor"]
-            if encoder:
+            about = json.loads(files.read(self.folder / f"chips.zarr/{name}/.zarray"))
+            if about["compressor"]:
                 import numcodecs
-                data = numcodecs.get_codec(encoder).decode(data)
-            return np.frombuffer(data, formats.TYPES[name]).reshape(-1, self.size, self.size)
+                data = numcodecs.get_codec(about["compressor"]).decode(data)
+            return np.frombuffer(data, about["dtype"]).reshape(-1, self.size, self.size)
         return self._keep((name, block), read)
 
     def _lines(self, block):

@@ -47,7 +47,7 @@ class Store:
 
     def __init__(self, plan, folder, mark):
         self.plan, self.folder, self.mark = plan, str(folder), mark
-        self.hash_name, self.hash = hasher()
+        self.hash_name, self.hash, self.hash_items = hasher()
 
     def path(self, name):
         return os.path.join(self.folder, name)
@@ -91,7 +91,10 @@ class Store:
             files.write(self.path("dataset.json"), text.encode())
         if not os.path.exists(self.path("specification.yaml")):
             files.write(self.path("specification.yaml"), pathlib.Path(self.plan.path).read_bytes())
-        for name, content in (formats.zarr_metadata(self.plan) if self.plan.format == "zarr" else {}).items():
+
+    def describe_arrays(self, kinds):
+        """Writes the metadata of the Zarr arrays, if they are not there. `kinds`: types of the arrays."""
+        for name, content in (formats.zarr_metadata(self.plan, kinds) if self.plan.format == "zarr" else {}).items():
             if files.read(self.path(f"chips.zarr/{name}")) != content.encode():
                 files.write(self.path(f"chips.zarr/{name}"), content.encode())
 
