@@ -66,8 +66,14 @@ class Cluster:
 
     def kill_every(self, seconds):
         """Kills the oldest worker every few seconds and starts another."""
+        self.kill_when(lambda kills: not self._stop.wait(seconds))
+
+    def kill_when(self, due):
+        """Kills the oldest worker, and starts another, each time that due(kills up to now) is true."""
         def loop():
-            while not self._stop.wait(seconds):
+            while not self._stop.wait(0.02):
+                if not due(self.kills) or self._stop.is_set():
+                    continue
                 oldest = self.workers.pop(0)
                 oldest.kill()
                 oldest.wait()

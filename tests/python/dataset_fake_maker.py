@@ -55,7 +55,7 @@ class FakeMaker:
         boxes = np.zeros(count * 3, BOX)
         boxes["order"], boxes["object"] = np.repeat(np.arange(count), 3), np.tile([7, 2, 0], count)
         boxes["pixels"], boxes["corners"] = np.tile([4, 2, 0], count), [[1, 1], [5, 1], [5, 3], [1, 3]]
-        result["boxes"] = boxes
+        result["boxes"] = boxes[boxes["pixels"] >= self.plan.min_pixels]
         return result
 
 
