@@ -12,7 +12,7 @@ import re
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
-FOLDERS = ("build|config|databuffer|display|docs|examples|gateway|inputmonitor|lib|model|packaging|python|scripts|shm|statemachine|tests|tools"
+FOLDERS = ("build|config|databuffer|display|docs|examples|gateway|inputmonitor|lib|model|packaging|python|scripts|shm|statemachine|station|tests|tools"
            "|worldgen")
 PATH = re.compile(rf"(?<![\w./<~$=-])(?:\./)?((?:{FOLDERS})/(?:[\w*@-]|[./](?=[\w*@-]))*/?)")
 LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")

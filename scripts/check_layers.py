@@ -50,6 +50,7 @@ LAYERS = {
     "databuffer/bridges": RECORDS + ["lib/memory", "databuffer/flight"],
     "databuffer/session": RECORDS + ["lib/file", "lib/log", "shm"],
     "databuffer/runtime": RECORDS + ["lib/file", "lib/log", "databuffer/session"],
+    "databuffer/json": RECORDS + ["databuffer/session", "databuffer/runtime"],
     "databuffer/app": SHELL + ["databuffer/flight", "databuffer/bridges"],
     "model/terrain/gdal": BASE + ["lib/file"],
     "model/terrain/formats": RADAR + ["lib/memory", "lib/file", "lib/imageio"],
@@ -80,6 +81,8 @@ LAYERS = {
     "gateway/dds": RECORDS + ["lib/file", "gateway"],
     "gateway/exchange": RECORDS + ["lib/log", "databuffer/session", "databuffer/runtime", "gateway", "gateway/dds"],
     "gateway/app": SHELL + ["gateway", "gateway/checks", "gateway/dds", "gateway/exchange"],
+    "station": RECORDS + ["lib/imageio"],
+    "station/app": SHELL + ["databuffer/json", "display/symbology", "station"],
     "tools/command": SHELL + KERNEL + WORLD,
     "tools/recording": KERNEL + WORLD,
     "tools/trade": SHELL + KERNEL + WORLD + ["tools/command"],
@@ -88,7 +91,7 @@ LAYERS = {
     "tools/terrain": SHELL + TERRAIN + WORLD + ["worldgen/terrain", "tools/command"],
     "tools/scene": SHELL + SCENE + WORLD + ["worldgen/scene", "tools/command"],
     "tools/dataset": SHELL + ["tools/command"],
-    "tools/session": SHELL + WORLD + ["statemachine", "tools/command", "tools/recording"],
+    "tools/session": SHELL + WORLD + ["databuffer/json", "statemachine", "tools/command", "tools/recording"],
     "tools": SHELL + ["gateway/checks", "tools/command"],
     "python/core": SHELL + KERNEL + WORLD + ["worldgen/scene", "tools/command", "tools/recording", "tools/trade", "tools/scan", "tools/patch", "tools/scene", "tools/terrain"],
     "examples": ["databuffer/client"],
@@ -97,7 +100,7 @@ LAYERS = {
 
 # Shells: folders that may use the segment, the log and clocks. They have the programs, and code that programs share.
 SHELLS = ["lib/log", "databuffer/session", "databuffer/runtime", "databuffer/app", "databuffer/client", "model/app", "statemachine/app",
-          "inputmonitor/app", "display/host", "display/library", "display/app", "gateway/exchange", "gateway/app", "tools", "python/core", "tests", "examples"]
+          "inputmonitor/app", "display/host", "display/library", "display/app", "gateway/exchange", "gateway/app", "station/app", "databuffer/json", "tools", "python/core", "tests", "examples"]
 
 # Third-party and system headers: a header, or a folder of headers with "/" at the end -> who may include it: folders,
 # single files, or "shells" for SHELLS.
@@ -123,7 +126,7 @@ SYSTEM_HEADERS = {
     "cpl_conv.h": ["model/terrain/gdal", "tests"],
     "cpl_error.h": ["model/terrain/gdal", "tests"],
     "ogr_srs_api.h": ["model/terrain/gdal", "tests"],
-    "boost/": ["shm", "tests"],
+    "boost/": ["shm", "station/app", "tests"],
     "epoxy/": ["display/gl", "examples", "tests"],
     "dlfcn.h": ["display/gl/context.cpp", "lib/file/file_search.cpp"],
     "EGL/": ["display/gl"],
@@ -135,7 +138,7 @@ SYSTEM_HEADERS = {
     "GLFW/": ["display/gl", "inputmonitor/keyboard_source.cpp", "databuffer/messages/key_map.cpp"],
     "spdlog/": ["shells"],
     "CLI/": ["databuffer/runtime"],
-    "nlohmann/": ["tools", "tests"],
+    "nlohmann/": ["databuffer/json", "station", "tools", "tests"],
     "pybind11/": ["python/core"],
     "gtest/": ["tests"],
     "gmock/": ["tests"],

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <string_view>
 #include <system_error>
 
 namespace yars::file {
@@ -11,13 +12,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// PREFIX/share/yars/config for a program in PREFIX/bin or PREFIX/libexec/yars, or a library in PREFIX/lib/TRIPLET.
-std::optional<fs::path> configurations_near(const fs::path& binary) {
+// PREFIX/share/yars/NAME for a program in PREFIX/bin or PREFIX/libexec/yars, or a library in PREFIX/lib/TRIPLET.
+std::optional<fs::path> folder_near(const fs::path& binary, std::string_view name) {
   std::error_code problem;
   fs::path folder = fs::weakly_canonical(binary, problem).parent_path();
   for (int levels = 0; levels < 2 && !folder.empty(); ++levels) {
     folder = folder.parent_path();
-    if (const fs::path found = folder / "share/yars/config"; fs::is_directory(found, problem))
+    if (const fs::path found = folder / "share/yars" / name; fs::is_directory(found, problem))
       return fs::weakly_canonical(found, problem);
   }
   return std::nullopt;
@@ -25,13 +26,13 @@ std::optional<fs::path> configurations_near(const fs::path& binary) {
 
 }  // namespace
 
-fs::path installed_folder() {
+fs::path installed_folder(std::string_view name) {
   std::error_code problem;
-  if (const auto found = configurations_near(fs::read_symlink("/proc/self/exe", problem))) return *found;
+  if (const auto found = folder_near(fs::read_symlink("/proc/self/exe", problem), name)) return *found;
   Dl_info library{};
   if (dladdr(reinterpret_cast<const void*>(&installed_folder), &library) == 0 || library.dli_fname == nullptr)
     return {};
-  return configurations_near(library.dli_fname).value_or(fs::path());
+  return folder_near(library.dli_fname, name).value_or(fs::path());
 }
 
 std::string installed_file(const std::string& name, const fs::path& folder) {

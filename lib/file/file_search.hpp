@@ -10,13 +10,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace yars::file {
 
-// Folder PREFIX/share/yars/config of the installation that this code belongs to; empty: there is none. PREFIX is a
+// Folder PREFIX/share/yars/NAME of the installation that this code belongs to; empty: there is none. PREFIX is a
 // parent of the folder of the running program or, in a program of somebody else, of the shared library that holds this
 // code. So an installation can be moved. A build folder has the same form.
-std::filesystem::path installed_folder();
+std::filesystem::path installed_folder(std::string_view name = "config");
 
 // Path of an installed file. A file in the current folder takes precedence. Else a name without a slash is searched in
 // `folder` and its subfolders routes and scripts. A name with a slash, or one found nowhere, is returned unchanged.

@@ -59,8 +59,28 @@ void write_bytes(png_structp png, png_bytep bytes, std::size_t count) {
 }
 void leave_buffered(png_structp /*png*/) {}  // NewFile::finish() writes the buffer
 
-// Returns false after an error of libpng. On an error libpng returns to setjmp() by longjmp(), which calls no
-// destructors. So no local variable may have a destructor.
+void append_bytes(png_structp png, png_bytep bytes, std::size_t count) {
+  auto& all = *static_cast<std::vector<std::uint8_t>*>(png_get_io_ptr(png));
+  all.insert(all.end(), bytes, bytes + count);
+}
+
+// The functions below return false after an error of libpng. On an error libpng returns to setjmp() by longjmp(), which
+// calls no destructors. So no local variable may have a destructor.
+bool encode(png_structp png, png_infop info, const RgbxView& image, std::vector<std::uint8_t>& bytes) {
+  if (setjmp(png_jmpbuf(png)) != 0) return false;
+  png_set_write_fn(png, &bytes, append_bytes, leave_buffered);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
+               PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  png_set_compression_level(png, 1);
+  png_write_info(png, info);
+  png_set_filler(png, 0, PNG_FILLER_AFTER);
+  for (int row = 0; row < image.height; ++row)
+    png_write_row(png, image.pixels + static_cast<std::size_t>(row) * image.row_bytes);
+  png_write_end(png, nullptr);
+  return true;
+}
+
 bool write_indexed(png_structp png, png_infop info, file::NewFile& file, const IndexedImage& image) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_write_fn(png, &file, write_bytes, leave_buffered);
@@ -82,6 +102,18 @@ bool write_indexed(png_structp png, png_infop info, file::NewFile& file, const I
 }
 
 }  // namespace
+
+void encode_png(const RgbxView& image, std::vector<std::uint8_t>& bytes) {
+  YARS_REQUIRE(image.width, >, 0);
+  YARS_REQUIRE(image.height, >, 0);
+  bytes.clear();
+  std::string message;
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &message, store_message, ignore_warning);
+  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+  const bool encoded = info != nullptr && encode(png, info, image, bytes);
+  png_destroy_write_struct(&png, &info);
+  YARS_REQUIRE(encoded, ==, true);
+}
 
 error::Expected<void> write_indexed_png(const std::filesystem::path& path, const IndexedImage& image) {
   YARS_REQUIRE(image.pixels.size(), ==, static_cast<std::size_t>(image.width) * image.height);

@@ -1,4 +1,4 @@
-// PNG files: writer of gray, RGB and RGBA images; writer and reader of images with a palette.
+// PNG files: writer of gray, RGB and RGBA images; writer and reader of images with a palette. PNG in memory.
 // Inputs: pixels of 8 bits, or the path of a regular file.
 // Outputs: a file through lib/file/output_file.hpp, or an image. Rows run from top to bottom, without padding.
 // Errors: a file that cannot be written; an input file that is no indexed PNG, is too large, is incomplete or is
@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <vector>
@@ -27,6 +28,16 @@ struct Image {
 // bytes is width x height x channels.
 error::Expected<void> write_png(const std::filesystem::path& path, const Image& image);
 error::Expected<void> write_png(file::NewFile file, const Image& image);
+
+// Pixels of 4 bytes in the memory of somebody else: red, green, blue, and a byte that is left out.
+struct RgbxView {
+  const std::uint8_t* pixels;
+  int width, height;
+  std::size_t row_bytes;  // from one row to the next
+};
+// Encodes an RGB image in memory, as fast as PNG allows (zlib level 1, no filter) at the cost of size. Replaces
+// `bytes`, whose memory is used again. The program aborts for an image without pixels.
+void encode_png(const RgbxView& image, std::vector<std::uint8_t>& bytes);
 
 using PaletteColour = std::array<std::uint8_t, 3>;  // red, green, blue
 

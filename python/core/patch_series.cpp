@@ -124,7 +124,7 @@ struct Outputs {
   hrm::LabelUse labels() const {
     if (height != nullptr || grazing != nullptr) return hrm::LabelUse::heights;
     return shadow != nullptr || layover != nullptr || material != nullptr || objects() ? hrm::LabelUse::surfaces
-                                                                                               : hrm::LabelUse::none;
+                                                                                       : hrm::LabelUse::none;
   }
 };
 

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "databuffer/json/session_json.hpp"
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
@@ -22,7 +23,6 @@
 #include "tools/recording/recording_reader.hpp"
 #include "tools/recording/replay.hpp"
 #include "tools/session/play_recording.hpp"
-#include "tools/session/watch_json.hpp"
 
 namespace yars::tools {
 
@@ -95,7 +95,7 @@ void print_entries(recording::RecordingReader& reader) {
       object["effective"] = event->effective != databuffer::kEventDead;
     } else if (const auto* change = std::get_if<recording::StateChange>(&*entry)) {
       object["tick"] = change->state.tick;
-      add_radar_state(object["state"], change->state);
+      databuffer::add_radar_state(object["state"], change->state);
     } else if (const auto* patch = std::get_if<recording::Patch>(&*entry)) {
       object["tick"] = patch->map.end_tick;
       object["patch"] = {{"id", patch->map.id}, {"size", patch->map.size}, {"hash", patch->map.hash}};

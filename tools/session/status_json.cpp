@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "databuffer/json/session_json.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/receivers.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
@@ -17,7 +18,6 @@
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
 #include "tools/session/network_json.hpp"
-#include "tools/session/watch_json.hpp"
 
 namespace yars::tools {
 
@@ -331,7 +331,7 @@ ordered_json status_json(const databuffer::Session& session, const std::string& 
   const auto model = databuffer::read_valid(session.layout().model_status).value_or(databuffer::ModelStatus{});
   ordered_json object;
   object["session"] = name;
-  object["watch"] = watch_object(session);
+  object["watch"] = databuffer::watch_object(session);
   object["model"] = {{"fidelity", text::text_of(model.fidelity)},
                      {"load", model.load},
                      {"scan", model.scan},

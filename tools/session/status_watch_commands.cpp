@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "databuffer/json/session_json.hpp"
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/session/layout_json.hpp"
@@ -20,7 +21,6 @@
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/session/status_json.hpp"
-#include "tools/session/watch_json.hpp"
 
 namespace yars::tools {
 
@@ -191,7 +191,7 @@ void watch(const CommonOptions& common, const WatchOptions& options) {
     if (version != printed_version || now_ns - printed_ns >= kMaxInterval_ns) {
       printed_version = version;
       printed_ns = now_ns;
-      if (!print(watch_object(*session), options.json)) return;
+      if (!print(databuffer::watch_object(*session), options.json)) return;
     }
     if (options.once) return;
     if (session->processes().empty()) {

@@ -27,6 +27,8 @@ complete -c yars-start -l frames -x -a '(__fish_complete_directories)' -d 'where
 complete -c yars-start -l every -x -d 'sim time between frames'
 complete -c yars-start -l size -x -d 'edge of the display'
 complete -c yars-start -l publish -d 'the display publishes its frames in the segment, too'
+complete -c yars-start -l web -d 'the display in a browser, too: prints its address (docs/station.md); implies --publish'
+complete -c yars-start -l web-port -x -d 'port of --web; 0 takes any free one'
 complete -c yars-start -l lockstep -d 'all roles step together on sim time, as fast as they can'
 complete -c yars-start -l script -r -F -d 'events for the input monitor'
 complete -c yars-start -l input -x -a '(__yars_source auto evdev: terminal)' -d 'the input monitor\'s source, as evdev:PATH or auto; may be repeated'

@@ -1,4 +1,4 @@
-#include "tools/session/watch_json.hpp"
+#include "databuffer/json/session_json.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,13 +13,10 @@
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
 
-namespace yars::tools {
+namespace yars::databuffer {
 
 namespace {
 
-using databuffer::kMarks;
-using databuffer::ModelStatus;
-using databuffer::RadarState;
 using nlohmann::ordered_json;
 using text::text_of;
 
@@ -32,7 +29,7 @@ bool has(const RadarState& state, std::uint32_t flag) {
   return (state.flags & flag) != 0U;
 }
 
-void add_clock(ordered_json& object, const databuffer::Session& session, const ModelStatus& model) {
+void add_clock(ordered_json& object, const Session& session, const ModelStatus& model) {
   const auto clock = session.clock();
   object["sim_time"] = static_cast<double>(session.reached_sim_time_ns()) * 1e-9;
   object["epoch"] = clock.epoch;
@@ -50,18 +47,18 @@ void add_switches(ordered_json& object, const RadarState& state) {
   object["gain"] = state.gain;
   object["brightness"] = state.brightness;
   object["contrast"] = state.contrast;
-  object["declutter"] = has(state, databuffer::kDeclutter);
-  object["freeze"] = has(state, databuffer::kFreeze);
-  object["sniff"] = has(state, databuffer::kSniff);
-  object["ipvu"] = has(state, databuffer::kIpvu);
-  object["vtr"] = has(state, databuffer::kVtr);
-  object["set"] = has(state, databuffer::kSet);
-  object["menu"] = has(state, databuffer::kMenu);
+  object["declutter"] = has(state, kDeclutter);
+  object["freeze"] = has(state, kFreeze);
+  object["sniff"] = has(state, kSniff);
+  object["ipvu"] = has(state, kIpvu);
+  object["vtr"] = has(state, kVtr);
+  object["set"] = has(state, kSet);
+  object["menu"] = has(state, kMenu);
 }
 
 void add_cursor(ordered_json& object, const RadarState& state) {
   object["cursor_function"] = radar::name_of(static_cast<radar::CursorFunction>(state.cursor_function));
-  if (!has(state, databuffer::kCursorValid)) {
+  if (!has(state, kCursorValid)) {
     object["cursor"] = nullptr;
     return;
   }
@@ -87,8 +84,8 @@ ordered_json recall_word(const RadarState& state) {
 
 void add_map(ordered_json& object, const RadarState& state) {
   object["window_nm"] = state.window_nm > 0.0 ? ordered_json(state.window_nm) : ordered_json(nullptr);
-  object["multi_look"] = has(state, databuffer::kMultiLook2) ? "ML2" : "ML1";
-  object["stabilizing"] = has(state, databuffer::kProgressive) ? "PROG" : "STAB";
+  object["multi_look"] = has(state, kMultiLook2) ? "ML2" : "ML1";
+  object["stabilizing"] = has(state, kProgressive) ? "PROG" : "STAB";
   object["recall"] = recall_word(state);
   object["message"] = text_of(state.message);
 }
@@ -96,13 +93,13 @@ void add_map(ordered_json& object, const RadarState& state) {
 // Result of the cursor function UPDT: distance from the displayed selected point to the cursor; null while there is
 // none. Unit as on the display: feet up to 3000 ft, NM beyond. `valid` false: the display shows INV instead.
 ordered_json update_error(const RadarState& state) {
-  if (!has(state, databuffer::kUpdateShown)) return nullptr;
+  if (!has(state, kUpdateShown)) return nullptr;
   const auto distance = geo::Length::metres(std::hypot(state.update_north_m, state.update_east_m));
-  const bool far = distance.feet() > databuffer::kUpdateErrorInFeet;
+  const bool far = distance.feet() > kUpdateErrorInFeet;
   const bool ages = state.update_seconds >= 0;
   return {{"value", far ? distance.nautical_miles() : distance.feet()},
           {"unit", far ? "NM" : "ft"},
-          {"valid", !has(state, databuffer::kUpdateInvalid)},
+          {"valid", !has(state, kUpdateInvalid)},
           {"seconds", ages ? ordered_json(state.update_seconds) : ordered_json(nullptr)}};
 }
 
@@ -113,14 +110,14 @@ ordered_json steering_line(const RadarState& state) {
   const auto object = [&](const char* word) {
     return ordered_json{{"heading_deg", heading.degrees()}, {"state", word}};
   };
-  switch (static_cast<databuffer::SteeringLine>(state.steering_line)) {
-    case databuffer::SteeringLine::line_of_sight:
+  switch (static_cast<SteeringLine>(state.steering_line)) {
+    case SteeringLine::line_of_sight:
       return object("LOS");
-    case databuffer::SteeringLine::slewing:
+    case SteeringLine::slewing:
       return object("SLEW");
-    case databuffer::SteeringLine::fixed:
+    case SteeringLine::fixed:
       return object("FIXED");
-    case databuffer::SteeringLine::none:
+    case SteeringLine::none:
       break;
   }
   return nullptr;
@@ -150,7 +147,7 @@ ordered_json position_json(double latitude_deg, double longitude_deg, double ele
 // Positions stored by the cursor functions CUE, TGT and MARK.
 void add_designations(ordered_json& object, const RadarState& state) {
   ordered_json marks = ordered_json::array();
-  for (const databuffer::Mark& mark : std::span(state.marks).first(std::min<std::size_t>(state.mark_count, kMarks))) {
+  for (const Mark& mark : std::span(state.marks).first(std::min<std::size_t>(state.mark_count, kMarks))) {
     ordered_json entry = position_json(mark.latitude_deg, mark.longitude_deg, mark.elevation_m);
     entry["sim_time"] = static_cast<double>(mark.sim_time_ns) * 1e-9;
     marks.push_back(entry);
@@ -162,7 +159,7 @@ void add_designations(ordered_json& object, const RadarState& state) {
     object["cue"]["count"] = state.cue_count;
   }
   object["target"] = nullptr;
-  if (has(state, databuffer::kTargetDesignated)) {
+  if (has(state, kTargetDesignated)) {
     object["target"] = position_json(state.target_latitude_deg, state.target_longitude_deg, state.target_elevation_m);
     object["target"]["name"] = text_of(state.target_name);
   }
@@ -170,7 +167,7 @@ void add_designations(ordered_json& object, const RadarState& state) {
 
 // From the aircraft to the designated target: slant range, true bearing, depression below the horizontal. Null without
 // a target.
-ordered_json ranging(const databuffer::Outputs& outputs) {
+ordered_json ranging(const Outputs& outputs) {
   if (!std::isfinite(outputs.slant_range_m)) return nullptr;
   return {{"slant_range_nm", outputs.slant_range_m / geo::kMetresPerNauticalMile},
           {"bearing_true_deg", number_or_null(outputs.bearing_deg)},
@@ -179,7 +176,7 @@ ordered_json ranging(const databuffer::Outputs& outputs) {
 
 void add_ownship(ordered_json& object, const ModelStatus& model, std::int64_t now_ns) {
   object["antenna"] = {{"az_deg", model.antenna_azimuth_deg}, {"el_deg", model.antenna_elevation_deg}};
-  if ((model.flags & databuffer::kModelStale) != 0U || model.ownship_lane >= databuffer::kOwnshipLanes) {
+  if ((model.flags & kModelStale) != 0U || model.ownship_lane >= kOwnshipLanes) {
     object["ownship"] = nullptr;
     return;
   }
@@ -189,10 +186,10 @@ void add_ownship(ordered_json& object, const ModelStatus& model, std::int64_t no
                        {"lon", own.longitude_deg},
                        {"alt_ft", own.altitude_msl_m / geo::kMetresPerFoot},
                        {"heading_deg", own.heading_deg},
-                       {"track_deg", databuffer::ground_track_of(own).degrees()},
+                       {"track_deg", ground_track_of(own).degrees()},
                        {"ground_speed_kt", geo::Speed::metres_per_second(speed_mps).knots()},
                        {"height_above_ground_ft", number_or_null(model.height_above_ground_m / geo::kMetresPerFoot)},
-                       {"source", databuffer::name_of_source(own, model.ownship_lane)},
+                       {"source", name_of_source(own, model.ownship_lane)},
                        {"age_ms", static_cast<double>(now_ns - model.ownship_received_ns) * 1e-6}};
 }
 
@@ -208,11 +205,11 @@ void add_legends(ordered_json& object, const RadarState& state) {
 }
 
 // Caption of the tour that runs; null without one.
-ordered_json caption_json(const databuffer::Session& session) {
-  const auto caption = databuffer::read_valid(session.layout().caption);
-  if (!caption || caption->step == 0 || !session.role_is_held(databuffer::Role::tour)) return nullptr;
+ordered_json caption_json(const Session& session) {
+  const auto caption = read_valid(session.layout().caption);
+  if (!caption || caption->step == 0 || !session.role_is_held(Role::tour)) return nullptr;
   ordered_json lines = ordered_json::array();
-  for (const databuffer::CaptionLine& line : caption->lines)
+  for (const CaptionLine& line : caption->lines)
     if (line.text[0] != '\0') lines.push_back(text_of(line.text));
   return {{"title", text_of(caption->title)},
           {"step", caption->step},
@@ -221,14 +218,14 @@ ordered_json caption_json(const databuffer::Session& session) {
           {"lines", lines}};
 }
 
-void add_health(ordered_json& object, const databuffer::Session& session, const ModelStatus& model) {
+void add_health(ordered_json& object, const Session& session, const ModelStatus& model) {
   const auto& layout = session.layout();
   object["sweeps"] = model.sweeps;
-  object["lost"] = layout.note_counts[static_cast<std::size_t>(databuffer::NoteKind::loss)].load();
+  object["lost"] = layout.note_counts[static_cast<std::size_t>(NoteKind::loss)].load();
   object["late_ticks"] = model.late_ticks;
-  object["refused"] = layout.note_counts[static_cast<std::size_t>(databuffer::NoteKind::refusal)].load();
+  object["refused"] = layout.note_counts[static_cast<std::size_t>(NoteKind::refusal)].load();
   ordered_json processes = ordered_json::object();
-  const std::int64_t now_ns = databuffer::monotonic_ns();
+  const std::int64_t now_ns = monotonic_ns();
   for (const auto& process : session.processes())
     processes[process.name] = {{"pid", process.pid},
                                {"heartbeat_ms", static_cast<double>(now_ns - process.heartbeat_ns) * 1e-6}};
@@ -246,30 +243,30 @@ void add_radar_state(ordered_json& object, const RadarState& state) {
   add_legends(object, state);
 }
 
-nlohmann::ordered_json watch_object(const databuffer::Session& session) {
+nlohmann::ordered_json watch_object(const Session& session) {
   const auto& layout = session.layout();
   // A radar state or model status that fails validation is replaced by defaults.
   ModelStatus no_model{};
   no_model.map_timer_s = no_model.map_progress = std::nan("");
-  no_model.flags = databuffer::kModelStale;
-  const RadarState state = databuffer::read_valid(layout.radar_state).value_or(RadarState{});
-  const ModelStatus model = databuffer::read_valid(layout.model_status).value_or(no_model);
+  no_model.flags = kModelStale;
+  const RadarState state = read_valid(layout.radar_state).value_or(RadarState{});
+  const ModelStatus model = read_valid(layout.model_status).value_or(no_model);
   ordered_json object;
   add_clock(object, session, model);
   add_radar_state(object, state);
-  const auto advice = databuffer::read_valid(layout.advice).value_or(databuffer::PilotAdvice{});
+  const auto advice = read_valid(layout.advice).value_or(PilotAdvice{});
   object["remedy"] = text_of(advice.remedy);
   object["events_applied"] = state.events_applied;
-  const auto timer_s = databuffer::map_timer_s(state, model);
+  const auto timer_s = map_timer_s(state, model);
   object["map_timer_s"] = timer_s ? ordered_json(*timer_s) : ordered_json(nullptr);
   object["map_progress"] = number_or_null(model.map_progress);
-  databuffer::Outputs no_outputs{};
+  Outputs no_outputs{};
   no_outputs.slant_range_m = std::nan("");
-  object["ranging"] = ranging(databuffer::read_valid(layout.outputs).value_or(no_outputs));
+  object["ranging"] = ranging(read_valid(layout.outputs).value_or(no_outputs));
   add_ownship(object, model, session.reached_sim_time_ns());
   object["caption"] = caption_json(session);
   add_health(object, session, model);
   return object;
 }
 
-}  // namespace yars::tools
+}  // namespace yars::databuffer

@@ -1,0 +1,95 @@
+#include "station/app/feed_shell.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "databuffer/json/session_json.hpp"
+#include "databuffer/messages/input_event.hpp"
+#include "databuffer/messages/key_map.hpp"
+#include "databuffer/runtime/receivers.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "display/symbology/help.hpp"
+#include "lib/log/log.hpp"
+#include "lib/radar/modes.hpp"
+
+namespace yars::station {
+
+namespace {
+
+constexpr std::int64_t kNsPerMs = 1'000'000;
+constexpr std::int64_t kFrameInterval_ns = 25 * kNsPerMs;   // most frames a second: 40
+constexpr std::int64_t kStateInterval_ns = 250 * kNsPerMs;  // of states without a change of the radar state
+constexpr std::int64_t kSilentAfter_ns = 1000 * kNsPerMs;   // a program with an older heartbeat counts as dead
+
+bool is_alive(const databuffer::Session& session, databuffer::Role role, std::int64_t now_ns) {
+  return std::ranges::any_of(session.processes(), [&](const databuffer::ProcessInfo& process) {
+    return process.name == databuffer::name_of(role) && now_ns - process.heartbeat_ns < kSilentAfter_ns;
+  });
+}
+
+}  // namespace
+
+error::Expected<StationFeed> StationFeed::create(databuffer::Session& session) {
+  auto lane = session.claim_input_lane("station");
+  if (!lane) return tl::unexpected(lane.error());
+  return StationFeed(session, std::move(*lane));
+}
+
+bool StationFeed::refresh() {
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  const bool frame = refresh_frame(now_ns);
+  const bool state = refresh_state(now_ns);
+  return frame || state;
+}
+
+bool StationFeed::refresh_frame(std::int64_t now_ns) {
+  if (now_ns - frame_ns_ < kFrameInterval_ns) return false;
+  if (!databuffer::read_newest_frame(std::as_const(*session_).layout(), frame_.id, frame_, pixels_)) return false;
+  if (const auto reason = databuffer::validate(frame_)) {
+    session_->note(databuffer::NoteKind::refusal, "station: frame: " + *reason);
+    return false;
+  }
+  frame_ns_ = now_ns;
+  frames_.take(frame_, pixels_);
+  return true;
+}
+
+bool StationFeed::refresh_state(std::int64_t now_ns) {
+  const auto& layout = std::as_const(*session_).layout();
+  const bool changed = state_.refresh(layout.radar_state, *session_, "station: radar state") ||
+                       advice_.refresh(layout.advice, *session_, "station: advice");
+  if (!changed && now_ns < next_state_ns_) return false;
+  next_state_ns_ = now_ns + kStateInterval_ns;
+  model_.refresh(layout.model_status, *session_, "station: model status");
+  advice_.refresh(layout.advice, *session_, "station: advice");
+  input_.state = state_.value();
+  input_.model = model_.value();
+  input_.advice = advice_.value();
+  input_.state_machine_alive = is_alive(*session_, databuffer::Role::state_machine, now_ns);
+  input_.model_alive = is_alive(*session_, databuffer::Role::radar_model, now_ns);
+  state_text_ = std::make_shared<const std::string>(state_message());
+  ++state_number_;
+  return true;
+}
+
+std::string StationFeed::state_message() const {
+  nlohmann::ordered_json message;
+  message["watch"] = databuffer::watch_object(*session_);
+  auto& buttons = message["buttons"] = nlohmann::ordered_json::array();
+  for (int button = 1; button <= radar::kBezelButtons; ++button)
+    buttons.push_back(nlohmann::ordered_json{{"key", std::string(databuffer::key_of_button(button))},
+                                             {"does", display::words_of_button(input_, button)}});
+  return message.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+void StationFeed::send(databuffer::InputEvent event) {
+  event.session_time_ns = session_->sim_time_ns();
+  event.monotonic_ns = databuffer::monotonic_ns();
+  event.number = ++number_;
+  if (session_->layout().input.push(static_cast<std::size_t>(lane_.lane()), event)) return;
+  log::warning("the station's input lane is full, is state-machine running? '" + databuffer::text_of(event) +
+               "' is dropped");
+}
+
+}  // namespace yars::station
