@@ -13,7 +13,7 @@ import pathlib
 import re
 import subprocess
 
-PROGRAMS = ["yars", "radar-model", "state-machine", "radar-display", "input-monitor", "flight-model"]
+PROGRAMS = ["yars", "radar-model", "state-machine", "radar-display", "input-monitor", "flight-model", "yars-station"]
 START = pathlib.Path(__file__).resolve().parent / "start"  # yars-start before it is installed
 INDENT = "  "
 

@@ -14,7 +14,7 @@ import sys
 import tempfile
 
 CMAKE, BUILD, CC = sys.argv[1], pathlib.Path(sys.argv[2]), sys.argv[3]
-PROGRAMS = ["yars", "radar-model", "state-machine", "radar-display", "input-monitor", "flight-model"]
+PROGRAMS = ["yars", "radar-model", "state-machine", "radar-display", "input-monitor", "flight-model", "yars-station"]
 faults = []
 
 

@@ -1,0 +1,28 @@
+# fish completion of yars-station. Made by scripts/completions out of --help; changes belong there.
+
+
+function __yars_sessions
+    string replace -f -r '^/dev/shm/yars\.'(id -u)'\.' '' /dev/shm/yars.*
+end
+
+# Words; what follows route: and the like is a file.
+function __yars_source
+    set -l word (commandline -ct)
+    if string match -q '*:*' -- $word
+        string replace -r '^' (string split -m 1 : -- $word)[1]: (__fish_complete_path (string split -m 1 : -- $word)[2])
+    else
+        printf '%s\n' $argv
+    end
+end
+
+complete -c yars-station -f
+complete -c yars-station -s h -l help -d 'print this help'
+complete -c yars-station -l version -d 'print the version'
+complete -c yars-station -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars-station -l config -r -F -d 'GUF configuration file'
+complete -c yars-station -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars-station -l log-dir -x -a '(__fish_complete_directories)' -d 'folder for a rotated log file'
+complete -c yars-station -l realtime -d 'lock memory, run the tick loop under SCHED_FIFO; a refusal is logged'
+complete -c yars-station -l cpus -x -d 'CPUs to run on, as in 2,3 or 2-3'
+complete -c yars-station -l port -x -d 'port at 127.0.0.1; 0: any free one'
+complete -c yars-station -l pages -x -a '(__fish_complete_directories)' -d 'folder of the pages'
