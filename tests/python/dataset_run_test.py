@@ -158,6 +158,20 @@ class Formats(Case):
             self.assertEqual(group["object"][item].tolist(), data[item]["object"].tolist())
         self.assertEqual(group["shadow"].attrs["_ARRAY_DIMENSIONS"], ["item", "row", "column"])
 
+    def test_xarray_keeps_types_and_zeros(self):
+        try:
+            import xarray
+        except ImportError:
+            self.skipTest("xarray is not installed")
+        self.run_it()
+        data = Dataset(self.out)
+        with xarray.open_zarr(self.out / "chips.zarr") as opened:
+            for name in data.arrays:
+                stored = np.stack([item[name] for item in map(data.__getitem__, range(len(data)))])
+                self.assertEqual(opened[name].dtype, stored.dtype)
+                self.assertEqual(opened[name].values.tolist(), stored.tolist())
+                self.assertIn(0, stored)
+
     def test_npz_is_read_by_numpy(self):
         self.run_it()
         for compression in ("none", "lz4"):

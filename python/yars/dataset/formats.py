@@ -45,8 +45,8 @@ def zarr_metadata(plan, kinds):
         encoder, kind = codec(plan.compression, name), np.dtype(kinds[name])
         files[f"{name}/.zarray"] = {
             "zarr_format": 2, "shape": [plan.count, plan.size, plan.size], "chunks": [plan.block, plan.size, plan.size],
-            "dtype": kind.str, "compressor": encoder and encoder.get_config(), "fill_value": "NaN" if kind.kind == "f" else 0,
-            "order": "C", "filters": None}
+            "dtype": kind.str, "compressor": encoder and encoder.get_config(), "order": "C", "filters": None,
+            "fill_value": "NaN" if kind.kind == "f" else None}  # xarray takes a fill value for absent ones: 0 would be NaN
         files[f"{name}/.zattrs"] = {"_ARRAY_DIMENSIONS": ["item", "row", "column"], "units": UNITS[name], "long_name": MEANINGS[name]}
     files[".zmetadata"] = {"metadata": dict(files), "zarr_consolidated_format": 1}
     return {path: json.dumps(value, indent=1, sort_keys=True) + "\n" for path, value in files.items()}
