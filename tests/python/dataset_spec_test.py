@@ -11,8 +11,7 @@ sys.path.append(str(ROOT / "python"))
 if len(sys.argv) > 1 and os.path.isdir(sys.argv[1]):
     os.environ["YARS_BIN"] = os.path.abspath(sys.argv.pop(1))
 
-from yars.dataset import context, keys  # noqa: E402
-from yars.dataset.errors import SpecError  # noqa: E402
+from yars.dataset import SpecError, context, keys  # noqa: E402
 from yars.dataset.spec import read_spec  # noqa: E402
 
 GOOD = """count: 100

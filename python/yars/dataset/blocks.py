@@ -6,8 +6,7 @@ import re
 
 import numpy as np
 
-from . import files, formats
-from .errors import DatasetError
+from . import DatasetError, files, formats
 from .sampling import Sample
 
 BOX = np.dtype([("item", "<i8"), ("object", "<i4"), ("class", "<i4"), ("pixels", "<i4"), ("aspect_deg", "<f4"),

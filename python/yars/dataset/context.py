@@ -11,11 +11,10 @@ import subprocess
 
 import numpy as np
 
-from . import feasibility, files, formats
+from . import DatasetError, files, formats
 from .blocks import BlockMaker, dump
-from .errors import DatasetError
-from .limits import command, read_limits
-from .philox import Streams
+from .distributions import Streams
+from .limits import check, command, read_limits
 from .sampling import Sampler, World
 from .settings import Settings
 from .spec import read_spec
@@ -30,7 +29,7 @@ def open_store(spec_path, folder):
     plan = read_spec(spec_path)
     settings = Settings(plan, Streams(plan.seed, Settings.fields(plan)))
     limits = read_limits(plan, settings.checked_lines())
-    feasibility.check(plan, limits)
+    check(plan, limits)
     store = Store(plan, folder, "")
     store.mark = fingerprint(plan, scene_paths(plan, store))
     return plan, limits, store

@@ -8,7 +8,7 @@ import json
 import threading
 import uuid
 
-from .errors import DatasetError
+from . import DatasetError
 from .run import HostProcess, check_answer
 
 MOST_TRIES = 30       # of a block, when workers die or host processes do

@@ -7,7 +7,7 @@ import shutil
 import socket
 import time
 
-from .errors import DatasetError
+from . import DatasetError
 
 _HOST = re.sub(r"[^A-Za-z0-9]", "-", socket.gethostname())[:32]
 _TEMPORARY = re.compile(r"\.writing-(.*)-(\d+)-")

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from .errors import DatasetError
+from . import DatasetError
 
 _TYPES = {"video": "|u1", "power": "<f4", "shadow": "|u1", "layover": "|u1", "object": "<i4", "material": "|u1",
          "height": "<f4", "grazing_angle": "<f4"}

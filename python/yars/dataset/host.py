@@ -15,7 +15,7 @@ import sys
 import traceback
 import warnings
 
-from .errors import DatasetError
+from . import DatasetError
 
 MOST_DEATHS = 5  # of workers with the same block
 

@@ -7,7 +7,7 @@ import hashlib
 
 import numpy as np
 
-from .errors import DatasetError
+from . import DatasetError
 
 OBJECT = np.dtype([("name", "U64"), ("latitude", "f8"), ("longitude", "f8")])
 

@@ -8,8 +8,7 @@ import pathlib
 
 import numpy as np
 
-from . import files
-from .errors import DatasetError
+from . import DatasetError, files
 from .store import Store
 
 _KEPT_CHUNKS = 4  # of each array

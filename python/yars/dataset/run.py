@@ -13,8 +13,7 @@ import subprocess
 import sys
 import time
 
-from . import context, files, keys
-from .errors import DatasetError
+from . import DatasetError, context, files, keys
 from .host import Lines, write_all
 
 MOST_BATCH = 8      # blocks that a worker gets at once

@@ -9,8 +9,8 @@ import re
 
 import yaml
 
+from . import SpecError
 from .distributions import Fixed, Uniform
-from .errors import SpecError
 from .keys import ARRAYS, KEYS, children
 from .yaml_reader import Reader
 

@@ -13,8 +13,7 @@ import json
 import os
 import pathlib
 
-from . import files, formats, limits
-from .errors import DatasetError
+from . import DatasetError, files, formats, limits
 from .maker import hasher
 
 FORMAT = 1  # of the folder; part of the fingerprint

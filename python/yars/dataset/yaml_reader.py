@@ -4,8 +4,8 @@ import math
 
 import yaml
 
+from . import SpecError
 from .distributions import Choice, Fixed, LogUniform, Normal, Uniform
-from .errors import SpecError
 from .keys import INFINITY, KEYS, children, value_text
 
 MOST_FAULTS = 20
