@@ -1,17 +1,16 @@
 """Makes one block: draws its items, has the radar make their arrays, writes arrays, boxes and the block's part.
 
 All work is done by array operations over the block. The part is written last, so a block with a part is whole."""
-import json
 import re
 
 import numpy as np
 
 from . import DatasetError, files, formats
+from .formats import dump
 from .sampling import Sample
 
 BOX = np.dtype([("item", "<i8"), ("object", "<i4"), ("class", "<i4"), ("pixels", "<i4"), ("aspect_deg", "<f4"),
                 ("corners", "<f4", (4, 2))])
-_ENCODE = json.JSONEncoder(separators=(",", ":"), allow_nan=False).encode
 
 
 def slice_sample(sample, first, last):
@@ -21,22 +20,6 @@ def slice_sample(sample, first, last):
     movers["order"] -= first
     return Sample(sample.items[first:last], sample.orders[first:last], movers, sample.entry[first:last], sample.object[first:last],
                   sample.attempt[first:last])
-
-
-def dump(value):
-    """One line of JSON; what is not finite is null."""
-    try:
-        return _ENCODE(value)
-    except ValueError:
-        return _ENCODE(_finite(value))
-
-
-def _finite(value):
-    if isinstance(value, dict):
-        return {name: _finite(item) for name, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not np.isfinite(value) else value
 
 
 # A row of a structured array as JSON is made by one format: it takes half the time of json.dumps on a dict.

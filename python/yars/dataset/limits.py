@@ -1,6 +1,7 @@
 """Limits of a radar for patch maps, read from its configuration: blind zone, gimbal, ranges of each window. Geometry that no draw can
 make possible is found by them when a specification is read. Source: `yars config print`; docs/spec/pilots_interface.md#rule-2, #rule-3 and #rule-4."""
 import dataclasses
+import functools
 import math
 import os
 import pathlib
@@ -48,6 +49,12 @@ def command():
         raise DatasetError("expected the command yars, found none; install the package yars, or set YARS_BIN to the folder "
                            "of the programs")
     return found
+
+
+@functools.lru_cache(maxsize=None)
+def version():
+    """Version of YARS."""
+    return subprocess.run([command(), "--version"], capture_output=True, text=True, check=False).stdout.strip()
 
 
 def parse(text):
