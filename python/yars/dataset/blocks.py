@@ -18,8 +18,8 @@ def slice_sample(sample, first, last):
     low, high = np.searchsorted(sample.movers["order"], (first, last))
     movers = sample.movers[low:high].copy()
     movers["order"] -= first
-    return Sample(sample.items[first:last], sample.orders[first:last], movers, sample.entry[first:last], sample.object[first:last],
-                  sample.attempt[first:last])
+    return Sample(sample.items[first:last], sample.orders[first:last], movers, sample.entry[first:last], sample.scene[first:last],
+                  sample.object[first:last], sample.attempt[first:last])
 
 
 # A row of a structured array as JSON is made by one format: it takes half the time of json.dumps on a dict.
@@ -143,7 +143,7 @@ class BlockMaker:
         """One line of JSON for each item."""
         names = list(hashes)
         form = ('{"item":%r,"hash":{' + ",".join(f'"{name}":"%016x"' for name in names) + '},"order":' + _template(sample.orders.dtype) +
-                ',"target":%r,"target_object":%r,"redraws":%r,"geo":' + _template(geo.dtype) + ',"boxes":%r')
+                ',"target":%r,"target_scene":%r,"target_object":%r,"redraws":%r,"geo":' + _template(geo.dtype) + ',"boxes":%r')
         mover_names = sample.movers.dtype.names[1:]
         movers = [[] for _ in sample.items]
         for row in sample.movers.tolist():
@@ -152,20 +152,18 @@ class BlockMaker:
         settings = {run: self._settings(run) for run in set(runs)} if self._drawn else {}
         counts = np.diff(edges).tolist() if edges is not None else [0] * len(runs)
         lines = []
-        for at, (item, checks, order, entry, thing, redraws, place, count) in enumerate(zip(
-                sample.items.tolist(), zip(*hashes.values()), _flat(sample.orders), sample.entry.tolist(), sample.object.tolist(),
-                sample.attempt.tolist(), _flat(geo), counts)):
-            line = form % (item, *checks, *order, entry, thing, redraws, *place, count)
+        for at, (item, checks, order, entry, scene, thing, redraws, place, count) in enumerate(zip(
+                sample.items.tolist(), zip(*hashes.values()), _flat(sample.orders), sample.entry.tolist(), sample.scene.tolist(),
+                sample.object.tolist(), sample.attempt.tolist(), _flat(geo), counts)):
+            line = form % (item, *checks, *order, entry, scene, thing, redraws, *place, count)
             if "nan" in line or "inf" in line:
                 line = _NOT_FINITE.sub("null", line)
             more = {}
-            if movers[at]:
-                more["movers"] = movers[at]
             if settings:
                 more["settings"] = settings[runs[at]]
             if self.plan.manifest_boxes and boxes is not None:
                 more["box_list"] = [dict(zip(BOX.names[1:], _plain(box)[1:])) for box in boxes[edges[at]:edges[at + 1]].tolist()]
-            lines.append(line + ("," + dump(more)[1:] if more else "}"))
+            lines.append(f'{line},"movers":{dump(movers[at]) if movers[at] else "[]"}' + ("," + dump(more)[1:] if more else "}"))
         return ("\n".join(lines) + "\n").encode()
 
     def _settings(self, run):

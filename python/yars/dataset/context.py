@@ -4,7 +4,6 @@
 import importlib
 import json
 import os
-import re
 import subprocess
 import tempfile
 import warnings
@@ -15,7 +14,7 @@ from . import DatasetError, files, formats
 from .blocks import BlockMaker
 from .distributions import Streams
 from .formats import dump
-from .limits import check, command, read_limits, version
+from .limits import as_keys, check, command, read_limits, version
 from .sampling import Sampler, World
 from .settings import Settings
 from .spec import read_spec
@@ -122,20 +121,13 @@ def _generate(where, path, temporary, arguments):
                            f"{path}: expected to make it by `yars {' '.join(arguments[:2])}`, found it ended by {files.end_of(run.returncode)}")
 
 
-def as_keys(text):
-    """A message of a command, with the keys of a specification in place of the command's options."""
-    names = {"origin": "at", "kind": "generate", "scene": "scenes"}
-    text = re.sub(r"^yars[a-z. ]*: ", "", text, flags=re.M | re.I)
-    return re.sub(r"--([a-z][a-z-]*)", lambda match: names.get(match.group(1), match.group(1).replace("-", "_")), text)
-
-
-def _centre(scene, path):
+def _centre(scene, path, where):
     """(latitude, longitude) of a scene: that of the specification, else the file's."""
     if scene.at:
         return scene.at[:2]
     run = subprocess.run([command(), "scene", "info", "--json", str(path)], capture_output=True, text=True, check=False)
     if run.returncode:
-        raise DatasetError(run.stderr.strip())
+        raise DatasetError(f"{where}: {as_keys(run.stderr.strip())}")
     entry = json.loads(run.stdout)["files"][0]
     origin = entry["origin_in_name"] or entry["origin"]
     return origin["latitude_deg"], origin["longitude_deg"]
@@ -157,7 +149,9 @@ def load(spec_path, folder, maker_name=MAKER, mark=None, warm=True):
     classes = sorted({label for label in labels if label})
     ids = [classes.index(label) if label else -1 for label in labels]
     # For targets at scenes only: a given file without `at` is asked for its origin.
-    centres = [_centre(scene, path) for scene, path in zip(plan.scenes, paths)] if any(target.scenes for target in plan.targets) else []
+    centres = []
+    if any(target.scenes for target in plan.targets):
+        centres = [_centre(scene, path, f"{plan.path}:{scene.line}") for scene, path in zip(plan.scenes, paths)]
     sampler = Sampler(plan, limits, World(maker.elevation, np.array(centres, float).reshape(-1, 2), maker.objects, labels))
     store.describe(_objects_text(maker.objects, labels, classes), formats.types(len(maker.objects)))
     if warm:

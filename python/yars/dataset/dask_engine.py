@@ -2,6 +2,7 @@
 
 Each Dask worker keeps one host process with as many forked workers as it has threads. Specification and folder have the same
 paths on all computers. A task whose worker dies runs again elsewhere: blocks are idempotent."""
+import asyncio
 import concurrent.futures
 import itertools
 import json
@@ -16,8 +17,11 @@ from .run import HostProcess, check_answer
 
 MOST_TRIES = 30       # of a block, when workers die or host processes do
 CONNECT_WITHIN_S, WORKERS_WITHIN_S = 30, 60
+ANSWER_WITHIN_S = 30   # of a task that has ended
 SCHEDULER_BACK_S = 5.0  # a scheduler that is gone for so long ends the run
 TASKS_PER_THREAD = 4  # that wait at the scheduler
+
+_LOST = (OSError, RuntimeError, TimeoutError, concurrent.futures.TimeoutError, concurrent.futures.CancelledError, asyncio.CancelledError)
 
 _lock = threading.Lock()
 _host = None
@@ -106,8 +110,7 @@ def connect(address):
         import distributed
     except ImportError:
         raise DatasetError("expected the Python package distributed for --dask, found none; install python3-distributed") from None
-    for name in ("distributed", "tornado", "asyncio"):  # what matters of their log becomes an error here
-        logging.getLogger(name).setLevel(logging.CRITICAL + 1)
+    logging.disable(logging.CRITICAL)  # Dask's log of this process: what matters of it becomes an error here
     try:
         client = distributed.Client(address, timeout=CONNECT_WITHIN_S)
     except (OSError, ValueError, TimeoutError) as error:
@@ -134,9 +137,17 @@ def run_dask(client, options, mark, blocks, progress):
     run = uuid.uuid4().hex
     try:
         _submit_all(client, (run, options.plan, options.out, options.maker, mark), blocks, progress, options.dask)
+    except DatasetError:
+        raise
+    except _LOST:  # by a call that was on its way
+        _check_scheduler(client, options.dask)
+        raise _gone(options.dask) from None
     finally:
-        if client.status == "running":
-            client.run(close_host, run, on_error="ignore")
+        try:
+            if client.status == "running":
+                client.run(close_host, run, on_error="ignore")
+        except _LOST:
+            pass  # the workers end with their scheduler, and their hosts with them
 
 
 def _submit_all(client, arguments, blocks, progress, address):
@@ -155,9 +166,8 @@ def _submit_all(client, arguments, blocks, progress, address):
     while flying:
         key = _next(client, done, address, progress)
         block, future = flying.pop(key)
-        error = future.exception() if future.status == "error" else None
-        if future.status == "finished":
-            answer = future.result()
+        answer, error = _result(future)
+        if answer:
             check_answer(answer)
             progress.add(answer["items"], answer["redraws"])
             del tries[block]
@@ -167,11 +177,26 @@ def _submit_all(client, arguments, blocks, progress, address):
             raise DatasetError(f"--dask: expected the package yars on the workers, found: {error}; install python3-yars there, or set "
                                "PYTHONPATH for dask-worker")
         elif tries[block] >= MOST_TRIES:
-            raise DatasetError(f"block {block}: expected its files, found {tries[block]} failures; the last: {error or future.status}; "
+            raise DatasetError(f"block {block}: expected its files, found {tries[block]} failures; the last: {error or type(error).__name__}; "
                                "see the log of dask-worker")
         else:
             _check_scheduler(client, address)
             submit(block)
+
+
+def _result(future):
+    """(answer, None) of a task that ended, or (None, what went wrong)."""
+    try:
+        return future.result(timeout=ANSWER_WITHIN_S), None
+    except Exception as error:  # pylint: disable=broad-except  of the task or of Dask
+        return None, error
+    except (concurrent.futures.CancelledError, asyncio.CancelledError) as error:
+        return None, error
+
+
+def _gone(address):
+    return DatasetError(f"--dask: expected the scheduler at {address}, found it gone; start dask-scheduler and dask-worker again, then run "
+                        "the same command again: what is written stays")
 
 
 def _next(client, done, address, progress):
@@ -189,6 +214,5 @@ def _check_scheduler(client, address):
     end = time.monotonic() + SCHEDULER_BACK_S
     while client.status != "running":
         if client.status == "closed" or time.monotonic() > end:
-            raise DatasetError(f"--dask: expected the scheduler at {address}, found it gone; start dask-scheduler and dask-worker again, then run "
-                               "the same command again: what is written stays")
+            raise _gone(address)
         time.sleep(0.1)

@@ -16,6 +16,7 @@ import traceback
 import warnings
 
 from . import DatasetError, files
+from .limits import as_keys
 
 MOST_DEATHS = 5  # of workers with the same block
 
@@ -34,7 +35,8 @@ def show_warnings_once():
     def show(message, category, *_, **__):
         if issubclass(category, (DeprecationWarning, PendingDeprecationWarning, FutureWarning, ResourceWarning)):
             return  # for programmers
-        kind = re.sub(r"[-+0-9.]+", "", str(message))
+        message = as_keys(message)
+        kind = re.sub(r"[-+0-9.]+", "", message)
         if kind not in seen:
             seen.add(kind)
             print(f"yars dataset: warning: {message}", file=sys.stderr)

@@ -20,6 +20,7 @@ NEAREST_WINDOWS = 0.75
 DECIDING = {"AntennaServo": ("azimuthLimits", "elevationLimits"), "HighResolution": ("blindZone",),
             "WindowLimits": None, "SarMode": None}
 
+MOST_FAULTS = 20
 HIGHEST_GROUND_M = 9000.0
 FOOT_M, MILE_M = 0.3048, 1852.0
 # Values that lie on a limit are moved inside by so much: a float's last digit must not decide.
@@ -88,28 +89,60 @@ def printed(path):
     return output
 
 
+def as_keys(text):
+    """A message of a command or of the module, with keys of a specification in place of options and without the program's name."""
+    names = {"origin": "at", "kind": "generate", "scene": "scenes"}
+    text = re.sub(r"^yars[a-z_. ]*: ", "", str(text), flags=re.M | re.I)
+    return re.sub(r"--([a-z][a-z-]*)", lambda match: names.get(match.group(1), match.group(1).replace("-", "_")), text)
+
+
+def _fault_text(text, key):
+    """A message of `yars config check` about a line of settings, for a run that is refused. `key`: path of a knob, or None."""
+    text = re.sub(r"the form (\S+) has no slot :(\S+); the slot is ignored; nearest name: :(\S+)", r'expected a slot of \1, found "\2"; '
+                  r'did you mean "\3"?', text)
+    text = re.sub(r"the form (\S+) has no slot :(\S+); the slot is ignored", r'expected a slot of \1, found "\2"; `yars config print --defaults` '
+                  "explains every slot", text)
+    text = re.sub(r"the form (\S+) is unknown and ignored", r'expected the name of a form, found "\1"; `yars config print --defaults` shows all', text)
+    if key:
+        text = re.sub(r'(?<=for ):(\w+)|(?<=")(\w+)(?=")', lambda match: re.sub("[A-Z]", lambda big: "_" + big.group().lower(),
+                                                                              match.group(1) or match.group(2)), text)
+        return text.replace("a slot of Fidelity", "a knob for radar.knobs")
+    return text
+
+
+def _faults_of(text, lines, plan, path):
+    """Faults of lines of GUF after a configuration. The check ends at the first error, so it is done again without that line."""
+    left, faults, first = list(lines), {}, text.count("\n") + 1
+    while len(faults) < MOST_FAULTS:
+        path.write_text(text + "".join(line + "\n" for line, _, _ in left))
+        code, output, messages = _run("check", path)
+        wrong = set()
+        for match in re.finditer(rf"{re.escape(str(path))}:(\d+):\d+: (.*)", messages + output):
+            at = int(match.group(1)) - first
+            if 0 <= at < len(left) and ("ignored" in match.group(2) or "expected" in match.group(2)):
+                wrong.add(at)
+                _, line, key = left[at]
+                faults.setdefault(f"{plan.path}:{line}: {_fault_text(match.group(2), key)}", line)
+        if not wrong or not code:
+            break
+        left = [line for at, line in enumerate(left) if at not in wrong]
+    return sorted(faults, key=faults.get)
+
+
 def read_limits(plan, lines):
-    """Limits of the specification's radar. `lines`: (GUF text of one line, line of the specification) of its knobs and
-    settings, which are checked here. Raises SpecError at the specification's line."""
+    """Limits of the specification's radar. `lines`: (GUF text of one line, line of the specification, path of its knob or None) of knobs
+    and settings, which are checked here. Raises SpecError with all faults at the specification's lines."""
     try:
         text = printed(plan.config)
     except DatasetError as error:
         raise SpecError(f"{plan.where('radar.config')}: {error}") from None
     if not lines:
         return parse(text)
-    first = text.count("\n") + 1
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "radar.guf"
-        path.write_text(text + "".join(line + "\n" for line, _ in lines))
-        _, output, messages = _run("check", path)
-        found = re.compile(rf"(?:yars[a-z ]*: )?{re.escape(str(path))}:(\d+):\d+: (.*)")
-        faults = []
-        for match in filter(None, map(found.match, (messages + output).splitlines())):
-            at = int(match.group(1)) - first
-            if 0 <= at < len(lines) and ("ignored" in match.group(2) or "expected" in match.group(2)):
-                faults.append(f"{plan.path}:{lines[at][1]}: {match.group(2)}")
+        faults = _faults_of(text, lines, plan, path)
         if faults:
-            raise SpecError("\n".join(dict.fromkeys(faults)))
+            raise SpecError("\n".join(faults))
         try:
             return parse(printed(path))
         except DatasetError as error:

@@ -202,7 +202,7 @@ def parser():
     result.add_argument("--dask", metavar="ADDRESS", help="scheduler of Dask distributed, such as tcp://host:8786; its workers make the blocks")
     result.add_argument("--verify", action="store_true", help="read all files that are there and compare their hashes")
     result.add_argument("--merge", action="store_true", help="only join the parts of all shards")
-    result.add_argument("--check", action="store_true", help="only check SPEC")
+    result.add_argument("--check", action="store_true", help="only check SPEC: makes and reads terrain and scenes in a temporary folder, and draws the first items")
     result.add_argument("--keys", action="store_true", help="print all keys of a specification as tables")
     return result
 
@@ -242,6 +242,8 @@ def guarded(options):
 
 def run(options):
     plan, _, store = context.open_store(options.plan, options.out or os.curdir)
+    if "object" not in plan.arrays:
+        warnings.warn(f"{plan.where('chip.arrays')}: without object there are no boxes; add object to chip.arrays for them")
     if options.check:
         context.try_out(options.plan, options.maker)
         print(f"{options.plan}: good; {plan.count:,} items in {plan.blocks:,} blocks")

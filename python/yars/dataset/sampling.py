@@ -39,6 +39,7 @@ class Sample:
     orders: np.ndarray    # ORDER
     movers: np.ndarray    # MOVER; `order` counts from the first item of the sample
     entry: np.ndarray     # index into plan.targets
+    scene: np.ndarray     # index of the scene of a target with `scenes`; -1: none
     object: np.ndarray    # index of the target's object; -1: none
     attempt: np.ndarray   # redraws of each item
 
@@ -83,35 +84,41 @@ class Sampler:
         """Sample of the items. Raises DatasetError if an item stays impossible."""
         items = np.asarray(items, np.int64)
         sample = Sample(items, np.zeros(len(items), ORDER), None, np.zeros(len(items), np.int32),
-                        np.full(len(items), -1, np.int32), np.zeros(len(items), np.int32))
-        left, reasons, most = np.arange(len(items)), collections.Counter(), self.plan.geometry["attempts"]
+                        np.full(len(items), -1, np.int32), np.full(len(items), -1, np.int32), np.zeros(len(items), np.int32))
+        left, most = np.arange(len(items)), self.plan.geometry["attempts"]
         begin, width = 0, 1
         kept = self._kept.uniform(items)
         while begin < most:
             # Later rounds draw several attempts of the few items that are left at once, and take the first possible.
             width = min(width, most - begin)
             tries = np.tile(np.arange(begin, begin + width), len(left))
-            orders, entry, thing, problem = self._attempt(np.repeat(items[left], width), tries, np.repeat(kept[:, left], width, axis=1))
+            orders, (entry, scene, thing), problem = self._attempt(np.repeat(items[left], width), tries, np.repeat(kept[:, left], width, axis=1))
             table = problem.reshape(len(left), width)
             first = np.where((table == 0).any(axis=1), np.argmax(table == 0, axis=1), width - 1)
             row = np.arange(len(left)) * width + first
-            sample.orders[left], sample.entry[left], sample.object[left] = orders[row], entry[row], thing[row]
+            sample.orders[left], sample.entry[left], sample.scene[left], sample.object[left] = orders[row], entry[row], scene[row], thing[row]
             sample.attempt[left] = begin + first
             if not problem[row].any():
                 sample.movers = self._draw_movers(sample)
                 return sample
-            reasons.update(_REASONS[code] for code in problem[problem > 0])
             left, begin, width = left[problem[row] > 0], begin + width, width * 4
-        text = ", ".join(f"{reason} {number} times" for reason, number in reasons.most_common())
-        raise DatasetError(f"{self.plan.where('geometry')}: expected a possible geometry for item {items[left[0]]} in "
-                           f"{self.plan.geometry['attempts']} draws, found none: {text}; change geometry or targets, or raise "
-                           "geometry.attempts")
+        raise DatasetError(self._impossible(items, left, kept))
+
+    def _impossible(self, items, left, kept):
+        """Message about items for which no draw was possible."""
+        most = self.plan.geometry["attempts"]
+        first = left[0]
+        problem = self._attempt(np.full(most, items[first]), np.arange(most), np.repeat(kept[:, [first]], most, axis=1))[2]
+        counts = collections.Counter(_REASONS[code] for code in problem).most_common()
+        text = ", ".join(f"{reason} {number} times" for reason, number in counts)
+        return (f"{self.plan.where('geometry')}: expected a possible geometry for item {items[first]} in {most} draws, found none: {text} "
+                f"({len(left)} of {len(items)} items drawn together have none); change geometry or targets, or raise geometry.attempts")
 
     def _attempt(self, items, attempt, kept):
         u = dict(zip(self._streams.names + self._kept.names, [*self._streams.uniform(items, attempt), *kept]))
-        plan, geometry = self.plan, self.plan.geometry
+        geometry = self.plan.geometry
         window, looks = self._window.sample(u["chip.window_nm"]), self._looks.sample(u["chip.looks"])
-        entry, latitude, longitude, thing = self._draw_targets(u)
+        kind, latitude, longitude = self._draw_targets(u)
         drawn = {name: geometry[name].sample(u[f"geometry.{name}"]) for name in _GEOMETRY if name in geometry}
         low, high = self._range_limits(window)
         range_nm = _moved_inside(drawn["range_nm"], low, high, RANGE_MARGIN_NM)
@@ -139,14 +146,14 @@ class Sampler:
                 ("time_s", drawn["time_s"], OTHER_DIGITS)):
             orders[name] = np.round(value, digits)
         orders["looks"], orders["map"] = looks, ((items + 1) & 0xFFFFFFFF).astype(np.uint32)
-        return orders, entry, thing, self._problems(orders, entry, range_nm, squint, (low, high), target_m, beneath_m)
+        return orders, kind, self._problems(orders, kind[0], range_nm, squint, (low, high), target_m, beneath_m)
 
     def _draw_targets(self, u):
-        """(entry, latitude, longitude, object) of each item."""
+        """((entry, scene, object), latitude, longitude) of each item."""
         plan = self.plan
         entry = self._entries.index(u["target.entry"]).astype(np.int32)
         latitude, longitude, north_m, east_m = np.zeros((4, len(entry)))
-        thing = np.full(len(entry), -1, np.int32)
+        scene, thing = np.full((2, len(entry)), -1, np.int32)
         for number, target in enumerate(plan.targets):
             at = np.flatnonzero(entry == number)
             if not len(at):
@@ -161,6 +168,7 @@ class Sampler:
                 picks = self._picks[number]
                 pick = picks[np.minimum((first * len(picks)).astype(np.int64), len(picks) - 1)]
                 if target.objects is None:
+                    scene[at] = pick
                     base = self.world.scene_centres[pick].T
                 else:
                     thing[at] = pick
@@ -170,7 +178,7 @@ class Sampler:
                                        (("north_m", target.north_m), ("east_m", target.east_m)))
         if self._offsets:
             latitude, longitude = offset(latitude, longitude, north_m, east_m)
-        return entry, latitude, wrapped(longitude), thing
+        return (entry, scene, thing), latitude, wrapped(longitude)
 
     def _range_limits(self, window):
         """Least and greatest ground range [NM] for each window."""
