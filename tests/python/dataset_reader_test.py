@@ -2,7 +2,9 @@
 """What a data set holds, read by yars.dataset.Dataset, Zarr, xarray, NumPy, COCO readers and rasterio.
 usage: dataset_reader_test.py BIN [unittest options]   (BIN: folder of `yars`)"""
 import json
+import multiprocessing
 import pathlib
+import pickle
 import sys
 import unittest
 
@@ -11,7 +13,7 @@ sys.path.append(str(HERE))
 from dataset_run_test import Case, tree  # noqa: E402  takes BIN from the arguments
 import numpy as np  # noqa: E402
 
-from yars.dataset import Dataset  # noqa: E402
+from yars.dataset import Dataset, DatasetError, blocks  # noqa: E402
 
 
 class Formats(Case):
@@ -87,6 +89,21 @@ class Formats(Case):
         with rasterio.open(self.out / coco["images"][3]["file_name"]) as picture:
             self.assertEqual(picture.read(1).tolist(), Dataset(self.out)[3]["video"].tolist())
 
+    def test_coco_is_cut_off_at_the_picture(self):
+        from yars.dataset import formats
+        self.assertEqual(formats.cut_off([[1.0, 1.0], [3.0, 1.0], [3.0, 2.0]], 16), [[1.0, 1.0], [3.0, 1.0], [3.0, 2.0]])
+        self.assertEqual(formats.cut_off([[-1.0, 1.0], [3.0, 1.0], [3.0, 2.0], [-1.0, 2.0]], 16),
+                         [[0.0, 1.0], [3.0, 1.0], [3.0, 2.0], [0.0, 2.0]])
+        self.assertEqual(len(formats.cut_off([[8.0, -6.0], [22.0, 8.0], [8.0, 22.0], [-6.0, 8.0]], 16)), 8)
+        self.assertEqual(formats.cut_off([[17.0, 1.0], [20.0, 1.0], [20.0, 2.0]], 16), [])
+        boxes = np.zeros(3, blocks.BOX)
+        boxes["corners"] = [[[-4, 2], [4, 2], [4, 6], [-4, 6]], [[20, 2], [24, 2], [24, 6], [20, 6]], [[2, 2], [4, 2], [4, 6], [2, 6]]]
+        boxes["pixels"], boxes["item"] = [7, 5, 0], [0, 0, 1]
+        lines = [json.loads(line) for line in formats._coco_lines(boxes, 16, 3)]
+        self.assertEqual([(line["id"], line["image_id"], line["bbox"], line["area"]) for line in lines],
+                         [(3, 0, [0, 2, 4, 4], 7), (4, 1, [2, 2, 2, 4], 0)])
+        self.assertEqual(sorted(lines[0]["segmentation"][0]), [0, 0, 2, 2, 4, 4, 6, 6])
+
     def test_geotiff(self):
         try:
             import rasterio
@@ -100,6 +117,130 @@ class Formats(Case):
         again = self.folder / "again"
         self.run_it(out=again, plan=self.folder / "tif.yaml")
         self.assertEqual(tree(again), tree(self.out))
+
+
+def collate(items):
+    """Pictures as one array each; boxes and parameters, whose number differs, as lists. As docs/datasets.md has it."""
+    return {name: [item[name] for item in items] if name in ("boxes", "parameters") else np.stack([item[name] for item in items])
+            for name in items[0]}
+
+
+def load_batches(pickled, batches, answers):
+    """A worker of a loader that starts processes anew."""
+    data = pickle.loads(pickled)
+    for batch in batches:
+        answers.put(collate([data[item] for item in batch]))
+
+
+class Reading(Case):
+    count, block = 21, 8
+
+    def setUp(self):
+        super().setUp()
+        self.run_it()
+        self.data = Dataset(self.out)
+
+    def test_mixed_order_gives_what_the_order_gives(self):
+        items = [self.data[item] for item in range(21)]
+        for compression in ("none", "zstd", "lz4"):
+            out = self.folder / compression
+            self.run_it(out=out, plan=self.write_spec(f"{compression}.yaml", output=f", compression: {compression}"))
+            data = Dataset(out)
+            for item in (20, 3, 9, 4, 8, 0, 20, 19, 1):
+                for name in ("video", "object", "shadow", "boxes"):
+                    self.assertEqual(data[item][name].tobytes(), items[item][name].tobytes())
+                self.assertEqual(data[item]["parameters"], items[item]["parameters"])
+
+    def test_arrays_may_be_written_to(self):
+        for item in (5, 6, 7):
+            chip = self.data[item]
+            before = {name: chip[name].tobytes() for name in ("video", "boxes")}
+            chip["video"][:] = 0
+            chip["boxes"]["pixels"] = -1
+            self.assertEqual({name: self.data[item][name].tobytes() for name in before}, before)
+
+    def test_movers_are_a_list(self):
+        numbers = [len(self.data[item]["parameters"]["movers"]) for item in range(21)]
+        self.assertEqual({0, 1, 2, 3}, set(numbers))
+
+    def test_the_scene_of_a_target_is_named(self):
+        self.assertEqual({self.data[item]["parameters"]["target_scene"] for item in range(21)}, {-1})
+        text = self.plan.read_text().replace("  - {objects: house}", "  - {scenes: all}")
+        self.plan.write_text(text)
+        self.run_it(out=self.folder / "scenes")
+        parameters = [line["parameters"] for line in map(Dataset(self.folder / "scenes").__getitem__, range(21))]
+        self.assertEqual([line["target_scene"] for line in parameters], [-1 if line["target"] == 0 else 0 for line in parameters])
+
+    def test_label_bounds(self):
+        chip = self.data[4]
+        bounds = self.data.label_bounds(4)
+        self.assertEqual(bounds.shape, (len(chip["boxes"]), 4))
+        for thing, (left, top, right, bottom) in zip(chip["boxes"]["object"], bounds):
+            rows, columns = np.nonzero(chip["object"] == thing)
+            self.assertEqual((left, top, right, bottom), (columns.min(), rows.min(), columns.max() + 1, rows.max() + 1))
+        chip["object"][chip["object"] == 7] = -1
+        self.assertEqual(self.data.label_bounds(chip)[0].tolist(), [0, 0, 0, 0])
+        chip["boxes"] = chip["boxes"][:0]
+        self.assertEqual(self.data.label_bounds(chip).shape, (0, 4))
+
+    def test_a_loader_with_processes(self):
+        whole = len(pickle.dumps(self.data))
+        self.data[3], self.data[4]
+        pickled = pickle.dumps(self.data)
+        self.assertEqual(len(pickled), whole)  # without what was read
+        context = multiprocessing.get_context("spawn")
+        answers, batches = context.Queue(), [[5, 17, 2], [11, 0, 20]]
+        worker = context.Process(target=load_batches, args=(pickled, batches, answers))
+        worker.start()
+        for batch in batches:
+            answer = answers.get(timeout=60)
+            self.assertEqual(answer["video"].shape, (3, 16, 16))
+            self.assertEqual(answer["video"].tobytes(), b"".join(self.data[item]["video"].tobytes() for item in batch))
+            self.assertEqual([line["item"] for line in answer["parameters"]], batch)
+        worker.join()
+
+    def test_indices(self):
+        self.assertEqual(self.data[np.int64(-21)]["parameters"]["item"], 0)
+        for index in (1.0, "1", None, slice(0, 3), [1, 2], True, np.arange(3)):
+            with self.assertRaisesRegex(TypeError, "expected the number of an item, found"):
+                self.data[index]
+        for index in (21, -22):
+            with self.assertRaisesRegex(IndexError, "expected an item from -21 to 20"):
+                self.data[index]
+        with self.assertRaisesRegex(DatasetError, "one of the arrays video, object, shadow, found 'power'"):
+            self.data.chunk("power", 0)
+        for block in (3, -1):
+            with self.assertRaisesRegex(IndexError, "a block from 0 to 2"):
+                self.data.chunk("video", block)
+        with self.assertRaises(TypeError):
+            self.data.chunk("video", 1.5)
+        self.assertEqual(len(self.data.chunk("video", 2)), 5)  # items of the last block
+        import yars.dataset
+        self.assertIn("Dataset", dir(yars.dataset))
+
+    def test_npz_has_no_chunks(self):
+        out = self.folder / "npz"
+        self.run_it(out=out, plan=self.write_spec("npz.yaml", output=", format: npz"))
+        with self.assertRaisesRegex(DatasetError, "format: zarr for chunks, found npz"):
+            Dataset(out).chunk("video", 0)
+
+    def test_damaged_files_are_one_error(self):
+        for name in ("dataset.json", "objects.json"):
+            path = self.out / name
+            data = path.read_bytes()
+            for content, word in ((None, f"found no {name}"), (b"{", "damaged"), (b"[]", "damaged"), (b"\xff", "damaged")):
+                path.unlink() if content is None else path.write_bytes(content)
+                with self.assertRaisesRegex(DatasetError, word):
+                    Dataset(self.out)
+                path.write_bytes(data)
+        for name, item in (("chips.zarr/video/0.0.0", 1), ("boxes/0000/0000001.npy", 9), ("parts/0000/0000002.jsonl", 17)):
+            path = self.out / name
+            for content in (None, b"", b"x" * 30):
+                path.unlink(missing_ok=True) if content is None else path.write_bytes(content)
+                with self.assertRaisesRegex(DatasetError, "run `yars dataset"):
+                    Dataset(self.out)[item]
+        with self.assertRaisesRegex(DatasetError, "expected a data set, found"):
+            Dataset(self.plan)
 
 
 if __name__ == "__main__":

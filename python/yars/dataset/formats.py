@@ -178,6 +178,7 @@ def _coco_lines(boxes, size, number):
     lines = []
     for item, thing, label, pixels, aspect, corners in boxes[["item", "object", "class", "pixels", "aspect_deg", "corners"]].tolist():
         outline = [[round(value, 3) for value in corner] for corner in cut_off(corners.tolist(), size)]
+        outline = [corner for at, corner in enumerate(outline) if corner != outline[at - 1]]  # edges through a corner of the picture
         if len(outline) < 3:
             continue
         columns, rows = zip(*outline)

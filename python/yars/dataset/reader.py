@@ -49,7 +49,7 @@ class Dataset:
         raise DatasetError(f"{path}: expected {what} as JSON, found a damaged file; run `yars dataset` again: it makes the file")
 
     def __getstate__(self):
-        return {**vars(self), "_kept": collections.OrderedDict(), "_touched": None}
+        return {**vars(self), "_kept": collections.OrderedDict(), "_kinds": {}, "_touched": None}
 
     def __len__(self):
         return self.count
@@ -88,7 +88,7 @@ class Dataset:
         data = self._mapped(path, block)
         begin = 10 + int.from_bytes(data[8:10], "little")
         try:
-            boxes = np.frombuffer(data, BOX, offset=begin) if len(data) > begin else np.empty(0, BOX)
+            boxes = np.empty(0, BOX) if len(data) == begin else np.frombuffer(data, BOX, offset=begin)
         except ValueError as error:
             raise self._damaged(path, error) from None
         items = boxes["item"]
@@ -197,7 +197,11 @@ class Dataset:
     def _lines(self, block):
         """Lines of the items of a block."""
         def read():
-            return bytes(self._mapped(self.folder / Store.part_name(block), block)).split(b"\n")[1:-1]
+            path = self.folder / Store.part_name(block)
+            lines = bytes(self._mapped(path, block)).split(b"\n")[1:-1]
+            if len(lines) != min(self.block, self.count - block * self.block):
+                raise self._damaged(path, f"{len(lines)} lines")
+            return lines
         return self._keep(("lines", block), read)
 
     def _keep(self, key, read):
