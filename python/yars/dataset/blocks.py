@@ -143,7 +143,7 @@ class BlockMaker:
         """One line of JSON for each item."""
         names = list(hashes)
         form = ('{"item":%r,"hash":{' + ",".join(f'"{name}":"%016x"' for name in names) + '},"order":' + _template(sample.orders.dtype) +
-                ',"target":%r,"target_scene":%r,"target_object":%r,"redraws":%r,"geo":' + _template(geo.dtype) + ',"boxes":%r')
+                ',"target":%r,"target_scene":%r,"target_object":%r,"redraws":%r,"geo":' + _template(geo.dtype) + ',"boxes":%r,"movers":')
         mover_names = sample.movers.dtype.names[1:]
         movers = [[] for _ in sample.items]
         for row in sample.movers.tolist():
@@ -163,7 +163,7 @@ class BlockMaker:
                 more["settings"] = settings[runs[at]]
             if self.plan.manifest_boxes and boxes is not None:
                 more["box_list"] = [dict(zip(BOX.names[1:], _plain(box)[1:])) for box in boxes[edges[at]:edges[at + 1]].tolist()]
-            lines.append(f'{line},"movers":{dump(movers[at]) if movers[at] else "[]"}' + ("," + dump(more)[1:] if more else "}"))
+            lines.append(line + (dump(movers[at]) if movers[at] else "[]") + ("," + dump(more)[1:] if more else "}"))
         return ("\n".join(lines) + "\n").encode()
 
     def _settings(self, run):

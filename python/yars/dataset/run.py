@@ -25,7 +25,7 @@ LINE_EVERY_S, DRAW_EVERY_S = 10.0, 0.5
 MOST_ERROR_LINES = 20
 
 
-class Interrupted(Exception):
+class Interrupted(BaseException):  # no handler of errors may take it
     """Ctrl-C or SIGTERM. `number`: the signal."""
 
     def __init__(self, number):
