@@ -142,6 +142,13 @@ class Made(Case):
         self.assertIn("use the version that dataset.json names", self.run_it("--verify", code=1).stderr)
         self.assertEqual(tree(self.out), before)
 
+    def test_a_limit_of_a_file_s_size_is_named(self):
+        def limit():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
+        self.assertRegex(self.run_it(preexec_fn=limit, code=1).stderr, "(SIGXFSZ|File too large).*ulimit -f")
+        self.run_it()
+        self.assertEqual(tree(self.out), self.reference())
+
     def test_faults_name_keys(self):
         self.plan.write_text(self.plan.read_text().replace("at: [37.5,", "at: [95.5,"))
         self.assertIn("specification.yaml:4: expected", self.run_it(code=1).stderr)

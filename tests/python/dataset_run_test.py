@@ -230,6 +230,10 @@ class Arguments(Case):
         self.plan.write_text(text)
         self.assertIn("specification.yaml:7: expected a class of the scenes' objects (car, house)", self.run_it(code=1).stderr)
 
+    def test_no_boxes_is_a_warning(self):
+        self.plan.write_text(self.plan.read_text().replace("[video, object, shadow]", "[video]"))
+        self.assertRegex(self.run_it().stderr, "^yars dataset: warning: .*specification.yaml:3: without object there are no boxes")
+
     def test_check(self):
         self.assertIn("good; 200 items in 25 blocks", self.run_it("--check").stdout)
         self.assertFalse(self.out.exists())

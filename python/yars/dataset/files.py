@@ -22,7 +22,8 @@ _ACTIONS = {errno.ENOSPC: "free some space, then run the same command again: wha
             errno.EROFS: "choose an --out on a file system that can be written"}
 
 
-_SIGNALS = {signal.SIGXFSZ: "raise the limit of a file's size (ulimit -f)", signal.SIGKILL: "is memory short? Try fewer --workers, or a smaller output.block",
+_SIGNALS = {signal.SIGXFSZ: "raise the limit of a file's size (ulimit -f)",
+            signal.SIGKILL: "is memory short? Try fewer --workers, or a smaller output.block",
             signal.SIGXCPU: "raise the limit of processor time (ulimit -t)", signal.SIGBUS: "is the disk full, or was a file cut off?"}
 
 

@@ -1,5 +1,6 @@
 """Limits of a radar for patch maps, read from its configuration: blind zone, gimbal, ranges of each window. Geometry that no draw can
-make possible is found by them when a specification is read. Source: `yars config print`; docs/spec/pilots_interface.md#rule-2, #rule-3 and #rule-4."""
+make possible is found by them when a specification is read. Source: `yars config print`;
+docs/spec/pilots_interface.md#rule-2, #rule-3 and #rule-4."""
 import dataclasses
 import functools
 import math
@@ -102,7 +103,8 @@ def _fault_text(text, key):
                   r'did you mean "\3"?', text)
     text = re.sub(r"the form (\S+) has no slot :(\S+); the slot is ignored", r'expected a slot of \1, found "\2"; `yars config print --defaults` '
                   "explains every slot", text)
-    text = re.sub(r"the form (\S+) is unknown and ignored", r'expected the name of a form, found "\1"; `yars config print --defaults` shows all', text)
+    text = re.sub(r"the form (\S+) is unknown and ignored", r'expected the name of a form, found "\1"; '
+                  "`yars config print --defaults` shows all", text)
     if key:
         text = re.sub(r'(?<=for ):(\w+)|(?<=")(\w+)(?=")', lambda match: re.sub("[A-Z]", lambda big: "_" + big.group().lower(),
                                                                               match.group(1) or match.group(2)), text)

@@ -202,7 +202,8 @@ def parser():
     result.add_argument("--dask", metavar="ADDRESS", help="scheduler of Dask distributed, such as tcp://host:8786; its workers make the blocks")
     result.add_argument("--verify", action="store_true", help="read all files that are there and compare their hashes")
     result.add_argument("--merge", action="store_true", help="only join the parts of all shards")
-    result.add_argument("--check", action="store_true", help="only check SPEC: makes and reads terrain and scenes in a temporary folder, and draws the first items")
+    result.add_argument("--check", action="store_true",
+                        help="only check SPEC: makes and reads terrain and scenes in a temporary folder, and draws the first items")
     result.add_argument("--keys", action="store_true", help="print all keys of a specification as tables")
     return result
 
@@ -246,7 +247,7 @@ def run(options):
         warnings.warn(f"{plan.where('chip.arrays')}: without object there are no boxes; add object to chip.arrays for them")
     if options.check:
         context.try_out(options.plan, options.maker)
-        print(f"{options.plan}: good; {plan.count:,} items in {plan.blocks:,} blocks")
+        print(f"{options.plan}: good; {plan.count:,} items in {plan.blocks:,} block{'s' * (plan.blocks > 1)}")
         return 0
     if options.merge and not os.path.isdir(options.out):
         raise DatasetError(f"{options.out}: expected the folder of a data set for --merge, found none; check the path, or run the shards first")

@@ -175,7 +175,8 @@ class Store:
             result.append(f"kind of hash {there.get('hash')}")
         if "specification" in names:
             try:
-                keys = different_keys(*(yaml.load(data, yaml.BaseLoader) for data in (files.read(self.path("specification.yaml")) or b"", self._given())))
+                texts = files.read(self.path("specification.yaml")) or b"", self._given()
+                keys = different_keys(*(yaml.load(text, yaml.BaseLoader) for text in texts))
             except yaml.YAMLError:
                 keys = []
             result = (keys or ["values of the specification"]) + result
