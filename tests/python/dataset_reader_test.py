@@ -224,6 +224,16 @@ class Reading(Case):
         with self.assertRaisesRegex(DatasetError, "format: zarr for chunks, found npz"):
             Dataset(out).chunk("video", 0)
 
+    def test_chunks_that_were_cut_off_are_an_error(self):
+        for compression in ("none", "zstd"):
+            out = self.folder / compression
+            self.run_it(out=out, plan=self.write_spec(f"{compression}.yaml", output=f", compression: {compression}"))
+            path = out / "chips.zarr/video/1.0.0"
+            path.write_bytes(path.read_bytes()[:-7])
+            for read in (lambda data: data[9], lambda data: data.chunk("video", 1)):
+                with self.assertRaisesRegex(DatasetError, "found a damaged one"):
+                    read(Dataset(out))
+
     def test_damaged_files_are_one_error(self):
         for name in ("dataset.json", "objects.json"):
             path = self.out / name
@@ -235,7 +245,8 @@ class Reading(Case):
                 path.write_bytes(data)
         for name, item in (("chips.zarr/video/0.0.0", 1), ("boxes/0000/0000001.npy", 9), ("parts/0000/0000002.jsonl", 17)):
             path = self.out / name
-            for content in (None, b"", b"x" * 30):
+            whole = path.read_bytes()
+            for content in (None, b"", b"x" * 30, whole[:len(whole) // 2], whole[:20]):
                 path.unlink(missing_ok=True) if content is None else path.write_bytes(content)
                 with self.assertRaisesRegex(DatasetError, "run `yars dataset"):
                     Dataset(self.out)[item]

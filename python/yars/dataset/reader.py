@@ -155,6 +155,11 @@ class Dataset:
         count = min(self.block, self.count - block * self.block)
         try:
             data = self._mapped(path, block)
+            whole = self.block * pixels * kind.itemsize
+            # The header of Blosc has both sizes; it would read beyond the end of a file that was cut off.
+            sizes = (int.from_bytes(data[4:8], "little"), int.from_bytes(data[12:16], "little")) if decoder else (len(data), len(data))
+            if sizes != (whole, len(data)):
+                raise self._damaged(path, "its size differs from what it says")
             if at is None:
                 data = decoder.decode(data) if decoder else data
                 return np.frombuffer(data, kind, count * pixels).reshape(count, self.size, self.size)

@@ -131,12 +131,14 @@ class Store:
         return pathlib.Path(self.plan.path).read_bytes()
 
     def _first_mark(self):
-        """Fingerprint that a part bears; "": it is not readable; None: there is no part."""
-        for number in self._part_folders():
-            for block in self._parts_of(number):
-                head, _ = self._split(files.read(self.path(self.part_name(block))) or b"")
-                return str((_json_object(head) or {}).get("dataset", ""))
-        return None
+        """Fingerprint that the first readable part bears; "": none is readable; None: there is no part."""
+        mark = None
+        for block in itertools.chain.from_iterable(map(self._parts_of, self._part_folders())):
+            head, _ = self._split(files.read(self.path(self.part_name(block))) or b"")
+            mark = str((_json_object(head) or {}).get("dataset", ""))
+            if mark:
+                break
+        return mark
 
     def _change(self, text, there):
         """Clears the folder for this specification, or raises DatasetError. `text`, `there`: dataset.json, None if absent or broken."""
@@ -166,11 +168,11 @@ class Store:
 
     def _differences(self, there):
         """What differs between this data set and the one whose dataset.json is `there`, in words."""
+        if there.get("format") != FORMAT:
+            return [f"format {there.get('format')} of the folder, this YARS writes {FORMAT}"]
         before = there.get("inputs") if isinstance(there.get("inputs"), dict) else {}
         names = [name for name in {**before, **self.inputs} if before.get(name) != self.inputs.get(name)]
         result = [f"contents of {name}" for name in names if name != "specification"]
-        if there.get("format") != FORMAT:
-            result.append(f"format {there.get('format')} of the folder")
         if there.get("hash") != self.hash_name:
             result.append(f"kind of hash {there.get('hash')}")
         if "specification" in names:
