@@ -84,14 +84,16 @@ class Dataset:
 
     def _boxes(self, block, item):
         """Boxes of an item. The file is an .npy of BOX, sorted by item: few of its pages are read."""
-        path = self.folder / Store.boxes_name(block)
-        data = self._mapped(path, block)
-        begin = 10 + int.from_bytes(data[8:10], "little")
-        try:
-            boxes = np.empty(0, BOX) if len(data) == begin else np.frombuffer(data, BOX, offset=begin)
-        except ValueError as error:
-            raise self._damaged(path, error) from None
-        items = boxes["item"]
+        def read():
+            path = self.folder / Store.boxes_name(block)
+            data = self._mapped(path, block)
+            begin = 10 + int.from_bytes(data[8:10], "little")
+            try:
+                boxes = np.empty(0, BOX) if len(data) == begin else np.frombuffer(data, BOX, offset=begin)
+            except ValueError as error:
+                raise self._damaged(path, error) from None
+            return boxes, boxes["item"]
+        boxes, items = self._keep(("boxes", block), read)
         first = bisect.bisect_left(items, item)
         return boxes[first:bisect.bisect_left(items, item + 1, first)].copy()
 
@@ -145,7 +147,7 @@ class Dataset:
     def _chip(self, name, block, at):
         """(rows, columns) of an item. Of a block that is touched for the first time only this item is decoded."""
         if (name, block) in self._kept or self._touched == block:
-            return self.chunk(name, block)[at].copy()
+            return self._keep((name, block), lambda: self._decode(name, block))[at].copy()
         return self._decode(name, block, at)
 
     def _decode(self, name, block, at=None):
