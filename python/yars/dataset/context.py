@@ -55,7 +55,7 @@ def make_inputs(plan, store, read=True):
     """Makes made-up scenes and terrain that are absent, or with `read` those with other contents than they were made with."""
     for number, scene in enumerate(plan.scenes):
         if scene.generate:
-            origin = ",".join(f"{number:.12g}" for number in scene.at)
+            origin = ",".join(f"{value:.12g}" for value in scene.at)
             _made(store, _made_name(number, scene), f"{plan.path}:{scene.line}", read, [
                 "scene", "generate", "--kind", scene.generate, "--triangles", str(scene.triangles), "--seed", str(scene.seed), f"--origin={origin}"])
     if plan.terrain_generate:

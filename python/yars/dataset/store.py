@@ -143,7 +143,7 @@ class Store:
     def _change(self, text, there):
         """Clears the folder for this specification, or raises DatasetError. `text`, `there`: dataset.json, None if absent or broken."""
         mark = self._first_mark()
-        if mark == self.mark and there is None:
+        if mark == self.mark:
             warnings.warn(f"{self.path('dataset.json')} is made again: it was {'absent' if text is None else 'damaged'}")
         elif mark is None and text is None:
             ours = files.read(self.path("specification.yaml")) == self._given()
