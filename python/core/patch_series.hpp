@@ -13,6 +13,7 @@
 #include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_formation.hpp"
+#include "python/core/calls.hpp"
 #include "python/core/places.hpp"
 #include "python/core/support.hpp"
 
