@@ -2,6 +2,10 @@
 
 #include <pybind11/stl.h>
 
+#include <filesystem>
+
+#include "model/terrain/formats/dted.hpp"
+#include "model/terrain/store/cell_files.hpp"
 #include "python/core/calls.hpp"
 #include "tools/scene/generate_command.hpp"
 #include "tools/terrain/generate_command.hpp"
@@ -16,7 +20,7 @@ std::string measured(const AddOptions& add_options, const std::shared_ptr<Terrai
                      const std::vector<std::string>& words) {
   Options options;
   read_options("yars.trade", words, [&](databuffer::Command line) { add_options(line, options); });
-  check_arguments([&] { tools::check_trade_output(options); });
+  tools::check_trade_output(options);
   radar::RadarConfiguration configuration = radar.configuration();
   tools::apply_options(options.configuration, configuration);
   if (terrain) configuration.terrain = terrain->configuration();
@@ -29,6 +33,23 @@ std::string measured(const AddOptions& add_options, const std::shared_ptr<Terrai
   });
   warnings.show("yars.trade");
   return text;
+}
+
+// Throws ValueError if the folder has cells that are not of this landscape's area and level.
+void check_other_cells(const tools::TerrainGenerateOptions& options) {
+  namespace terrain = model::terrain;
+  const auto index = terrain::index_directory(options.out);
+  if (!index) return;  // no folder, or no cells
+  for (const auto& [slot, file] : *index) {
+    const terrain::CellCorner corner = terrain::corner_of_slot(slot);
+    const int rows = corner.south_deg - options.south_deg;
+    const int columns = (corner.west_deg - options.west_deg + 720) % 360;
+    if (rows >= 0 && rows < options.cells_latitude && columns < options.cells_longitude &&
+        file.path == std::filesystem::path(options.out) / terrain::dted_name(corner, options.level))
+      continue;
+    raise_value_error("yars.Terrain.generate: directory: expected a folder without cells of another area or level, found " +
+                      file.path.string() + "; give another folder, or remove it");
+  }
 }
 
 }  // namespace
@@ -44,7 +65,10 @@ void generate_terrain(const std::vector<std::string>& words) {
   tools::TerrainGenerateOptions options;
   read_options("yars.Terrain.generate", words,
                [&](databuffer::Command line) { tools::add_terrain_generate_options(line, options); });
-  without_interpreter([&](const parallel::GoesOn& goes_on) { tools::generate_terrain_files(options, goes_on); });
+  without_interpreter([&](const parallel::GoesOn& goes_on) {
+    check_other_cells(options);
+    tools::generate_terrain_files(options, goes_on);
+  });
 }
 
 std::string trade(bool maps, const std::shared_ptr<Terrain>& terrain, const Radar& radar,

@@ -327,12 +327,9 @@ class Series {
     const hrm::PatchOrder order = order_of(given);
     check_arguments([&] { tools::check_order(order, configuration_, request_.force); });
     const hrm::PatchNeed need = formation_.begin(order);
-    hrm::PatchEnvironment environment;
-    {
-      const auto taken = request_.terrain->lock().take(goes_on);
-      environment =
-          request_.terrain->theatre(scenes_, model::scene::SceneUse::triangles).prepare(need, warnings_.sink());
-    }
+    hrm::PatchEnvironment environment = request_.terrain->with_theatre(
+        scenes_, model::scene::SceneUse::triangles, warnings_, goes_on,
+        [&](tools::Theatre& theatre) { return theatre.prepare(need, warnings_.sink()); });
     if (!request_.force) check_arguments([&] { tools::check_heights(order, environment, configuration_); });
     environment.traffic = std::move(traffic);
     formation_.set_environment(environment);

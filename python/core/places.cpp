@@ -25,12 +25,16 @@ Terrain::Terrain(const std::string& directory) {
   without_interpreter([this](const parallel::GoesOn&) { theatre({}, SceneUse::scatterers); });
 }
 
-tools::Theatre& Terrain::theatre(const std::vector<radar::Scene>& scenes, SceneUse use) {
+std::string Terrain::key_of(const std::vector<radar::Scene>& scenes, SceneUse use) {
   std::string key = use == SceneUse::triangles ? "maps" : "scans";
   for (const radar::Scene& scene : scenes)
     key += '\n' + scene.file + '@' + std::to_string(scene.position.latitude_deg) + ',' +
            std::to_string(scene.position.longitude_deg) + ',' + std::to_string(scene.heading_deg) + ',' + scene.without;
-  std::unique_ptr<tools::Theatre>& theatre = (*theatres_)[key];
+  return key;
+}
+
+tools::Theatre& Terrain::theatre(const std::vector<radar::Scene>& scenes, SceneUse use) {
+  std::unique_ptr<tools::Theatre>& theatre = (*theatres_)[key_of(scenes, use)];
   if (!theatre) theatre = std::make_unique<tools::Theatre>(configuration_, scenes, use);
   return *theatre;
 }
@@ -66,22 +70,22 @@ CellPositions cells_of(const model::terrain::DirectoryIndex* index, std::span<co
 
 }  // namespace
 
-void Terrain::fill_elevations(const CellPositions& cells, double* height_m, const tools::Warn& warn,
+void Terrain::fill_elevations(const CellPositions& cells, double* height_m, Warnings& warnings,
                               const parallel::GoesOn& goes_on) {
   constexpr std::size_t kChunk = 1U << 16U;  // positions between two calls of `goes_on`
   model::terrain::TerrainViewPointer view;
   std::optional<model::terrain::CellCorner> cell_of_view;
   for (std::size_t first = 0; first < cells.order.size(); first += kChunk) {
     parallel::check(goes_on);
-    const auto taken = lock_.take(goes_on);
-    tools::Theatre& opened = theatre({}, SceneUse::scatterers);
-    for (std::size_t k = first; k < std::min(first + kChunk, cells.order.size()); ++k) {
-      const geo::GeoPoint position = cells.positions[cells.order[k]];
-      const model::terrain::CellCorner cell = model::terrain::cell_containing(position);
-      if (!view || !(cell_of_view == cell)) view = opened.terrain_at(position, warn);
-      cell_of_view = cell;
-      height_m[cells.order[k]] = view->elevation_m(position);
-    }
+    with_theatre({}, SceneUse::scatterers, warnings, goes_on, [&](tools::Theatre& opened) {
+      for (std::size_t k = first; k < std::min(first + kChunk, cells.order.size()); ++k) {
+        const geo::GeoPoint position = cells.positions[cells.order[k]];
+        const model::terrain::CellCorner cell = model::terrain::cell_containing(position);
+        if (!view || !(cell_of_view == cell)) view = opened.terrain_at(position, warnings.sink());
+        cell_of_view = cell;
+        height_m[cells.order[k]] = view->elevation_m(position);
+      }
+    });
   }
 }
 
@@ -97,17 +101,14 @@ py::array Terrain::elevation(const Numbers& latitudes, const Numbers& longitudes
           text::text_of_number(latitude[i]) + ", " + text::text_of_number(longitude[i]));
   Warnings warnings;
   without_interpreter([&](const parallel::GoesOn& goes_on) {
-    const model::terrain::DirectoryIndex* index = nullptr;
-    {
-      const auto taken = lock_.take(goes_on);
-      index = theatre({}, SceneUse::scatterers).index();
-    }
+    const auto* const index = with_theatre({}, SceneUse::scatterers, warnings, goes_on,
+                                           [](const tools::Theatre& opened) { return opened.index(); });
     const CellPositions cells = cells_of(index, latitude, longitude, goes_on);
     if (cells.outside > 0)
       warnings.sink()(directory() + ": expected positions in its cells, found " + std::to_string(cells.outside) +
                       " of " + std::to_string(latitude.size()) + " outside: the folder covers " +
                       coverage_text(*index) + "; the ground there counts as sea; check the positions and their signs");
-    fill_elevations(cells, height_m, warnings.sink(), goes_on);
+    fill_elevations(cells, height_m, warnings, goes_on);
   });
   warnings.show("yars.Terrain.elevation");
   return heights;
@@ -152,8 +153,7 @@ Scene::Scene(const std::vector<std::string>& files, std::shared_ptr<Terrain> ter
     const auto index = model::scene::index_scenes(scenes_, problems);
     if (!index) raise(index.error());
     for (const std::string& problem : problems) warnings.sink()(problem);
-    const auto taken = terrain_->lock().take(goes_on);
-    tools::Theatre& theatre = terrain_->theatre(scenes_, SceneUse::triangles);
+    terrain_->with_theatre(scenes_, SceneUse::triangles, warnings, goes_on, [&](tools::Theatre& theatre) {
     for (const model::scene::IndexedScene& scene : *index)
       view_ = theatre.scenes_near(scene.placement.position, scene.reach_m, warnings.sink());
     std::set<const model::scene::Tile*> counted;
@@ -163,6 +163,7 @@ Scene::Scene(const std::vector<std::string>& files, std::shared_ptr<Terrain> ter
       for (const model::scene::Tile* tile : tiles)
         if (counted.insert(tile).second) triangles_ += tile->triangles();
     }
+    });
   });
   warnings.show("yars.Scene", 3);
   if (!view_) raise_value_error("yars.Scene: expected a scene file, found none");

@@ -49,12 +49,27 @@ class Terrain {
   using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
   py::array elevation(const Numbers& latitude_deg, const Numbers& longitude_deg);
 
-  // The theatre of these scenes and this use; opened when first asked for. Call with lock() taken.
-  tools::Theatre& theatre(const std::vector<radar::Scene>& scenes, model::scene::SceneUse use);
-  ObjectLock& lock() { return lock_; }
+  // What work(theatre) gives, with the theatre of these scenes and this use, which is opened when first asked for. A
+  // failure has its reasons from `warnings` in its message, and the files are read anew next time.
+  template <class Work>
+  auto with_theatre(const std::vector<radar::Scene>& scenes, model::scene::SceneUse use, Warnings& warnings,
+                    const parallel::GoesOn& goes_on, const Work& work) {
+    const auto taken = lock_.take(goes_on);
+    try {
+      return work(theatre(scenes, use));
+    } catch (tools::CommandFailed& failed) {
+      warnings.explain(failed);
+      theatres_->erase(key_of(scenes, use));
+      throw;
+    }
+  }
 
  private:
-  void fill_elevations(const CellPositions& cells, double* height_m, const tools::Warn& warn,
+  static std::string key_of(const std::vector<radar::Scene>& scenes, model::scene::SceneUse use);
+  // Call with lock_ taken.
+  tools::Theatre& theatre(const std::vector<radar::Scene>& scenes, model::scene::SceneUse use);
+
+  void fill_elevations(const CellPositions& cells, double* height_m, Warnings& warnings,
                        const parallel::GoesOn& goes_on);
 
   using Theatres = std::map<std::string, std::unique_ptr<tools::Theatre>>;

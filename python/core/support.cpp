@@ -1,5 +1,6 @@
 #include "python/core/support.hpp"
 
+#include <string_view>
 #include <unordered_set>
 #include <utility>
 
@@ -43,6 +44,17 @@ void read_options(const std::string& name, const std::vector<std::string>& words
   databuffer::CommandLine line("", name);
   add_options(line);
   if (const auto fault = line.read(words)) raise_value_error(*fault);
+}
+
+void Warnings::explain(tools::CommandFailed& failed) const {
+  constexpr std::string_view kReference = "see the lines above; ";
+  const std::size_t at = failed.message.find(kReference);
+  if (at == std::string::npos) return;
+  std::string reason;
+  for (const std::string& line : lines_)
+    if (failed.message.find(line) == std::string::npos && reason.find(line) == std::string::npos)
+      reason += "because of " + line + "; ";
+  failed.message.replace(at, kReference.size(), reason);
 }
 
 void Warnings::show(const std::string& function, int frames) {

@@ -50,6 +50,8 @@ class Warnings {
   tools::Warn sink() {
     return [this](const std::string& warning) { lines_.push_back(warning); };
   }
+  // Puts the lines into the message of a failure that refers to "the lines above".
+  void explain(tools::CommandFailed& failed) const;
   // Each line once, at most five of a call. Call with the interpreter's lock. `function`: prefix of each line, such as
   // "yars.Radar.scan". `frames`: of this package below the caller, whom the warning names.
   void show(const std::string& function, int frames = 1);

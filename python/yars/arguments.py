@@ -192,10 +192,11 @@ def in_python(message):
 
 
 class Said:
-    """with Said("yars.Radar.scan"): errors of the compiled part have Python's words and the function's name."""
+    """with Said("yars.Radar.scan"): errors of the compiled part have Python's words and the function's name. `out`: the argument
+    that is the option --out."""
 
-    def __init__(self, function):
-        self.function = function
+    def __init__(self, function, out="out"):
+        self.function, self.out = function, out
 
     def __enter__(self):
         return self
@@ -203,7 +204,8 @@ class Said:
     def __exit__(self, kind, problem, _):
         if kind is not ValueError and kind is not Error:
             return
-        message = in_python(str(problem))
+        message = re.sub(r"^(yars\.[\w.]+: )?--out:", lambda found: (found[1] or "") + self.out + ":", str(problem))
+        message = in_python(message)
         raise kind(message if message.startswith("yars.") else f"{self.function}: {message}") from None
 
 

@@ -99,7 +99,7 @@ class Terrain(Held):
         words = _GENERATED_TERRAIN.words(options)
         if "culture" in options:
             words = [word for word in words if word != "--culture"] + ([] if plain(options["culture"]) else ["--no-culture"])
-        with Said(where):
+        with Said(where, "directory"):
             _core.generate_terrain([*words, b"--out=" + folder])
         return os.fsdecode(folder)
 
@@ -168,10 +168,10 @@ class Scene(Held):
         if origin is not None:
             expected = "(latitude, longitude) or (latitude, longitude, heading)"
             if len(origin) not in (2, 3):
-                raise ValueError(f"{where}: origin: expected {expected}, found {len(origin)} numbers")
+                raise ValueError(f"{where}: origin: expected {expected}, found a sequence of length {len(origin)}")
             options["origin"] = ",".join(one.partition("=")[2] for part in origin
                                          for one in _GENERATED_SCENE.words({"origin": part}))
-        with Said(where):
+        with Said(where, "path"):
             _core.generate_scene([*_GENERATED_SCENE.words(options), b"--out=" + file])
         return os.fsdecode(file)
 

@@ -11,11 +11,12 @@ warnings. While a picture is computed other threads of Python run.
 """
 import functools
 import json
+import os
 import re
 
 import numpy
 
-from . import _core, _require
+from . import Error, _core, _require
 from ._core import MOVER, PATCH_ORDER
 from .arguments import Held, Options, Said, absolute, instance, kind_error, path, plain, several, shown, text, truth, whole
 from .places import Scene, Terrain
@@ -223,6 +224,18 @@ def _knob(name, value):
     return float(value)
 
 
+def _check_text_file(file):
+    """Refuses a file of other bytes than text, whose faults the reader of GUF would name by line."""
+    try:
+        with open(file, "rb") as opened:
+            other = b"\0" in opened.read(4096)
+    except OSError:
+        return  # the reader of GUF says what is wrong
+    if other:
+        raise Error(f"yars.Radar: config: expected a text of GUF, found a file of other bytes, {ascii(os.fsdecode(file))}; give a file such as "
+                    "`yars config print` makes")
+
+
 class Radar(Held):
     """A radar: a configuration, and the pictures that it gives over a terrain.
 
@@ -248,6 +261,7 @@ class Radar(Held):
             raise ValueError(f"{where}: preset: expected {presets}, found an empty text")
         if config is not None:
             config = absolute(path(f"{where}: config", config, "a path (str, bytes or os.PathLike) of a GUF file, or None"))
+            _check_text_file(config)
         settings = text(f"{where}: settings", settings, "GUF text, such as '( Sea :state 3 )'")
         for name in knobs:
             if _knob_name(name) not in _knobs():
