@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -233,10 +234,19 @@ void Recording::show_damage() {
     const auto taken = lock_.take(goes_on);
     const auto& missing = reader().missing();
     if (missing.size() > shown_) {
+      // Blocks of several runs may have the same ticks, which are named once.
+      std::map<std::int64_t, std::int64_t> ranges;
+      for (const rec::IndexEntry& block : missing) {
+        auto& last = ranges.try_emplace(block.first_tick, block.last_tick).first->second;
+        last = std::max(last, block.last_tick);
+      }
       std::string ticks;
-      for (const rec::IndexEntry& block : missing)
-        ticks +=
-            (ticks.empty() ? "" : ", ") + std::to_string(block.first_tick) + " to " + std::to_string(block.last_tick);
+      for (auto at = ranges.begin(); at != ranges.end();) {
+        const std::int64_t first = at->first;
+        std::int64_t last = at->second;
+        for (++at; at != ranges.end() && at->first <= last + 1; ++at) last = std::max(last, at->second);
+        ticks += (ticks.empty() ? "" : ", ") + std::to_string(first) + " to " + std::to_string(last);
+      }
       warnings.sink()(path_ + ": expected undamaged blocks, found " + std::to_string(missing.size()) +
                       " damaged; missing ticks: " + ticks + "; the rest is read");
     }
