@@ -127,8 +127,10 @@ class Whole(unittest.TestCase):
                               (lambda: yars.Recording.units(""), "kind: expected one of"),
                               (lambda: self.recording.records("Nav", 1.5), "first_tick: expected a whole number"),
                               (lambda: self.recording.sweeps(None, 2 ** 70), "last_tick: expected a whole number"),
-                              (lambda: self.recording.maps(True), "first_tick: expected a whole number")):
+                              (lambda: self.recording.records("\udcff"), "kind: expected the name of a kind")):
             self.assertRaisesRegex(ValueError, pattern, call)
+        for call in (lambda: self.recording.maps(True), lambda: self.recording.maps("1"), lambda: self.recording.records(3)):
+            self.assertRaisesRegex(TypeError, "yars.Recording.*: expected ", call)
         self.assertEqual(len(self.recording.records("Nav")), 0)
         self.assertRaisesRegex(yars.Error, "expected a recording made by yars record, found another kind of file", lambda: yars.Recording(__file__))
         self.assertRaisesRegex(yars.Error, "expected a recording that can be read", lambda: yars.Recording(FILE.with_name("absent")))
