@@ -46,10 +46,10 @@ void without_interpreter(const Work& work) {
   signals.raise_if_any();
 }
 
-// Lock of an object that several threads may use. os.fork() waits up to some seconds for the calls that hold such locks,
-// because a child has only the thread that forks. In the child all of them are free. An object whose call took longer
-// then may be half changed: `renew` makes it usable again, and leaves what it had to itself.
-// Make and destroy it with the interpreter's lock. Take it without.
+// Lock of an object that several threads may use. os.fork() waits up to some seconds for the calls that hold such
+// locks, because a child has only the thread that forks. In the child all of them are free. An object whose call took
+// longer then may be half changed: `renew` makes it usable again, and leaves what it had to itself. Make and destroy it
+// with the interpreter's lock. Take it without.
 class ObjectLock {
  public:
   explicit ObjectLock(std::function<void()> renew);

@@ -12,6 +12,7 @@
 PYBIND11_MODULE(_core, module) {
   module.doc() = "Compiled part of the package yars.";
   yars::python::register_exceptions(module);
+  yars::python::add_hashes(module);
   yars::python::add_calls(module);
   yars::python::add_places(module);
   yars::python::add_results(module);

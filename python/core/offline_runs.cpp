@@ -47,8 +47,9 @@ void check_other_cells(const tools::TerrainGenerateOptions& options) {
     if (rows >= 0 && rows < options.cells_latitude && columns < options.cells_longitude &&
         file.path == std::filesystem::path(options.out) / terrain::dted_name(corner, options.level))
       continue;
-    raise_value_error("yars.Terrain.generate: directory: expected a folder without cells of another area or level, found " +
-                      file.path.string() + "; give another folder, or remove it");
+    raise_value_error(
+        "yars.Terrain.generate: directory: expected a folder without cells of another area or level, found " +
+        file.path.string() + "; give another folder, or remove it");
   }
 }
 

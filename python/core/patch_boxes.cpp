@@ -1,13 +1,32 @@
 #include "python/core/patch_boxes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "lib/geo/earth.hpp"
+#include "lib/radar/mapping.hpp"
+#include "tools/patch/patch_setup.hpp"
 
 namespace yars::python {
 
 namespace hrm = model::hrm;
+
+Geo geo_of(const hrm::PatchGeometry& geometry, int size) {
+  Geo geo{};
+  geo.origin_latitude = geometry.apex().latitude_deg;
+  geo.origin_longitude = geometry.apex().longitude_deg;
+  const std::array<double, 6> plane = tools::plane_from_pixel(geometry, size);
+  std::copy(plane.begin(), plane.end(), &geo.plane_from_pixel[0]);
+  geo.up_deg = geometry.up().degrees();
+  geo.distance_m = geometry.distance_m();
+  geo.slant_range_m = geometry.slant_range_m();
+  geo.grazing_deg = std::asin(geometry.sin_grazing()) / geo::kRadiansPerDegree;
+  geo.plane_msl_m = geometry.plane_msl_m();
+  geo.window_m = geometry.window_m();
+  geo.resolution_m = radar::map_resolution(geo::Length::metres(geometry.window_m())).metres();
+  return geo;
+}
 
 struct GroupOnMap {
   GroupOnMap(const hrm::PatchGeometry& geometry, geo::GeoPoint origin) : at(geometry.point_of(origin)) {
@@ -53,7 +72,7 @@ void Boxes::add(std::int32_t order, const hrm::PatchGeometry& geometry, const st
 }
 
 void Boxes::add_box(std::int32_t order, const hrm::PatchGeometry& geometry, const GroupOnMap& transform,
-             const Footprint& footprint) {
+                    const Footprint& footprint) {
   const double pixels_per_m = size_ / geometry.window_m();
   const hrm::MapPoint middle = transform.of(footprint.east_m, footprint.north_m);
   // One factor serves the whole footprint, because it changes little over an object.

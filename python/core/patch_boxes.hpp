@@ -1,4 +1,4 @@
-// Boxes of the objects of a scene in patch maps.
+// Where patch maps lie, and boxes of the objects of a scene in them.
 // Inputs: geometry of a map and its labels. Outputs: corners in pixels, laid over as the foot of the object appears.
 // Units: pixels, degrees. Source: docs/python.md, "Many maps".
 #pragma once
@@ -10,6 +10,14 @@
 #include "python/core/places.hpp"
 
 namespace yars::python {
+
+// Entry of the structured array `geo`.
+struct Geo {
+  double origin_latitude, origin_longitude;
+  double plane_from_pixel[6];
+  double up_deg, distance_m, slant_range_m, grazing_deg, plane_msl_m, window_m, resolution_m;
+};
+Geo geo_of(const model::hrm::PatchGeometry& geometry, int size);
 
 // Linear transform from the plane of a group of footprints to the map, about the group's origin.
 struct GroupOnMap;

@@ -1,8 +1,6 @@
 #include "python/core/patch_series.hpp"
 
-#define XXH_INLINE_ALL
 #include <unistd.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <array>
@@ -38,11 +36,6 @@ struct Order {
 struct Mover {
   std::int64_t order;
   double latitude, longitude, heading, speed_kt, cross_section_m2, height_m;
-};
-struct Geo {
-  double origin_latitude, origin_longitude;
-  double plane_from_pixel[6];
-  double up_deg, distance_m, slant_range_m, grazing_deg, plane_msl_m, window_m, resolution_m;
 };
 const char* const kArrays = "video, power, shadow, layover, object, material, height, grazing_angle";
 
@@ -120,7 +113,7 @@ struct Outputs {
   hrm::LabelUse labels() const {
     if (height != nullptr || grazing != nullptr) return hrm::LabelUse::heights;
     return shadow != nullptr || layover != nullptr || material != nullptr || objects() ? hrm::LabelUse::surfaces
-                                                                                               : hrm::LabelUse::none;
+                                                                                       : hrm::LabelUse::none;
   }
 };
 
@@ -191,8 +184,7 @@ void check_numbers(const std::string& entry, const Order& order) {
 
 void check_numbers(const std::string& entry, const Mover& mover, std::size_t orders) {
   constexpr tools::Limits kCrossSections_m2{1e-3, 1e7}, kHeights_m{0.0, 1000.0};
-  if (orders == 0)
-    raise_value_error("yars.Radar.patches: movers: expected none without an order, found some");
+  if (orders == 0) raise_value_error("yars.Radar.patches: movers: expected none without an order, found some");
   check_fields(entry, {{"order", static_cast<double>(mover.order), {0.0, static_cast<double>(orders - 1)}},
                        {"latitude", mover.latitude, tools::kLatitudes_deg},
                        {"longitude", mover.longitude, tools::kLongitudes_deg},
@@ -214,22 +206,6 @@ hrm::PatchOrder order_of(const Order& order) {
   map.sim_time = geo::Duration::seconds(order.time_s);
   map.map = order.map;
   return map;
-}
-
-Geo geo_of(const hrm::PatchGeometry& geometry, int size) {
-  Geo geo{};
-  geo.origin_latitude = geometry.apex().latitude_deg;
-  geo.origin_longitude = geometry.apex().longitude_deg;
-  const std::array<double, 6> plane = tools::plane_from_pixel(geometry, size);
-  std::copy(plane.begin(), plane.end(), &geo.plane_from_pixel[0]);
-  geo.up_deg = geometry.up().degrees();
-  geo.distance_m = geometry.distance_m();
-  geo.slant_range_m = geometry.slant_range_m();
-  geo.grazing_deg = std::asin(geometry.sin_grazing()) / geo::kRadiansPerDegree;
-  geo.plane_msl_m = geometry.plane_msl_m();
-  geo.window_m = geometry.window_m();
-  geo.resolution_m = radar::map_resolution(geo::Length::metres(geometry.window_m())).metres();
-  return geo;
 }
 
 // Movers of each order, as moving points.
@@ -409,25 +385,6 @@ py::dict patch_series(const radar::RadarConfiguration& configuration, FormationP
 void add_series(py::module_& module) {
   module.attr("PATCH_ORDER") = order_type();
   module.attr("MOVER") = mover_type();
-  module.def(
-      "xxh3",
-      [](const py::buffer& bytes) {
-        const py::buffer_info info = bytes.request();
-        return XXH3_64bits(info.ptr, static_cast<std::size_t>(info.size * info.itemsize));
-      },
-      py::arg("bytes"), "XXH3 hash, 64 bits, of the bytes of a contiguous buffer.");
-  module.def(
-      "xxh3_items",
-      [](const py::buffer& array) {
-        const py::buffer_info info = array.request();
-        std::vector<std::uint64_t> hashes(info.ndim > 0 ? static_cast<std::size_t>(info.shape[0]) : 0);
-        const std::size_t bytes =
-            hashes.empty() ? 0 : static_cast<std::size_t>(info.size * info.itemsize) / hashes.size();
-        for (std::size_t i = 0; i < hashes.size(); ++i)
-          hashes[i] = XXH3_64bits(static_cast<const std::uint8_t*>(info.ptr) + i * bytes, bytes);
-        return hashes;
-      },
-      py::arg("array"), "XXH3 hashes, 64 bits each, of the entries along the first axis of a contiguous array.");
 }
 
 }  // namespace yars::python

@@ -59,7 +59,7 @@ class FormationPool {
 py::dict patch_series(const radar::RadarConfiguration& configuration, FormationPool& pool,
                       const SeriesRequest& request);
 
-// Adds PATCH_ORDER, MOVER, and xxh3().
+// Adds PATCH_ORDER and MOVER.
 void add_series(py::module_& module);
 
 }  // namespace yars::python

@@ -154,15 +154,15 @@ Scene::Scene(const std::vector<std::string>& files, std::shared_ptr<Terrain> ter
     if (!index) raise(index.error());
     for (const std::string& problem : problems) warnings.sink()(problem);
     terrain_->with_theatre(scenes_, SceneUse::triangles, warnings, goes_on, [&](tools::Theatre& theatre) {
-    for (const model::scene::IndexedScene& scene : *index)
-      view_ = theatre.scenes_near(scene.placement.position, scene.reach_m, warnings.sink());
-    std::set<const model::scene::Tile*> counted;
-    std::vector<const model::scene::Tile*> tiles;
-    for (const model::scene::IndexedScene& scene : *index) {
-      view_->tiles_near(scene.placement.position, scene.reach_m, tiles);
-      for (const model::scene::Tile* tile : tiles)
-        if (counted.insert(tile).second) triangles_ += tile->triangles();
-    }
+      for (const model::scene::IndexedScene& scene : *index)
+        view_ = theatre.scenes_near(scene.placement.position, scene.reach_m, warnings.sink());
+      std::set<const model::scene::Tile*> counted;
+      std::vector<const model::scene::Tile*> tiles;
+      for (const model::scene::IndexedScene& scene : *index) {
+        view_->tiles_near(scene.placement.position, scene.reach_m, tiles);
+        for (const model::scene::Tile* tile : tiles)
+          if (counted.insert(tile).second) triangles_ += tile->triangles();
+      }
     });
   });
   warnings.show("yars.Scene", 3);
@@ -190,7 +190,8 @@ py::array Scene::object_table() const {
 void check_same_terrain(const Scene* scene, const Terrain& terrain) {
   if (scene == nullptr || scene->terrain()->directory() == terrain.directory()) return;
   std::error_code none;  // of a folder that is gone
-  if (!terrain.directory().empty() && std::filesystem::equivalent(scene->terrain()->directory(), terrain.directory(), none))
+  if (!terrain.directory().empty() &&
+      std::filesystem::equivalent(scene->terrain()->directory(), terrain.directory(), none))
     return;
   const auto name_of = [](const Terrain& one) {
     return one.directory().empty() ? "the built-in hills" : '\'' + one.directory() + '\'';

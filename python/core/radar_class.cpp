@@ -88,7 +88,8 @@ Radar::Radar(const py::object& preset, const std::optional<std::string>& config,
 std::shared_ptr<ScanResult> Radar::scan(const std::shared_ptr<Terrain>& terrain, std::shared_ptr<Scene> scene,
                                         const std::vector<std::string>& words) const {
   tools::ScanOptions options;
-  read_options("yars.Radar.scan", words, [&](databuffer::Command command) { tools::add_scan_options(command, options); });
+  read_options("yars.Radar.scan", words,
+               [&](databuffer::Command command) { tools::add_scan_options(command, options); });
   radar::RadarConfiguration configuration = configuration_;
   tools::configure_scan(options, configuration);
   configuration.terrain = terrain->configuration();
@@ -100,9 +101,8 @@ std::shared_ptr<ScanResult> Radar::scan(const std::shared_ptr<Terrain>& terrain,
   std::unique_ptr<ScanResult::Parts> scan;  // without its threads
   without_interpreter([&](const parallel::GoesOn& goes_on) {
     auto environment = terrain->with_theatre(
-        configuration.world.scenes, model::scene::SceneUse::scatterers, warnings, goes_on, [&](tools::Theatre& theatre) {
-          return theatre.prepare(request, configuration.fidelity, warnings.sink());
-        });
+        configuration.world.scenes, model::scene::SceneUse::scatterers, warnings, goes_on,
+        [&](tools::Theatre& theatre) { return theatre.prepare(request, configuration.fidelity, warnings.sink()); });
     check_arguments([&] { tools::check_scan_height(options, *environment.terrain); });
     model::kernel::OfflineScan work(configuration, request, options.threads);
     work.run({*environment.terrain, environment.scene.get()}, goes_on);
@@ -133,9 +133,9 @@ std::shared_ptr<PatchResult> Radar::patch(const std::shared_ptr<Terrain>& terrai
         {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) { workers.run(job); }},
         hrm::kMaxSectorPoints, hrm::LabelUse::heights);
     const hrm::PatchNeed need = formation.begin(order);
-    const hrm::PatchEnvironment environment = terrain->with_theatre(
-        configuration.world.scenes, model::scene::SceneUse::triangles, warnings, goes_on,
-        [&](tools::Theatre& theatre) { return theatre.prepare(need, warnings.sink()); });
+    const hrm::PatchEnvironment environment =
+        terrain->with_theatre(configuration.world.scenes, model::scene::SceneUse::triangles, warnings, goes_on,
+                              [&](tools::Theatre& theatre) { return theatre.prepare(need, warnings.sink()); });
     if (!options.force) check_arguments([&] { tools::check_heights(order, environment, configuration); });
     formation.set_environment(environment);
     for (; formation.state() != hrm::PatchState::done; formation.advance()) parallel::check(goes_on);

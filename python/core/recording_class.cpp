@@ -200,30 +200,30 @@ py::list Recording::kinds() const {
 Recording::Collected Recording::collect(const rec::RecordedKind& kind, const TickRange& ticks, bool with_tails) {
   Collected collected;
   without_interpreter([&](const parallel::GoesOn& goes_on) {
-  const auto taken = lock_.take(goes_on);
-  open();
-  const auto blocks = reader().blocks();
-  for (std::size_t number = 0; number < blocks.size(); ++number) {
-    const rec::IndexEntry& block = blocks[number];
-    // A radar state may be older than its block. Damaged bytes without a head have kinds = 0, and are read to be
-    // missed.
-    const bool apart =
-        (ticks.first && block.last_tick < *ticks.first) || (ticks.last && block.first_tick > *ticks.last);
-    if (block.kinds != 0 && (block.kinds >> kind.number & 1U) == 0) continue;
-    if (apart && kind.number != rec::kKindOf<rec::StateChange>.number) continue;
-    auto items = reader().items_of(number);
-    if (!items) continue;
-    std::int64_t now = block.first_tick;
-    while (const auto item = items->next()) {
-      now = tick_of(*item).value_or(now);
-      const auto parts = parts_of(*item, kind.number);
-      if (!parts || !ticks.contains(now)) continue;
-      collected.fixed.insert(collected.fixed.end(), parts->fixed.begin(), parts->fixed.end());
-      if (!with_tails) continue;
-      collected.tails.insert(collected.tails.end(), parts->tail.begin(), parts->tail.end());
-      collected.tail_bytes.push_back(parts->tail.size());
+    const auto taken = lock_.take(goes_on);
+    open();
+    const auto blocks = reader().blocks();
+    for (std::size_t number = 0; number < blocks.size(); ++number) {
+      const rec::IndexEntry& block = blocks[number];
+      // A radar state may be older than its block. Damaged bytes without a head have kinds = 0, and are read to be
+      // missed.
+      const bool apart =
+          (ticks.first && block.last_tick < *ticks.first) || (ticks.last && block.first_tick > *ticks.last);
+      if (block.kinds != 0 && (block.kinds >> kind.number & 1U) == 0) continue;
+      if (apart && kind.number != rec::kKindOf<rec::StateChange>.number) continue;
+      auto items = reader().items_of(number);
+      if (!items) continue;
+      std::int64_t now = block.first_tick;
+      while (const auto item = items->next()) {
+        now = tick_of(*item).value_or(now);
+        const auto parts = parts_of(*item, kind.number);
+        if (!parts || !ticks.contains(now)) continue;
+        collected.fixed.insert(collected.fixed.end(), parts->fixed.begin(), parts->fixed.end());
+        if (!with_tails) continue;
+        collected.tails.insert(collected.tails.end(), parts->tail.begin(), parts->tail.end());
+        collected.tail_bytes.push_back(parts->tail.size());
+      }
     }
-  }
   });
   return collected;
 }
@@ -302,11 +302,17 @@ void add_recording(py::module_& module) {
       .def_property_readonly("first_tick", &Recording::first_tick)
       .def_property_readonly("last_tick", &Recording::last_tick)
       .def_property_readonly("cut_short", &Recording::cut_short)
-      .def("records", [](Recording& self, const std::string& kind, Tick first, Tick last) {
-        return self.records(kind, {first, last});
-      })
-      .def("sweeps", [](Recording& self, Tick first, Tick last) { return self.sweeps({first, last}); })
-      .def("maps", [](Recording& self, Tick first, Tick last) { return self.maps({first, last}); });
+      .def("records",
+           [](Recording& self, const std::string& kind, Tick first, Tick last) {
+             return self.records(kind, {first, last});
+           })
+      .def("sweeps",
+           [](Recording& self, Tick first, Tick last) {
+             return self.sweeps({first, last});
+           })
+      .def("maps", [](Recording& self, Tick first, Tick last) {
+        return self.maps({first, last});
+      });
   seal(recording);
   module.def("open_recording", [](const std::string& path) { return std::make_unique<Recording>(path); });
   module.def("units_of", &Recording::units, py::arg("kind"));

@@ -31,7 +31,7 @@ class Recording {
   explicit Recording(const std::string& path);
 
   py::dict header() const;
-  py::list kinds() const;         // names of the kinds that the file has, in the order of their numbers
+  py::list kinds() const;  // names of the kinds that the file has, in the order of their numbers
   std::optional<std::int64_t> first_tick() const { return first_tick_; }  // nullopt: no block
   std::optional<std::int64_t> last_tick() const { return last_tick_; }    // nullopt: no block
   bool cut_short() const { return cut_short_; }

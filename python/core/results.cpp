@@ -117,8 +117,7 @@ void label_samples(ScanLabels& to, std::size_t first, std::span<const tools::tra
 void ScanResult::compute_labels(const parallel::GoesOn& goes_on) {
   const auto taken = lock_.take(goes_on);
   if (labels_) return;
-  const auto samples =
-      tools::trade::ray_samples(configuration_, scan_.headers, *environment_.terrain, goes_on);
+  const auto samples = tools::trade::ray_samples(configuration_, scan_.headers, *environment_.terrain, goes_on);
   auto labels = std::make_unique<ScanLabels>(empty_labels(samples.size()));
   const std::size_t width = samples.size() / scan_.headers.size();
   for (std::size_t sweep = 0; sweep < scan_.headers.size(); ++sweep) {
@@ -150,8 +149,8 @@ py::array ScanResult::array(const std::string& name) {
     const databuffer::Sweep& first = scan_.sweeps.front();
     auto* const kept = new std::shared_ptr<const void>(self);
     const py::capsule keeper(kept, [](void* pointer) { delete static_cast<std::shared_ptr<const void>*>(pointer); });
-    return read_only(py::array_t<std::uint8_t>(
-        shape, std::vector<py::ssize_t>{axis(sizeof(databuffer::Sweep)), 1}, &first.video[0], keeper));
+    return read_only(py::array_t<std::uint8_t>(shape, std::vector<py::ssize_t>{axis(sizeof(databuffer::Sweep)), 1},
+                                               &first.video[0], keeper));
   }
   if (name == "azimuth") {
     std::vector<double> azimuths;
@@ -301,7 +300,9 @@ py::dict PatchResult::facts() const {
 
 void add_results(py::module_& module) {
   py::class_<ScanResult, std::shared_ptr<ScanResult>> scan(module, "ScanResult");
-  scan.def("array", &ScanResult::array).def_property_readonly("hash", &ScanResult::hash).def("facts", &ScanResult::facts);
+  scan.def("array", &ScanResult::array)
+      .def_property_readonly("hash", &ScanResult::hash)
+      .def("facts", &ScanResult::facts);
   seal(scan);
   py::class_<PatchResult, std::shared_ptr<PatchResult>> patch(module, "PatchResult");
   patch.def("array", &PatchResult::array)

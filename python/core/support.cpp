@@ -1,5 +1,9 @@
 #include "python/core/support.hpp"
 
+#define XXH_INLINE_ALL
+#include <pybind11/stl.h>
+#include <xxhash.h>
+
 #include <string_view>
 #include <unordered_set>
 #include <utility>
@@ -71,6 +75,28 @@ void Warnings::show(const std::string& function, int frames) {
   for (const std::string& line : lines)
     if (PyErr_WarnFormat(PyExc_UserWarning, 1 + frames, "%s: %s", function.c_str(), line.c_str()) != 0)
       throw py::error_already_set();
+}
+
+void add_hashes(py::module_& module) {
+  module.def(
+      "xxh3",
+      [](const py::buffer& bytes) {
+        const py::buffer_info info = bytes.request();
+        return XXH3_64bits(info.ptr, static_cast<std::size_t>(info.size * info.itemsize));
+      },
+      py::arg("bytes"), "XXH3 hash, 64 bits, of the bytes of a contiguous buffer.");
+  module.def(
+      "xxh3_items",
+      [](const py::buffer& array) {
+        const py::buffer_info info = array.request();
+        std::vector<std::uint64_t> hashes(info.ndim > 0 ? static_cast<std::size_t>(info.shape[0]) : 0);
+        const std::size_t bytes =
+            hashes.empty() ? 0 : static_cast<std::size_t>(info.size * info.itemsize) / hashes.size();
+        for (std::size_t i = 0; i < hashes.size(); ++i)
+          hashes[i] = XXH3_64bits(static_cast<const std::uint8_t*>(info.ptr) + i * bytes, bytes);
+        return hashes;
+      },
+      py::arg("array"), "XXH3 hashes, 64 bits each, of the entries along the first axis of a contiguous array.");
 }
 
 py::array flags_of(const std::shared_ptr<const void>& owner, const std::uint8_t* data, std::vector<py::ssize_t> shape) {

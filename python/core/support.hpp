@@ -24,6 +24,9 @@ namespace py = pybind11;
 // Translates CommandFailed and the errors of the libraries to Python's exceptions.
 void register_exceptions(py::module_& module);
 
+// Adds xxh3() and xxh3_items(): hashes of the bytes of arrays.
+void add_hashes(py::module_& module);
+
 // Throws ValueError for a usage error, else yars.Error.
 [[noreturn]] void raise(const error::Error& error);
 [[noreturn]] void raise_value_error(const std::string& message);
@@ -39,8 +42,8 @@ void check_arguments(const Check& check) {
   }
 }
 
-// Reads words of a command line, which arguments.py makes, by a table of options. `name`: of the function, for messages.
-// Throws ValueError.
+// Reads words of a command line, which arguments.py makes, by a table of options. `name`: of the function, for
+// messages. Throws ValueError.
 void read_options(const std::string& name, const std::vector<std::string>& words,
                   const std::function<void(databuffer::Command)>& add_options);
 

@@ -29,11 +29,14 @@ void add_patch_options(databuffer::Command command, PatchOptions& options) {
       .range(kWindows_nm.min, kWindows_nm.max)
       .otherwise("the configuration's at power-up");
   command.flag("--force", options.force, "ignore the radar's limits; the blind zone stays blank");
-  command.option("--looks", options.looks, "number of looks to average").range(static_cast<int>(kLooks.min), static_cast<int>(kLooks.max)).otherwise("that of ML1");
+  command.option("--looks", options.looks, "number of looks to average")
+      .range(static_cast<int>(kLooks.min), static_cast<int>(kLooks.max))
+      .otherwise("that of ML1");
   command.option("--size", options.size, "[pixels] per side; up to 1024 with the preset reference")
       .range(16, hrm::max_map_size(radar::Algorithm::standard))
       .otherwise("the configuration's");
-  command.option("--time-s", options.time_s, "[s] sim time at the start, for moving targets").range(kTimes_s.min, kTimes_s.max);
+  command.option("--time-s", options.time_s, "[s] sim time at the start, for moving targets")
+      .range(kTimes_s.min, kTimes_s.max);
   command.option("--threads", options.threads, "number of threads")
       .range(1, kMaxThreads)
       .otherwise("one for each processor");

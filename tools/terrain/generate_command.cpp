@@ -152,7 +152,7 @@ class Generation {
   std::atomic<std::size_t> written_ = 0;
   std::atomic<bool> stop_ = false;
   std::atomic<bool> stopped_ = false;  // by goes_on_
-  std::mutex mutex_;  // guards the members below
+  std::mutex mutex_;                   // guards the members below
   std::condition_variable ended_;
   int helping_ = 0;  // threads beside the caller that still work
   Progress progress_;

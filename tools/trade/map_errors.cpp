@@ -111,8 +111,7 @@ double time_map(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
 }
 
 MapObservation observe_map(const RadarConfiguration& configuration, const hrm::PatchOrder& order,
-                           const hrm::PatchEnvironment& environment, Clock clock,
-                           const parallel::GoesOn& goes_on) {
+                           const hrm::PatchEnvironment& environment, Clock clock, const parallel::GoesOn& goes_on) {
   RadarConfiguration noiseless = configuration;
   noiseless.fidelity = without_noise(noiseless.fidelity);
   hrm::PatchFormation patch_formation(noiseless, {});

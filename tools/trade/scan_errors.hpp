@@ -35,8 +35,7 @@ struct RaySample {
 // sweeps, and throw parallel::Stopped.
 std::vector<RaySample> ray_samples(const radar::RadarConfiguration& configuration,
                                    std::span<const model::kernel::SweepHeader> positions,
-                                   const model::terrain::TerrainView& terrain,
-                                   const parallel::GoesOn& goes_on = {});
+                                   const model::terrain::TerrainView& terrain, const parallel::GoesOn& goes_on = {});
 
 // One scan computed with one fidelity, without noise. Order of the arrays: sweep by sweep, from near to far.
 struct ScanObservation {

@@ -262,8 +262,7 @@ Landscape::Landscape(std::uint64_t seed, std::optional<LandscapeBox> island, boo
       paved_airfields_(paved_airfields),
       tiles_(std::make_unique<LandscapeTiles>(seed_, island)) {}
 
-MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads,
-                         const parallel::GoesOn& goes_on) const {
+MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads, const parallel::GoesOn& goes_on) const {
   YARS_REQUIRE(threads, >=, 1);
   LandscapeRows maker(*tiles_, seed_, corner, rows, columns);
   if (!paved_airfields_) maker.leave_airfields_unpaved();

@@ -347,8 +347,8 @@ geo::GeoPoint within_index(const DirectoryIndex& index, geo::GeoPoint position) 
   const bool on_meridian = longitude_deg == std::floor(longitude_deg);
   const geo::GeoPoint south{std::nextafter(latitude_deg, -90.0), position.longitude_deg};
   // West of the meridian of 180 degrees is the last cell.
-  const geo::GeoPoint west{latitude_deg, longitude_deg == -180.0 ? std::nextafter(180.0, 0.0)
-                                                                 : std::nextafter(longitude_deg, -181.0)};
+  const geo::GeoPoint west{
+      latitude_deg, longitude_deg == -180.0 ? std::nextafter(180.0, 0.0) : std::nextafter(longitude_deg, -181.0)};
   if (on_parallel && has(south)) return south;
   if (on_meridian && has(west)) return west;
   const geo::GeoPoint corner{south.latitude_deg, west.longitude_deg};
