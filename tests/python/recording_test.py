@@ -6,6 +6,7 @@ usage: recording_test.py BUILD     Skipped (code 77) where the build has no comp
 import json
 import os
 import pathlib
+import pickle
 import re
 import struct
 import subprocess
@@ -121,6 +122,13 @@ class Whole(unittest.TestCase):
         first = pictures[0]
         del headers, pictures
         np.testing.assert_array_equal(first, kept)
+
+    def test_pickling_and_read_only_arrays(self):
+        again = pickle.loads(pickle.dumps(self.recording))
+        self.assertEqual((again.file, again.kinds), (self.recording.file, self.recording.kinds))
+        self.assertIn("ticks 0 to", repr(again))
+        for array in (again.records("ModelTick"), *again.sweeps(), again.maps()[1][0]):
+            self.assertFalse(array.flags.writeable)
 
     def test_faults(self):
         for call, pattern in ((lambda: self.recording.records("Ownships"), "kind: expected one of ModelTick, .*Traffic, found 'Ownships'"),
