@@ -72,7 +72,15 @@ TEST(Determinism, AStoppedScanLeavesTheObjectUsable) {
     OfflineScan scan(configuration, request_of(cockpit.tick), threads);
     for (int steps = 0; steps < 3; ++steps) {
       int asked = 0;
-      EXPECT_THROW(scan.run({cockpit.terrain, nullptr}, [&] { return asked++ < steps; }), parallel::Stopped);
+      bool stopped = false;
+      try {
+        scan.run({cockpit.terrain, nullptr}, [&] { return asked++ < steps; });
+      } catch (const parallel::Stopped&) {
+        stopped = true;
+      }
+      // Other threads may take all sweeps before the caller is asked so often.
+      EXPECT_EQ(stopped, asked > steps);
+      if (threads == 1) EXPECT_TRUE(stopped);
       scan.run({cockpit.terrain, nullptr}, [] { return true; });
       for (std::size_t i = 0; i < alone.size(); ++i) ASSERT_EQ(scan.sweeps()[i].hash, alone[i]) << threads << ' ' << i;
     }
