@@ -80,7 +80,7 @@ TEST(Determinism, AStoppedScanLeavesTheObjectUsable) {
       }
       // Other threads may take all sweeps before the caller is asked so often.
       EXPECT_EQ(stopped, asked > steps);
-      if (threads == 1) EXPECT_TRUE(stopped);
+      EXPECT_TRUE(stopped || threads > 1);
       scan.run({cockpit.terrain, nullptr}, [] { return true; });
       for (std::size_t i = 0; i < alone.size(); ++i) ASSERT_EQ(scan.sweeps()[i].hash, alone[i]) << threads << ' ' << i;
     }
