@@ -17,7 +17,7 @@ from yars import plot
 
 # %%
 CENTRE = (37.5, -122.5)
-terrain = yars.Terrain(yars.Terrain.generate("land", south=37, west=-123, cells_lat=1, cells_lon=1, edge="cut"))
+terrain = yars.Terrain(yars.Terrain.generate("land_of_the_town", south=37, west=-123, cells_lat=1, cells_lon=1, edge="cut"))
 town = yars.Scene.generate("town.flt", kind="town", triangles=20000, seed=1, origin=(*CENTRE, 20))
 scene = yars.Scene(town, terrain)
 print(scene)

@@ -118,7 +118,7 @@ inline Bearing Bearing::degrees(double value) {
   double wrapped = std::fmod(value, 360.0);
   if (wrapped < 0.0) wrapped += 360.0;
   // For a tiny negative input the sum above rounds to 360. The bearing is then 0.
-  return Bearing(wrapped >= 360.0 ? 0.0 : wrapped);
+  return Bearing(wrapped >= 360.0 ? 0.0 : wrapped + 0.0);  // a remainder of -0 is 0: north is one bearing
 }
 
 inline Bearing Bearing::radians(double value) {

@@ -16,6 +16,14 @@
 
 namespace yars::parallel {
 
+// Whether long work goes on. It is asked between the steps of the work, on the thread that has called it. Empty: yes.
+using GoesOn = std::function<bool()>;
+// Thrown by long work that does not go on. Its result is lost; what it has used stays usable.
+struct Stopped {};
+inline void check(const GoesOn& goes_on) {
+  if (goes_on && !goes_on()) throw Stopped{};
+}
+
 // Pool of threads that are reused for all jobs. Starting threads takes as long as a short scan of `yars scan`.
 // Nobody waits for a worker that has not begun. On a busy machine a worker may lose its core while it works, and then
 // the caller waits for it. When such waits have cost more time than the workers have saved, run() calls job(0) alone

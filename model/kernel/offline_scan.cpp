@@ -58,7 +58,10 @@ void OfflineScan::measure_pieces(std::size_t thread, const physics::Environment&
     const std::size_t first = first_of(static_cast<std::size_t>(piece));
     const std::size_t end = first_of(static_cast<std::size_t>(piece) + 1);
     const bool leftwards = before >= 0 && piece != before + 1;
-    for (std::size_t i = first; i < end; ++i) measure_sweep(leftwards ? end - 1 - (i - first) : i, thread, environment);
+    for (std::size_t i = first; i < end; ++i) {
+      if (stops(thread)) return;
+      measure_sweep(leftwards ? end - 1 - (i - first) : i, thread, environment);
+    }
     before = piece;
     measured(static_cast<std::size_t>(piece));
   }
@@ -96,7 +99,15 @@ void OfflineScan::form_if_ready(std::size_t piece, std::size_t thread) {
   for (std::size_t sweep = first_of(piece); sweep < first_of(piece + 1); ++sweep) form_sweep_video(sweep, thread);
 }
 
-void OfflineScan::begin_pass() {
+// Thread 0 is the caller. Work of other threads must not throw, so all of them return.
+bool OfflineScan::stops(std::size_t thread) {
+  if (thread == 0 && goes_on_ != nullptr && !(*goes_on_)()) stop_.store(true, std::memory_order_relaxed);
+  return stop_.load(std::memory_order_relaxed);
+}
+
+void OfflineScan::begin_pass(const parallel::GoesOn& goes_on) {
+  goes_on_ = goes_on ? &goes_on : nullptr;
+  stop_.store(false, std::memory_order_relaxed);
   for (rbm::Beam& beam : beams_) beam.begin_pass();
 }
 
@@ -106,15 +117,15 @@ std::size_t OfflineScan::rays() const {
 }
 
 void OfflineScan::measure(const physics::Environment& environment) {
-  begin_pass();
+  begin_pass({});
   to_measure_.begin(pieces());
   workers_.run([&](std::size_t thread) { measure_pieces(thread, environment, [](std::size_t) {}); });
 }
 
 // A thread measures until nothing is left to measure, and forms then. That is faster than both in turn.
-void OfflineScan::run(const physics::Environment& environment) {
+void OfflineScan::run(const physics::Environment& environment, const parallel::GoesOn& goes_on) {
   for (std::atomic<std::uint8_t>& ready : ready_) ready.store(0, std::memory_order_relaxed);
-  begin_pass();
+  begin_pass(goes_on);
   to_measure_.begin(pieces());
   to_form_.begin(pieces());
   workers_.run([&](std::size_t thread) {
@@ -123,9 +134,10 @@ void OfflineScan::run(const physics::Environment& environment) {
       form_if_ready(piece, thread);
       if (piece + 1 < pieces()) form_if_ready(piece + 1, thread);
     });
-    for (int piece = to_form_.take(thread); piece >= 0; piece = to_form_.take(thread))
+    for (int piece = to_form_.take(thread); piece >= 0 && !stops(thread); piece = to_form_.take(thread))
       form_if_ready(static_cast<std::size_t>(piece), thread);
   });
+  if (stop_.load(std::memory_order_relaxed)) throw parallel::Stopped{};
 }
 
 }  // namespace yars::model::kernel

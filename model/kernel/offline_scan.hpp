@@ -42,8 +42,9 @@ class OfflineScan {
   OfflineScan(const physics::RadarParameters& parameters, const ScanRequest& request, int threads);
 
   // Computes power, video and hashes. Each thread takes pieces of successive sweeps. No thread waits for another one
-  // before it finds none to measure or to form.
-  void run(const physics::Environment& environment);
+  // before it finds none to measure or to form. `goes_on` is asked before each sweep of the calling thread; throws
+  // parallel::Stopped.
+  void run(const physics::Environment& environment, const parallel::GoesOn& goes_on = {});
   // Computes power, without video and hashes.
   void measure(const physics::Environment& environment);
 
@@ -67,7 +68,8 @@ class OfflineScan {
   // First sweep of a piece. The first sweep of the piece `pieces()` is the number of sweeps.
   std::size_t first_of(std::size_t piece) const { return piece * positions_.size() / pieces(); }
   std::size_t pieces() const { return ready_.size(); }
-  void begin_pass();
+  void begin_pass(const parallel::GoesOn& goes_on);
+  bool stops(std::size_t thread);
   template <class Measured>
   void measure_pieces(std::size_t thread, const physics::Environment& environment, const Measured& measured);
   void measure_sweep(std::size_t sweep, std::size_t thread, const physics::Environment& environment);
@@ -89,6 +91,8 @@ class OfflineScan {
   parallel::ChunkQueues to_measure_, to_form_;  // pieces
   // By piece: number of measured pieces among itself and its neighbours, and one when a thread has taken it to form it.
   std::vector<std::atomic<std::uint8_t>> ready_;
+  const parallel::GoesOn* goes_on_ = nullptr;  // of the current run(); null: it goes on
+  std::atomic<bool> stop_ = false;             // true: threads take no more sweeps
 };
 
 }  // namespace yars::model::kernel

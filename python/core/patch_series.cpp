@@ -1,14 +1,13 @@
 #include "python/core/patch_series.hpp"
 
-#define XXH_INLINE_ALL
 #include <unistd.h>
-#include <xxhash.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
 #include <functional>
+#include <initializer_list>
 #include <limits>
 #include <optional>
 #include <utility>
@@ -16,7 +15,9 @@
 #include "lib/geo/earth.hpp"
 #include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/mapping.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/hrm/patch_formation.hpp"
+#include "python/core/patch_boxes.hpp"
 #include "tools/command/command.hpp"
 #include "tools/patch/patch_setup.hpp"
 
@@ -36,18 +37,6 @@ struct Mover {
   std::int64_t order;
   double latitude, longitude, heading, speed_kt, cross_section_m2, height_m;
 };
-struct Geo {
-  double origin_latitude, origin_longitude;
-  double plane_from_pixel[6];
-  double up_deg, distance_m, slant_range_m, grazing_deg, plane_msl_m, window_m, resolution_m;
-};
-struct Box {
-  std::int32_t order, object;
-  float corners[4][2];
-  float aspect_deg;
-  std::int32_t pixels;
-};
-
 const char* const kArrays = "video, power, shadow, layover, object, material, height, grazing_angle";
 
 // Structured type of an array, from names and type codes of its fields.
@@ -164,16 +153,45 @@ Outputs make_outputs(const SeriesRequest& request, std::size_t count, int size) 
   return outputs;
 }
 
-void check_numbers(const Order& order) {
-  const bool valid = std::abs(order.latitude) <= 90.0 && std::abs(order.longitude) <= 180.0 &&
-                     std::abs(order.target_latitude) <= 90.0 && std::abs(order.target_longitude) <= 180.0 &&
-                     std::isfinite(order.altitude_ft) && std::isfinite(order.heading) &&
-                     std::isfinite(order.speed_kt) && order.window_nm >= 0.01 && order.window_nm <= 200.0 &&
-                     order.looks >= 1 && order.looks <= 16 && order.time_s >= 0.0 && order.time_s <= 1e8;
-  if (!valid)
-    raise_value_error(
-        "expected degrees, finite numbers, window_nm from 0.01 to 200, looks from 1 to 16 and time_s from 0 to 1e8, "
-        "found others");
+// A number of an entry with its limits, for messages.
+struct LimitedField {
+  const char* name;
+  double value;
+  tools::Limits limits;
+};
+// Throws ValueError that names the first field beyond its limits, with its value. `entry`: such as "orders[3]".
+void check_fields(const std::string& entry, std::initializer_list<LimitedField> fields) {
+  for (const LimitedField& field : fields)
+    if (!field.limits.contain(field.value))
+      raise_value_error("yars.Radar.patches: " + entry + ": " + field.name + ": expected " +
+                        text::text_of_number(field.limits.min) + " to " + text::text_of_number(field.limits.max) +
+                        ", found " + text::text_of_number(field.value));
+}
+
+// Those of the options of `yars patch`.
+void check_numbers(const std::string& entry, const Order& order) {
+  check_fields(entry, {{"latitude", order.latitude, tools::kLatitudes_deg},
+                       {"longitude", order.longitude, tools::kLongitudes_deg},
+                       {"altitude_ft", order.altitude_ft, tools::kAltitudes_ft},
+                       {"heading", order.heading, tools::kHeadings_deg},
+                       {"speed_kt", order.speed_kt, tools::kSpeeds_kt},
+                       {"target_latitude", order.target_latitude, tools::kLatitudes_deg},
+                       {"target_longitude", order.target_longitude, tools::kLongitudes_deg},
+                       {"window_nm", order.window_nm, tools::kWindows_nm},
+                       {"time_s", order.time_s, tools::kTimes_s},
+                       {"looks", static_cast<double>(order.looks), tools::kLooks}});
+}
+
+void check_numbers(const std::string& entry, const Mover& mover, std::size_t orders) {
+  constexpr tools::Limits kCrossSections_m2{1e-3, 1e7}, kHeights_m{0.0, 1000.0};
+  if (orders == 0) raise_value_error("yars.Radar.patches: movers: expected none without an order, found some");
+  check_fields(entry, {{"order", static_cast<double>(mover.order), {0.0, static_cast<double>(orders - 1)}},
+                       {"latitude", mover.latitude, tools::kLatitudes_deg},
+                       {"longitude", mover.longitude, tools::kLongitudes_deg},
+                       {"heading", mover.heading, tools::kHeadings_deg},
+                       {"speed_kt", mover.speed_kt, tools::kSpeeds_kt},
+                       {"cross_section_m2", mover.cross_section_m2, kCrossSections_m2},
+                       {"height_m", mover.height_m, kHeights_m}});
 }
 
 hrm::PatchOrder order_of(const Order& order) {
@@ -190,128 +208,15 @@ hrm::PatchOrder order_of(const Order& order) {
   return map;
 }
 
-Geo geo_of(const hrm::PatchGeometry& geometry, int size) {
-  Geo geo{};
-  geo.origin_latitude = geometry.apex().latitude_deg;
-  geo.origin_longitude = geometry.apex().longitude_deg;
-  const std::array<double, 6> plane = tools::plane_from_pixel(geometry, size);
-  std::copy(plane.begin(), plane.end(), &geo.plane_from_pixel[0]);
-  geo.up_deg = geometry.up().degrees();
-  geo.distance_m = geometry.distance_m();
-  geo.slant_range_m = geometry.slant_range_m();
-  geo.grazing_deg = std::asin(geometry.sin_grazing()) / geo::kRadiansPerDegree;
-  geo.plane_msl_m = geometry.plane_msl_m();
-  geo.window_m = geometry.window_m();
-  geo.resolution_m = radar::map_resolution(geo::Length::metres(geometry.window_m())).metres();
-  return geo;
-}
-
-// Linear transform from the plane of a group of footprints to the map, about the group's origin.
-struct GroupOnMap {
-  GroupOnMap(const hrm::PatchGeometry& geometry, geo::GeoPoint origin) : at(geometry.point_of(origin)) {
-    constexpr double kStep_m = 200.0;
-    const geo::AzimuthalEquidistant plane(origin);
-    const hrm::MapPoint to_east = geometry.point_of(plane.geodetic_from_plane({kStep_m, 0.0}));
-    const hrm::MapPoint to_north = geometry.point_of(plane.geodetic_from_plane({0.0, kStep_m}));
-    east = {(to_east.right_m - at.right_m) / kStep_m, (to_east.up_m - at.up_m) / kStep_m};
-    north = {(to_north.right_m - at.right_m) / kStep_m, (to_north.up_m - at.up_m) / kStep_m};
-  }
-  hrm::MapPoint of(double east_m, double north_m) const {
-    return {at.right_m + east.right_m * east_m + north.right_m * north_m,
-            at.up_m + east.up_m * east_m + north.up_m * north_m};
-  }
-  hrm::MapPoint at, east, north;
-};
-
-// Factor on the distance over ground of a point that is `height_m` above the map plane: it appears at its bearing and
-// slant range.
-double layover_factor(const hrm::PatchGeometry& geometry, hrm::MapPoint point, double height_m) {
-  const double ahead_m = point.up_m + geometry.distance_m();
-  const double distance_m = std::sqrt(point.right_m * point.right_m + ahead_m * ahead_m);
-  if (!(distance_m > 0.0)) return 1.0;
-  return hrm::laid_over_m(distance_m, height_m, geometry.above_level_m(distance_m)) / distance_m;
-}
-
-// Boxes of the objects whose footprint overlaps the picture, in the order of the scene's groups.
-class Boxes {
- public:
-  Boxes(const Scene& scene, int size, int min_pixels)
-      : scene_(scene), size_(size), min_pixels_(min_pixels), pixels_(scene.objects().size(), 0) {}
-
-  void add(std::int32_t order, const hrm::PatchGeometry& geometry, const std::vector<std::int32_t>& labels) {
-    for (const std::int32_t object : labels)
-      if (object >= 0) ++pixels_[static_cast<std::size_t>(object)];
-    const geo::GeoPoint centre = geometry.position_of({});
-    for (const FootprintGroup& group : scene_.groups()) {
-      const double north_m = (group.origin.latitude_deg - centre.latitude_deg) * geo::kMetresPerDegree;
-      if (std::abs(north_m) > 1.1 * (group.reach_m + geometry.window_m())) continue;
-      const GroupOnMap transform(geometry, group.origin);
-      const double reach_m = 0.5 * geometry.window_m() + group.reach_m;
-      if (std::abs(transform.at.right_m) > reach_m || std::abs(transform.at.up_m) > 1.5 * reach_m) continue;
-      for (const Footprint& footprint : group.footprints) add_box(order, geometry, transform, footprint);
-    }
-    for (const std::int32_t object : labels)
-      if (object >= 0) pixels_[static_cast<std::size_t>(object)] = 0;
-  }
-  const std::vector<Box>& boxes() const { return boxes_; }
-
- private:
-  void add_box(std::int32_t order, const hrm::PatchGeometry& geometry, const GroupOnMap& transform,
-               const Footprint& footprint) {
-    const double pixels_per_m = size_ / geometry.window_m();
-    const hrm::MapPoint middle = transform.of(footprint.east_m, footprint.north_m);
-    // One factor serves the whole footprint, because it changes little over an object.
-    const double factor = layover_factor(geometry, middle, footprint.base_msl_m - geometry.plane_msl_m());
-    Box box{};
-    box.pixels = pixels_[static_cast<std::size_t>(footprint.object)];
-    if (box.pixels < min_pixels_) return;
-    float left = 1e9F, right = -1e9F, top = 1e9F, bottom = -1e9F;
-    constexpr int kSigns[4][2] = {{1, -1}, {1, 1}, {-1, 1}, {-1, -1}};
-    for (int k = 0; k < 4; ++k) {
-      const double along_m = kSigns[k][0] * footprint.half_length_m, across_m = kSigns[k][1] * footprint.half_width_m;
-      const hrm::MapPoint point =
-          transform.of(footprint.east_m + along_m * footprint.sine + across_m * footprint.cosine,
-                       footprint.north_m + along_m * footprint.cosine - across_m * footprint.sine);
-      const double up_m = (point.up_m + geometry.distance_m()) * factor - geometry.distance_m();
-      box.corners[k][0] = static_cast<float>((point.right_m * factor + 0.5 * geometry.window_m()) * pixels_per_m);
-      box.corners[k][1] = static_cast<float>((0.5 * geometry.window_m() - up_m) * pixels_per_m);
-      left = std::min(left, box.corners[k][0]);
-      right = std::max(right, box.corners[k][0]);
-      top = std::min(top, box.corners[k][1]);
-      bottom = std::max(bottom, box.corners[k][1]);
-    }
-    const auto edge = static_cast<float>(size_);
-    const bool overlaps = right > 0.0F && left < edge && bottom > 0.0F && top < edge;
-    if (!overlaps && box.pixels == 0) return;
-    box.order = order;
-    box.object = footprint.object;
-    const double off_deg = std::atan(middle.right_m / (middle.up_m + geometry.distance_m())) / geo::kRadiansPerDegree;
-    const double aspect_deg = geometry.up().degrees() + off_deg - footprint.heading_deg + 720.0;
-    box.aspect_deg = static_cast<float>(aspect_deg - 180.0 * std::floor(aspect_deg / 180.0));
-    boxes_.push_back(box);
-  }
-
-  const Scene& scene_;
-  int size_, min_pixels_;
-  std::vector<std::int32_t> pixels_;  // by object: pixels with its label in the current map
-  std::vector<Box> boxes_;
-};
-
 // Movers of each order, as moving points.
 std::vector<std::vector<model::physics::MovingPoint>> traffic_of(const py::object& movers,
                                                                  const std::vector<Order>& orders) {
   std::vector<std::vector<model::physics::MovingPoint>> traffic(orders.size());
   if (movers.is_none()) return traffic;
-  for (const Mover& mover : entries_of<Mover>(py::cast<py::array>(movers), mover_type(), "movers")) {
-    const bool valid = mover.order >= 0 && mover.order < static_cast<std::int64_t>(orders.size()) &&
-                       std::abs(mover.latitude) <= 90.0 && std::abs(mover.longitude) <= 180.0 &&
-                       std::isfinite(mover.heading) && std::isfinite(mover.speed_kt) && mover.cross_section_m2 > 0.0 &&
-                       std::isfinite(mover.cross_section_m2) && std::isfinite(mover.height_m);
-    if (!valid)
-      raise_value_error(
-          "yars.Radar.patches: movers: expected an order of this call, degrees, finite numbers and a cross "
-          "section above 0, found an entry for order " +
-          std::to_string(mover.order) + " that has others");
+  const auto all = entries_of<Mover>(py::cast<py::array>(movers), mover_type(), "movers");
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Mover& mover = all[i];
+    check_numbers("movers[" + std::to_string(i) + "]", mover, orders.size());
     const auto order = static_cast<std::size_t>(mover.order);
     traffic[order].push_back(model::physics::moving_point({{mover.latitude, mover.longitude},
                                                            geo::Bearing::degrees(mover.heading),
@@ -365,14 +270,15 @@ class Series {
   }
 
   // Forms map `index`. Throws CommandFailed that names the index.
-  void form(std::size_t index, const Order& order, std::vector<model::physics::MovingPoint> traffic) {
+  void form(std::size_t index, const Order& order, std::vector<model::physics::MovingPoint> traffic,
+            const parallel::GoesOn& goes_on) {
     try {
-      begin(order, std::move(traffic));
+      begin(order, std::move(traffic), goes_on);
     } catch (tools::CommandFailed& failed) {
       failed.message = "yars.Radar.patches: orders[" + std::to_string(index) + "]: " + failed.message;
       throw;
     }
-    while (formation_.state() != hrm::PatchState::done) formation_.advance();
+    for (; formation_.state() != hrm::PatchState::done; formation_.advance()) parallel::check(goes_on);
     store(formation_, index, outputs_);
     hashes_.push_back(tools::picture_hash(formation_.picture()));
     geometries_.push_back(geo_of(formation_.geometry(), configuration_.fidelity.map_size));
@@ -388,24 +294,18 @@ class Series {
     const std::size_t count = hashes_.size();
     arrays["geo"] = structured(geo_type(), geometries_.data(), count);
     arrays["boxes"] = structured(box_type(), boxes.data(), boxes.size());
-    arrays["hash"] = array_from(std::move(hashes_), {static_cast<py::ssize_t>(count)});
+    arrays["hash"] = py::array_t<std::uint64_t>(static_cast<py::ssize_t>(count), hashes_.data());
     return arrays;
   }
 
  private:
-  void begin(const Order& given, std::vector<model::physics::MovingPoint> traffic) {
+  void begin(const Order& given, std::vector<model::physics::MovingPoint> traffic, const parallel::GoesOn& goes_on) {
     const hrm::PatchOrder order = order_of(given);
-    check_arguments([&] {
-      check_numbers(given);
-      tools::check_order(order, configuration_, request_.force);
-    });
+    check_arguments([&] { tools::check_order(order, configuration_, request_.force); });
     const hrm::PatchNeed need = formation_.begin(order);
-    hrm::PatchEnvironment environment;
-    {
-      const std::lock_guard guard(request_.terrain->mutex());
-      environment =
-          request_.terrain->theatre(scenes_, model::scene::SceneUse::triangles).prepare(need, warnings_.sink());
-    }
+    hrm::PatchEnvironment environment = request_.terrain->with_theatre(
+        scenes_, model::scene::SceneUse::triangles, warnings_, goes_on,
+        [&](tools::Theatre& theatre) { return theatre.prepare(need, warnings_.sink()); });
     if (!request_.force) check_arguments([&] { tools::check_heights(order, environment, configuration_); });
     environment.traffic = std::move(traffic);
     formation_.set_environment(environment);
@@ -466,6 +366,7 @@ void FormationPool::give_back(std::unique_ptr<Formation> formation) {
 py::dict patch_series(const radar::RadarConfiguration& configuration, FormationPool& pool,
                       const SeriesRequest& request) {
   const auto orders = entries_of<Order>(request.orders, order_type(), "orders");
+  for (std::size_t i = 0; i < orders.size(); ++i) check_numbers("orders[" + std::to_string(i) + "]", orders[i]);
   auto traffic = traffic_of(request.movers, orders);
   if (request.threads < 1 || request.threads > 256)
     raise_value_error("yars.Radar.patches: threads: expected 1 to 256, found " + std::to_string(request.threads));
@@ -473,10 +374,9 @@ py::dict patch_series(const radar::RadarConfiguration& configuration, FormationP
   std::unique_ptr<Formation> formation =
       pool.take(configuration, static_cast<std::size_t>(request.threads), outputs.labels());
   Series series(*formation, request, outputs);
-  {
-    const py::gil_scoped_release released;
-    for (std::size_t i = 0; i < orders.size(); ++i) series.form(i, orders[i], std::move(traffic[i]));
-  }
+  without_interpreter([&](const parallel::GoesOn& goes_on) {
+    for (std::size_t i = 0; i < orders.size(); ++i) series.form(i, orders[i], std::move(traffic[i]), goes_on);
+  });
   py::dict arrays = series.finish();
   pool.give_back(std::move(formation));
   return arrays;
@@ -485,25 +385,6 @@ py::dict patch_series(const radar::RadarConfiguration& configuration, FormationP
 void add_series(py::module_& module) {
   module.attr("PATCH_ORDER") = order_type();
   module.attr("MOVER") = mover_type();
-  module.def(
-      "xxh3",
-      [](const py::buffer& bytes) {
-        const py::buffer_info info = bytes.request();
-        return XXH3_64bits(info.ptr, static_cast<std::size_t>(info.size * info.itemsize));
-      },
-      py::arg("bytes"), "XXH3 hash, 64 bits, of the bytes of a contiguous buffer.");
-  module.def(
-      "xxh3_items",
-      [](const py::buffer& array) {
-        const py::buffer_info info = array.request();
-        std::vector<std::uint64_t> hashes(info.ndim > 0 ? static_cast<std::size_t>(info.shape[0]) : 0);
-        const std::size_t bytes =
-            hashes.empty() ? 0 : static_cast<std::size_t>(info.size * info.itemsize) / hashes.size();
-        for (std::size_t i = 0; i < hashes.size(); ++i)
-          hashes[i] = XXH3_64bits(static_cast<const std::uint8_t*>(info.ptr) + i * bytes, bytes);
-        return hashes;
-      },
-      py::arg("array"), "XXH3 hashes, 64 bits each, of the entries along the first axis of a contiguous array.");
 }
 
 }  // namespace yars::python

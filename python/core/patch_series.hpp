@@ -13,6 +13,7 @@
 #include "lib/parallel/thread_pool.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_formation.hpp"
+#include "python/core/calls.hpp"
 #include "python/core/places.hpp"
 #include "python/core/support.hpp"
 
@@ -58,7 +59,7 @@ class FormationPool {
 py::dict patch_series(const radar::RadarConfiguration& configuration, FormationPool& pool,
                       const SeriesRequest& request);
 
-// Adds PATCH_ORDER, MOVER, and xxh3().
+// Adds PATCH_ORDER and MOVER.
 void add_series(py::module_& module);
 
 }  // namespace yars::python

@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/world.hpp"
 #include "model/hrm/patch_geometry.hpp"
+#include "python/core/calls.hpp"
 #include "python/core/support.hpp"
 #include "tools/command/theatre.hpp"
 
@@ -36,6 +36,8 @@ struct FootprintGroup {
   double reach_m = 0.0;  // from the origin to the farthest corner
 };
 
+struct CellPositions;
+
 class Terrain {
  public:
   // `directory`: folder of elevation cells; empty: the built-in hills. Throws CommandFailed.
@@ -43,17 +45,38 @@ class Terrain {
 
   const std::string& directory() const { return configuration_.directory; }
   const radar::TerrainConfiguration& configuration() const { return configuration_; }
-  // [m MSL] at positions in degrees, of any equal shape. NaN: void.
-  py::array elevation(const py::object& latitude_deg, const py::object& longitude_deg);
+  // [m MSL] at positions in degrees, arrays of equal shape. NaN: void.
+  using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+  py::array elevation(const Numbers& latitude_deg, const Numbers& longitude_deg);
 
-  // The theatre of these scenes and this use; opened when first asked for. Call with the lock of mutex().
-  tools::Theatre& theatre(const std::vector<radar::Scene>& scenes, model::scene::SceneUse use);
-  std::mutex& mutex() { return mutex_; }
+  // What work(theatre) gives, with the theatre of these scenes and this use, which is opened when first asked for. A
+  // failure has its reasons from `warnings` in its message, and the files are read anew next time.
+  template <class Work>
+  auto with_theatre(const std::vector<radar::Scene>& scenes, model::scene::SceneUse use, Warnings& warnings,
+                    const parallel::GoesOn& goes_on, const Work& work) {
+    const auto taken = lock_.take(goes_on);
+    try {
+      return work(theatre(scenes, use));
+    } catch (tools::CommandFailed& failed) {
+      warnings.explain(failed);
+      theatres_->erase(key_of(scenes, use));
+      throw;
+    }
+  }
 
  private:
+  static std::string key_of(const std::vector<radar::Scene>& scenes, model::scene::SceneUse use);
+  // Call with lock_ taken.
+  tools::Theatre& theatre(const std::vector<radar::Scene>& scenes, model::scene::SceneUse use);
+
+  void fill_elevations(const CellPositions& cells, double* height_m, Warnings& warnings,
+                       const parallel::GoesOn& goes_on);
+
+  using Theatres = std::map<std::string, std::unique_ptr<tools::Theatre>>;
+
   radar::TerrainConfiguration configuration_;
-  std::mutex mutex_;
-  std::map<std::string, std::unique_ptr<tools::Theatre>> theatres_;
+  std::unique_ptr<Theatres> theatres_ = std::make_unique<Theatres>();
+  ObjectLock lock_{[this] { static_cast<void>(theatres_.release()), theatres_ = std::make_unique<Theatres>(); }};
 };
 
 class Scene {
@@ -63,8 +86,6 @@ class Scene {
         const std::vector<std::string>& without);
 
   const std::shared_ptr<Terrain>& terrain() const { return terrain_; }
-  const std::vector<std::string>& files() const { return files_; }
-  const std::vector<std::string>& without() const { return without_; }
   const std::vector<radar::Scene>& scenes() const { return scenes_; }
   const std::vector<model::scene::SceneObject>& objects() const { return view_->objects(); }
   const std::vector<FootprintGroup>& groups() const { return groups_; }
@@ -72,7 +93,6 @@ class Scene {
   py::array object_table() const;  // structured array
 
  private:
-  std::vector<std::string> files_, without_;  // as given
   std::shared_ptr<Terrain> terrain_;
   std::vector<radar::Scene> scenes_;
   model::scene::SceneViewPointer view_;
@@ -81,7 +101,7 @@ class Scene {
 };
 
 // Throws ValueError for a scene that was read for another folder of terrain: its objects stand at other heights there.
-// Null: no scene.
+// Two names of one folder are the same terrain. Null: no scene.
 void check_same_terrain(const Scene* scene, const Terrain& terrain);
 
 void add_places(py::module_& module);

@@ -32,21 +32,21 @@ std::string slot_of(const std::string& knob) {
 // Value of a slot as GUF. Throws ValueError for a value that is neither number, truth value nor name.
 std::string guf_of(const std::string& knob, const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return py::cast<bool>(value) ? "true" : "false";
-  if (PyIndex_Check(value.ptr())) return py::str(py::int_(py::reinterpret_borrow<py::object>(value)));
+  if (PyLong_Check(value.ptr())) return py::str(value);
   if (PyUnicode_Check(value.ptr())) {
     auto text = py::cast<std::string>(value);
     const auto is_plain = [](char c) {
       return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.';
     };
     if (!text.empty() && std::all_of(text.begin(), text.end(), is_plain)) return text;
-  } else if (py::hasattr(value, "__float__")) {
-    return py::repr(py::float_(py::reinterpret_borrow<py::object>(value)));
+  } else if (PyFloat_Check(value.ptr())) {
+    return py::repr(value);
   }
   raise_value_error("yars.Radar: " + knob + ": expected a number, True, False or a name, found " +
                     py::cast<std::string>(py::repr(value)));
 }
 
-std::string fidelity_form(const py::object& preset, const py::kwargs& knobs) {
+std::string fidelity_form(const py::object& preset, const py::dict& knobs) {
   std::string form = "( Fidelity";
   if (!preset.is_none()) form += " :preset " + guf_of("preset", preset);
   for (const auto& [knob, value] : knobs)
@@ -64,7 +64,8 @@ radar::RadarConfiguration load(const std::string& text, const std::string& name,
 
 }  // namespace
 
-Radar::Radar(const py::object& preset, const py::object& config, const std::string& settings, const py::kwargs& knobs) {
+Radar::Radar(const py::object& preset, const std::optional<std::string>& config, const std::string& settings,
+             const py::dict& knobs) {
   const std::string form = fidelity_form(preset, knobs);
   for (const auto& [text, name] : {std::pair{form, "yars.Radar"}, std::pair{settings, "yars.Radar settings"}}) {
     std::vector<std::string> faults;
@@ -73,22 +74,22 @@ Radar::Radar(const py::object& preset, const py::object& config, const std::stri
   }
   std::string text;
   Warnings warnings;
-  if (!config.is_none()) {
-    const auto path = py::cast<std::string>(py::module_::import("os").attr("fspath")(config));
-    auto converted = config::convert_configuration(path, {});
+  if (config) {
+    auto converted = config::convert_configuration(*config, {});
     if (!converted) raise(converted.error());
     for (const std::string& warning : converted->warnings) warnings.sink()(warning);
     text = converted->text;
   }
   std::vector<std::string> of_the_file;  // already shown
   configuration_ = load(text + '\n' + settings + '\n' + form, "yars.Radar", of_the_file);
-  warnings.show("yars.Radar");
+  warnings.show("yars.Radar", 3);
 }
 
 std::shared_ptr<ScanResult> Radar::scan(const std::shared_ptr<Terrain>& terrain, std::shared_ptr<Scene> scene,
-                                        const py::kwargs& arguments) const {
+                                        const std::vector<std::string>& words) const {
   tools::ScanOptions options;
-  read_options("yars scan", arguments, [&](databuffer::Command command) { tools::add_scan_options(command, options); });
+  read_options("yars.Radar.scan", words,
+               [&](databuffer::Command command) { tools::add_scan_options(command, options); });
   radar::RadarConfiguration configuration = configuration_;
   tools::configure_scan(options, configuration);
   configuration.terrain = terrain->configuration();
@@ -97,27 +98,24 @@ std::shared_ptr<ScanResult> Radar::scan(const std::shared_ptr<Terrain>& terrain,
   const model::kernel::ScanRequest request = tools::request_of(options);
   check_arguments([&] { tools::check_scan(options, configuration); });
   Warnings warnings;
-  std::shared_ptr<ScanResult> result;
-  {
-    const py::gil_scoped_release released;
-    tools::ScanEnvironment environment;
-    {
-      const std::lock_guard guard(terrain->mutex());
-      environment = terrain->theatre(configuration.world.scenes, model::scene::SceneUse::scatterers)
-                        .prepare(request, configuration.fidelity, warnings.sink());
-    }
+  std::unique_ptr<ScanResult::Parts> scan;  // without its threads
+  without_interpreter([&](const parallel::GoesOn& goes_on) {
+    auto environment = terrain->with_theatre(
+        configuration.world.scenes, model::scene::SceneUse::scatterers, warnings, goes_on,
+        [&](tools::Theatre& theatre) { return theatre.prepare(request, configuration.fidelity, warnings.sink()); });
     check_arguments([&] { tools::check_scan_height(options, *environment.terrain); });
-    result =
-        std::make_shared<ScanResult>(configuration, request, options.threads, std::move(environment), std::move(scene));
-  }
-  warnings.show("yars scan");
-  return result;
+    model::kernel::OfflineScan work(configuration, request, options.threads);
+    work.run({*environment.terrain, environment.scene.get()}, goes_on);
+    scan = std::make_unique<ScanResult::Parts>(ScanResult::Parts{work.take_result(), std::move(environment)});
+  });
+  warnings.show("yars.Radar.scan");
+  return std::make_shared<ScanResult>(configuration, std::move(*scan), std::move(scene));
 }
 
 std::shared_ptr<PatchResult> Radar::patch(const std::shared_ptr<Terrain>& terrain, const std::shared_ptr<Scene>& scene,
-                                          const py::kwargs& arguments) const {
+                                          const std::vector<std::string>& words) const {
   tools::PatchOptions options;
-  read_options("yars patch", arguments,
+  read_options("yars.Radar.patch", words,
                [&](databuffer::Command command) { tools::add_patch_options(command, options); });
   radar::RadarConfiguration configuration = configuration_;
   check_arguments([&] { tools::configure_patch(options, configuration); });
@@ -127,28 +125,24 @@ std::shared_ptr<PatchResult> Radar::patch(const std::shared_ptr<Terrain>& terrai
   const hrm::PatchOrder order = tools::order_of(options, configuration);
   check_arguments([&] { tools::check_order(order, configuration, options.force); });
   Warnings warnings;
-  std::shared_ptr<PatchResult> result;
-  {
-    const py::gil_scoped_release released;
+  std::unique_ptr<PatchResult::Parts> map;
+  without_interpreter([&](const parallel::GoesOn& goes_on) {
     parallel::ThreadPool workers(tools::threads_of(options));
     hrm::PatchFormation formation(
         configuration,
         {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) { workers.run(job); }},
         hrm::kMaxSectorPoints, hrm::LabelUse::heights);
     const hrm::PatchNeed need = formation.begin(order);
-    hrm::PatchEnvironment environment;
-    {
-      const std::lock_guard guard(terrain->mutex());
-      environment = terrain->theatre(configuration.world.scenes, model::scene::SceneUse::triangles)
-                        .prepare(need, warnings.sink());
-    }
+    const hrm::PatchEnvironment environment =
+        terrain->with_theatre(configuration.world.scenes, model::scene::SceneUse::triangles, warnings, goes_on,
+                              [&](tools::Theatre& theatre) { return theatre.prepare(need, warnings.sink()); });
     if (!options.force) check_arguments([&] { tools::check_heights(order, environment, configuration); });
     formation.set_environment(environment);
-    while (formation.state() != hrm::PatchState::done) formation.advance();
-    result = std::make_shared<PatchResult>(formation, order, configuration.fidelity.name);
-  }
-  warnings.show("yars patch");
-  return result;
+    for (; formation.state() != hrm::PatchState::done; formation.advance()) parallel::check(goes_on);
+    map = std::make_unique<PatchResult::Parts>(PatchResult::parts_of(formation));
+  });
+  warnings.show("yars.Radar.patch");
+  return std::make_shared<PatchResult>(std::move(*map), order, configuration.fidelity.name);
 }
 
 py::dict Radar::patches(const std::shared_ptr<Terrain>& terrain, const py::array& orders, std::shared_ptr<Scene> scene,
@@ -164,11 +158,9 @@ std::string Radar::text() const {
 }
 
 void add_radar(py::module_& module) {
-  py::class_<Radar>(module, "Radar")
-      .def(py::init<const py::object&, const py::object&, const std::string&, const py::kwargs&>(), py::arg("preset"),
-           py::arg("config"), py::arg("settings"))
-      .def("scan", &Radar::scan, py::arg("terrain").none(false), py::arg("scene").none(true))
-      .def("patch", &Radar::patch, py::arg("terrain").none(false), py::arg("scene").none(true))
+  py::class_<Radar> type(module, "Radar");
+  type.def("scan", &Radar::scan, py::arg("terrain").none(false), py::arg("scene").none(true), py::arg("words"))
+      .def("patch", &Radar::patch, py::arg("terrain").none(false), py::arg("scene").none(true), py::arg("words"))
       .def("patches", &Radar::patches, py::arg("terrain").none(false), py::arg("orders"), py::arg("scene").none(true),
            py::arg("movers"), py::arg("arrays"), py::arg("threads"), py::arg("force"), py::arg("min_pixels"))
       .def_property_readonly("guf", &Radar::text)
@@ -176,6 +168,12 @@ void add_radar(py::module_& module) {
       .def_property_readonly("fidelity", [](const Radar& radar) { return radar.configuration().fidelity.name; })
       .def_property_readonly("map_size", [](const Radar& radar) { return radar.configuration().fidelity.map_size; })
       .def_property_readonly("samples", [](const Radar& radar) { return radar.configuration().fidelity.samples; });
+  seal(type);
+  module.def(
+      "make_radar",
+      [](const py::object& preset, const std::optional<std::string>& config, const std::string& settings,
+         const py::dict& knobs) { return std::make_unique<Radar>(preset, config, settings, knobs); },
+      py::arg("preset"), py::arg("config"), py::arg("settings"), py::arg("knobs"));
 }
 
 }  // namespace yars::python

@@ -1,11 +1,12 @@
 // Class Radar of the Python module: a configuration, and the scans and maps that it gives over a terrain.
-// Inputs: preset, configuration file, GUF text, settings of the form Fidelity; arguments as options of `yars scan` and
+// Inputs: preset, configuration file, GUF text, settings of the form Fidelity; arguments as words of `yars scan` and
 // `yars patch`. Outputs: ScanResult, PatchResult, many maps at once.
 // Errors: ValueError and yars.Error with the messages of the commands.
 // Threads: the interpreter's lock is released while files are read and while pictures are computed.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,14 +20,16 @@ namespace yars::python {
 
 class Radar {
  public:
-  // `preset`: None: that of the file, else standard. `config`: a GUF file, None: built-in defaults. `settings`: GUF
-  // text with forms that replace those of the file. `knobs`: slots of the form Fidelity, map_size for mapSize.
-  Radar(const py::object& preset, const py::object& config, const std::string& settings, const py::kwargs& knobs);
+  // `preset`: None: that of the file, else standard. `config`: a GUF file; nullopt: built-in defaults. `settings`: GUF
+  // text with forms that replace those of the file. `knobs`: slots of the form Fidelity, map_size for mapSize; their
+  // values are numbers, truth values and texts.
+  Radar(const py::object& preset, const std::optional<std::string>& config, const std::string& settings,
+        const py::dict& knobs);
 
   std::shared_ptr<ScanResult> scan(const std::shared_ptr<Terrain>& terrain, std::shared_ptr<Scene> scene,
-                                   const py::kwargs& arguments) const;
+                                   const std::vector<std::string>& words) const;
   std::shared_ptr<PatchResult> patch(const std::shared_ptr<Terrain>& terrain, const std::shared_ptr<Scene>& scene,
-                                     const py::kwargs& arguments) const;
+                                     const std::vector<std::string>& words) const;
   // Many maps, as patch_series.hpp says.
   py::dict patches(const std::shared_ptr<Terrain>& terrain, const py::array& orders, std::shared_ptr<Scene> scene,
                    const py::object& movers, const std::vector<std::string>& arrays, int threads, bool force,

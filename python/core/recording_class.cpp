@@ -1,10 +1,12 @@
 #include "python/core/recording_class.hpp"
 
 #include <pybind11/stl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <map>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -136,8 +138,8 @@ py::array structured(py::object type, std::vector<std::byte> bytes, std::size_t 
   const auto count = static_cast<py::ssize_t>(bytes.size() / size);
   auto* const kept = new std::vector<std::byte>(std::move(bytes));
   const py::capsule keeper(kept, [](void* pointer) { delete static_cast<std::vector<std::byte>*>(pointer); });
-  return py::array(py::reinterpret_steal<py::dtype>(type.release()), {count}, {static_cast<py::ssize_t>(size)},
-                   kept->data(), keeper);
+  return read_only(py::array(py::reinterpret_steal<py::dtype>(type.release()), {count},
+                             {static_cast<py::ssize_t>(size)}, kept->data(), keeper));
 }
 
 // Rows of equal length from tails one after the other, filled up with 0.
@@ -156,111 +158,100 @@ py::array rows_of(std::vector<std::byte> tails, const std::vector<std::size_t>& 
   return array_from(std::move(rows), {static_cast<py::ssize_t>(lengths.size()), static_cast<py::ssize_t>(width)});
 }
 
-TickRange range_of(const py::object& first, const py::object& last) {
-  const auto tick_of = [](const char* name, const py::object& given) -> std::optional<std::int64_t> {
-    if (given.is_none()) return std::nullopt;
-    if (PyIndex_Check(given.ptr()) && !py::isinstance<py::bool_>(given)) {
-      int overflow = 0;
-      const auto number = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
-      const long long tick = number ? PyLong_AsLongLongAndOverflow(number.ptr(), &overflow) : 0;
-      if (number && overflow == 0) return tick;
-      PyErr_Clear();
-    }
-    raise_value_error(std::string("yars.Recording: ") + name + ": expected a whole number of 64 bits, found " +
-                      py::cast<std::string>(py::repr(given)));
-  };
-  return {tick_of("first_tick", first), tick_of("last_tick", last)};
-}
-
 }  // namespace
 
+void Recording::open() {
+  if (process_ == ::getpid() && *reader_) return;
+  auto opened = rec::RecordingReader::open(path_);
+  if (!opened) raise(opened.error());
+  reader_->emplace(std::move(*opened));
+  process_ = ::getpid();
+}
+
 Recording::Recording(const std::string& path) : path_(path) {
-  {
-    const py::gil_scoped_release released;
-    auto opened = rec::RecordingReader::open(path);
-    if (!opened) raise(opened.error());
-    reader_.emplace(std::move(*opened));
+  without_interpreter([this](const parallel::GoesOn&) { open(); });
+  cut_short_ = reader().cut_short();
+  header_ = reader().header();
+  for (const rec::IndexEntry& block : reader().blocks()) {
+    kind_bits_ |= block.kinds;
+    first_tick_ = std::min(first_tick_.value_or(block.first_tick), block.first_tick);
+    last_tick_ = std::max(last_tick_.value_or(block.last_tick), block.last_tick);
   }
-  cut_short_ = reader_->cut_short();
   if (!cut_short_) return;
   Warnings warnings;
   warnings.sink()(path_ + ": cut short; it is read to its last whole block");
-  warnings.show("yars.Recording");
+  warnings.show("yars.Recording", 3);
 }
 
 py::dict Recording::header() const {
   py::dict header;
-  header["configuration"] = reader_->header().configuration;
-  header["terrain"] = reader_->header().terrain;
+  header["configuration"] = header_.configuration;
+  header["terrain"] = header_.terrain;
   return header;
 }
 
 py::list Recording::kinds() const {
-  std::uint64_t bits = 0;
-  for (const rec::IndexEntry& block : reader_->blocks()) bits |= block.kinds;
   py::list names;
   for (const rec::RecordedKind& kind : rec::recorded_kinds())
-    if ((bits >> kind.number & 1U) != 0) names.append(std::string(kind.name));
+    if ((kind_bits_ >> kind.number & 1U) != 0) names.append(std::string(kind.name));
   return names;
-}
-
-py::object Recording::first_tick() const {
-  const auto blocks = reader_->blocks();
-  if (blocks.empty()) return py::none();
-  return py::int_(std::ranges::min_element(blocks, {}, &rec::IndexEntry::first_tick)->first_tick);
-}
-
-py::object Recording::last_tick() const {
-  const auto blocks = reader_->blocks();
-  if (blocks.empty()) return py::none();
-  return py::int_(std::ranges::max_element(blocks, {}, &rec::IndexEntry::last_tick)->last_tick);
 }
 
 Recording::Collected Recording::collect(const rec::RecordedKind& kind, const TickRange& ticks, bool with_tails) {
   Collected collected;
-  const py::gil_scoped_release released;
-  const std::lock_guard guard(mutex_);
-  const auto blocks = reader_->blocks();
-  for (std::size_t number = 0; number < blocks.size(); ++number) {
-    const rec::IndexEntry& block = blocks[number];
-    // A radar state may be older than its block. Damaged bytes without a head have kinds = 0, and are read to be
-    // missed.
-    const bool apart =
-        (ticks.first && block.last_tick < *ticks.first) || (ticks.last && block.first_tick > *ticks.last);
-    if (block.kinds != 0 && (block.kinds >> kind.number & 1U) == 0) continue;
-    if (apart && kind.number != rec::kKindOf<rec::StateChange>.number) continue;
-    auto items = reader_->items_of(number);
-    if (!items) continue;
-    std::int64_t now = block.first_tick;
-    while (const auto item = items->next()) {
-      now = tick_of(*item).value_or(now);
-      const auto parts = parts_of(*item, kind.number);
-      if (!parts || !ticks.contains(now)) continue;
-      collected.fixed.insert(collected.fixed.end(), parts->fixed.begin(), parts->fixed.end());
-      if (!with_tails) continue;
-      collected.tails.insert(collected.tails.end(), parts->tail.begin(), parts->tail.end());
-      collected.tail_bytes.push_back(parts->tail.size());
+  without_interpreter([&](const parallel::GoesOn& goes_on) {
+    const auto taken = lock_.take(goes_on);
+    open();
+    const auto blocks = reader().blocks();
+    for (std::size_t number = 0; number < blocks.size(); ++number) {
+      const rec::IndexEntry& block = blocks[number];
+      // A radar state may be older than its block. Damaged bytes without a head have kinds = 0, and are read to be
+      // missed.
+      const bool apart =
+          (ticks.first && block.last_tick < *ticks.first) || (ticks.last && block.first_tick > *ticks.last);
+      if (block.kinds != 0 && (block.kinds >> kind.number & 1U) == 0) continue;
+      if (apart && kind.number != rec::kKindOf<rec::StateChange>.number) continue;
+      auto items = reader().items_of(number);
+      if (!items) continue;
+      std::int64_t now = block.first_tick;
+      while (const auto item = items->next()) {
+        now = tick_of(*item).value_or(now);
+        const auto parts = parts_of(*item, kind.number);
+        if (!parts || !ticks.contains(now)) continue;
+        collected.fixed.insert(collected.fixed.end(), parts->fixed.begin(), parts->fixed.end());
+        if (!with_tails) continue;
+        collected.tails.insert(collected.tails.end(), parts->tail.begin(), parts->tail.end());
+        collected.tail_bytes.push_back(parts->tail.size());
+      }
     }
-  }
+  });
   return collected;
 }
 
 void Recording::show_damage() {
   Warnings warnings;
-  {
-    const py::gil_scoped_release released;
-    const std::lock_guard guard(mutex_);
-    const auto& missing = reader_->missing();
+  without_interpreter([&](const parallel::GoesOn& goes_on) {
+    const auto taken = lock_.take(goes_on);
+    const auto& missing = reader().missing();
     if (missing.size() > shown_) {
+      // Blocks of several runs may have the same ticks, which are named once.
+      std::map<std::int64_t, std::int64_t> ranges;
+      for (const rec::IndexEntry& block : missing) {
+        auto& last = ranges.try_emplace(block.first_tick, block.last_tick).first->second;
+        last = std::max(last, block.last_tick);
+      }
       std::string ticks;
-      for (const rec::IndexEntry& block : missing)
-        ticks +=
-            (ticks.empty() ? "" : ", ") + std::to_string(block.first_tick) + " to " + std::to_string(block.last_tick);
+      for (auto at = ranges.begin(); at != ranges.end();) {
+        const std::int64_t first = at->first;
+        std::int64_t last = at->second;
+        for (++at; at != ranges.end() && at->first <= last + 1; ++at) last = std::max(last, at->second);
+        ticks += (ticks.empty() ? "" : ", ") + std::to_string(first) + " to " + std::to_string(last);
+      }
       warnings.sink()(path_ + ": expected undamaged blocks, found " + std::to_string(missing.size()) +
                       " damaged; missing ticks: " + ticks + "; the rest is read");
     }
     shown_ = missing.size();
-  }
+  });
   warnings.show("yars.Recording");
 }
 
@@ -304,58 +295,27 @@ py::tuple Recording::maps(const TickRange& ticks) {
 }
 
 void add_recording(py::module_& module) {
-  py::class_<Recording>(module, "Recording", R"(A file of `yars record`, as arrays.
-
-Recording(file). A file that was cut short is read to its last whole block; of a damaged file what is whole is given.
-Both are warnings. The file's index is read at once, records when asked for. Ticks are 5 ms of simulated time; they go
-back where a session was reset, so a range of ticks may have records of several runs (field `epoch`).
-Errors: yars.Error for a file that is missing or no recording.)")
-      .def(py::init([](const py::object& file) {
-             return std::make_unique<Recording>(py::cast<std::string>(py::module_::import("os").attr("fspath")(file)));
-           }),
-           py::arg("file"))
-      .def_property_readonly("file", &Recording::path, "Path of the file.")
-      .def_property_readonly(
-          "header", &Recording::header,
-          "Paths of the recorded model: configuration (empty: built-in), terrain (empty: that of the "
-          "configuration).")
-      .def_property_readonly("kinds", &Recording::kinds, "Names of the kinds of records in the file.")
-      .def_property_readonly("first_tick", &Recording::first_tick, "Lowest tick in the file; None: no records.")
-      .def_property_readonly("last_tick", &Recording::last_tick, "Highest tick in the file; None: no records.")
-      .def_property_readonly("cut_short", &Recording::cut_short, "True: the recorder did not close the file.")
-      .def(
-          "records",
-          [](Recording& recording, const std::string& kind, const py::object& first, const py::object& last) {
-            return recording.records(kind, range_of(first, last));
-          },
-          py::arg("kind"), py::arg("first_tick") = py::none(), py::arg("last_tick") = py::none(),
-          R"(Records of one kind: a structured array, shape (records,), in the order of recording.
-
-kind: such as "ModelTick", "RadarState"; one that the file lacks gives an empty array. first_tick, last_tick: limits, both
-included; None: none. Records without a tick have that of the record before. Fields are those of records.idl, with their
-offsets; a nested record is a nested structured type, text is bytes. Units: units(kind).
-Errors: ValueError for an unknown kind, with the list of kinds.)")
-      .def_static("units", &Recording::units, py::arg("kind"),
-                  "Unit of each field of a kind by its name, \"\" for none; of nested records by names such as "
-                  "\"ownship.latitude_deg\".")
-      .def(
-          "sweeps",
-          [](Recording& recording, const py::object& first, const py::object& last) {
-            return recording.sweeps(range_of(first, last));
-          },
-          py::arg("first_tick") = py::none(), py::arg("last_tick") = py::none(),
-          R"(Sweeps of a recording with --sweeps: headers (sweeps,) as records("Sweep"), video uint8 (sweeps, samples).
-
-A sweep with fewer samples than others (header: samples) is filled up with 0.)")
-      .def(
-          "maps",
-          [](Recording& recording, const py::object& first, const py::object& last) {
-            return recording.maps(range_of(first, last));
-          },
-          py::arg("first_tick") = py::none(), py::arg("last_tick") = py::none(),
-          R"(Patch maps of a recording with --patches: headers (maps,) as records("PatchMap"), list of pictures.
-
-A picture is uint8 (size, size), row 0 the far edge. first_tick, last_tick: of the tick at which a map was complete.)");
+  using Tick = std::optional<std::int64_t>;
+  py::class_<Recording> recording(module, "Recording");
+  recording.def_property_readonly("header", &Recording::header)
+      .def_property_readonly("kinds", &Recording::kinds)
+      .def_property_readonly("first_tick", &Recording::first_tick)
+      .def_property_readonly("last_tick", &Recording::last_tick)
+      .def_property_readonly("cut_short", &Recording::cut_short)
+      .def("records",
+           [](Recording& self, const std::string& kind, Tick first, Tick last) {
+             return self.records(kind, {first, last});
+           })
+      .def("sweeps",
+           [](Recording& self, Tick first, Tick last) {
+             return self.sweeps({first, last});
+           })
+      .def("maps", [](Recording& self, Tick first, Tick last) {
+        return self.maps({first, last});
+      });
+  seal(recording);
+  module.def("open_recording", [](const std::string& path) { return std::make_unique<Recording>(path); });
+  module.def("units_of", &Recording::units, py::arg("kind"));
 }
 
 }  // namespace yars::python

@@ -9,11 +9,12 @@
 
 #include <cstdint>
 #include <functional>
-#include <mutex>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "python/core/calls.hpp"
 #include "python/core/support.hpp"
 #include "tools/recording/recording_reader.hpp"
 
@@ -30,11 +31,10 @@ class Recording {
   explicit Recording(const std::string& path);
 
   py::dict header() const;
-  py::list kinds() const;         // names of the kinds that the file has, in the order of their numbers
-  py::object first_tick() const;  // None: no block
-  py::object last_tick() const;   // None: no block
+  py::list kinds() const;  // names of the kinds that the file has, in the order of their numbers
+  std::optional<std::int64_t> first_tick() const { return first_tick_; }  // nullopt: no block
+  std::optional<std::int64_t> last_tick() const { return last_tick_; }    // nullopt: no block
   bool cut_short() const { return cut_short_; }
-  const std::string& path() const { return path_; }
 
   py::array records(const std::string& kind, const TickRange& ticks);
   static py::dict units(const std::string& kind);
@@ -51,11 +51,22 @@ class Recording {
   };
   Collected collect(const tools::recording::RecordedKind& kind, const TickRange& ticks, bool with_tails);
   void show_damage();
+  // Opens the file if this process has not yet. Call it with lock_ taken, or alone. Throws CommandFailed.
 
   std::string path_;
-  std::mutex mutex_;
-  std::optional<tools::recording::RecordingReader> reader_;
+  tools::recording::RecordingReader& reader() const { return **reader_; }
+  void open();
+
+  // On the heap, so that a child of fork() can leave a reader that is half changed.
+  using Reader = std::optional<tools::recording::RecordingReader>;
+  std::unique_ptr<Reader> reader_ = std::make_unique<Reader>();
+  ObjectLock lock_{[this] { static_cast<void>(reader_.release()), reader_ = std::make_unique<Reader>(); }};
+  int process_ = 0;  // that has opened the file: the place in it is shared with a parent
+  // What the file's head and index say.
   bool cut_short_ = false;
+  tools::recording::RecordingHeader header_;
+  std::uint64_t kind_bits_ = 0;
+  std::optional<std::int64_t> first_tick_, last_tick_;
   std::size_t shown_ = 0;  // damaged blocks that were warned of
 };
 

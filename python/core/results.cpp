@@ -40,86 +40,105 @@ std::int32_t object_at(const Scene& scene, geo::GeoPoint position) {
 }
 }  // namespace
 
-ScanResult::ScanResult(const radar::RadarConfiguration& configuration, const model::kernel::ScanRequest& request,
-                       int threads, tools::ScanEnvironment environment, std::shared_ptr<Scene> scene)
-    : configuration_(configuration), environment_(std::move(environment)), scene_(std::move(scene)) {
-  model::kernel::OfflineScan work(configuration_, request, threads);
-  work.run({*environment_.terrain, environment_.scene.get()});
-  scan_ = work.take_result();  // without its threads
+ScanResult::ScanResult(const radar::RadarConfiguration& configuration, Parts parts, std::shared_ptr<Scene> scene)
+    : configuration_(configuration),
+      scan_(std::move(parts.scan)),
+      environment_(std::move(parts.environment)),
+      scene_(std::move(scene)) {}
+
+namespace {
+
+ScanLabels empty_labels(std::size_t count) {
+  ScanLabels labels;
+  for (auto* flags : {&labels.shadow, &labels.layover, &labels.material}) flags->assign(count, 0);
+  labels.object.assign(count, -1);
+  for (auto* numbers : {&labels.ground_range_m, &labels.slant_range_m, &labels.latitude_deg, &labels.longitude_deg})
+    numbers->assign(count, kNoNumber);
+  for (auto* numbers : {&labels.height_m, &labels.grazing_deg})
+    numbers->assign(count, std::numeric_limits<float>::quiet_NaN());
+  return labels;
 }
 
-// Fills the labels of one sweep that need its neighbours: grazing angle and layover.
-void ScanResult::label_sweep(std::size_t sweep, std::size_t samples) {
-  const std::size_t first = sweep * samples;
-  const auto lit = [&](std::size_t i) {
-    return labels_.shadow[first + i] == 0 && !std::isnan(labels_.height_m[first + i]);
-  };
-  // A lit sample is laid over if a nearer one is seen at a greater slant range, or a farther one at a lesser.
+// Fills in layover. A lit sample is laid over if a nearer one is seen at a greater slant range, or a farther one at a
+// lesser. `first`: of the sweep's samples.
+void label_layover(ScanLabels& labels, std::size_t first, std::size_t samples) {
+  const auto lit = [&](std::size_t i) { return labels.shadow[i] == 0 && !std::isnan(labels.height_m[i]); };
   double farthest_m = 0.0;
-  for (std::size_t i = 0; i < samples; ++i) {
+  for (std::size_t i = first; i < first + samples; ++i) {
     if (!lit(i)) continue;
-    const double slant_m = labels_.slant_range_m[first + i];
-    labels_.layover[first + i] = slant_m < farthest_m ? 1 : 0;
-    farthest_m = std::max(farthest_m, slant_m);
+    labels.layover[i] = labels.slant_range_m[i] < farthest_m ? 1 : 0;
+    farthest_m = std::max(farthest_m, labels.slant_range_m[i]);
   }
   double nearest_m = std::numeric_limits<double>::infinity();
-  for (std::size_t i = samples; i-- > 0;) {
+  for (std::size_t i = first + samples; i-- > first;) {
     if (!lit(i)) continue;
-    const double slant_m = labels_.slant_range_m[first + i];
-    if (slant_m > nearest_m) labels_.layover[first + i] = 1;
-    nearest_m = std::min(nearest_m, slant_m);
+    if (labels.slant_range_m[i] > nearest_m) labels.layover[i] = 1;
+    nearest_m = std::min(nearest_m, labels.slant_range_m[i]);
   }
 }
 
-const ScanLabels& ScanResult::labels() {
-  std::call_once(labelled_, [this] {
-    const auto samples = tools::trade::ray_samples(configuration_, scan_.headers, *environment_.terrain);
-    const std::size_t count = samples.size();
-    const std::size_t width = count / scan_.headers.size();
-    ScanLabels& to = labels_;
-    for (auto* flags : {&to.shadow, &to.layover, &to.material}) flags->assign(count, 0);
-    to.object.assign(count, -1);
-    for (auto* numbers : {&to.ground_range_m, &to.slant_range_m, &to.latitude_deg, &to.longitude_deg})
-      numbers->assign(count, kNoNumber);
-    for (auto* numbers : {&to.height_m, &to.grazing_deg})
-      numbers->assign(count, std::numeric_limits<float>::quiet_NaN());
-    for (std::size_t sweep = 0; sweep < scan_.headers.size(); ++sweep) {
-      const auto geometry = model::kernel::geometry_of(scan_.headers[sweep]);
-      const auto earth = model::physics::effective_earth(configuration_.fidelity, geometry.apex, geometry.azimuth);
-      double before_m = 0.0, before_height_m = kNoNumber;
-      for (std::size_t i = sweep * width; i < (sweep + 1) * width; ++i) {
-        const tools::trade::RaySample& sample = samples[i];
-        to.latitude_deg[i] = sample.position.latitude_deg;
-        to.longitude_deg[i] = sample.position.longitude_deg;
-        if (std::isnan(sample.distance_m)) continue;
-        to.ground_range_m[i] = sample.distance_m;
-        const double height_m = sample.ground.elevation_m;
-        if (std::isnan(height_m)) continue;
-        const model::physics::Sight sight = earth.sight(geometry.altitude.metres(), sample.distance_m, height_m);
-        to.slant_range_m[i] = sight.slant_range_m;
-        to.height_m[i] = static_cast<float>(height_m);
-        to.shadow[i] = sample.lit ? 0 : 1;
-        to.material[i] = sample.ground.material == 0 && sample.ground.water > 0.5
-                             ? static_cast<std::uint8_t>(radar::kWaterMaterial)
-                             : sample.ground.material;
-        if (scene_) to.object[i] = object_at(*scene_, sample.position);
-        // Grazing angle on the profile: that on the level, plus the slope from the sample before.
-        const double slope_rad =
-            std::isnan(before_height_m) ? 0.0 : std::atan2(height_m - before_height_m, sample.distance_m - before_m);
-        if (sample.lit) {
-          const double grazing_deg =
-              (std::asin(std::clamp(sight.sin_grazing, -1.0, 1.0)) + slope_rad) / geo::kRadiansPerDegree;
-          // Below the aircraft a slope that faces it may be seen from beyond its perpendicular.
-          to.grazing_deg[i] = static_cast<float>(std::max(std::min(grazing_deg, 180.0 - grazing_deg), 0.0));
-        }
-        before_m = sample.distance_m;
-        before_height_m = height_m;
-      }
-      label_sweep(sweep, width);
+// Fills in all labels of a sweep but the layover. `first`: of the sweep's samples.
+void label_samples(ScanLabels& to, std::size_t first, std::span<const tools::trade::RaySample> samples,
+                   const model::physics::SweepGeometry& geometry, const model::physics::EffectiveEarth& earth,
+                   const Scene* scene) {
+  double before_m = 0.0, before_height_m = kNoNumber;
+  for (std::size_t i = first; i < first + samples.size(); ++i) {
+    const tools::trade::RaySample& sample = samples[i - first];
+    to.latitude_deg[i] = sample.position.latitude_deg;
+    to.longitude_deg[i] = sample.position.longitude_deg;
+    if (std::isnan(sample.distance_m)) continue;
+    to.ground_range_m[i] = sample.distance_m;
+    const double height_m = sample.ground.elevation_m;
+    if (std::isnan(height_m)) continue;
+    const model::physics::Sight sight = earth.sight(geometry.altitude.metres(), sample.distance_m, height_m);
+    to.slant_range_m[i] = sight.slant_range_m;
+    to.height_m[i] = static_cast<float>(height_m);
+    to.shadow[i] = sample.lit ? 0 : 1;
+    to.material[i] = sample.ground.material == 0 && sample.ground.water > 0.5
+                         ? static_cast<std::uint8_t>(radar::kWaterMaterial)
+                         : sample.ground.material;
+    if (scene != nullptr) to.object[i] = object_at(*scene, sample.position);
+    // Grazing angle on the profile: that on the level, plus the slope from the sample before.
+    const double slope_rad =
+        std::isnan(before_height_m) ? 0.0 : std::atan2(height_m - before_height_m, sample.distance_m - before_m);
+    if (sample.lit) {
+      const double grazing_deg =
+          (std::asin(std::clamp(sight.sin_grazing, -1.0, 1.0)) + slope_rad) / geo::kRadiansPerDegree;
+      // Below the aircraft a slope that faces it may be seen from beyond its perpendicular.
+      to.grazing_deg[i] = static_cast<float>(std::max(std::min(grazing_deg, 180.0 - grazing_deg), 0.0));
     }
-  });
-  return labels_;
+    before_m = sample.distance_m;
+    before_height_m = height_m;
+  }
 }
+
+}  // namespace
+
+void ScanResult::compute_labels(const parallel::GoesOn& goes_on) {
+  const auto taken = lock_.take(goes_on);
+  if (labels_) return;
+  const auto samples = tools::trade::ray_samples(configuration_, scan_.headers, *environment_.terrain, goes_on);
+  auto labels = std::make_unique<ScanLabels>(empty_labels(samples.size()));
+  const std::size_t width = samples.size() / scan_.headers.size();
+  for (std::size_t sweep = 0; sweep < scan_.headers.size(); ++sweep) {
+    const auto geometry = model::kernel::geometry_of(scan_.headers[sweep]);
+    const auto earth = model::physics::effective_earth(configuration_.fidelity, geometry.apex, geometry.azimuth);
+    label_samples(*labels, sweep * width, std::span(samples).subspan(sweep * width, width), geometry, earth,
+                  scene_.get());
+    label_layover(*labels, sweep * width, width);
+  }
+  labels_ = std::move(labels);
+}
+
+namespace {
+// Turns azimuths [deg] of successive sweeps by whole turns, so that they ascend and the middle one is in [0, 360).
+void make_continuous(std::vector<double>& azimuths) {
+  for (std::size_t i = 1; i < azimuths.size(); ++i)
+    azimuths[i] += 360.0 * std::round((azimuths[i - 1] - azimuths[i]) / 360.0);
+  const double turns = std::floor(azimuths[azimuths.size() / 2] / 360.0);
+  for (double& azimuth : azimuths) azimuth -= 360.0 * turns;
+}
+}  // namespace
 
 py::array ScanResult::array(const std::string& name) {
   const auto self = shared_from_this();
@@ -130,28 +149,27 @@ py::array ScanResult::array(const std::string& name) {
     const databuffer::Sweep& first = scan_.sweeps.front();
     auto* const kept = new std::shared_ptr<const void>(self);
     const py::capsule keeper(kept, [](void* pointer) { delete static_cast<std::shared_ptr<const void>*>(pointer); });
-    return py::array_t<std::uint8_t>(shape, std::vector<py::ssize_t>{axis(sizeof(databuffer::Sweep)), 1},
-                                     &first.video[0], keeper);
+    return read_only(py::array_t<std::uint8_t>(shape, std::vector<py::ssize_t>{axis(sizeof(databuffer::Sweep)), 1},
+                                               &first.video[0], keeper));
   }
   if (name == "azimuth") {
     std::vector<double> azimuths;
     for (const auto& header : scan_.headers) azimuths.push_back(model::kernel::geometry_of(header).azimuth.degrees());
+    make_continuous(azimuths);
     return array_from(std::move(azimuths), {shape[0]});
   }
-  {
-    const py::gil_scoped_release released;
-    labels();
-  }
-  if (name == "shadow") return flags_of(self, labels_.shadow.data(), shape);
-  if (name == "layover") return flags_of(self, labels_.layover.data(), shape);
-  if (name == "material") return array_of<std::uint8_t>(self, labels_.material.data(), shape);
-  if (name == "object") return array_of<std::int32_t>(self, labels_.object.data(), shape);
-  if (name == "ground_range") return array_of<double>(self, labels_.ground_range_m.data(), shape);
-  if (name == "slant_range") return array_of<double>(self, labels_.slant_range_m.data(), shape);
-  if (name == "latitude") return array_of<double>(self, labels_.latitude_deg.data(), shape);
-  if (name == "longitude") return array_of<double>(self, labels_.longitude_deg.data(), shape);
-  if (name == "height") return array_of<float>(self, labels_.height_m.data(), shape);
-  if (name == "grazing_angle") return array_of<float>(self, labels_.grazing_deg.data(), shape);
+  without_interpreter([this](const parallel::GoesOn& goes_on) { compute_labels(goes_on); });
+  const ScanLabels& labels = *labels_;
+  if (name == "shadow") return flags_of(self, labels.shadow.data(), shape);
+  if (name == "layover") return flags_of(self, labels.layover.data(), shape);
+  if (name == "material") return array_of<std::uint8_t>(self, labels.material.data(), shape);
+  if (name == "object") return array_of<std::int32_t>(self, labels.object.data(), shape);
+  if (name == "ground_range") return array_of<double>(self, labels.ground_range_m.data(), shape);
+  if (name == "slant_range") return array_of<double>(self, labels.slant_range_m.data(), shape);
+  if (name == "latitude") return array_of<double>(self, labels.latitude_deg.data(), shape);
+  if (name == "longitude") return array_of<double>(self, labels.longitude_deg.data(), shape);
+  if (name == "height") return array_of<float>(self, labels.height_m.data(), shape);
+  if (name == "grazing_angle") return array_of<float>(self, labels.grazing_deg.data(), shape);
   throw py::key_error(name);
 }
 
@@ -173,45 +191,51 @@ py::dict ScanResult::facts() const {
   return facts;
 }
 
-PatchResult::PatchResult(hrm::PatchFormation& formation, const hrm::PatchOrder& order, std::string fidelity)
-    : geometry_(formation.geometry()),
+PatchResult::Parts PatchResult::parts_of(hrm::PatchFormation& formation) {
+  return {formation.geometry(), formation.take_result(), formation.formation().seconds()};
+}
+
+PatchResult::PatchResult(Parts parts, const hrm::PatchOrder& order, std::string fidelity)
+    : geometry_(std::move(parts.geometry)),
       order_(order),
-      formation_s_(formation.formation().seconds()),
+      formation_s_(parts.formation_s),
       fidelity_(std::move(fidelity)),
-      map_(formation.take_result()) {
+      map_(std::move(parts.map)) {
   for (float& power : map_.image.power)
     if (power < 0.0F) power = std::numeric_limits<float>::quiet_NaN();  // the blind zone
   for (const float sine : map_.labels.sin_grazing)
     grazing_deg_.push_back(std::asin(sine) / static_cast<float>(geo::kRadiansPerDegree));
 }
 
-const std::vector<double>& PatchResult::geometry_of(const std::string& name) {
-  const int size = map_.image.size;
-  const double pixel_m = geometry_.window_m() / size;
-  const auto for_pixels = [&](const auto& take) {
-    for (int row = 0; row < size; ++row)
-      for (int column = 0; column < size; ++column)
-        take(hrm::MapPoint{(column + 0.5) * pixel_m - 0.5 * geometry_.window_m(),
-                           0.5 * geometry_.window_m() - (row + 0.5) * pixel_m});
-  };
-  if (name == "latitude" || name == "longitude") {
-    std::call_once(positions_known_, [&] {
-      for_pixels([&](hrm::MapPoint point) {
-        const geo::GeoPoint position = geometry_.position_of(point);
-        latitude_deg_.push_back(position.latitude_deg);
-        longitude_deg_.push_back(position.longitude_deg);
-      });
-    });
-    return name == "latitude" ? latitude_deg_ : longitude_deg_;
-  }
-  std::call_once(ranges_known_, [&] {
-    const double above_m = geometry_.altitude_m() - geometry_.plane_msl_m();
-    for_pixels([&](hrm::MapPoint point) {
-      ground_range_m_.push_back(std::hypot(point.right_m, point.up_m + geometry_.distance_m()));
-      slant_range_m_.push_back(geometry_.earth().sight(above_m, ground_range_m_.back(), 0.0).slant_range_m);
-    });
+namespace {
+// Calls take() for the centre of each pixel, row after row.
+template <class Take>
+void for_pixels(int size, double window_m, const Take& take) {
+  const double pixel_m = window_m / size;
+  for (int row = 0; row < size; ++row)
+    for (int column = 0; column < size; ++column)
+      take(hrm::MapPoint{(column + 0.5) * pixel_m - 0.5 * window_m, 0.5 * window_m - (row + 0.5) * pixel_m});
+}
+}  // namespace
+
+PatchResult::Places PatchResult::positions() const {
+  std::vector<double> latitude_deg, longitude_deg;
+  for_pixels(map_.image.size, geometry_.window_m(), [&](hrm::MapPoint point) {
+    const geo::GeoPoint position = geometry_.position_of(point);
+    latitude_deg.push_back(position.latitude_deg);
+    longitude_deg.push_back(position.longitude_deg);
   });
-  return name == "ground_range" ? ground_range_m_ : slant_range_m_;
+  return {{"latitude", std::move(latitude_deg)}, {"longitude", std::move(longitude_deg)}};
+}
+
+PatchResult::Places PatchResult::ranges() const {
+  const double above_m = geometry_.altitude_m() - geometry_.plane_msl_m();
+  std::vector<double> ground_range_m, slant_range_m;
+  for_pixels(map_.image.size, geometry_.window_m(), [&](hrm::MapPoint point) {
+    ground_range_m.push_back(std::hypot(point.right_m, point.up_m + geometry_.distance_m()));
+    slant_range_m.push_back(geometry_.earth().sight(above_m, ground_range_m.back(), 0.0).slant_range_m);
+  });
+  return {{"ground_range", std::move(ground_range_m)}, {"slant_range", std::move(slant_range_m)}};
 }
 
 py::array PatchResult::array(const std::string& name) {
@@ -236,13 +260,14 @@ py::array PatchResult::array(const std::string& name) {
     }
     return array_from(std::move(centres), {axis(size)});
   }
-  for (const char* known : {"ground_range", "slant_range", "latitude", "longitude"}) {
-    if (name != known) continue;
+  const bool is_range = name == "ground_range" || name == "slant_range";
+  if (is_range || name == "latitude" || name == "longitude") {
     const double* data = nullptr;
-    {
-      const py::gil_scoped_release released;
-      data = geometry_of(name).data();
-    }
+    without_interpreter([&](const parallel::GoesOn& goes_on) {
+      const auto taken = lock_.take(goes_on);
+      if (!places_.contains(name)) places_.merge(is_range ? ranges() : positions());
+      data = places_.at(name).data();
+    });
     return array_of<double>(self, data, shape);
   }
   throw py::key_error(name);
@@ -274,14 +299,16 @@ py::dict PatchResult::facts() const {
 }
 
 void add_results(py::module_& module) {
-  py::class_<ScanResult, std::shared_ptr<ScanResult>>(module, "ScanResult")
-      .def("array", &ScanResult::array)
+  py::class_<ScanResult, std::shared_ptr<ScanResult>> scan(module, "ScanResult");
+  scan.def("array", &ScanResult::array)
       .def_property_readonly("hash", &ScanResult::hash)
       .def("facts", &ScanResult::facts);
-  py::class_<PatchResult, std::shared_ptr<PatchResult>>(module, "PatchResult")
-      .def("array", &PatchResult::array)
+  seal(scan);
+  py::class_<PatchResult, std::shared_ptr<PatchResult>> patch(module, "PatchResult");
+  patch.def("array", &PatchResult::array)
       .def_property_readonly("hash", &PatchResult::hash)
       .def("facts", &PatchResult::facts);
+  seal(patch);
 }
 
 }  // namespace yars::python

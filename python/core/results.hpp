@@ -5,14 +5,15 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
 #include "lib/radar/configuration.hpp"
 #include "model/hrm/patch_formation.hpp"
 #include "model/kernel/offline_scan.hpp"
+#include "python/core/calls.hpp"
 #include "python/core/places.hpp"
 #include "python/core/support.hpp"
 
@@ -28,9 +29,12 @@ struct ScanLabels {
 
 class ScanResult : public std::enable_shared_from_this<ScanResult> {
  public:
-  // Runs the scan. `environment` and `scene` (null: none) are kept for the labels.
-  ScanResult(const radar::RadarConfiguration& configuration, const model::kernel::ScanRequest& request, int threads,
-             tools::ScanEnvironment environment, std::shared_ptr<Scene> scene);
+  struct Parts {
+    model::kernel::OfflineScan::Result scan;
+    tools::ScanEnvironment environment;
+  };
+  // Environment and `scene` (null: none) are kept for the labels.
+  ScanResult(const radar::RadarConfiguration& configuration, Parts parts, std::shared_ptr<Scene> scene);
 
   // Array by name: power, video, azimuth, and the names of ScanLabels without units. Throws KeyError.
   py::array array(const std::string& name);
@@ -38,20 +42,26 @@ class ScanResult : public std::enable_shared_from_this<ScanResult> {
   py::dict facts() const;
 
  private:
-  const ScanLabels& labels();
-  void label_sweep(std::size_t sweep, std::size_t samples);
+  void compute_labels(const parallel::GoesOn& goes_on);
 
   radar::RadarConfiguration configuration_;
   model::kernel::OfflineScan::Result scan_;
   tools::ScanEnvironment environment_;
   std::shared_ptr<Scene> scene_;
-  std::once_flag labelled_;
-  ScanLabels labels_;
+  std::unique_ptr<ScanLabels> labels_;  // null: not computed yet
+  ObjectLock lock_{[] {}};              // guards labels_
 };
 
 class PatchResult : public std::enable_shared_from_this<PatchResult> {
  public:
-  PatchResult(model::hrm::PatchFormation& formation, const model::hrm::PatchOrder& order, std::string fidelity);
+  struct Parts {
+    model::hrm::PatchGeometry geometry;
+    model::hrm::PatchFormation::Result map;
+    double formation_s;
+  };
+  // Takes the result out of a formation.
+  static Parts parts_of(model::hrm::PatchFormation& formation);
+  PatchResult(Parts parts, const model::hrm::PatchOrder& order, std::string fidelity);
 
   // Array by name: power, video, x, y, the labels of hrm::PixelLabels, ground_range, slant_range, latitude, longitude.
   py::array array(const std::string& name);
@@ -59,7 +69,10 @@ class PatchResult : public std::enable_shared_from_this<PatchResult> {
   py::dict facts() const;
 
  private:
-  const std::vector<double>& geometry_of(const std::string& name);
+  // Arrays of the pixels' places, by name.
+  using Places = std::map<std::string, std::vector<double>>;
+  Places positions() const;  // latitude, longitude
+  Places ranges() const;     // ground_range, slant_range
 
   model::hrm::PatchGeometry geometry_;
   model::hrm::PatchOrder order_;
@@ -67,8 +80,8 @@ class PatchResult : public std::enable_shared_from_this<PatchResult> {
   std::string fidelity_;
   model::hrm::PatchFormation::Result map_;
   std::vector<float> grazing_deg_;
-  std::once_flag positions_known_, ranges_known_;
-  std::vector<double> latitude_deg_, longitude_deg_, ground_range_m_, slant_range_m_;
+  Places places_;           // those that are computed
+  ObjectLock lock_{[] {}};  // guards places_
 };
 
 void add_results(py::module_& module);

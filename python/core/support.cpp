@@ -1,7 +1,12 @@
 #include "python/core/support.hpp"
 
-#include <algorithm>
-#include <cmath>
+#define XXH_INLINE_ALL
+#include <pybind11/stl.h>
+#include <xxhash.h>
+
+#include <string_view>
+#include <unordered_set>
+#include <utility>
 
 #include "tools/command/command.hpp"
 
@@ -23,7 +28,10 @@ void register_exceptions(py::module_& /*module*/) {
           const py::object type = failed.code == databuffer::kExitUsage
                                       ? py::reinterpret_borrow<py::object>(PyExc_ValueError)
                                       : error_class();
-          PyErr_SetString(type.ptr(), failed.message.c_str());
+          // Names of files may have any bytes.
+          const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
+              failed.message.data(), static_cast<py::ssize_t>(failed.message.size()), "backslashreplace"));
+          PyErr_SetObject(type.ptr(), text.ptr());
         }
       });
 }
@@ -35,64 +43,60 @@ void raise_value_error(const std::string& message) {
   throw tools::CommandFailed{message, databuffer::kExitUsage};
 }
 
-namespace {
-// Value of an option as text. Python's own number texts are the shortest that give the same number again.
-std::string text_of(const py::handle& value) {
-  if (PyUnicode_Check(value.ptr())) return py::cast<std::string>(value);
-  if (py::hasattr(value, "__fspath__")) return py::cast<std::string>(value.attr("__fspath__")());
-  if (PyIndex_Check(value.ptr())) return py::str(py::int_(py::reinterpret_borrow<py::object>(value)));
-  if (py::hasattr(value, "__float__")) return py::repr(py::float_(py::reinterpret_borrow<py::object>(value)));
-  return py::repr(value);
-}
-
-// Whether a value is this truth value, of Python or NumPy.
-bool is_truth(const py::handle& value, bool truth) {
-  if (py::isinstance<py::bool_>(value)) return value.ptr() == (truth ? Py_True : Py_False);
-  return py::isinstance(value, py::module_::import("numpy").attr("bool_")) &&
-         py::cast<bool>(value.attr("item")()) == truth;
-}
-}  // namespace
-
-std::vector<std::string> words_of(const py::kwargs& arguments) {
-  std::vector<std::string> words;
-  for (const auto& [key, value] : arguments) {
-    std::string option = "--" + py::cast<std::string>(key);
-    for (char& letter : option)
-      if (letter == '_') letter = '-';
-    if (value.is_none() || is_truth(value, false)) continue;
-    if (is_truth(value, true)) {
-      words.push_back(option);
-      continue;
-    }
-    if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
-      for (const py::handle& entry : value) words.push_back(option + "=" + text_of(entry));
-      continue;
-    }
-    words.push_back(option + "=" + text_of(value));
-  }
-  return words;
-}
-
-void read_options(const std::string& name, const py::kwargs& arguments,
+void read_options(const std::string& name, const std::vector<std::string>& words,
                   const std::function<void(databuffer::Command)>& add_options) {
   databuffer::CommandLine line("", name);
   add_options(line);
-  if (const auto fault = line.read(words_of(arguments))) raise_value_error(*fault);
+  if (const auto fault = line.read(words)) raise_value_error(*fault);
 }
 
-void Warnings::show(const std::string& command) {
+void Warnings::explain(tools::CommandFailed& failed) const {
+  constexpr std::string_view kReference = "see the lines above; ";
+  const std::size_t at = failed.message.find(kReference);
+  if (at == std::string::npos) return;
+  std::string reason;
+  for (const std::string& line : lines_)
+    if (failed.message.find(line) == std::string::npos && reason.find(line) == std::string::npos)
+      reason += "because of " + line + "; ";
+  failed.message.replace(at, kReference.size(), reason);
+}
+
+void Warnings::show(const std::string& function, int frames) {
   constexpr std::size_t kMostLines = 5;  // of one call
   std::vector<std::string> lines;
-  for (const std::string& line : std::exchange(lines_, {}))
-    if (std::find(lines.begin(), lines.end(), line) == lines.end()) lines.push_back(line);
+  std::unordered_set<std::string> known;
+  for (std::string& line : std::exchange(lines_, {}))
+    if (known.insert(line).second) lines.push_back(std::move(line));
   if (lines.size() > kMostLines) {
     const std::size_t more = lines.size() - kMostLines;
     lines.resize(kMostLines);
     lines.push_back("and " + std::to_string(more) + " more warnings");
   }
   for (const std::string& line : lines)
-    if (PyErr_WarnFormat(PyExc_UserWarning, 2, "%s: %s", command.c_str(), line.c_str()) != 0)
+    if (PyErr_WarnFormat(PyExc_UserWarning, 1 + frames, "%s: %s", function.c_str(), line.c_str()) != 0)
       throw py::error_already_set();
+}
+
+void add_hashes(py::module_& module) {
+  module.def(
+      "xxh3",
+      [](const py::buffer& bytes) {
+        const py::buffer_info info = bytes.request();
+        return XXH3_64bits(info.ptr, static_cast<std::size_t>(info.size * info.itemsize));
+      },
+      py::arg("bytes"), "XXH3 hash, 64 bits, of the bytes of a contiguous buffer.");
+  module.def(
+      "xxh3_items",
+      [](const py::buffer& array) {
+        const py::buffer_info info = array.request();
+        std::vector<std::uint64_t> hashes(info.ndim > 0 ? static_cast<std::size_t>(info.shape[0]) : 0);
+        const std::size_t bytes =
+            hashes.empty() ? 0 : static_cast<std::size_t>(info.size * info.itemsize) / hashes.size();
+        for (std::size_t i = 0; i < hashes.size(); ++i)
+          hashes[i] = XXH3_64bits(static_cast<const std::uint8_t*>(info.ptr) + i * bytes, bytes);
+        return hashes;
+      },
+      py::arg("array"), "XXH3 hashes, 64 bits each, of the entries along the first axis of a contiguous array.");
 }
 
 py::array flags_of(const std::shared_ptr<const void>& owner, const std::uint8_t* data, std::vector<py::ssize_t> shape) {

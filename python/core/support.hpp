@@ -24,6 +24,9 @@ namespace py = pybind11;
 // Translates CommandFailed and the errors of the libraries to Python's exceptions.
 void register_exceptions(py::module_& module);
 
+// Adds xxh3() and xxh3_items(): hashes of the bytes of arrays.
+void add_hashes(py::module_& module);
+
 // Throws ValueError for a usage error, else yars.Error.
 [[noreturn]] void raise(const error::Error& error);
 [[noreturn]] void raise_value_error(const std::string& message);
@@ -39,12 +42,9 @@ void check_arguments(const Check& check) {
   }
 }
 
-// Words of a command line for keyword arguments: lat=37.5 is --lat=37.5, alt_ft is --alt-ft. True is a flag; False and
-// None are left out. A list gives its option once for each entry. Numbers keep all their digits.
-std::vector<std::string> words_of(const py::kwargs& arguments);
-
-// Reads keyword arguments by a table of options. `name`: of the command, for messages. Throws ValueError.
-void read_options(const std::string& name, const py::kwargs& arguments,
+// Reads words of a command line, which arguments.py makes, by a table of options. `name`: of the function, for
+// messages. Throws ValueError.
+void read_options(const std::string& name, const std::vector<std::string>& words,
                   const std::function<void(databuffer::Command)>& add_options);
 
 // Collects warnings while the interpreter's lock is released, and hands them to Python's module warnings afterwards.
@@ -53,20 +53,39 @@ class Warnings {
   tools::Warn sink() {
     return [this](const std::string& warning) { lines_.push_back(warning); };
   }
-  // Each line once, at most five of a call. Call with the interpreter's lock. `command`: prefix of each line, such as
-  // "yars scan".
-  void show(const std::string& command);
+  // Puts the lines into the message of a failure that refers to "the lines above".
+  void explain(tools::CommandFailed& failed) const;
+  // Each line once, at most five of a call. Call with the interpreter's lock. `function`: prefix of each line, such as
+  // "yars.Radar.scan". `frames`: of this package below the caller, whom the warning names.
+  void show(const std::string& function, int frames = 1);
 
  private:
   std::vector<std::string> lines_;
 };
 
-// Array on memory of a C++ object that the array keeps alive. `shape`: entries along each axis.
+// The array, which from now on cannot be written.
+inline py::array read_only(py::array array) {
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+// Makes a class without Python's constructor: instances come from functions of the module alone, so that none is
+// without its object.
+template <class Class>
+void seal(Class& type) {
+  reinterpret_cast<PyTypeObject*>(type.ptr())->tp_new = [](PyTypeObject* made, PyObject*, PyObject*) -> PyObject* {
+    PyErr_Format(PyExc_TypeError, "%s: expected one that a function of yars makes, found a call of its class",
+                 made->tp_name);
+    return nullptr;
+  };
+}
+
+// Array on memory of a C++ object that the array keeps alive; it cannot be written. `shape`: entries along each axis.
 template <class T>
 py::array array_of(const std::shared_ptr<const void>& owner, const T* data, std::vector<py::ssize_t> shape) {
   auto* const kept = new std::shared_ptr<const void>(owner);
   const py::capsule keeper(kept, [](void* pointer) { delete static_cast<std::shared_ptr<const void>*>(pointer); });
-  return py::array_t<T>(std::move(shape), data, keeper);
+  return read_only(py::array_t<T>(std::move(shape), data, keeper));
 }
 // An array of 0 and 1 as truth values.
 py::array flags_of(const std::shared_ptr<const void>& owner, const std::uint8_t* data, std::vector<py::ssize_t> shape);

@@ -13,6 +13,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from . import _require
+from .arguments import shown, whole
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -38,6 +39,7 @@ _FAMILIES = ("#c81e1e", "#1e5abe", "#1e8c46", "#b46414", "#823ca0", "#147d82", "
 def ppi(scan: Any, ax: Axes | None = None, quantity: str = "video") -> Axes:
     """Plan position indicator of a scan: the middle of the scan points up, distances are ground range [NM].
     `quantity`: name of an array of the scan; power is drawn in decibels."""
+    _check("yars.plot.ppi: scan", scan, "a scan", ("azimuth", "ground_range", "units"))
     values, style, label = _values(scan, quantity)
     azimuth_deg = numpy.unwrap(numpy.atleast_1d(numpy.asarray(scan.azimuth, float)), period=360.0)
     if azimuth_deg.shape != values.shape[:1]:
@@ -58,6 +60,7 @@ def ppi(scan: Any, ax: Axes | None = None, quantity: str = "video") -> Axes:
 def patch(patch: Any, ax: Axes | None = None, quantity: str = "video") -> Axes:
     """Patch map: the far edge is at the top, distances are from the map's centre [m], pixels are square.
     `quantity`: name of an array of the patch; power is drawn in decibels."""
+    _check("yars.plot.patch: patch", patch, "a patch map", ("ground_range", "units"), ("azimuth",))
     values, style, label = _values(patch, quantity)
     rows, columns = values.shape
     pixel_m = _pixel_m(patch, rows, columns)
@@ -76,8 +79,14 @@ def map(terrain: Any, *results: Any, ax: Axes | None = None, bounds: tuple[float
     """Elevation with the coast, a line between ground above 0 m MSL and the rest, and the outline of each scan or patch.
     Water and ground at or below 0 m are blue, voids are gray. `bounds`: (south, west, north, east) [deg]; None: around
     `results`. `posts`: rows and columns of the elevations that are read."""
+    _check("yars.plot.map: terrain", terrain, "a yars.Terrain", ("elevation",))
+    for result in results:
+        _check("yars.plot.map", result, "scans and patch maps after the terrain", ("latitude", "longitude"))
+    posts = whole("yars.plot.map: posts", posts, 2, 10000)
+    if bounds is not None and numpy.shape(bounds) != (4,):
+        raise ValueError(f"bounds: expected (south, west, north, east) in degrees, found {shown(bounds)}")
     outlines = [_outline(result) for result in results]
-    south, west, north, east = bounds or _around(outlines)
+    south, west, north, east = _around(outlines) if bounds is None else (float(edge) for edge in bounds)
     if not (-90.0 <= south < north <= 90.0 and west < east <= west + 360.0):
         raise ValueError(f"bounds: expected (south, west, north, east) in degrees, found {(south, west, north, east)}")
     latitude, longitude = numpy.linspace(south, north, posts), numpy.linspace(west, east, posts)
@@ -103,6 +112,7 @@ def map(terrain: Any, *results: Any, ax: Axes | None = None, bounds: tuple[float
     ax.set_xlim(west, east)
     ax.set_ylim(south, north)
     ax.set_aspect(1.0 / math.cos(math.radians(0.5 * (south + north))))
+    ax.ticklabel_format(useOffset=False)
     ax.locator_params(axis="x", nbins=5)
     ax.set_xlabel("longitude [deg]")
     ax.set_ylabel("latitude [deg]")
@@ -113,6 +123,8 @@ def trade_front(rows: dict[str, Any], ax: Axes | None = None, error: str | None 
     """Time against error of what yars.trade() or `yars trade --out FILE.json` found. A marker is the mean over the scenes,
     an error bar ends at the worst scene; the thick gray line is the Pareto front.
     `error`: column of the errors, such as "shadow_percent"; None: the first of rows["axes"]["errors"]."""
+    if not isinstance(rows, dict) or not {"axes", "points"} <= set(rows):
+        raise TypeError(f"yars.plot.trade_front: rows: expected the dict that yars.trade() gives, found {shown(rows)}")
     ax = _axes(ax)
     labels = draw_front(rows, ax, error)
     ax.figure.canvas.draw()
@@ -121,8 +133,16 @@ def trade_front(rows: dict[str, Any], ax: Axes | None = None, error: str | None 
 
 
 # ---- parts of the pictures of scans, patches and maps
+def _check(where, value, expected, has, has_not=()):
+    """Refuses an object without the attributes `has`, or with one of `has_not`."""
+    kind = type(value)
+    if not all(hasattr(kind, name) or hasattr(value, name) for name in has) or any(hasattr(kind, name) or hasattr(value, name) for name in has_not):
+        raise TypeError(f"{where}: expected {expected}, found {shown(value)}")
+
+
 def _axes(ax):
     if ax is not None:
+        _check("ax", ax, "the Axes of matplotlib or None", ("pcolormesh", "figure"))
         return ax
     from matplotlib import pyplot
 
@@ -221,6 +241,10 @@ def _outline(result):
 def _around(outlines):
     if not outlines:
         raise ValueError("bounds: expected (south, west, north, east) or a scan or patch to draw, found neither")
+    for _, longitude in outlines:
+        if numpy.ptp(longitude) > 180.0:
+            raise ValueError(f"bounds: expected a scan or patch that does not reach around a pole, found one that spans {numpy.ptp(longitude):.0f} "
+                             "degrees of longitude; give bounds=(south, -180, north, 180)")
     first = outlines[0][1].mean()
     latitude = numpy.concatenate([latitude for latitude, _ in outlines])
     longitude = numpy.concatenate([longitude - 360.0 * numpy.round((longitude.mean() - first) / 360.0) for _, longitude in outlines])

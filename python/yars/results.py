@@ -5,15 +5,22 @@
     scan.power, scan.units["power"], scan.to_xarray()
 
 Arguments are the options of the commands `yars scan` and `yars patch`, checked by the same table: --alt-ft is alt_ft. The
-arrays are bit for bit those of the commands, and `hash` is the hash that they print.
-Errors: ValueError for arguments, yars.Error for files; the message is that of the command. Problems of single files are
+arrays are bit for bit those of the commands, and `hash` is the hash that they print. Arrays cannot be written: copy them first.
+Errors: TypeError and ValueError for arguments, yars.Error for files; the message is that of the command in Python's words. Problems of single files are
 warnings. While a picture is computed other threads of Python run.
 """
+import functools
 import json
+import os
+import re
 
-from . import _require
-from ._core import MOVER, PATCH_ORDER, Recording, Scene, Terrain
-from . import _core
+import numpy
+
+from . import Error, _core, _require
+from ._core import MOVER, PATCH_ORDER
+from .arguments import Held, Options, Said, absolute, instance, kind_error, path, plain, several, shown, text, truth, whole
+from .places import Scene, Terrain
+from .recordings import Recording
 
 __all__ = ["Radar", "Scan", "Patch", "Terrain", "Scene", "Recording", "trade", "PATCH_ORDER", "MOVER"]
 
@@ -62,7 +69,15 @@ class _Picture:
             setattr(cls, name, _array(name, cls._shape))
 
     def __init__(self, result):
+        if not isinstance(result, (_core.ScanResult, _core.PatchResult)):
+            raise TypeError(f"yars.{type(self).__name__}: expected one that a method of yars.Radar makes, found a call with {shown(result)}")
         self._result = result
+
+    def __getattr__(self, name):
+        if name == "_result":
+            raise TypeError(f"yars.{type(self).__name__}: expected one that a method of yars.Radar makes, found one of {type(self).__name__} "
+                            "without a result")
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     @property
     def units(self):
@@ -71,7 +86,11 @@ class _Picture:
 
     @property
     def hash(self):
-        """Hash of the video, as `yars scan` and `yars patch` print it (XXH3, 64 bits)."""
+        """Hash of the video, as `yars scan` and `yars patch` print it: a number of 64 bits (XXH3).
+
+        Of a scan: of the hashes of its sweeps; each is that of a sweep's record, which has place, settings and video. Of a patch
+        map: of the pixels of its video, row after row.
+        """
         return self._result.hash
 
     @property
@@ -82,14 +101,18 @@ class _Picture:
     def to_xarray(self, arrays=ARRAYS):
         """xarray.Dataset of the arrays named, with coordinates, units and meanings. Needs python3-xarray.
 
-        Latitude, longitude, ranges are coordinates. Attributes are the facts.
+        arrays: names, or one name. Latitude, longitude, ranges are coordinates. Attributes are the facts, and the hash as 16
+        hexadecimal digits. to_zarr() and pickle keep all; to_netcdf() needs python3-netcdf4.
         """
         xarray = _require("xarray", f"yars.{type(self).__name__}.to_xarray")
         coordinates = {"latitude", "longitude", "slant_range", "ground_range"}
         variables, coords = {}, {}
-        for name in arrays:
+        names = [arrays] if isinstance(arrays, str) else several(arrays)
+        if names is None:
+            raise kind_error(f"yars.{type(self).__name__}.to_xarray: arrays", "the name of an array, or a list of names", arrays)
+        for name in names:
             if name not in ARRAYS:
-                raise ValueError(f"yars.{type(self).__name__}.to_xarray: arrays: expected {', '.join(ARRAYS)}, found '{name}'")
+                raise ValueError(f"yars.{type(self).__name__}.to_xarray: arrays: expected {', '.join(ARRAYS)}, found {name!r}")
             attributes = {"units": UNITS[name], "long_name": MEANINGS[name]}
             (coords if name in coordinates else variables)[name] = (self.axes, getattr(self, name), attributes)
         for axis in self.axes:
@@ -103,7 +126,7 @@ class _Picture:
 
     def __repr__(self):
         shape = " x ".join(str(length) for length in self.video.shape)
-        return f"<yars.{type(self).__name__} {shape} {' x '.join(self.axes)}, {self.facts['fidelity']}, hash {self.hash}>"
+        return f"<yars.{type(self).__name__} {shape} {' x '.join(self.axes)}, {self.facts['fidelity']}, hash {self.hash:016x}>"
 
 
 class Scan(_Picture):
@@ -121,13 +144,17 @@ class Scan(_Picture):
 
     @property
     def azimuth(self):
-        """Array (azimuth,) [degree]: true bearing of each sweep's middle, at the aircraft."""
+        """Array (azimuth,) [degree]: true bearing of each sweep's middle, at the aircraft.
+
+        Ascends without a jump at north: the middle sweep is in [0, 360), and others are below 0 or above 360 where the scan passes
+        north. So data.sel(azimuth=0, method="nearest") of to_xarray() finds the sweep to the north of a scan with heading 0.
+        """
         return self._result.array("azimuth")
 
     @property
     def sample(self):
         """Array (sample,): numbers of the samples. Their ground ranges are `ground_range`."""
-        return _require("numpy", "yars.Scan.sample").arange(self.video.shape[1])
+        return numpy.arange(self.video.shape[1])
 
 
 class Patch(_Picture):
@@ -158,11 +185,58 @@ class Patch(_Picture):
         return self._result.array("y")
 
 
-def _radar(preset, config, settings, knobs):
-    return Radar(preset, config=config, settings=settings, **knobs)
+_POSE = ("lat", "lon", "alt_ft", "heading")
+_SCAN = Options("yars.Radar.scan", (*_POSE, "range_nm", "scan_width", "elevation", "force", "samples", "gain", "band", "channel",
+                                    "time_s", "threads", "seed"), flags=("force",), optional=("samples", "seed"))
+_PATCH = Options("yars.Radar.patch", (*_POSE, "speed_kt", "target_lat", "target_lon", "window_nm", "force", "looks", "size", "time_s",
+                                      "threads", "seed", "map"),
+                 flags=("force",), optional=("window_nm", "looks", "size", "threads", "seed"))
+_TRADE = ("presets", "knob", "base", "ruler", "repeat", "csv", "out", "scene")
+_TRADES = {maps: Options("yars.trade", (*_TRADE, *more), lists=("knob", "scene", "view", "scene_without"), commas=("presets",),
+                         paths=("csv", "out"), optional=("knob", "csv", "out", "scene", "view", "scene_without"))
+           for maps, more in ((False, ("scan_width", "ruler_samples")), (True, ("view", "ruler_size", "scene_without")))}
+_PRESETS = ("1996", "draft", "standard", "fine", "reference")
 
 
-class Radar:
+@functools.lru_cache(maxsize=None)
+def _knobs():
+    """Names of the slots of the form Fidelity, in lower case."""
+    slots = re.findall(r":(\w+)", re.search(r"\( Fidelity\b(.*?)\)\s", _core.make_radar(None, None, "", {}).guf, re.S)[1])
+    return tuple(_knob_name(slot) for slot in slots if slot != "preset")
+
+
+def _knob_name(slot):
+    return re.sub("[A-Z]", lambda letter: "_" + letter[0].lower(), slot)
+
+
+def _knob(name, value):
+    """A knob's value as number, truth value or text."""
+    where = f"yars.Radar: {name}"
+    value = plain(value)
+    if isinstance(value, (bool, int, float)):
+        return value
+    if isinstance(value, str):
+        return text(where, value)
+    if hasattr(value, "__index__") and not hasattr(value, "ndim"):
+        return value.__index__()
+    if isinstance(value, (bytes, complex)) or value is None or not hasattr(value, "__float__") or getattr(value, "ndim", 0):
+        raise kind_error(where, "a number, True, False or a name", value)
+    return float(value)
+
+
+def _check_text_file(file):
+    """Refuses a file of other bytes than text, whose faults the reader of GUF would name by line."""
+    try:
+        with open(file, "rb") as opened:
+            other = b"\0" in opened.read(4096)
+    except OSError:
+        return  # the reader of GUF says what is wrong
+    if other:
+        raise Error(f"yars.Radar: config: expected a text of GUF, found a file of other bytes, {ascii(os.fsdecode(file))}; give a file such as "
+                    "`yars config print` makes")
+
+
+class Radar(Held):
     """A radar: a configuration, and the pictures that it gives over a terrain.
 
     preset: 1996, draft, standard, fine or reference; None: that of the file, else standard.
@@ -178,11 +252,25 @@ class Radar:
     """
 
     def __init__(self, preset=None, *, config=None, settings="", **knobs):
-        self._core = _core.Radar(preset, config, settings, **knobs)
-        self._arguments = preset, config, settings, knobs
+        where = "yars.Radar"
+        preset = plain(preset) if preset is None or not hasattr(preset, "ndim") else preset
+        presets = f"one of {', '.join(_PRESETS)}, or None"
+        if preset is not None and (isinstance(preset, bool) or not isinstance(preset, (str, int))):
+            raise kind_error(f"{where}: preset", presets, preset)
+        if preset == "":
+            raise ValueError(f"{where}: preset: expected {presets}, found an empty text")
+        if config is not None:
+            config = absolute(path(f"{where}: config", config, "a path (str, bytes or os.PathLike) of a GUF file, or None"))
+            _check_text_file(config)
+        settings = text(f"{where}: settings", settings, "GUF text, such as '( Sea :state 3 )'")
+        for name in knobs:
+            if _knob_name(name) not in _knobs():
+                raise ValueError(f"{where}: expected preset, config, settings or knobs of {', '.join(_knobs())}; found {ascii(name)[:60]}")
+        self._made(preset, config, settings, {name: _knob(name, value) for name, value in knobs.items()})
 
-    def __reduce__(self):  # made again from its arguments, in another process
-        return _radar, self._arguments
+    def _make(self, *arguments):
+        with Said("yars.Radar"):
+            return _core.make_radar(*arguments)
 
     def __repr__(self):
         return f"<yars.Radar {self.name!r}, {self.fidelity}>"
@@ -199,7 +287,7 @@ class Radar:
 
     @property
     def map_size(self):
-        """Pixels on an edge of a patch map."""
+        """Pixels on an edge of a patch map: the knob map_size. The option `size` of patch() is for one map alone."""
         return self._core.map_size
 
     @property
@@ -219,7 +307,10 @@ class Radar:
         options: lat, lon [deg], alt_ft [ft MSL], heading [deg true], range_nm [NM], scan_width, elevation [deg], gain 0 to
         3, band A to E, channel 1 to 8, samples, time_s [s], threads, seed, force (beyond gimbal limits, below ground).
         """
-        return Scan(self._core.scan(terrain, scene, **options))
+        places = self._places("yars.Radar.scan", terrain, scene)
+        words = _SCAN.words(options)
+        with Said("yars.Radar.scan"):
+            return Scan(self._core.scan(*places, words))
 
     def patch(self, terrain, scene=None, **options):
         """One patch map, as `yars patch`. Returns a Patch.
@@ -228,7 +319,10 @@ class Radar:
         target_lon [deg], window_nm [NM], looks 1 to 16, size [pixels], map (number, selects the noise with the seed),
         time_s [s], threads, seed, force (beyond the radar's limits).
         """
-        return Patch(self._core.patch(terrain, scene, **options))
+        places = self._places("yars.Radar.patch", terrain, scene)
+        words = _PATCH.words(options)
+        with Said("yars.Radar.patch"):
+            return Patch(self._core.patch(*places, words))
 
     def patches(self, terrain, orders, scene=None, *, movers=None, arrays=PATCHES, threads=1, force=False,
                 min_pixels=0):
@@ -238,8 +332,11 @@ class Radar:
         order. arrays: of video, power, shadow, layover, object, material, height, grazing_angle; each has the shape
         (n, map_size, map_size). Also: hash (n,) of each video; geo (n,), the place of the pixels on an azimuthal
         equidistant plane about the aircraft (plane_from_pixel: GDAL's affine, metres east and north) and numbers of each
-        map; boxes, with the footprint of each object in each picture (column, row), its aspect and its pixels; of objects with fewer pixels than min_pixels there are none.
-        Errors: ValueError names the order that is beyond the radar's limits; force leaves the limits out.
+        map; boxes, with the footprint of each object in each picture (column, row), its aspect and its pixels; of objects with
+        fewer pixels than min_pixels there are none. The arrays are the caller's own, and can be written. There is no progress: call
+        it in blocks of some hundred orders to show one.
+        Errors: ValueError names the order and the field that is beyond the limits of the options of patch(), or the order that is
+        beyond the radar's; force leaves the radar's limits out.
 
         >>> import numpy
         >>> orders = numpy.zeros(2, yars.PATCH_ORDER)
@@ -251,8 +348,26 @@ class Radar:
         >>> maps["video"].shape, maps["geo"]["plane_from_pixel"].shape
         ((2, 64, 64), (2, 6))
         """
-        names = [arrays] if isinstance(arrays, str) else list(arrays)
-        return self._core.patches(terrain, orders, scene, movers, names, threads, force, min_pixels)
+        where = "yars.Radar.patches"
+        places = self._places(where, terrain, scene)
+        for name, rows in (("orders", orders), *((("movers", movers),) if movers is not None else ())):
+            if not isinstance(rows, numpy.ndarray):
+                raise kind_error(f"{where}: {name}", f"an array of the type yars.{'PATCH_ORDER' if name == 'orders' else 'MOVER'}", rows)
+        names = [arrays] if isinstance(arrays, str) else several(arrays)
+        if names is None:
+            raise kind_error(f"{where}: arrays", "the name of an array, or a list of names", arrays)
+        names = [text(f"{where}: arrays", name, "the name of an array") for name in names]
+        numbers = (whole(f"{where}: threads", threads, 1, 256), truth(f"{where}: force", force),
+                   whole(f"{where}: min_pixels", min_pixels, 0, 2 ** 31 - 1))
+        with Said(where):
+            return self._core.patches(places[0], orders, places[1], movers, names, *numbers)
+
+    def _places(self, where, terrain, scene):
+        """Terrain and scene of a call as the compiled part has them."""
+        self._core  # an object without __init__ is the first fault  # pylint: disable=pointless-statement
+        instance(f"{where}: terrain", terrain, Terrain)
+        instance(f"{where}: scene", scene, Scene, optional=True)
+        return terrain._core, scene and scene._core
 
 
 def trade(terrain=None, radar=None, *, maps=False, **options):
@@ -269,4 +384,11 @@ def trade(terrain=None, radar=None, *, maps=False, **options):
 
     Other threads of Python run meanwhile, and make the times larger. Errors: ValueError for options, yars.Error for files.
     """
-    return json.loads(_core.trade(maps, terrain, (radar or Radar())._core, **options))
+    where = "yars.trade"
+    instance(f"{where}: terrain", terrain, Terrain, optional=True)
+    instance(f"{where}: radar", radar, Radar, optional=True)
+    maps = truth(f"{where}: maps", maps)
+    words = _TRADES[maps].words(options)
+    radar = Radar() if radar is None else radar
+    with Said(where):
+        return json.loads(_core.trade(maps, terrain and terrain._core, radar._core, words))

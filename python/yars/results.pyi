@@ -7,9 +7,10 @@ from numpy.typing import NDArray
 
 from ._core import MOVER as MOVER
 from ._core import PATCH_ORDER as PATCH_ORDER
-from ._core import Recording as Recording
-from ._core import Scene as Scene
-from ._core import Terrain as Terrain
+from .arguments import Held
+from .places import Scene as Scene
+from .places import Terrain as Terrain
+from .recordings import Recording as Recording
 
 _Preset = Literal["1996", "draft", "standard", "fine", "reference"]
 _Band = Literal["A", "B", "C", "D", "E"]
@@ -51,7 +52,7 @@ class _Picture:
     def hash(self) -> int: ...
     @property
     def facts(self) -> dict[str, Any]: ...
-    def to_xarray(self, arrays: Iterable[str] = ...) -> Any: ...  # xarray.Dataset; xarray may be absent
+    def to_xarray(self, arrays: str | Iterable[str] = ...) -> Any: ...  # xarray.Dataset; xarray may be absent
 
 class Scan(_Picture):
     @property
@@ -65,12 +66,12 @@ class Patch(_Picture):
     @property
     def y(self) -> NDArray[np.float64]: ...
 
-class Radar:
+class Radar(Held):
     def __init__(
         self,
         preset: _Preset | None = None,
         *,
-        config: str | PathLike[str] | None = None,
+        config: str | bytes | PathLike[str] | PathLike[bytes] | None = None,
         settings: str = "",
         **knobs: float | bool | str,
     ) -> None: ...
@@ -144,13 +145,13 @@ def trade(
     radar: Radar | None = None,
     *,
     maps: bool = False,
-    presets: str = "all",
+    presets: str | list[str] = "all",
     knob: str | list[str] | None = None,
     base: _Preset = "standard",
     ruler: Literal["reference", "same"] = "reference",
     repeat: int = 5,
-    csv: str | PathLike[str] | None = None,
-    out: str | PathLike[str] | None = None,
+    csv: str | bytes | PathLike[str] | None = None,
+    out: str | bytes | PathLike[str] | None = None,
     scene: str | list[str] | None = None,
     scan_width: float = ...,
     ruler_samples: int = ...,

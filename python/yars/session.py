@@ -67,6 +67,17 @@ MARK = [("latitude_deg", "d"), ("longitude_deg", "d"), ("elevation_m", "d"), ("s
 CAPTION_LINE = [("text", "48s")]
 CAPTION = [("sim_time_ns", "q"), ("step", "I"), ("steps", "I"), ("waiting", "I"), ("_reserved", "4s"), ("title", "48s"),
            ("lines", "144s"), ("_reserved", "64s")]
+# Limits of numbers that programs publish: name, least, greatest, whether NaN stands for no value.
+OWNSHIP_LIMITS = [("latitude_deg", -90, 90, False), ("longitude_deg", -180, 180, False),
+                  ("altitude_msl_m", -1000, 200000, False), ("heading_deg", 0, 360, False),
+                  ("pitch_deg", -90, 90, False), ("roll_deg", -180, 180, False),
+                  ("velocity_north_mps", -10000, 10000, False), ("velocity_east_mps", -10000, 10000, False),
+                  ("velocity_down_mps", -10000, 10000, False), ("radar_altitude_m", 0, 200000, True),
+                  ("flight_time_s", 0, 1e10, False)]
+NAV_LIMITS = [("mission_latitude_deg", -90, 90, False), ("mission_longitude_deg", -180, 180, False),
+              ("ins_latitude_deg", -90, 90, False), ("ins_longitude_deg", -180, 180, False),
+              ("velocity_north_mps", -10000, 10000, False), ("velocity_east_mps", -10000, 10000, False),
+              ("velocity_down_mps", -10000, 10000, False), ("magnetic_variation_deg", -180, 180, True)]
 # The numbers and texts of the radar state: name, offset, struct code; the legends are of 8 characters each.
 RADAR_STATE = [("tick", 0, "q"), ("range_nm", 8, "d"), ("scan_width_deg", 16, "d"), ("antenna_elevation_deg", 24, "d"),
                ("cursor_latitude_deg", 32, "d"), ("cursor_longitude_deg", 40, "d"), ("cursor_elevation_m", 48, "d"),
@@ -252,6 +263,10 @@ class YarsError(Error):
     """Its message says what is wrong, mostly with the expected value, the found one and a remedy."""
 
 
+class Refused(YarsError, ValueError):
+    """A value that a record does not take, or a call of a session after close(); also a ValueError."""
+
+
 class UnknownField(YarsError, KeyError):
     """A field that a record does not have; also a KeyError."""
     __str__ = Exception.__str__
@@ -283,10 +298,10 @@ def code_of(fields):
 
 def text_bytes(what, text, size):
     """The bytes of a text (str or bytes) for a field of `size` bytes, which also holds a terminating zero."""
-    found = text.encode("utf-8", "replace") if isinstance(text, str) else text
+    found = text.encode("utf-8", "surrogatepass") if isinstance(text, str) else text
     if not isinstance(found, (bytes, bytearray)) or len(found) >= size or any(not 32 <= byte <= 126 for byte in found):
-        raise YarsError(f"{what}: expected a text of at most {size - 1} printable ASCII characters, found {text!r}; "
-                        "give a str or bytes")
+        raise Refused(f"{what}: expected a text of at most {size - 1} printable ASCII characters, found {text!a}; "
+                      "give a str or bytes")
     return bytes(found)
 
 
@@ -310,9 +325,19 @@ def pack(what, fields, values):
         try:
             parts.append(struct.pack("<" + code, value))
         except (struct.error, OverflowError):
-            raise YarsError(f"{what}: {name}: expected {EXPECTED[code]}, found {value!r}; "
-                            "see yars_records.h") from None
+            raise Refused(f"{what}: {name}: expected {EXPECTED[code]}, found {value!r}; see yars_records.h") from None
     return b"".join(parts)
+
+
+def check_limits(what, limits, values):
+    """Refuses numbers beyond their limits, which the reader of the record would refuse without a word to its writer."""
+    for name, least, greatest, may_be_nan in limits:
+        value = values.get(name, 0.0)
+        if isinstance(value, bool):
+            raise Refused(f"{what}: {name}: expected a number, found {value}")
+        if not isinstance(value, (int, float)) or least <= value <= greatest or (may_be_nan and math.isnan(value)):
+            continue  # pack() refuses other types
+        raise Refused(f"{what}: {name}: expected a number from {least} to {greatest}{', or NaN' if may_be_nan else ''}, found {value!r}")
 
 
 def unpack(fields, record):
@@ -363,9 +388,12 @@ class Session:
     next_sweep: typing.Any
 
     def __init__(self, name: str = "default", program: str = "python") -> None:
+        for what, given in (("session", name), ("program", program)):
+            if not isinstance(given, str):
+                raise TypeError(f"yars.Session: {what}: expected a str, found {given!r}")
         shown = text_bytes("program", program[:23], 24)
         if not re.fullmatch("[0-9A-Za-z_-]{1,40}", name):
-            raise YarsError(f"session: expected 1 to 40 letters, digits, '-' or '_', found {name!r}")
+            raise Refused(f"session: expected 1 to 40 letters, digits, '-' or '_', found {name!a}")
         self.path = f"/dev/shm/yars.{os.geteuid()}.{name}"
         remedy = (f"start the set with --session {name}, or give the name of a session that runs "
                   "(`yars --session NAME status`)")
@@ -412,7 +440,8 @@ class Session:
         self.close()
 
     def close(self) -> None:
-        """Releases all lanes and detaches. The last process that detaches removes the segment."""
+        """Releases all lanes and detaches. The last process that detaches removes the segment. Other methods are a ValueError
+        from then on; a second close() does nothing."""
         if self.lane is not None:
             for at in (self._ownship_at(), self._nav_at()):
                 self.words[at // 8] = ((self.words[at // 8] >> 1) + 1) << 1
@@ -428,6 +457,7 @@ class Session:
         self.words.release()
         self.memory.close()
         os.close(self.descriptor)
+        self.__class__ = _ClosedSession
 
     def set_runs(self) -> bool:
         """True while radar-model or state-machine is attached, even if stopped or hanging. False for a short time if
@@ -470,17 +500,20 @@ class Session:
 
     def publish_ownship(self, **values: typing.Any) -> None:
         """Publishes the record Ownship (fields: yars_records.h). Call it 20 to 100 times a second.
-        Defaults: radar_altitude_m NaN (no radar altimeter), epoch of the session, other fields 0."""
+        Defaults: radar_altitude_m NaN (no radar altimeter), epoch of the session, other fields 0. A number beyond the limits
+        of its field, or NaN elsewhere, is a ValueError."""
         self._needs(self.lane, "publish_ownship", "an ownship lane", "claim_ownship_lane(priority)")
-        self._publish("publish_ownship", self._ownship_at(), OWNSHIP,
-                      {"epoch": self.epoch(), "radar_altitude_m": math.nan, **values})
+        values = {"epoch": self.epoch(), "radar_altitude_m": math.nan, **values}
+        check_limits("publish_ownship", OWNSHIP_LIMITS, values)
+        self._publish("publish_ownship", self._ownship_at(), OWNSHIP, values)
 
     def publish_nav(self, **values: typing.Any) -> None:
         """Publishes the record Nav: positions and velocity of the navigators. Without it the navigators have no error.
         Defaults: magnetic_variation_deg NaN (the configuration's), epoch of the session, other fields 0."""
         self._needs(self.lane, "publish_nav", "an ownship lane", "claim_ownship_lane(priority)")
-        self._publish("publish_nav", self._nav_at(), NAV,
-                      {"epoch": self.epoch(), "magnetic_variation_deg": math.nan, **values})
+        values = {"epoch": self.epoch(), "magnetic_variation_deg": math.nan, **values}
+        check_limits("publish_nav", NAV_LIMITS, values)
+        self._publish("publish_nav", self._nav_at(), NAV, values)
 
     def claim_input_lane(self, source: "str | bytes") -> None:
         """Claims a free and empty input lane. `source`: name of the sender, at most 23 characters."""
@@ -666,6 +699,21 @@ class Session:
         except FileNotFoundError:
             return False
         return (here.st_dev, here.st_ino) == (there.st_dev, there.st_ino)
+
+
+class _ClosedSession(Session):
+    """A session after close()."""
+
+    def __getattribute__(self, name):
+        if name.startswith("__") or name == "close" or name in object.__getattribute__(self, "__dict__"):
+            return object.__getattribute__(self, name)
+        raise Refused(f"session: {name}: expected an open session, found one after close(); make a new Session")
+
+    def __enter__(self):
+        raise Refused("session: expected an open session, found one after close(); make a new Session")
+
+    def close(self):
+        pass
 
 
 def slot_stride(fields):

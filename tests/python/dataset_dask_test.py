@@ -46,7 +46,7 @@ class Cluster:
         self.address, self._folder, self.kills = f"tcp://127.0.0.1:{port}", folder, 0
         paths = os.pathsep.join([path for path in sys.path if path])
         self._environment = {**os.environ, "PYTHONPATH": paths, **environment}
-        self._scheduler = self._start("dask_scheduler", "--host", "127.0.0.1", "--port", str(port), "--no-dashboard")
+        self.scheduler = self._start("dask_scheduler", "--host", "127.0.0.1", "--port", str(port), "--no-dashboard")
         self._count, self.workers = 0, []
         for _ in range(workers):
             self.add()
@@ -86,7 +86,7 @@ class Cluster:
         self._stop.set()
         if self._killer:
             self._killer.join()
-        for process in self.workers + [self._scheduler]:
+        for process in self.workers + [self.scheduler]:
             process.kill()
             process.wait()
 
@@ -124,6 +124,20 @@ class Dask(Case):
         self.run_it()
         self.assertEqual(tree(self.out), self.reference())
 
+    def test_a_scheduler_that_dies_is_one_error(self):
+        cluster = self.cluster(workers=2, FAKE_MAKER_S="0.2")
+        process = self.start("--dask", cluster.address)
+        self.assertTrue(wait_for(lambda: self.blocks_there() > 3))
+        cluster.scheduler.kill()
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 1, errors)
+        self.assertEqual(len(errors.strip().splitlines()), 1, errors)
+        self.assertIn("yars dataset: --dask: expected the scheduler", errors)
+        self.assertTrue(wait_for(lambda: not hosts_of(self.out), 10.0), "a host process is left")
+        there = self.blocks_there()
+        self.assertIn(f"{16 * there:,} were there", self.run_it().stdout)
+        self.assertEqual(tree(self.out), self.reference())
+
     def test_full_disk_is_one_error(self):
         cluster = self.cluster(workers=2, FAKE_MAKER_FULL="20")
         done = self.run_it("--dask", cluster.address, code=1)
@@ -139,6 +153,7 @@ class Dask(Case):
             port = free.getsockname()[1]
         done = self.run_it("--dask", f"tcp://127.0.0.1:{port}", code=1)
         self.assertIn("expected a scheduler", done.stderr)
+        self.assertFalse(self.out.exists())
         self.assertNotIn("Traceback", done.stderr)
 
 

@@ -15,8 +15,7 @@ sys.path.append(str(ROOT / "python"))
 if len(sys.argv) > 1 and os.path.isdir(sys.argv[1]):
     os.environ["YARS_BIN"] = os.path.abspath(sys.argv.pop(1))
 
-from yars.dataset import distributions, geodesy, philox, sampling  # noqa: E402
-from yars.dataset.errors import DatasetError  # noqa: E402
+from yars.dataset import DatasetError, distributions, sampling  # noqa: E402
 from yars.dataset.limits import Limits  # noqa: E402
 from yars.dataset.settings import Settings  # noqa: E402
 from yars.dataset.spec import read_spec  # noqa: E402
@@ -69,17 +68,17 @@ class Philox(unittest.TestCase):
                 ((0, 0, 0, 0), (0, 0), "6627e8d5 e169c58d bc57ac4c 9b00dbd8"),
                 ((ones,) * 4, (ones,) * 2, "408f276d 41c83b0e a20bc7c6 6d5451fd"),
                 ((0x243F6A88, 0x85A308D3, 0x13198A2E, 0x03707344), (0xA4093822, 0x299F31D0), "d16cfe09 94fdcceb 5001e420 24126ea1")):
-            words = philox.philox4x32([np.array([word], np.uint64) for word in counter], [np.array([word], np.uint64) for word in key])
+            words = distributions.philox4x32([np.array([word], np.uint64) for word in counter], [np.array([word], np.uint64) for word in key])
             self.assertEqual(" ".join(f"{int(word[0]):08x}" for word in words), answer)
 
     def test_fields_do_not_disturb_each_other(self):
-        few = philox.Streams(5, ["a", "b"]).uniform(np.arange(50))
-        many = philox.Streams(5, ["c", "b", "a"]).uniform(np.arange(50))
+        few = distributions.Streams(5, ["a", "b"]).uniform(np.arange(50))
+        many = distributions.Streams(5, ["c", "b", "a"]).uniform(np.arange(50))
         self.assertTrue((few[0] == many[2]).all() and (few[1] == many[1]).all())
 
     def test_uniform_and_uncorrelated(self):
         count = 200000
-        streams = philox.Streams(5, ["a", "b", "c"])
+        streams = distributions.Streams(5, ["a", "b", "c"])
         u = streams.uniform(np.arange(count))
         for row in u:
             self.assertLess(kolmogorov(row, lambda value: value), 2.0)
@@ -88,18 +87,18 @@ class Philox(unittest.TestCase):
         self.assertLess(np.abs(np.corrcoef(u)[np.triu_indices(3, 1)]).max() * math.sqrt(count), 4.5)
         again = streams.uniform(np.arange(count), attempt=1)
         self.assertLess(abs(np.corrcoef(u[0], again[0])[0, 1]) * math.sqrt(count), 4.5)
-        other = philox.Streams(6, ["a"]).uniform(np.arange(count))
+        other = distributions.Streams(6, ["a"]).uniform(np.arange(count))
         self.assertLess(abs(np.corrcoef(u[0], other[0])[0, 1]) * math.sqrt(count), 4.5)
 
     def test_items_beyond_32_bits_differ(self):
-        streams = philox.Streams(5, ["a"])
+        streams = distributions.Streams(5, ["a"])
         u = streams.uniform(np.array([7, 7 + 2**32, 7 + 2**40]))[0]
         self.assertEqual(len(set(u.tolist())), 3)
 
 
 class Distributions(unittest.TestCase):
     def setUp(self):
-        self.u = philox.Streams(1, ["x"]).uniform(np.arange(100000))[0]
+        self.u = distributions.Streams(1, ["x"]).uniform(np.arange(100000))[0]
 
     def test_each_has_its_distribution_function(self):
         normal = np.vectorize(lambda value: 0.5 * math.erfc(-value / math.sqrt(2.0)))
@@ -137,7 +136,7 @@ class Distributions(unittest.TestCase):
 class Geodesy(unittest.TestCase):
     def test_known_geodesics(self):
         # Vincenty's Flinders Peak to Buninyong is on GRS80, which equals WGS84 here to 0.1 mm (Geoscience Australia, GDA technical manual).
-        latitude, longitude, azimuth = geodesy.direct(-(37 + 57 / 60 + 3.72030 / 3600), 144 + 25 / 60 + 29.52440 / 3600,
+        latitude, longitude, azimuth = sampling.direct(-(37 + 57 / 60 + 3.72030 / 3600), 144 + 25 / 60 + 29.52440 / 3600,
                                                       306 + 52 / 60 + 5.37 / 3600, 54972.271)
         self.assertAlmostEqual(float(latitude), -(37 + 39 / 60 + 10.15610 / 3600), delta=2e-8)
         self.assertAlmostEqual(float(longitude), 143 + 55 / 60 + 35.38390 / 3600, delta=2e-8)
@@ -146,10 +145,10 @@ class Geodesy(unittest.TestCase):
     def test_there_and_back(self):
         rng = np.random.default_rng(1)
         lat, lon, bearing, distance = rng.uniform(-85, 85, 500), rng.uniform(-180, 180, 500), rng.uniform(0, 360, 500), rng.uniform(1, 4e5, 500)
-        there = geodesy.direct(lat, lon, bearing, distance)
-        back = geodesy.direct(there[0], there[1], there[2] + 180.0, distance)
+        there = sampling.direct(lat, lon, bearing, distance)
+        back = sampling.direct(there[0], there[1], there[2] + 180.0, distance)
         self.assertLess(np.abs(back[0] - lat).max(), 1e-9)
-        self.assertLess(np.abs(geodesy.wrapped(back[1] - lon) * np.cos(np.radians(lat))).max(), 1e-8)
+        self.assertLess(np.abs(sampling.wrapped(back[1] - lon) * np.cos(np.radians(lat))).max(), 1e-8)
 
 
 class Items(unittest.TestCase):
@@ -183,7 +182,7 @@ class Items(unittest.TestCase):
         east = (orders["target_longitude"] - orders["longitude"]) * 111.3 * np.cos(np.radians(37.5))
         distance_nm = np.hypot(north, east) / 1.852
         self.assertTrue((distance_nm > 4.65).all() and (distance_nm < 18.1).all())
-        off = np.abs(geodesy.wrapped(np.degrees(np.arctan2(east, north)) - orders["heading"]))
+        off = np.abs(sampling.wrapped(np.degrees(np.arctan2(east, north)) - orders["heading"]))
         self.assertTrue((off > 7.5).all() and (off < 60.5).all())
         area = sample.entry == 0
         self.assertTrue((elevation(orders["target_latitude"], orders["target_longitude"])[area] > 0).all())

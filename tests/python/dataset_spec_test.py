@@ -2,6 +2,7 @@
 """Specifications of data sets: every fault is reported at its line. usage: dataset_spec_test.py BIN (folder of `yars`)"""
 import os
 import pathlib
+import re
 import sys
 import tempfile
 import unittest
@@ -11,8 +12,7 @@ sys.path.append(str(ROOT / "python"))
 if len(sys.argv) > 1 and os.path.isdir(sys.argv[1]):
     os.environ["YARS_BIN"] = os.path.abspath(sys.argv.pop(1))
 
-from yars.dataset import context, keys  # noqa: E402
-from yars.dataset.errors import SpecError  # noqa: E402
+from yars.dataset import DatasetError, SpecError, context, keys  # noqa: E402
 from yars.dataset.spec import read_spec  # noqa: E402
 
 GOOD = """count: 100
@@ -61,8 +61,12 @@ class Faults(unittest.TestCase):
         self.fault("count: 10\ngeometry: {range_nm: 9, altitude_ft: 9000}\n", 1, "expected targets, or scenes")
 
     def test_values(self):
-        self.fault(GOOD.replace("100", "many"), 1, "a whole number in [1, 1e+12] for count", 'found "many"')
+        self.fault(GOOD.replace("100", "many"), 1, "a whole number in [1, 1000000000] for count", 'found "many"')
         self.fault(GOOD.replace("100", "1.5"), 1, "a whole number", "found 1.5")
+        self.fault(GOOD.replace("100", "0"), 1, "found 0; the least is 1")
+        self.fault(GOOD.replace("100", "1000000001"), 1, "found 1000000001; the greatest is 1000000000")
+        for text in ("1e3", "1.0e+3", "1000.0", "+1000"):
+            self.assertEqual(faults_of(GOOD.replace("100", text)), [])
         self.fault(GOOD.replace("15000", "1e9"), 6, "[-3000, 600000] ft")
         self.fault(GOOD.replace("15000", ".nan"), 6, "geometry.altitude_ft")
         self.fault(GOOD.replace("15000", "[1, 2]"), 6, "geometry.altitude_ft", "found a list")
@@ -118,9 +122,60 @@ class Faults(unittest.TestCase):
     def test_settings_are_checked_by_yars_at_their_line(self):
         self.fault(GOOD + "radar:\n  settings:\n    Sea:\n      state: {uniform: [0, 9]}\n", 10, "[0, 6] for :state", "9", opened=True)
         self.fault(GOOD + "radar:\n  settings:\n    Receiver: {freqency: 9}\n", 9, "freqency", opened=True)
-        self.fault(GOOD + "radar:\n  knobs: {map_nose: 9}\n", 8, "mapNose", opened=True)
+        self.fault(GOOD + "radar:\n  knobs: {map_nose: 9}\n", 8,
+                   'expected a knob for radar.knobs, found "map_nose"; did you mean "map_noise"?', opened=True)
         self.fault(GOOD + "radar:\n  config: none.guf\n", 8, "none.guf", opened=True)
         self.fault(GOOD + "radar:\n  settings:\n    HighResolution: {blindZone: {choice: [3, 4]}}\n", 9, "one value", opened=True)
+
+
+    def test_all_faults_of_settings_at_once(self):
+        faults = faults_of(GOOD + "radar:\n  knobs: {map_nose: 9,\n    map_noise: 99}\n  settings:\n    Receiver: {freqency: 9, frequency: 99}\n"
+                           "    Foo: {a: 1}\n    Sea: {state: 9}\n", True)
+        self.assertEqual([fault.partition(":")[0] for fault in faults], ["8", "9", "11", "11", "12", "13"], faults)
+        self.assertFalse([fault for fault in faults if "ignored" in fault or "mapNo" in fault])
+
+
+class Files(unittest.TestCase):
+    """Of what a specification is read, and what it names."""
+
+    def error_of(self, text, **files):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "specification.yaml"
+            path.write_text(text)
+            for name, content in files.items():
+                (pathlib.Path(folder) / name).write_text(content)
+            (pathlib.Path(folder) / "empty").mkdir()
+            with self.assertRaises(DatasetError) as caught:
+                context.try_out(path)
+            return str(caught.exception).replace(str(path) + ":", "")
+
+    def test_no_regular_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            os.mkfifo(folder + "/pipe")
+            for path, word in ((folder + "/pipe", "no regular file"), (folder, "a folder")):
+                with self.assertRaisesRegex(SpecError, word):
+                    read_spec(path)
+
+    def test_check_finds_what_a_run_finds(self):
+        try:
+            import yars._core  # noqa: F401
+        except ImportError:
+            self.skipTest("yars._core is not built")
+        self.assertRegex(self.error_of(GOOD + "terrain: empty\n"), "^7: .*expected elevation cells")
+        self.assertRegex(self.error_of(GOOD + "scenes: [{file: broken}]\n", broken="x"), "^7: ")
+        town = "scenes: [{generate: town, triangles: 200, at: [37.5, -122.3]}]\n"
+        text = GOOD.replace("{area: [37, -123, 38, -122]}", "{objects: hause}") + town
+        self.assertRegex(self.error_of(text), "^3: expected a class of the scenes' objects")
+        text = self.error_of(GOOD + town + "terrain: {generate: {south: 85, west: 0, cells_lat: 9}}\n")
+        self.assertRegex(text, "^8: cells_lat: expected")
+        self.assertNotIn("--", text)
+
+    def test_numbers_of_an_impossible_item_agree(self):
+        text = self.error_of(GOOD.replace("15000", "15000\n  squint_deg: {uniform: [0, 8.01]}\n  attempts: 20"))
+        found = re.search("in 20 draws, found none: (.*) [(](\\d+) of (\\d+) items", text)
+        self.assertTrue(found, text)
+        self.assertEqual(sum(map(int, re.findall(r"(\d+) times", found.group(1)))), 20)
+        self.assertLessEqual(int(found.group(2)), int(found.group(3)))
 
 
 class Documentation(unittest.TestCase):
@@ -131,7 +186,7 @@ class Documentation(unittest.TestCase):
             context.open_store(path, "out")
 
     def test_the_document_has_the_table_of_all_keys(self):
-        self.assertIn(keys.markdown(), (ROOT / "docs/datasets.md").read_text())
+        self.assertTrue(keys.markdown() in (ROOT / "docs/datasets.md").read_text(), "put the output of `yars dataset --keys` there")
 
 
 if __name__ == "__main__":

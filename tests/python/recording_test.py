@@ -6,6 +6,7 @@ usage: recording_test.py BUILD     Skipped (code 77) where the build has no comp
 import json
 import os
 import pathlib
+import pickle
 import re
 import struct
 import subprocess
@@ -122,13 +123,22 @@ class Whole(unittest.TestCase):
         del headers, pictures
         np.testing.assert_array_equal(first, kept)
 
+    def test_pickling_and_read_only_arrays(self):
+        again = pickle.loads(pickle.dumps(self.recording))
+        self.assertEqual((again.file, again.kinds), (self.recording.file, self.recording.kinds))
+        self.assertIn("ticks 0 to", repr(again))
+        for array in (again.records("ModelTick"), *again.sweeps(), again.maps()[1][0]):
+            self.assertFalse(array.flags.writeable)
+
     def test_faults(self):
         for call, pattern in ((lambda: self.recording.records("Ownships"), "kind: expected one of ModelTick, .*Traffic, found 'Ownships'"),
                               (lambda: yars.Recording.units(""), "kind: expected one of"),
                               (lambda: self.recording.records("Nav", 1.5), "first_tick: expected a whole number"),
                               (lambda: self.recording.sweeps(None, 2 ** 70), "last_tick: expected a whole number"),
-                              (lambda: self.recording.maps(True), "first_tick: expected a whole number")):
+                              (lambda: self.recording.records("\udcff"), "kind: expected the name of a kind")):
             self.assertRaisesRegex(ValueError, pattern, call)
+        for call in (lambda: self.recording.maps(True), lambda: self.recording.maps("1"), lambda: self.recording.records(3)):
+            self.assertRaisesRegex(TypeError, "yars.Recording.*: expected ", call)
         self.assertEqual(len(self.recording.records("Nav")), 0)
         self.assertRaisesRegex(yars.Error, "expected a recording made by yars record, found another kind of file", lambda: yars.Recording(__file__))
         self.assertRaisesRegex(yars.Error, "expected a recording that can be read", lambda: yars.Recording(FILE.with_name("absent")))

@@ -24,7 +24,7 @@ if not list((BUILD / "python/yars").glob("_core*.so")):
 import numpy
 
 import yars
-from yars import _core, results
+from yars import _core, places, recordings, results
 
 PROGRAM = '''
 import numpy as np
@@ -81,6 +81,8 @@ class Stubs(unittest.TestCase):
     def test_names(self):
         core = there(_core, {"Terrain", "Scene", "Recording", "Radar", "ScanResult", "PatchResult"})
         self.assertEqual(stubbed("_core.pyi"), {name for name in core})
+        for module, classes in ((places, {"Terrain", "Scene"}), (recordings, {"Recording"})):
+            self.assertEqual(stubbed(f"{module.__name__.rpartition('.')[2]}.pyi"), there(module, classes))
         ours = {name for name in there(results, {"Radar"}) if not isinstance(getattr(results, name.partition(".")[0]), numpy.dtype)}
         found = {name for name in stubbed("results.pyi") if name.partition(".")[0] not in ("Scan", "Patch")} | {"Scan", "Patch"}
         self.assertEqual(found, ours)
@@ -144,9 +146,10 @@ class Documents(unittest.TestCase):
             self.assertIn("Error", inspect.getdoc(value), value)
 
     def test_examples(self):
-        done = doctest.testmod(results, extraglobs={"yars": yars})
-        self.assertEqual(done.failed, 0)
-        self.assertGreaterEqual(done.attempted, 8)
+        for module, examples in ((results, 8), (places, 3)):
+            done = doctest.testmod(module, extraglobs={"yars": yars})
+            self.assertEqual(done.failed, 0)
+            self.assertGreaterEqual(done.attempted, examples)
 
 
 if __name__ == "__main__":

@@ -123,11 +123,16 @@ def what_cannot_be_done_is_an_error(session):
     refuses("found 'lattitude_deg'; did you mean 'latitude_deg'?", session.publish_ownship, lattitude_deg=36.5)
     refuses("found 'wingspan'; see yars_records.h", session.publish_ownship, wingspan=13.0)
     refuses("latitude_deg: expected a number, found '36.5'", session.publish_ownship, latitude_deg="36.5")
+    refuses("latitude_deg: expected a number from -90 to 90, found nan", session.publish_ownship, latitude_deg=float("nan"))
+    refuses("heading_deg: expected a number from 0 to 360, found inf", session.publish_ownship, heading_deg=float("inf"))
+    refuses("ins_latitude_deg: expected a number from -90 to 90, found 91", session.publish_nav, ins_latitude_deg=91)
+    refuses("latitude_deg: expected a number, found True", session.publish_ownship, latitude_deg=True)
     refuses("source: expected a text of at most 15", session.publish_ownship, source="sixteen letters!")
     refuses("source: expected a text of at most 23", session.claim_input_lane, 5)
     session.claim_input_lane("panel")
     refuses("kind: expected a whole number 0 to 65535, found 'pb'", session.push_event, "pb", 13)
     refuses("argument: expected a whole number -32768 to", session.push_event, 1, 1.5)
+    refuses("text: expected a text of at most 15", session.push_event, yars.Event.SEQUENCE_POINT, text="\udcff")
     session.publish_ownship(latitude_deg=36.5, source="mine")
     same("outputs before there are any", session.outputs(), None)
     each = [(f"{name}_{i}", code) for i in range(10) for name, code in yars.MARK]
@@ -210,6 +215,25 @@ def a_misspelled_field_is_answered_with_the_nearest(session):
     refuses("no such session runs; start the set with --session none-there", yars.Session, "none-there")
 
 
+def nothing_works_after_close(name_of_session):
+    session = yars.Session(name_of_session)
+    session.close()
+    session.close()
+    for name in ("set_runs", "heartbeat", "sim_time_ns", "epoch", "radar_state", "outputs", "clock", "sweeps", "caption", "newest_frame",
+                 "publish_ownship", "publish_nav", "__enter__"):
+        try:
+            getattr(session, name)()
+            faults.append(f"session.{name}() was taken after close()")
+        except ValueError as error:
+            same(f"{name} after close()", "found one after close()" in str(error), True)
+    for given in (None, 5, b"default"):
+        try:
+            yars.Session(given)
+            faults.append(f"the session {given!r} was taken")
+        except TypeError as error:
+            same(f"session {given!r}", "session: expected a str" in str(error), True)
+
+
 def a_name_leads_nowhere_else():
     for name in ("../../x", "", "a/b", "a\x1b[2J", "x" * 41):
         try:
@@ -245,6 +269,7 @@ def a_map_is_that_of_the_command():
 a_name_leads_nowhere_else()
 a_map_is_that_of_the_command()
 with MadeUpSession() as made_up, yars.Session(made_up.name, "session_py_test") as session:
+    nothing_works_after_close(made_up.name)
     what_cannot_be_done_is_an_error(session)
     a_caption_is_there_while_its_tour_runs(session)
     a_misspelled_field_is_answered_with_the_nearest(session)

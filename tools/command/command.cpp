@@ -67,11 +67,14 @@ void add_seed_option(databuffer::Command command, ConfigurationOptions& options)
 }
 
 void add_pose_options(databuffer::Command command, PoseOptions& options) {
-  command.option("--lat", options.latitude_deg, "[deg] latitude of the aircraft").range(-90.0, 90.0);
-  command.option("--lon", options.longitude_deg, "[deg] longitude of the aircraft").range(-180.0, 180.0);
+  command.option("--lat", options.latitude_deg, "[deg] latitude of the aircraft")
+      .range(kLatitudes_deg.min, kLatitudes_deg.max);
+  command.option("--lon", options.longitude_deg, "[deg] longitude of the aircraft")
+      .range(kLongitudes_deg.min, kLongitudes_deg.max);
   command.option("--alt-ft", options.altitude_ft, "[ft] altitude of the aircraft above mean sea level")
-      .range(-3000.0, 600000.0);
-  command.option("--heading", options.heading_deg, "[deg] true heading; also the ground track").range(-360.0, 360.0);
+      .range(kAltitudes_ft.min, kAltitudes_ft.max);
+  command.option("--heading", options.heading_deg, "[deg] true heading; also the ground track")
+      .range(kHeadings_deg.min, kHeadings_deg.max);
 }
 
 }  // namespace yars::tools

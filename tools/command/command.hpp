@@ -63,6 +63,14 @@ radar::RadarConfiguration read_configuration(const std::string& file, const Conf
 // Changes a configuration by `options`. Throws CommandFailed for a scene option that is not valid.
 void apply_options(const ConfigurationOptions& options, radar::RadarConfiguration& configuration);
 
+// Limits of a number, which are valid values.
+struct Limits {
+  double min, max;
+  bool contain(double value) const { return value >= min && value <= max; }  // NaN: no
+};
+inline constexpr Limits kLatitudes_deg{-90.0, 90.0}, kLongitudes_deg{-180.0, 180.0}, kAltitudes_ft{-3000.0, 600000.0},
+    kHeadings_deg{-360.0, 360.0};
+
 // Pose of the aircraft: altitude above mean sea level, true heading. The ground track equals the heading.
 struct PoseOptions {
   double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0;

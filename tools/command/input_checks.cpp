@@ -160,6 +160,8 @@ void check_terrain_read(const Warn& warn, const std::string& folder, model::terr
   for (std::string& problem : path_store == nullptr ? std::vector<std::string>() : path_store->take_problems())
     if (std::find(problems.begin(), problems.end(), problem) == problems.end()) problems.push_back(std::move(problem));
   for (const std::string& problem : problems) warn(problem);
+  for (model::terrain::TerrainStore* const one : {path_store, &store})
+    if (auto* const files = dynamic_cast<model::terrain::DirectoryTerrainStore*>(one)) files->report_again();
   const auto* const directory = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(&store);
   if (directory == nullptr) return;  // the built-in hills have no files
   const model::terrain::RegionCells cells = directory->region_cells();

@@ -49,8 +49,13 @@ model::scene::SceneViewPointer Theatre::scenes_near(geo::GeoPoint position, doub
   return view;
 }
 
-model::terrain::TerrainViewPointer Theatre::terrain_near(geo::GeoPoint position, double radius_m, const Warn& warn) {
-  auto view = window_store_->prepare({position, radius_m, 0});
+const model::terrain::DirectoryIndex* Theatre::index() const {
+  const auto* const files = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(window_store_.get());
+  return files == nullptr ? nullptr : &files->index();
+}
+
+model::terrain::TerrainViewPointer Theatre::terrain_at(geo::GeoPoint position, const Warn& warn) {
+  auto view = window_store_->prepare({position, 0.0, 0});
   check_terrain_read(warn, folder_, *window_store_);
   return view;
 }

@@ -14,6 +14,7 @@
 #include "model/kernel/offline_scan.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
+#include "model/terrain/store/cell_files.hpp"
 #include "tools/command/input_checks.hpp"
 
 namespace yars::radar {
@@ -41,8 +42,10 @@ class Theatre {
 
   // Scenes about a position; null: none.
   model::scene::SceneViewPointer scenes_near(geo::GeoPoint position, double radius_m, const Warn& warn);
-  // Terrain about a position, at its finest level.
-  model::terrain::TerrainViewPointer terrain_near(geo::GeoPoint position, double radius_m, const Warn& warn);
+  // Terrain of the cell that contains a position, at its finest level.
+  model::terrain::TerrainViewPointer terrain_at(geo::GeoPoint position, const Warn& warn);
+  // Files of the folder; null: the built-in hills.
+  const model::terrain::DirectoryIndex* index() const;
 
  private:
   std::string folder_;  // for messages

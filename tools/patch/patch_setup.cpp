@@ -20,19 +20,23 @@ constexpr int kMaxThreads = 256;
 
 void add_patch_options(databuffer::Command command, PatchOptions& options) {
   add_pose_options(command, options.pose);
-  command.option("--speed-kt", options.speed_kt, "[kt] speed over ground").range(0.0, 10000.0);
-  command.option("--target-lat", options.target_latitude_deg, "[deg] latitude of the map's centre").range(-90.0, 90.0);
+  command.option("--speed-kt", options.speed_kt, "[kt] speed over ground").range(kSpeeds_kt.min, kSpeeds_kt.max);
+  command.option("--target-lat", options.target_latitude_deg, "[deg] latitude of the map's centre")
+      .range(kLatitudes_deg.min, kLatitudes_deg.max);
   command.option("--target-lon", options.target_longitude_deg, "[deg] longitude of the map's centre")
-      .range(-180.0, 180.0);
+      .range(kLongitudes_deg.min, kLongitudes_deg.max);
   command.option("--window-nm", options.window_nm, "[NM] side of the map")
-      .range(0.01, 200.0)
+      .range(kWindows_nm.min, kWindows_nm.max)
       .otherwise("the configuration's at power-up");
   command.flag("--force", options.force, "ignore the radar's limits; the blind zone stays blank");
-  command.option("--looks", options.looks, "number of looks to average").range(1, 16).otherwise("that of ML1");
+  command.option("--looks", options.looks, "number of looks to average")
+      .range(static_cast<int>(kLooks.min), static_cast<int>(kLooks.max))
+      .otherwise("that of ML1");
   command.option("--size", options.size, "[pixels] per side; up to 1024 with the preset reference")
       .range(16, hrm::max_map_size(radar::Algorithm::standard))
       .otherwise("the configuration's");
-  command.option("--time-s", options.time_s, "[s] sim time at the start, for moving targets").range(0.0, 1e8);
+  command.option("--time-s", options.time_s, "[s] sim time at the start, for moving targets")
+      .range(kTimes_s.min, kTimes_s.max);
   command.option("--threads", options.threads, "number of threads")
       .range(1, kMaxThreads)
       .otherwise("one for each processor");

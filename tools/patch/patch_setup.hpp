@@ -17,6 +17,9 @@
 
 namespace yars::tools {
 
+// Limits of options of a map, beside those of its pose.
+inline constexpr Limits kSpeeds_kt{0.0, 10000.0}, kWindows_nm{0.01, 200.0}, kTimes_s{0.0, 1e8}, kLooks{1.0, 16.0};
+
 struct PatchOptions {
   ConfigurationOptions configuration;
   PoseOptions pose;

@@ -19,7 +19,7 @@
 
 namespace yars::tools {
 
-SceneFile generate_scene_file(const SceneGenerateOptions& options) {
+SceneFile generate_scene_file(const SceneGenerateOptions& options, const parallel::GoesOn& goes_on) {
   check_file_name("--out", options.out, {".flt"});
   worldgen::SceneRequest order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
   order.kind = *worldgen::generated_kind(options.kind);
@@ -33,8 +33,10 @@ SceneFile generate_scene_file(const SceneGenerateOptions& options) {
   if (std::ranges::count(options.origin, ',') == 2) order.heading_deg = parsed->heading_deg;
   constexpr std::uint64_t kStep = 10'000;  // triangles per progress report
   Progress progress(options.triangles / kStep + 1);
-  const worldgen::GeneratedScene made = worldgen::generate_scene(
-      order, [&](std::uint64_t triangles) { progress.done(text::counted(triangles, "triangle")); });
+  const worldgen::GeneratedScene made = worldgen::generate_scene(order, [&](std::uint64_t triangles) {
+    parallel::check(goes_on);
+    progress.done(text::counted(triangles, "triangle"));
+  });
   const std::filesystem::path path = std::filesystem::absolute(options.out);
   if (const auto written = file::write_file_and_folders(path, made.file); !written) throw_failure(written.error());
   return {made.triangles, made.file.size()};

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "databuffer/runtime/command_line.hpp"
+#include "lib/parallel/thread_pool.hpp"
 
 namespace yars::tools {
 
@@ -29,6 +30,7 @@ void add_scene_generate_options(databuffer::Command command, SceneGenerateOption
 
 // Generates the scene and writes the file, with the folders that it needs. Progress goes to standard error if that is a
 // terminal.
-SceneFile generate_scene_file(const SceneGenerateOptions& options);
+// `goes_on` is asked between parts of the scene; throws parallel::Stopped, and writes nothing.
+SceneFile generate_scene_file(const SceneGenerateOptions& options, const parallel::GoesOn& goes_on = {});
 
 }  // namespace yars::tools

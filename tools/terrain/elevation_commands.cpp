@@ -37,6 +37,8 @@ class CoveredArea {
     if (directory.empty()) return;
     if (auto index = model::terrain::index_directory(directory)) index_ = std::move(*index);
   }
+  // The position, in the cell of which it is the edge.
+  geo::GeoPoint placed(geo::GeoPoint position) const { return within_index(index_, position); }
   bool contains(geo::GeoPoint position) const {
     return index_.empty() || index_.contains(slot_of(model::terrain::cell_containing(position)));
   }
@@ -74,8 +76,9 @@ void profile(const ProfileOptions& options) {
   for (long step = 0; step <= steps; ++step) {
     const double distance_m = std::min(length_m, static_cast<double>(step) * options.step_m);
     const geo::GeoPoint position = ray.position(geo::Length::metres(distance_m));
-    if (!covered.contains(position)) ++outside;
-    const double elevation_m = (*store)->prepare({position, 0.0})->elevation_m(position);
+    const geo::GeoPoint ground = covered.placed(position);
+    if (!covered.contains(ground)) ++outside;
+    const double elevation_m = (*store)->prepare({ground, 0.0})->elevation_m(ground);
     std::printf("%.1f,%.7f,%.7f,", distance_m, position.latitude_deg, position.longitude_deg);
     // The elevation of a void is an empty field.
     if (std::isnan(elevation_m))

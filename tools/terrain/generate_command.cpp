@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <condition_variable>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -47,8 +48,9 @@ std::vector<CellCorner> corners_of(const TerrainGenerateOptions& options) {
 // threads work on one cell.
 class Generation {
  public:
-  explicit Generation(const TerrainGenerateOptions& options)
+  Generation(const TerrainGenerateOptions& options, const parallel::GoesOn& goes_on)
       : options_(options),
+        goes_on_(goes_on),
         landscape_(options.seed, island_of(options), options.airfields == "paved"),
         corners_(corners_of(options)),
         progress_(corners_.size()) {
@@ -61,9 +63,27 @@ class Generation {
 
   GeneratedCells run() {
     std::vector<std::thread> helpers;
-    for (int worker = 1; worker < workers_; ++worker) helpers.emplace_back([this] { work(); });
-    work();
+    helping_ = workers_ - 1;
+    for (int worker = 1; worker < workers_; ++worker)
+      helpers.emplace_back([this] {
+        work([this] { return !stop_; });
+        const std::lock_guard lock(mutex_);
+        --helping_;
+        ended_.notify_one();
+      });
+    work([this] { return ask(); });
+    {
+      constexpr std::chrono::milliseconds kBetweenQuestions{50};
+      std::unique_lock lock(mutex_);
+      while (helping_ > 0) {
+        ended_.wait_for(lock, kBetweenQuestions);
+        lock.unlock();
+        ask();
+        lock.lock();
+      }
+    }
     for (std::thread& other : helpers) other.join();
+    if (stopped_) throw parallel::Stopped{};
     if (failed_) throw_failure(*failed_);
     return {written_, corners_.size() - written_};
   }
@@ -74,14 +94,24 @@ class Generation {
     return worldgen::LandscapeBox{options.south_deg, options.west_deg, options.cells_latitude, options.cells_longitude};
   }
 
-  void work() {
+  // Asked by the thread that has called run().
+  bool ask() {
+    if (!stopped_ && goes_on_ && !goes_on_()) stop_ = stopped_ = true;
+    return !stop_;
+  }
+
+  void work(const parallel::GoesOn& goes_on) {
     for (std::size_t number = next_++; number < corners_.size() && !stop_; number = next_++) {
       const CellCorner corner = corners_[number];
       std::string note;
       if (options_.sea || landscape_.may_have_land(corner)) {
-        const auto made = make(corner);
-        if (!made) return fail(made.error());
-        note = *made;
+        try {
+          const auto made = make(corner, goes_on);
+          if (!made) return fail(made.error());
+          note = *made;
+        } catch (const parallel::Stopped&) {
+          return;
+        }
       }
       const std::lock_guard lock(mutex_);
       progress_.done(note);
@@ -90,9 +120,9 @@ class Generation {
 
   // Generates and writes one cell. Returns a line that describes the cell. Without --sea, no file is written for an
   // all-sea cell, and the line is empty.
-  error::Expected<std::string> make(CellCorner corner) {
+  error::Expected<std::string> make(CellCorner corner, const parallel::GoesOn& goes_on) {
     const worldgen::MadeCell made = landscape_.make(corner, dted::kPostsOfLevel[options_.level],
-                                                    dted_columns(corner, options_.level), threads_per_cell_);
+                                                    dted_columns(corner, options_.level), threads_per_cell_, goes_on);
     const bool all_sea = made.cell.highest_m() <= 0;
     if (all_sea && !options_.sea) return std::string();
     // The culture is written before the cell, so that no new cell is left with an older culture or without its own.
@@ -113,6 +143,7 @@ class Generation {
   }
 
   TerrainGenerateOptions options_;
+  const parallel::GoesOn& goes_on_;
   worldgen::Landscape landscape_;
   std::vector<CellCorner> corners_;
   int workers_ = 1;
@@ -120,7 +151,10 @@ class Generation {
   std::atomic<std::size_t> next_ = 0;
   std::atomic<std::size_t> written_ = 0;
   std::atomic<bool> stop_ = false;
-  std::mutex mutex_;  // guards the members below
+  std::atomic<bool> stopped_ = false;  // by goes_on_
+  std::mutex mutex_;                   // guards the members below
+  std::condition_variable ended_;
+  int helping_ = 0;  // threads beside the caller that still work
   Progress progress_;
   std::optional<error::Error> failed_;
 };
@@ -156,13 +190,13 @@ void add_terrain_generate_options(databuffer::Command command, TerrainGenerateOp
   add_json_flag(command, options.json);
 }
 
-GeneratedCells generate_terrain_files(const TerrainGenerateOptions& options) {
+GeneratedCells generate_terrain_files(const TerrainGenerateOptions& options, const parallel::GoesOn& goes_on) {
   check_folder_name("--out", options.out);
   if (options.south_deg + options.cells_latitude > 90)
     throw CommandFailed{"--cells-lat: expected at most " + std::to_string(90 - options.south_deg) +
                             " cells from --south to the north pole, found " + std::to_string(options.cells_latitude),
                         2};
-  return Generation(options).run();
+  return Generation(options, goes_on).run();
 }
 
 void add_terrain_generate(databuffer::Command terrain) {

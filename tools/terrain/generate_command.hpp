@@ -8,6 +8,7 @@
 #include <string>
 
 #include "databuffer/runtime/command_line.hpp"
+#include "lib/parallel/thread_pool.hpp"
 #include "worldgen/terrain/landscape.hpp"
 
 namespace yars::tools {
@@ -35,7 +36,8 @@ struct GeneratedCells {
 
 void add_terrain_generate_options(databuffer::Command command, TerrainGenerateOptions& options);
 
-// Generates the landscape and writes its cells. Progress goes to standard error if that is a terminal.
-GeneratedCells generate_terrain_files(const TerrainGenerateOptions& options);
+// Generates the landscape and writes its cells. Progress goes to standard error if that is a terminal. `goes_on` is
+// asked between rows of posts; throws parallel::Stopped, and leaves whole cells.
+GeneratedCells generate_terrain_files(const TerrainGenerateOptions& options, const parallel::GoesOn& goes_on = {});
 
 }  // namespace yars::tools

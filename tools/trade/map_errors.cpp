@@ -102,21 +102,21 @@ std::vector<std::optional<hrm::MapPoint>> marks_of(const hrm::MapImage& image, d
 }  // namespace
 
 double time_map(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& order,
-                const hrm::PatchEnvironment& environment, Clock clock) {
+                const hrm::PatchEnvironment& environment, Clock clock, const parallel::GoesOn& goes_on) {
   const double begin_ms = clock();
   patch_formation.begin(order);
   patch_formation.set_environment(environment);
-  while (patch_formation.state() != hrm::PatchState::done) patch_formation.advance();
+  for (; patch_formation.state() != hrm::PatchState::done; patch_formation.advance()) parallel::check(goes_on);
   return clock() - begin_ms;
 }
 
 MapObservation observe_map(const RadarConfiguration& configuration, const hrm::PatchOrder& order,
-                           const hrm::PatchEnvironment& environment, Clock clock) {
+                           const hrm::PatchEnvironment& environment, Clock clock, const parallel::GoesOn& goes_on) {
   RadarConfiguration noiseless = configuration;
   noiseless.fidelity = without_noise(noiseless.fidelity);
   hrm::PatchFormation patch_formation(noiseless, {});
   MapObservation observation;
-  observation.took_ms = time_map(patch_formation, order, environment, clock);
+  observation.took_ms = time_map(patch_formation, order, environment, clock, goes_on);
   observation.size = patch_formation.image().size;
   observation.power.assign(patch_formation.image().power.begin(), patch_formation.image().power.end());
   observation.video = patch_formation.picture();
@@ -134,7 +134,7 @@ MapObservation observe_map(const RadarConfiguration& configuration, const hrm::P
   // map plane and puts the marks at the same positions.
   if (!observation.power_is_radar) marked.fidelity.algorithm = radar::Algorithm::standard;
   hrm::PatchFormation marks(marked, {});
-  time_map(marks, order, {environment.window, environment.path, std::make_shared<MarkScene>(order)}, clock);
+  time_map(marks, order, {environment.window, environment.path, std::make_shared<MarkScene>(order)}, clock, goes_on);
   observation.marks = marks_of(marks.image(), marks.geometry().window_m());
   return observation;
 }

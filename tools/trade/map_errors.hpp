@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "lib/parallel/thread_pool.hpp"
 #include "model/hrm/patch_formation.hpp"
 #include "model/hrm/patch_geometry.hpp"
 #include "model/scene/placement/scene_view.hpp"
@@ -62,13 +63,15 @@ struct MapObservation {
 // Function that returns the CPU time of the thread [ms]. It is a parameter, because only the commands read clocks.
 using Clock = double (*)();
 
-// Forms the map of the order, and a second map of the same ground with marks.
+// Forms the map of the order, and a second map of the same ground with marks. Both functions ask `goes_on` between the
+// steps of a map, and throw parallel::Stopped.
 MapObservation observe_map(const radar::RadarConfiguration& configuration, const model::hrm::PatchOrder& order,
-                           const model::hrm::PatchEnvironment& environment, Clock clock);
+                           const model::hrm::PatchEnvironment& environment, Clock clock,
+                           const parallel::GoesOn& goes_on = {});
 
 // Forms one map, from the order to the video, with noise as configured. Returns the CPU time [ms].
 double time_map(model::hrm::PatchFormation& patch_formation, const model::hrm::PatchOrder& order,
-                const model::hrm::PatchEnvironment& environment, Clock clock);
+                const model::hrm::PatchEnvironment& environment, Clock clock, const parallel::GoesOn& goes_on = {});
 
 struct MapErrors {
   // [m] maximum distance between a mark's positions in the two maps; NaN: no mark is visible in both maps.

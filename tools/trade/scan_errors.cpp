@@ -52,7 +52,7 @@ RaySample sample_at(const RadarConfiguration& configuration, const geo::Geodesic
 
 std::vector<RaySample> ray_samples(const RadarConfiguration& given,
                                    std::span<const model::kernel::SweepHeader> positions,
-                                   const model::terrain::TerrainView& terrain) {
+                                   const model::terrain::TerrainView& terrain, const parallel::GoesOn& goes_on) {
   const RadarConfiguration configuration = with_wide_beam(given);
   const auto algorithm = model::rbm::make_algorithm(configuration);
   const std::size_t count = model::rbm::sample_count(configuration);
@@ -62,6 +62,7 @@ std::vector<RaySample> ray_samples(const RadarConfiguration& given,
   std::vector<RaySample> samples;
   samples.reserve(positions.size() * count);
   for (std::size_t sweep = 0; sweep < positions.size(); ++sweep) {
+    parallel::check(goes_on);
     SweepGeometry geometry = model::kernel::geometry_of(positions[sweep]);
     geometry.elevation = geo::Angle();
     algorithm->measure(geometry, terrain, power);
@@ -124,8 +125,8 @@ std::vector<std::uint8_t> flags_of(std::span<const RaySample> samples, Predicate
 }
 
 ScanObservation observe_scan(const RadarConfiguration& configuration, const model::terrain::TerrainView& terrain,
-                             OfflineScan& scan, std::span<const RaySample> ray) {
-  scan.run(terrain);
+                             OfflineScan& scan, std::span<const RaySample> ray, const parallel::GoesOn& goes_on) {
+  scan.run(terrain, goes_on);
   ScanObservation observation;
   observation.sweeps = scan.headers().size();
   observation.samples = model::rbm::sample_count(configuration);
@@ -142,21 +143,21 @@ ScanObservation observe_scan(const RadarConfiguration& configuration, const mode
 }  // namespace
 
 ScanObservation observe(const RadarConfiguration& configuration, const ScanRequest& request,
-                        const model::terrain::TerrainView& terrain) {
+                        const model::terrain::TerrainView& terrain, const parallel::GoesOn& goes_on) {
   RadarConfiguration noiseless = configuration;
   noiseless.fidelity = without_noise(noiseless.fidelity);
   OfflineScan scan(noiseless, request, 1);
-  return observe_scan(noiseless, terrain, scan, ray_samples(noiseless, scan.headers(), terrain));
+  return observe_scan(noiseless, terrain, scan, ray_samples(noiseless, scan.headers(), terrain, goes_on), goes_on);
 }
 
 Ruler make_ruler(const RadarConfiguration& configuration, const ScanRequest& request,
-                 const model::terrain::TerrainView& terrain) {
+                 const model::terrain::TerrainView& terrain, const parallel::GoesOn& goes_on) {
   RadarConfiguration noiseless = configuration;
   noiseless.fidelity = without_noise(noiseless.fidelity);
   OfflineScan scan(noiseless, request, 1);
-  const std::vector<RaySample> ray = ray_samples(noiseless, scan.headers(), terrain);
+  const std::vector<RaySample> ray = ray_samples(noiseless, scan.headers(), terrain, goes_on);
   Ruler ruler;
-  ruler.observation = observe_scan(noiseless, terrain, scan, ray);
+  ruler.observation = observe_scan(noiseless, terrain, scan, ray, goes_on);
   ruler.ground = flags_of(ray, [](const RaySample& sample) { return !std::isnan(sample.ground.elevation_m); });
   ruler.noise = model::physics::Receivers(noiseless).at(request.range).noise;
   return ruler;

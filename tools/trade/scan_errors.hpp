@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "lib/parallel/thread_pool.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
@@ -30,10 +31,11 @@ struct RaySample {
   bool returns = false;
 };
 
-// Samples of all sweeps: sweep after sweep, from near to far.
+// Samples of all sweeps: sweep after sweep, from near to far. This and other long functions here ask `goes_on` between
+// sweeps, and throw parallel::Stopped.
 std::vector<RaySample> ray_samples(const radar::RadarConfiguration& configuration,
                                    std::span<const model::kernel::SweepHeader> positions,
-                                   const model::terrain::TerrainView& terrain);
+                                   const model::terrain::TerrainView& terrain, const parallel::GoesOn& goes_on = {});
 
 // One scan computed with one fidelity, without noise. Order of the arrays: sweep by sweep, from near to far.
 struct ScanObservation {
@@ -49,7 +51,7 @@ struct ScanObservation {
 };
 
 ScanObservation observe(const radar::RadarConfiguration& configuration, const model::kernel::ScanRequest& request,
-                        const model::terrain::TerrainView& terrain);
+                        const model::terrain::TerrainView& terrain, const parallel::GoesOn& goes_on = {});
 
 // Scan of the reference algorithm, with which other scans are compared.
 struct Ruler {
@@ -59,7 +61,7 @@ struct Ruler {
 };
 
 Ruler make_ruler(const radar::RadarConfiguration& configuration, const model::kernel::ScanRequest& request,
-                 const model::terrain::TerrainView& terrain);
+                 const model::terrain::TerrainView& terrain, const parallel::GoesOn& goes_on = {});
 
 struct Errors {
   double position_m = 0.0;      // [m] ScanObservation::position_m of the compared scan

@@ -164,12 +164,12 @@ class SceneTerrain {
 
 // Median cost of a scan from terrain to video, with warm caches, on one thread, with noise if the fidelity has it.
 trade::Cost cost_of(const radar::RadarConfiguration& configuration, const ScanRequest& request,
-                    const TerrainView& terrain, int repeat) {
+                    const TerrainView& terrain, int repeat, const parallel::GoesOn& goes_on) {
   model::kernel::OfflineScan scan(configuration, request, 1);
   std::vector<double> took_ms;
   for (int run = 0; run <= repeat; ++run) {
     const double begin_ms = thread_ms();
-    scan.run(terrain);
+    scan.run(terrain, goes_on);
     if (run > 0) took_ms.push_back(thread_ms() - begin_ms);  // run 0 warms the caches
   }
   const double median_ms = median(took_ms);
@@ -194,9 +194,10 @@ radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity&
 class SceneTrade {
  public:
   SceneTrade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::Scene& scene,
-             const Warn& warn)
+             const Warn& warn, const parallel::GoesOn& goes_on)
       : options_(options),
         configuration_(configuration),
+        goes_on_(goes_on),
         request_(trade::request_of(scene, geo::Angle::degrees(options.width_deg), configuration.antenna)),
         terrain_(configuration_.terrain, request_, warn) {
     // Jammers, rain and ships stay as configured in all scans. Jammers affect only the video; rain and ships cast no
@@ -207,8 +208,8 @@ class SceneTrade {
   trade::Values values(const radar::Fidelity& fidelity) {
     const radar::RadarConfiguration candidate = with(fidelity);
     const TerrainView& terrain = terrain_.at(model::kernel::scan_detail(fidelity, request_.range));
-    const trade::Cost cost = cost_of(candidate, request_, terrain, options_.repeat);
-    const trade::ScanObservation found = trade::observe(candidate, request_, terrain);
+    const trade::Cost cost = cost_of(candidate, request_, terrain, options_.repeat, goes_on_);
+    const trade::ScanObservation found = trade::observe(candidate, request_, terrain, goes_on_);
     if (options_.ruler == "reference") return trade::values_of(cost, trade::errors_against(shared_, found));
     return trade::values_of(cost, trade::errors_against(measured_ruler(fidelity), found));
   }
@@ -221,11 +222,13 @@ class SceneTrade {
   }
   trade::Ruler measured_ruler(const radar::Fidelity& candidate) {
     const radar::Fidelity ruler = ruler_of(options_, candidate);
-    return trade::make_ruler(with(ruler), request_, terrain_.at(model::kernel::scan_detail(ruler, request_.range)));
+    return trade::make_ruler(with(ruler), request_, terrain_.at(model::kernel::scan_detail(ruler, request_.range)),
+                             goes_on_);
   }
 
   const ScanTradeOptions& options_;
   const radar::RadarConfiguration& configuration_;
+  const parallel::GoesOn& goes_on_;
   ScanRequest request_;
   SceneTerrain terrain_;
   trade::Ruler shared_;
@@ -251,7 +254,7 @@ std::vector<trade::Scene> scenes_of(const ScanTradeOptions& options, const std::
 }  // namespace
 
 TradeResult measure_trade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration,
-                          const Warn& warn) {
+                          const Warn& warn, const parallel::GoesOn& goes_on) {
   trade::TradeTable table;
   table.columns = trade::kScanColumns;
   table.scene_fields = trade::kScanFields;
@@ -261,7 +264,7 @@ TradeResult measure_trade(const ScanTradeOptions& options, const radar::RadarCon
   Progress progress(table.candidates.size() * scenes.size());
   for (const trade::Scene& scene : scenes) {
     table.scenes.push_back(trade::row_of(scene));
-    SceneTrade scene_trade(options, configuration, scene, warn);
+    SceneTrade scene_trade(options, configuration, scene, warn, goes_on);
     for (std::size_t i = 0; i < table.candidates.size(); ++i) {
       table.values[i].push_back(scene_trade.values(table.candidates[i].fidelity));
       progress.done(table.candidates[i].name + ", " + trade::scene_name(scene));

@@ -7,6 +7,7 @@
 
 #include "databuffer/runtime/command_line.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "lib/parallel/thread_pool.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/input_checks.hpp"
 #include "tools/trade/candidate.hpp"
@@ -48,11 +49,12 @@ struct TradeResult {
 };
 
 // Measure all candidates. The fidelity of the configuration is not used. `warn` takes warnings about input files.
-// Progress goes to standard error if that is a terminal.
+// Progress goes to standard error if that is a terminal. `goes_on` is asked between the steps of scans and maps; throws
+// parallel::Stopped.
 TradeResult measure_trade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration,
-                          const Warn& warn);
+                          const Warn& warn, const parallel::GoesOn& goes_on = {});
 TradeResult measure_trade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration,
-                          const Warn& warn);
+                          const Warn& warn, const parallel::GoesOn& goes_on = {});
 
 // JSON object that --out writes and plot_trade reads. NaN becomes null.
 std::string json_text(const TradeResult& result);

@@ -70,9 +70,10 @@ class ViewEnvironment {
 class ViewTrade {
  public:
   ViewTrade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::MapView& view,
-            const Warn& warn)
+            const Warn& warn, const parallel::GoesOn& goes_on)
       : options_(options),
         configuration_(configuration),
+        goes_on_(goes_on),
         order_(trade::order_of(view)),
         environment_(configuration_, warn) {
     if (options_.ruler == "same") return;
@@ -102,7 +103,7 @@ class ViewTrade {
     return environment_.of(hrm::PatchFormation(with(fidelity), {}).begin(order_));
   }
   trade::MapObservation observe(const radar::Fidelity& fidelity) {
-    return trade::observe_map(with(fidelity), order_, environment_of(fidelity), thread_ms);
+    return trade::observe_map(with(fidelity), order_, environment_of(fidelity), thread_ms, goes_on_);
   }
   // Median time of a map [ms] with warm caches, on one thread, with noise as the fidelity sets it. The reference
   // algorithm is slow, so it does not run again: its time is found.took_ms, from one run without noise.
@@ -110,16 +111,17 @@ class ViewTrade {
                  const trade::MapObservation& found) const {
     if (fidelity.algorithm == radar::Algorithm::reference) return found.took_ms;
     hrm::PatchFormation patch_formation(with(fidelity), {});
-    trade::time_map(patch_formation, order_, environment, thread_ms);
+    trade::time_map(patch_formation, order_, environment, thread_ms, goes_on_);
     std::vector<double> took_ms;
     took_ms.reserve(static_cast<std::size_t>(options_.repeat));
     for (int run = 0; run < options_.repeat; ++run)
-      took_ms.push_back(trade::time_map(patch_formation, order_, environment, thread_ms));
+      took_ms.push_back(trade::time_map(patch_formation, order_, environment, thread_ms, goes_on_));
     return median(std::move(took_ms));
   }
 
   const MapTradeOptions& options_;
   const radar::RadarConfiguration& configuration_;
+  const parallel::GoesOn& goes_on_;
   hrm::PatchOrder order_;
   ViewEnvironment environment_;
   trade::MapObservation shared_;
@@ -151,7 +153,7 @@ std::vector<trade::MapView> views_of(const MapTradeOptions& options, const std::
 }  // namespace
 
 TradeResult measure_trade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration,
-                          const Warn& warn) {
+                          const Warn& warn, const parallel::GoesOn& goes_on) {
   trade::TradeTable table;
   table.columns = trade::kMapColumns;
   table.scene_fields = trade::kMapFields;
@@ -161,7 +163,7 @@ TradeResult measure_trade(const MapTradeOptions& options, const radar::RadarConf
   Progress progress(table.candidates.size() * views.size());
   for (const trade::MapView& view : views) {
     table.scenes.push_back(trade::row_of(view));
-    ViewTrade view_trade(options, configuration, view, warn);
+    ViewTrade view_trade(options, configuration, view, warn, goes_on);
     for (std::size_t i = 0; i < table.candidates.size(); ++i) {
       table.values[i].push_back(view_trade.values(table.candidates[i].fidelity));
       progress.done(table.candidates[i].name + ", " + trade::map_view_name(view));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <thread>
 #include <vector>
@@ -261,7 +262,7 @@ Landscape::Landscape(std::uint64_t seed, std::optional<LandscapeBox> island, boo
       paved_airfields_(paved_airfields),
       tiles_(std::make_unique<LandscapeTiles>(seed_, island)) {}
 
-MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads) const {
+MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads, const parallel::GoesOn& goes_on) const {
   YARS_REQUIRE(threads, >=, 1);
   LandscapeRows maker(*tiles_, seed_, corner, rows, columns);
   if (!paved_airfields_) maker.leave_airfields_unpaved();
@@ -269,8 +270,10 @@ MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads) 
   std::vector<std::int16_t> posts(static_cast<std::size_t>(rows) * width);
   std::vector<std::uint8_t> codes(posts.size());
   // Each thread computes every `threads`-th row. All rows take about the same time.
+  std::atomic<bool> stop = false;
   const auto work = [&](int first) {
-    for (int row = first; row < rows; row += threads) {
+    for (int row = first; row < rows && !stop; row += threads) {
+      if (first == 0 && goes_on && !goes_on()) stop = true;
       const std::size_t start = static_cast<std::size_t>(row) * width;
       maker.make(row, std::span(posts).subspan(start, width), std::span(codes).subspan(start, width));
     }
@@ -279,6 +282,7 @@ MadeCell Landscape::make(CellCorner corner, int rows, int columns, int threads) 
   for (int first = 1; first < threads; ++first) others.emplace_back(work, first);
   work(0);
   for (std::thread& other : others) other.join();
+  if (stop) throw parallel::Stopped{};
   return {model::terrain::Cell(corner, rows, columns, posts), model::terrain::Culture(corner, rows, columns, codes)};
 }
 

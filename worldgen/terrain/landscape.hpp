@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lib/geo/frames.hpp"
+#include "lib/parallel/thread_pool.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/culture.hpp"
 #include "worldgen/terrain/landscape_tiles.hpp"
@@ -105,7 +106,7 @@ class Landscape {
   // The cell with `rows` x `columns` posts. Requires that `rows - 1` and `columns - 1` are divisors of 3600. Land is at
   // least 1 m high; sea is 0 m. River water near a mouth may be 0 m too. Requires threads >= 1; the number does not
   // change the result.
-  MadeCell make(CellCorner corner, int rows, int columns, int threads = 1) const;
+  MadeCell make(CellCorner corner, int rows, int columns, int threads = 1, const parallel::GoesOn& goes_on = {}) const;
   model::terrain::Cell cell(CellCorner corner, int rows, int columns) const { return make(corner, rows, columns).cell; }
 
   // Rivers, towns and airfields of one cell, and the relief of one cell.

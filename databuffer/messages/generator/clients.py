@@ -210,6 +210,10 @@ def python_records(chapters, layout):
     text += python_constants([("SWEEP_VIDEO_AT", next(f.offset for f in named["Sweep"].fields if f.cut))])
     text += "\n# Records: (name, struct code) in order; names that begin with an underscore are reserved.\n"
     text += "".join(packed_record(named[name]) for name in PYTHON_NAMES)
+    text += "# Limits of numbers that programs publish: name, least, greatest, whether NaN stands for no value.\n"
+    text += "".join(python_list(f"{PYTHON_NAMES[name]}_LIMITS", [
+        f'("{field.name}", {schema.shown(field.minimum.value)}, {schema.shown(field.maximum.value)}, {field.nan is not None})'
+        for field in named[name].fields if field.minimum and field.maximum]) for name in ("Ownship", "Nav"))
     state = named["RadarState"]
     text += "# The numbers and texts of the radar state: name, offset, struct code; the legends are of 8 characters each.\n"
     text += python_list("RADAR_STATE", [f'("{field.name}", {field.offset}, "{python_code(field)}")' for field in state.fields

@@ -81,7 +81,7 @@ error::Expected<radar::Scene> parse_scene(const std::string& text) {
   if (at == std::string::npos) return scene;
   const auto values = numbers(std::string_view(text).substr(at + 1));
   const bool valid = values && (values->size() == 2 || values->size() == 3) && std::abs((*values)[0]) <= 90.0 &&
-                     std::abs((*values)[1]) <= 360.0;
+                     std::abs((*values)[1]) <= 360.0 && (values->size() == 2 || std::abs((*values)[2]) <= 360.0);
   if (!valid || scene.file.empty())
     return error::fail(text, "FILE@LATITUDE,LONGITUDE or FILE@LATITUDE,LONGITUDE,HEADING in degrees",
                        std::string("'").append(text, at) + "'", "write it as airfield.flt@37.5,-122.3,45");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -336,6 +337,22 @@ bool touches(const DirectoryIndex& index, const TerrainRegion& region) {
   const std::vector<CellCorner> corners = cells_within(region);
   return std::any_of(corners.begin(), corners.end(),
                      [&](CellCorner corner) { return index.contains(slot_of(corner)); });
+}
+
+geo::GeoPoint within_index(const DirectoryIndex& index, geo::GeoPoint position) {
+  const auto has = [&](geo::GeoPoint point) { return index.contains(slot_of(cell_containing(point))); };
+  if (index.empty() || has(position)) return position;
+  const double latitude_deg = position.latitude_deg, longitude_deg = geo::wrapped_degrees(position.longitude_deg);
+  const bool on_parallel = latitude_deg == std::floor(latitude_deg) && latitude_deg > -90.0;
+  const bool on_meridian = longitude_deg == std::floor(longitude_deg);
+  const geo::GeoPoint south{std::nextafter(latitude_deg, -90.0), position.longitude_deg};
+  // West of the meridian of 180 degrees is the last cell.
+  const geo::GeoPoint west{
+      latitude_deg, longitude_deg == -180.0 ? std::nextafter(180.0, 0.0) : std::nextafter(longitude_deg, -181.0)};
+  if (on_parallel && has(south)) return south;
+  if (on_meridian && has(west)) return west;
+  const geo::GeoPoint corner{south.latitude_deg, west.longitude_deg};
+  return on_parallel && on_meridian && has(corner) ? corner : position;
 }
 
 Coverage coverage_of(const DirectoryIndex& index) {

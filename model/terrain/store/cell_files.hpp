@@ -75,6 +75,11 @@ error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path);
 // True if a cell of the index may overlap the region.
 bool touches(const DirectoryIndex& index, const TerrainRegion& region);
 
+// The position of the same ground in a cell of the index. A position on the north or east edge of a cell lies in the
+// next cell; without a file for that one, it is moved by the least possible step into the cell that has it as edge.
+// Else the position itself.
+geo::GeoPoint within_index(const DirectoryIndex& index, geo::GeoPoint position);
+
 // Bounding box of all cells in whole degrees. Cells on both sides of the antimeridian give longitudes -180 to 180.
 struct Coverage {
   int south_deg = 0, north_deg = 0, west_deg = 0, east_deg = 0;

@@ -56,6 +56,9 @@ class DirectoryTerrainStore final : public TerrainStore {
   TerrainViewPointer prepare_in_steps(const TerrainRegion& region, const Interim& interim) override;
   std::vector<std::string> take_problems() override;
   RegionCells region_cells() const { return region_cells_; }
+  const DirectoryIndex& index() const { return index_; }
+  // The next region without a cell is a problem again, for callers whose regions have nothing to do with each other.
+  void report_again() { outside_coverage_ = false; }
 
  private:
   using Level = std::pair<std::size_t, int>;  // a version of a cell: its slot_of() and a reduction

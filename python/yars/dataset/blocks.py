@@ -1,18 +1,16 @@
 """Makes one block: draws its items, has the radar make their arrays, writes arrays, boxes and the block's part.
 
 All work is done by array operations over the block. The part is written last, so a block with a part is whole."""
-import json
 import re
 
 import numpy as np
 
-from . import files, formats
-from .errors import DatasetError
+from . import DatasetError, files, formats
+from .formats import dump
 from .sampling import Sample
 
 BOX = np.dtype([("item", "<i8"), ("object", "<i4"), ("class", "<i4"), ("pixels", "<i4"), ("aspect_deg", "<f4"),
                 ("corners", "<f4", (4, 2))])
-_ENCODE = json.JSONEncoder(separators=(",", ":"), allow_nan=False).encode
 
 
 def slice_sample(sample, first, last):
@@ -20,24 +18,8 @@ def slice_sample(sample, first, last):
     low, high = np.searchsorted(sample.movers["order"], (first, last))
     movers = sample.movers[low:high].copy()
     movers["order"] -= first
-    return Sample(sample.items[first:last], sample.orders[first:last], movers, sample.entry[first:last], sample.object[first:last],
-                  sample.attempt[first:last])
-
-
-def dump(value):
-    """One line of JSON; what is not finite is null."""
-    try:
-        return _ENCODE(value)
-    except ValueError:
-        return _ENCODE(_finite(value))
-
-
-def _finite(value):
-    if isinstance(value, dict):
-        return {name: _finite(item) for name, item in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_finite(item) for item in value]
-    return None if isinstance(value, float) and not np.isfinite(value) else value
+    return Sample(sample.items[first:last], sample.orders[first:last], movers, sample.entry[first:last], sample.scene[first:last],
+                  sample.object[first:last], sample.attempt[first:last])
 
 
 # A row of a structured array as JSON is made by one format: it takes half the time of json.dumps on a dict.
@@ -161,7 +143,7 @@ class BlockMaker:
         """One line of JSON for each item."""
         names = list(hashes)
         form = ('{"item":%r,"hash":{' + ",".join(f'"{name}":"%016x"' for name in names) + '},"order":' + _template(sample.orders.dtype) +
-                ',"target":%r,"target_object":%r,"redraws":%r,"geo":' + _template(geo.dtype) + ',"boxes":%r')
+                ',"target":%r,"target_scene":%r,"target_object":%r,"redraws":%r,"geo":' + _template(geo.dtype) + ',"boxes":%r,"movers":')
         mover_names = sample.movers.dtype.names[1:]
         movers = [[] for _ in sample.items]
         for row in sample.movers.tolist():
@@ -170,20 +152,18 @@ class BlockMaker:
         settings = {run: self._settings(run) for run in set(runs)} if self._drawn else {}
         counts = np.diff(edges).tolist() if edges is not None else [0] * len(runs)
         lines = []
-        for at, (item, checks, order, entry, thing, redraws, place, count) in enumerate(zip(
-                sample.items.tolist(), zip(*hashes.values()), _flat(sample.orders), sample.entry.tolist(), sample.object.tolist(),
-                sample.attempt.tolist(), _flat(geo), counts)):
-            line = form % (item, *checks, *order, entry, thing, redraws, *place, count)
+        for at, (item, checks, order, entry, scene, thing, redraws, place, count) in enumerate(zip(
+                sample.items.tolist(), zip(*hashes.values()), _flat(sample.orders), sample.entry.tolist(), sample.scene.tolist(),
+                sample.object.tolist(), sample.attempt.tolist(), _flat(geo), counts)):
+            line = form % (item, *checks, *order, entry, scene, thing, redraws, *place, count)
             if "nan" in line or "inf" in line:
                 line = _NOT_FINITE.sub("null", line)
             more = {}
-            if movers[at]:
-                more["movers"] = movers[at]
             if settings:
                 more["settings"] = settings[runs[at]]
             if self.plan.manifest_boxes and boxes is not None:
                 more["box_list"] = [dict(zip(BOX.names[1:], _plain(box)[1:])) for box in boxes[edges[at]:edges[at + 1]].tolist()]
-            lines.append(line + ("," + dump(more)[1:] if more else "}"))
+            lines.append(line + (dump(movers[at]) if movers[at] else "[]") + ("," + dump(more)[1:] if more else "}"))
         return ("\n".join(lines) + "\n").encode()
 
     def _settings(self, run):

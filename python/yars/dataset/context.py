@@ -4,25 +4,25 @@
 import importlib
 import json
 import os
-import pathlib
-import re
-import shutil
 import subprocess
+import tempfile
+import warnings
 
 import numpy as np
 
-from . import feasibility, files, formats
-from .blocks import BlockMaker, dump
-from .errors import DatasetError
-from .limits import command, read_limits
-from .philox import Streams
+from . import DatasetError, files, formats
+from .blocks import BlockMaker
+from .distributions import Streams
+from .formats import dump
+from .limits import as_keys, check, command, read_limits, version
 from .sampling import Sampler, World
 from .settings import Settings
 from .spec import read_spec
-from .store import Store, fingerprint
+from .store import Store, inputs_of
 
 MAKER = "yars.dataset.maker:open_maker"
 WARM_ITEMS = 16
+FIRST_ITEMS = 1024  # drawn by --check
 
 
 def open_store(spec_path, folder):
@@ -30,63 +30,104 @@ def open_store(spec_path, folder):
     plan = read_spec(spec_path)
     settings = Settings(plan, Streams(plan.seed, Settings.fields(plan)))
     limits = read_limits(plan, settings.checked_lines())
-    feasibility.check(plan, limits)
-    store = Store(plan, folder, "")
-    store.mark = fingerprint(plan, scene_paths(plan, store))
-    return plan, limits, store
+    check(plan, limits)
+    return plan, limits, Store(plan, folder, inputs_of(plan, scene_paths(plan, folder)))
 
 
 def prepare(spec_path, folder):
     """(plan, store) of a folder that is ready for blocks: general files, made-up terrain and scenes."""
     plan, _, store = open_store(spec_path, folder)
     store.begin()
-    files.remove_leftovers(folder)
-    for scene, path in zip(plan.scenes, scene_paths(plan, store)):
-        if scene.generate and not os.path.exists(path):
-            origin = ",".join(f"{number:.12g}" for number in scene.at)
-            _generate(path, ["scene", "generate", "--kind", scene.generate, "--triangles", str(scene.triangles), "--seed", str(scene.seed),
-                             f"--origin={origin}"])
-    made = plan.terrain_generate
-    if made and not os.path.isdir(store.path("terrain")):
-        _generate(store.path("terrain"), ["terrain", "generate"] + [
-            f"--{name.replace('_', '-')}={value}" for name, value in made.items()] + ["--airfields=soil"])
+    make_inputs(plan, store)
     return plan, store
 
 
-def _generate(path, arguments):
-    """Runs `yars` with --out under a temporary name, which is renamed: other shards may do the same."""
-    folder = os.path.dirname(path)
+def scene_paths(plan, folder):
+    """Files of the scenes; those of made-up ones are to be made."""
+    return [scene.file or os.path.join(folder, _made_name(number, scene)) for number, scene in enumerate(plan.scenes)]
+
+
+def _made_name(number, scene):
+    return f"scenes/{number}_{scene.generate}.flt"
+
+
+def make_inputs(plan, store, read=True):
+    """Makes made-up scenes and terrain that are absent, or with `read` those with other contents than they were made with."""
+    for number, scene in enumerate(plan.scenes):
+        if scene.generate:
+            origin = ",".join(f"{value:.12g}" for value in scene.at)
+            _made(store, _made_name(number, scene), f"{plan.path}:{scene.line}", read, [
+                "scene", "generate", "--kind", scene.generate, "--triangles", str(scene.triangles), "--seed", str(scene.seed), f"--origin={origin}"])
+    if plan.terrain_generate:
+        _made(store, "terrain", plan.where("terrain"), read, ["terrain", "generate"] + [
+            f"--{name.replace('_', '-')}={value}" for name, value in plan.terrain_generate.items()] + ["--airfields=soil"])
+
+
+def _made(store, name, where, read, arguments):
+    """Makes a file or folder by `yars ARGUMENTS`, if it is not there or not as it was made. Its sizes and hashes are noted afterwards."""
+    subject, of, path = os.path.basename(name), " ".join(arguments), store.path(name)
+    known = store.noted(subject, of)
+    reason = store.unfit(subject, read, of) or (read and known.keys() != set(_names_of(store, name)) and "there are other files")
+    if not reason:
+        return
     temporary = files.temporary_name(path)
     try:
-        os.makedirs(folder, exist_ok=True)
-        run = subprocess.run([command(), *arguments, f"--out={temporary}"], capture_output=True, text=True, check=False)
-        if run.returncode:
-            raise DatasetError(re.sub("^yars[a-z ]*: ", "", run.stderr.strip()) or f"yars {' '.join(arguments)}: code {run.returncode}")
-        try:
-            os.rename(temporary, path)
-        except OSError:
-            if not os.path.exists(path):
-                raise
+        _generate(where, path, temporary, arguments)
+        new = {made: store.size_and_hash(temporary + made[len(name):] if made != name else temporary)
+               for made in (_names_of(store, name, temporary))}
+        if known and known != new and store.has_blocks():
+            raise DatasetError(f"{path}: expected what the items there were made with, found that this YARS ({version()}) makes another; use the "
+                               "version that dataset.json names, or choose another --out")
+        if known:
+            warnings.warn(f"{path} is made again: {reason}")
+        if {made: store.size_and_hash(made) for made in _names_of(store, name)} != new:  # else another shard was faster
+            _replace(temporary, path)
+        store.note(subject, new, of)
+    finally:
+        files.remove(temporary)
+
+
+def _names_of(store, name, place=None):
+    """Names of the files of a file or folder, as they are or will be below DIR. `place`: where it lies now."""
+    place = place or store.path(name)
+    if os.path.isdir(place):
+        return [f"{name}/{inside}" for inside in files.below(place)]
+    return [name] if os.path.exists(place) else []
+
+
+def _replace(temporary, path):
+    """Gives a file or folder its name, in place of what has it."""
+    old = temporary + "-old"
+    try:
+        if os.path.isdir(temporary) and os.path.exists(path):
+            os.rename(path, old)
+        os.rename(temporary, path)
     except OSError as error:
         raise files.failure(path, error) from None
     finally:
-        if os.path.isdir(temporary):
-            shutil.rmtree(temporary, ignore_errors=True)
-        else:
-            pathlib.Path(temporary).unlink(missing_ok=True)
+        files.remove(old)
 
 
-def scene_paths(plan, store):
-    return [scene.file or store.path(f"scenes/{number}_{scene.generate}.flt") for number, scene in enumerate(plan.scenes)]
+def _generate(where, path, temporary, arguments):
+    """Runs `yars` with --out under a temporary name. Its messages name the keys of the specification."""
+    try:
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        run = subprocess.run([command(), *arguments, f"--out={temporary}"], capture_output=True, text=True, check=False)
+    except OSError as error:
+        raise files.failure(path, error) from None
+    if run.returncode:
+        text = run.stderr.strip().replace(temporary, path)
+        raise DatasetError(f"{where}: {as_keys(text)}" if text else
+                           f"{path}: expected to make it by `yars {' '.join(arguments[:2])}`, found it ended by {files.end_of(run.returncode)}")
 
 
-def _centre(scene, path):
+def _centre(scene, path, where):
     """(latitude, longitude) of a scene: that of the specification, else the file's."""
     if scene.at:
         return scene.at[:2]
     run = subprocess.run([command(), "scene", "info", "--json", str(path)], capture_output=True, text=True, check=False)
     if run.returncode:
-        raise DatasetError(run.stderr.strip())
+        raise DatasetError(f"{where}: {as_keys(run.stderr.strip())}")
     entry = json.loads(run.stdout)["files"][0]
     origin = entry["origin_in_name"] or entry["origin"]
     return origin["latitude_deg"], origin["longitude_deg"]
@@ -99,7 +140,7 @@ def load(spec_path, folder, maker_name=MAKER, mark=None, warm=True):
     if mark and mark != store.mark:
         raise DatasetError(f"{spec_path}: expected the specification, terrain and scenes that the run began with (fingerprint {mark}), found others "
                            f"({store.mark}); have all computers see the same files")
-    paths = scene_paths(plan, store)
+    paths = scene_paths(plan, folder)
     terrain = store.path("terrain") if plan.terrain_generate else plan.terrain
     module, _, function = maker_name.partition(":")
     scenes = [(path, scene.at if scene.file else None, scene.without) for scene, path in zip(plan.scenes, paths)]
@@ -108,22 +149,30 @@ def load(spec_path, folder, maker_name=MAKER, mark=None, warm=True):
     classes = sorted({label for label in labels if label})
     ids = [classes.index(label) if label else -1 for label in labels]
     # For targets at scenes only: a given file without `at` is asked for its origin.
-    centres = [_centre(scene, path) for scene, path in zip(plan.scenes, paths)] if any(target.scenes for target in plan.targets) else []
+    centres = []
+    if any(target.scenes for target in plan.targets):
+        centres = [_centre(scene, path, f"{plan.path}:{scene.line}") for scene, path in zip(plan.scenes, paths)]
     sampler = Sampler(plan, limits, World(maker.elevation, np.array(centres, float).reshape(-1, 2), maker.objects, labels))
-    _write_objects(store, maker.objects, labels, classes)
-    store.describe_arrays(formats.types(len(maker.objects)))
+    store.describe(_objects_text(maker.objects, labels, classes), formats.types(len(maker.objects)))
     if warm:
         step = max(1, plan.count // WARM_ITEMS)
         maker.warm(sampler.draw(np.arange(0, plan.count, step)[:WARM_ITEMS]), sampler.settings.text(0))
     return BlockMaker(plan, store, sampler, maker, ids)
 
 
-def _write_objects(store, objects, labels, classes):
+def try_out(spec_path, maker_name=MAKER):
+    """Makes the first items of a specification in a temporary folder, with its terrain and scenes, and some of the whole set. Raises
+    SpecError, DatasetError."""
+    with tempfile.TemporaryDirectory(prefix="yars-dataset-") as folder:
+        plan, store = prepare(spec_path, folder)
+        made = load(spec_path, folder, maker_name, store.mark)
+        made.sampler.draw(np.arange(min(plan.count, FIRST_ITEMS)))
+
+
+def _objects_text(objects, labels, classes):
     """objects.json: classes, and a line for each object, in the order of the array `object`."""
     rows = []
     for row, label in zip(objects.tolist(), labels):
         values = {name: value.decode() if isinstance(value, bytes) else value for name, value in zip(objects.dtype.names, row)}
         rows.append(dump({"class": label, **values}))
-    text = f'{{"classes":{dump(classes)},\n"objects":[\n' + ",\n".join(rows) + "\n]}\n"
-    if files.read(store.path("objects.json")) != text.encode():
-        files.write(store.path("objects.json"), text.encode())
+    return f'{{"classes":{dump(classes)},\n"objects":[\n' + ",\n".join(rows) + "\n]}\n"

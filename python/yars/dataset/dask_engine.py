@@ -2,18 +2,26 @@
 
 Each Dask worker keeps one host process with as many forked workers as it has threads. Specification and folder have the same
 paths on all computers. A task whose worker dies runs again elsewhere: blocks are idempotent."""
-import collections
+import asyncio
 import concurrent.futures
+import itertools
 import json
+import logging
+import queue
 import threading
+import time
 import uuid
 
-from .errors import DatasetError
+from . import DatasetError
 from .run import HostProcess, check_answer
 
 MOST_TRIES = 30       # of a block, when workers die or host processes do
-WORKERS_WITHIN_S = 60
+CONNECT_WITHIN_S, WORKERS_WITHIN_S = 30, 60
+ANSWER_WITHIN_S = 30   # of a task that has ended
+SCHEDULER_BACK_S = 5.0  # a scheduler that is gone for so long ends the run
 TASKS_PER_THREAD = 4  # that wait at the scheduler
+
+_LOST = (OSError, RuntimeError, TimeoutError, concurrent.futures.TimeoutError, concurrent.futures.CancelledError, asyncio.CancelledError)
 
 _lock = threading.Lock()
 _host = None
@@ -96,52 +104,75 @@ def close_host(run):
             _host = None
 
 
-def run_dask(options, mark, blocks, progress):
-    """Makes blocks on a Dask cluster. Raises DatasetError."""
+def connect(address):
+    """Client of a scheduler that has workers. Raises DatasetError."""
     try:
         import distributed
     except ImportError:
         raise DatasetError("expected the Python package distributed for --dask, found none; install python3-distributed") from None
+    logging.disable(logging.CRITICAL)  # Dask's log of this process: what matters of it becomes an error here
     try:
-        client = distributed.Client(options.dask, timeout=30)
+        client = distributed.Client(address, timeout=CONNECT_WITHIN_S)
     except (OSError, ValueError, TimeoutError) as error:
-        raise DatasetError(f"--dask: expected a scheduler at {options.dask}, found none: {error}; start dask-scheduler, or check the "
+        raise DatasetError(f"--dask: expected a scheduler at {address}, found none: {error}; start dask-scheduler, or check the "
                            "address") from None
     try:
         client.wait_for_workers(1, timeout=WORKERS_WITHIN_S)
-    except (TimeoutError, distributed.TimeoutError):
-        client.close()
-        raise DatasetError(f"--dask: expected workers at {options.dask}, found none in {WORKERS_WITHIN_S} s; start dask-worker") from None
+    except (OSError, TimeoutError, distributed.TimeoutError):
+        disconnect(client)
+        raise DatasetError(f"--dask: expected workers at {address}, found none in {WORKERS_WITHIN_S} s; start dask-worker") from None
+    return client
+
+
+def disconnect(client):
+    """Closes a client; it waits for no scheduler that is gone."""
+    try:
+        client.close(timeout=2 if client.status == "running" else 0.1)
+    except (OSError, RuntimeError, TimeoutError):
+        pass
+
+
+def run_dask(client, options, mark, blocks, progress):
+    """Makes blocks on a Dask cluster. Raises DatasetError."""
     run = uuid.uuid4().hex
     try:
-        _submit_all(client, (run, options.plan, options.out, options.maker, mark), blocks, progress)
+        _submit_all(client, (run, options.plan, options.out, options.maker, mark), blocks, progress, options.dask)
+    except DatasetError:
+        raise
+    except _LOST:  # by a call that was on its way
+        _check_scheduler(client, options.dask)
+        raise _gone(options.dask) from None
     finally:
         try:
-            client.run(close_host, run, on_error="ignore")
-        finally:
-            client.close()
+            if client.status == "running":
+                client.run(close_host, run, on_error="ignore")
+        except _LOST:
+            pass  # the workers end with their scheduler, and their hosts with them
 
 
-def _submit_all(client, arguments, blocks, progress):
+def _submit_all(client, arguments, blocks, progress, address):
     """`arguments`: of make_block() without the block."""
-    import distributed
-    todo, tries = collections.deque(blocks), collections.Counter()
-    flying = {}
+    blocks, tries = iter(blocks), {}
+    flying, done = {}, queue.SimpleQueue()
 
     def submit(block):
-        tries[block] += 1
+        tries[block] = tries.get(block, 0) + 1
         future = client.submit(make_block, *arguments, block, pure=False, key=f"yars-{arguments[0][:8]}-{block}-{tries[block]}")
-        flying[future.key] = block
-        return future
-    threads = sum(client.nthreads().values())
-    done = distributed.as_completed([submit(todo.popleft()) for _ in range(min(len(todo), max(16, TASKS_PER_THREAD * threads)))])
-    for future in done:
-        block = flying.pop(future.key)
-        error = future.exception()
-        if error is None:
-            answer = future.result()
+        flying[future.key] = block, future
+        future.add_done_callback(lambda ended: done.put(ended.key))
+    most = max(16, TASKS_PER_THREAD * sum(client.nthreads().values()))
+    for block in itertools.islice(blocks, most):
+        submit(block)
+    while flying:
+        key = _next(client, done, address, progress)
+        block, future = flying.pop(key)
+        answer, error = _result(future)
+        if answer:
             check_answer(answer)
             progress.add(answer["items"], answer["redraws"])
+            del tries[block]
+            for more in itertools.islice(blocks, 1):
+                submit(more)
         elif isinstance(error, ModuleNotFoundError):
             raise DatasetError(f"--dask: expected the package yars on the workers, found: {error}; install python3-yars there, or set "
                                "PYTHONPATH for dask-worker")
@@ -149,7 +180,39 @@ def _submit_all(client, arguments, blocks, progress):
             raise DatasetError(f"block {block}: expected its files, found {tries[block]} failures; the last: {error or type(error).__name__}; "
                                "see the log of dask-worker")
         else:
-            done.add(submit(block))
-            continue
-        if todo:
-            done.add(submit(todo.popleft()))
+            _check_scheduler(client, address)
+            submit(block)
+
+
+def _result(future):
+    """(answer, None) of a task that ended, or (None, what went wrong)."""
+    try:
+        return future.result(timeout=ANSWER_WITHIN_S), None
+    except Exception as error:  # pylint: disable=broad-except  of the task or of Dask
+        return None, error
+    except (concurrent.futures.CancelledError, asyncio.CancelledError) as error:
+        return None, error
+
+
+def _gone(address):
+    return DatasetError(f"--dask: expected the scheduler at {address}, found it gone; start dask-scheduler and dask-worker again, then run "
+                        "the same command again: what is written stays")
+
+
+def _next(client, done, address, progress):
+    """Key of the next task that ended. Raises DatasetError when the scheduler is gone."""
+    while True:
+        try:
+            return done.get(timeout=0.5)
+        except queue.Empty:
+            progress.show()
+            _check_scheduler(client, address)
+
+
+def _check_scheduler(client, address):
+    """Waits some seconds for a scheduler that does not answer. Raises DatasetError if it stays away."""
+    end = time.monotonic() + SCHEDULER_BACK_S
+    while client.status != "running":
+        if client.status == "closed" or time.monotonic() > end:
+            raise _gone(address)
+        time.sleep(0.1)

@@ -4,10 +4,11 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import socket
 import time
 
-from .errors import DatasetError
+from . import DatasetError
 
 _HOST = re.sub(r"[^A-Za-z0-9]", "-", socket.gethostname())[:32]
 _TEMPORARY = re.compile(r"\.writing-(.*)-(\d+)-")
@@ -16,7 +17,26 @@ _ACTIONS = {errno.ENOSPC: "free some space, then run the same command again: wha
             errno.EDQUOT: "raise the quota or free some space, then run the same command again: what is written stays",
             errno.EFBIG: "raise the limit (ulimit -f), then run the same command again: what is written stays",
             errno.EACCES: "give write permission for the folder, or choose another --out",
+            errno.EEXIST: "it, or a folder above it, is a file: choose another --out",
+            errno.ENOTDIR: "it, or a folder above it, is a file: choose another --out",
             errno.EROFS: "choose an --out on a file system that can be written"}
+
+
+_SIGNALS = {signal.SIGXFSZ: "raise the limit of a file's size (ulimit -f)",
+            signal.SIGKILL: "is memory short? Try fewer --workers, or a smaller output.block",
+            signal.SIGXCPU: "raise the limit of processor time (ulimit -t)", signal.SIGBUS: "is the disk full, or was a file cut off?"}
+
+
+def end_of(code):
+    """What ended a process, in words with an action if there is one. `code`: as subprocess gives it, negative for a signal."""
+    if code >= 0:
+        return f"exit code {code}"
+    try:
+        name = signal.Signals(-code).name
+    except ValueError:
+        name = f"signal {-code}"
+    action = _SIGNALS.get(-code)
+    return f"{name} ({signal.strsignal(-code)})" + (f"; {action}" if action else "")
 
 
 def failure(path, error, expected="to write"):
@@ -61,6 +81,45 @@ def write(path, *parts):
         except OSError:
             pass
         raise failure(path, error) from None
+
+
+def write_stream(path, parts, good):
+    """Writes bytes objects to a file under a temporary name; renames it if good() holds at the end."""
+    temporary = temporary_name(path)
+    try:
+        with open(temporary, "wb") as file:
+            for part in parts:
+                file.write(part)
+        if good():
+            os.rename(temporary, path)
+            return
+    except OSError as error:
+        raise failure(path, error) from None
+    finally:
+        try:
+            os.unlink(temporary)
+        except OSError:
+            pass
+
+
+def remove(path):
+    """Removes a file or a folder with all that is in it. It may be absent."""
+    try:
+        if os.path.isdir(path) and not os.path.islink(path):
+            shutil.rmtree(path)
+        else:
+            pathlib.Path(path).unlink(missing_ok=True)
+    except OSError as error:
+        raise failure(path, error, "to remove it") from None
+
+
+def below(folder):
+    """Names of all files below a folder, relative to it, sorted. Temporary ones are left out."""
+    names = []
+    for place, folders, inside in os.walk(folder):
+        folders[:] = [name for name in folders if not _TEMPORARY.match(name)]
+        names += [os.path.relpath(os.path.join(place, name), folder) for name in inside if not _TEMPORARY.match(name)]
+    return sorted(names)
 
 
 def _runs(pid):

@@ -1,11 +1,12 @@
-"""Encodings of arrays, with the same bytes for the same values: Zarr chunks, NPZ, PNG, GeoTIFF."""
+"""Encodings of arrays, with the same bytes for the same values: Zarr chunks, NPZ, PNG, GeoTIFF; JSON; and annotations for COCO readers."""
 import io
 import json
 
 import numpy as np
 
-from .errors import DatasetError
+from . import DatasetError
 
+_ENCODE = json.JSONEncoder(separators=(",", ":"), allow_nan=False).encode
 _TYPES = {"video": "|u1", "power": "<f4", "shadow": "|u1", "layover": "|u1", "object": "<i4", "material": "|u1",
          "height": "<f4", "grazing_angle": "<f4"}
 # Blosc's: 1 by bytes for floats, 2 by bits for flags and codes.
@@ -17,6 +18,22 @@ MEANINGS = {"video": "0 black to 255 white", "power": "gamma of level ground, be
             "object": "index into objects.json of the strongest surface; -1: ground or none",
             "material": "surface material code; 0: land without culture", "height": "above mean sea level",
             "grazing_angle": "between line of sight and surface"}
+
+
+def dump(value):
+    """One line of JSON; what is not finite is null."""
+    try:
+        return _ENCODE(value)
+    except ValueError:
+        return _ENCODE(_finite(value))
+
+
+def _finite(value):
+    if isinstance(value, dict):
+        return {name: _finite(item) for name, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_finite(item) for item in value]
+    return None if isinstance(value, float) and not np.isfinite(value) else value
 
 
 def types(objects):
@@ -45,8 +62,8 @@ def zarr_metadata(plan, kinds):
         encoder, kind = codec(plan.compression, name), np.dtype(kinds[name])
         files[f"{name}/.zarray"] = {
             "zarr_format": 2, "shape": [plan.count, plan.size, plan.size], "chunks": [plan.block, plan.size, plan.size],
-            "dtype": kind.str, "compressor": encoder and encoder.get_config(), "fill_value": "NaN" if kind.kind == "f" else 0,
-            "order": "C", "filters": None}
+            "dtype": kind.str, "compressor": encoder and encoder.get_config(), "order": "C", "filters": None,
+            "fill_value": "NaN" if kind.kind == "f" else None}  # xarray takes a fill value for absent ones: 0 would be NaN
         files[f"{name}/.zattrs"] = {"_ARRAY_DIMENSIONS": ["item", "row", "column"], "units": UNITS[name], "long_name": MEANINGS[name]}
     files[".zmetadata"] = {"metadata": dict(files), "zarr_consolidated_format": 1}
     return {path: json.dumps(value, indent=1, sort_keys=True) + "\n" for path, value in files.items()}
@@ -100,3 +117,75 @@ def geotiff(picture, geo):
                          transform=rasterio.Affine(x_column, x_row, x0, y_column, y_row, y0), compress="deflate") as raster:
             raster.write(picture, 1)
         return memory.read()
+
+
+# annotations.json in the form of COCO (https://cocodataset.org/#format-data)
+
+def coco(store):
+    """Parts of annotations.json, as bytes. Categories count from 1; ids of images are items, ids of annotations count from 1. A box is cut
+    off at the picture's edges; one without any area there is left out."""
+    plan = store.plan
+    with open(store.path("objects.json"), "rb") as file:
+        classes = json.load(file)["classes"]
+    categories = [{"id": number + 1, "name": name} for number, name in enumerate(classes)]
+    info = {"description": "radar chips of YARS", "version": store.mark}
+    yield f'{{"info":{dump(info)},"licenses":[],"categories":{dump(categories)},\n"images":[\n'.encode()
+    for block in range(plan.blocks):
+        images = [dump({"id": item, "width": plan.size, "height": plan.size, "file_name": _picture(store, item)})
+                  for item in range(*store.items(block))]
+        yield (("" if block == 0 else ",\n") + ",\n".join(images)).encode()
+    yield b'\n],\n"annotations":[\n'
+    number = 1
+    for block in range(plan.blocks):
+        lines = _coco_lines(_boxes_of(store, block), plan.size, number)
+        if lines:
+            yield (("" if number == 1 else ",\n") + ",\n".join(lines)).encode()
+            number += len(lines)
+    yield b"\n]}\n"
+
+
+def _picture(store, item):
+    """Picture of an item, relative to the folder."""
+    return store.item_name("png", item, ".png") if store.plan.png else store.item_name("geotiff", item, ".video.tif")
+
+
+def _boxes_of(store, block):
+    """Boxes of a block as blocks.BOX."""
+    if store.plan.format == "zarr":
+        return np.load(store.path(store.boxes_name(block)))
+    return np.concatenate([np.load(store.path(store.item_name("items", item, ".npz")))["boxes"] for item in range(*store.items(block))])
+
+
+def cut_off(corners, size):
+    """Corners (columns, rows) of the part of a convex polygon within [0, size]^2; fewer than three: none. Sutherland and Hodgman,
+    "Reentrant Polygon Clipping", Communications of the ACM 17 (1974)."""
+    for axis, sign, edge in ((0, -1.0, 0.0), (0, 1.0, size), (1, -1.0, 0.0), (1, 1.0, size)):
+        inside, result = [sign * (corner[axis] - edge) <= 0.0 for corner in corners], []
+        for at, corner in enumerate(corners):
+            before = corners[at - 1]
+            if inside[at] != inside[at - 1]:
+                share = (edge - before[axis]) / (corner[axis] - before[axis])
+                point = [before[other] + share * (corner[other] - before[other]) for other in (0, 1)]
+                point[axis] = float(edge)
+                result.append(point)
+            if inside[at]:
+                result.append(corner)
+        corners = result
+    return corners
+
+
+def _coco_lines(boxes, size, number):
+    lines = []
+    for item, thing, label, pixels, aspect, corners in boxes[["item", "object", "class", "pixels", "aspect_deg", "corners"]].tolist():
+        outline = [[round(value, 3) for value in corner] for corner in cut_off(corners.tolist(), size)]
+        outline = [corner for at, corner in enumerate(outline) if corner != outline[at - 1]]  # edges through a corner of the picture
+        if len(outline) < 3:
+            continue
+        columns, rows = zip(*outline)
+        box = [min(columns), min(rows), round(max(columns) - min(columns), 3), round(max(rows) - min(rows), 3)]
+        if box[2] <= 0.0 or box[3] <= 0.0:
+            continue
+        lines.append(dump({"id": number + len(lines), "image_id": item, "category_id": label + 1, "bbox": box,
+                           "segmentation": [[value for corner in outline for value in corner]], "area": pixels, "iscrowd": 0,
+                           "aspect_deg": round(aspect, 3), "object": thing}))
+    return lines

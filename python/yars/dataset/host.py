@@ -15,7 +15,8 @@ import sys
 import traceback
 import warnings
 
-from .errors import DatasetError
+from . import DatasetError, files
+from .limits import as_keys
 
 MOST_DEATHS = 5  # of workers with the same block
 
@@ -31,11 +32,14 @@ def show_warnings_once():
     """Has a warning printed on standard error the first time; texts that differ by numbers alone count as one."""
     seen = set()
 
-    def show(message, *_, **__):
-        kind = re.sub(r"[-+0-9.]+", "", str(message))
+    def show(message, category, *_, **__):
+        if issubclass(category, (DeprecationWarning, PendingDeprecationWarning, FutureWarning, ResourceWarning)):
+            return  # for programmers
+        message = as_keys(message)
+        kind = re.sub(r"[-+0-9.]+", "", message)
         if kind not in seen:
             seen.add(kind)
-            print(f"yars dataset: {message}", file=sys.stderr)
+            print(f"yars dataset: warning: {message}", file=sys.stderr)
     warnings.simplefilter("always")  # the other filters would remember every text
     warnings.showwarning = show
 
@@ -125,9 +129,7 @@ class Worker:
         os.close(self.commands)
         os.close(self.results.file)
         _, status = os.waitpid(self.pid, 0)
-        if os.WIFSIGNALED(status):
-            return f"signal {os.WTERMSIG(status)} ({signal.strsignal(os.WTERMSIG(status))})"
-        return f"exit code {os.waitstatus_to_exitcode(status)}"
+        return files.end_of(os.waitstatus_to_exitcode(status))
 
 
 class Host:

@@ -1,6 +1,7 @@
 """Table of all keys of a specification: kind, range, unit, default, purpose. yars.dataset.spec checks files by it, and
 `python3 -m yars.dataset --keys` prints it for docs/datasets.md. A key of a list's item has the path of its list."""
 import collections
+import math
 
 INFINITY = float("inf")
 
@@ -22,7 +23,7 @@ def _key(path, kind, ends=None, unit="", drawn=False, default="required", text="
 
 
 _ROWS = [
-    _key("count", "whole", (1, 10**12), text="number of items (chips)"),
+    _key("count", "whole", (1, 10**9), text="number of items (chips)"),
     _key("seed", "whole", (0, 2**53), default="1", text="seed of every draw; item k depends on the seed and on k alone"),
     _key("chip", "section", default="see below", text="the picture"),
     _key("radar", "section", default="the radar of YARS", text="the sensor"),
@@ -126,11 +127,18 @@ def children(section):
     return [path[len(prefix):] for path in KEYS if path.startswith(prefix) and "." not in path[len(prefix):]]
 
 
+def number_text(value):
+    """A number without an exponent where it is whole."""
+    if value == 2**53:
+        return "2^53"
+    return str(int(value)) if math.isfinite(value) and value == int(value) else f"{value:g}"
+
+
 def value_text(key):
     """What a value of the key has to be, in words."""
     bounds = ""
     if key.least > -INFINITY:
-        bounds = f" in [{key.least:g}, {key.most:g}]" if key.most < 1e15 else f" in [{key.least:g}, 2^53]"
+        bounds = f" in [{number_text(key.least)}, {number_text(key.most)}]"
     words = {"whole": f"a whole number{bounds}", "number": f"a number{bounds}", "yes/no": "true or false",
              "list": "a list", "section": "a section (key: value, indented)", "path": "a path", "names": "a list of names",
              "place": key.text.split(":")[0], "any": key.text, "text": "a word"}[key.kind]

@@ -1,6 +1,9 @@
-"""Limits of a radar for patch maps, read from its configuration: blind zone, gimbal, ranges of each window.
-Source: `yars config print`; docs/spec/pilots_interface.md#rule-2, #rule-3 and #rule-4."""
+"""Limits of a radar for patch maps, read from its configuration: blind zone, gimbal, ranges of each window. Geometry that no draw can
+make possible is found by them when a specification is read. Source: `yars config print`;
+docs/spec/pilots_interface.md#rule-2, #rule-3 and #rule-4."""
 import dataclasses
+import functools
+import math
 import os
 import pathlib
 import re
@@ -8,7 +11,8 @@ import shutil
 import subprocess
 import tempfile
 
-from .errors import DatasetError, SpecError
+from . import DatasetError, SpecError
+from .distributions import Choice, Fixed
 
 _NUMBER = r"[-+0-9.eE]+"
 # The nearest target, as a fraction of the window's edge, with or without `force`: kMinDistanceFraction of `yars patch`.
@@ -16,6 +20,12 @@ NEAREST_WINDOWS = 0.75
 # Slots that decide the limits. They are the same for all items of a data set.
 DECIDING = {"AntennaServo": ("azimuthLimits", "elevationLimits"), "HighResolution": ("blindZone",),
             "WindowLimits": None, "SarMode": None}
+
+MOST_FAULTS = 20
+HIGHEST_GROUND_M = 9000.0
+FOOT_M, MILE_M = 0.3048, 1852.0
+# Values that lie on a limit are moved inside by so much: a float's last digit must not decide.
+RANGE_MARGIN_NM, ANGLE_MARGIN_DEG = 1e-6, 1e-6
 
 
 @dataclasses.dataclass
@@ -41,6 +51,12 @@ def command():
         raise DatasetError("expected the command yars, found none; install the package yars, or set YARS_BIN to the folder "
                            "of the programs")
     return found
+
+
+@functools.lru_cache(maxsize=None)
+def version():
+    """Version of YARS."""
+    return subprocess.run([command(), "--version"], capture_output=True, text=True, check=False).stdout.strip()
 
 
 def parse(text):
@@ -74,29 +90,146 @@ def printed(path):
     return output
 
 
+def as_keys(text):
+    """A message of a command or of the module, with keys of a specification in place of options and without the program's name."""
+    names = {"origin": "at", "kind": "generate", "scene": "scenes"}
+    text = re.sub(r"^yars[a-z_. ]*: ", "", str(text), flags=re.M | re.I)
+    return re.sub(r"--([a-z][a-z-]*)", lambda match: names.get(match.group(1), match.group(1).replace("-", "_")), text)
+
+
+def _fault_text(text, key):
+    """A message of `yars config check` about a line of settings, for a run that is refused. `key`: path of a knob, or None."""
+    text = re.sub(r"the form (\S+) has no slot :(\S+); the slot is ignored; nearest name: :(\S+)", r'expected a slot of \1, found "\2"; '
+                  r'did you mean "\3"?', text)
+    text = re.sub(r"the form (\S+) has no slot :(\S+); the slot is ignored", r'expected a slot of \1, found "\2"; `yars config print --defaults` '
+                  "explains every slot", text)
+    text = re.sub(r"the form (\S+) is unknown and ignored", r'expected the name of a form, found "\1"; '
+                  "`yars config print --defaults` shows all", text)
+    if key:
+        text = re.sub(r'(?<=for ):(\w+)|(?<=")(\w+)(?=")', lambda match: re.sub("[A-Z]", lambda big: "_" + big.group().lower(),
+                                                                              match.group(1) or match.group(2)), text)
+        return text.replace("a slot of Fidelity", "a knob for radar.knobs")
+    return text
+
+
+def _faults_of(text, lines, plan, path):
+    """Faults of lines of GUF after a configuration. The check ends at the first error, so it is done again without that line."""
+    left, faults, first = list(lines), {}, text.count("\n") + 1
+    while len(faults) < MOST_FAULTS:
+        path.write_text(text + "".join(line + "\n" for line, _, _ in left))
+        code, output, messages = _run("check", path)
+        wrong = set()
+        for match in re.finditer(rf"{re.escape(str(path))}:(\d+):\d+: (.*)", messages + output):
+            at = int(match.group(1)) - first
+            if 0 <= at < len(left) and ("ignored" in match.group(2) or "expected" in match.group(2)):
+                wrong.add(at)
+                _, line, key = left[at]
+                faults.setdefault(f"{plan.path}:{line}: {_fault_text(match.group(2), key)}", line)
+        if not wrong or not code:
+            break
+        left = [line for at, line in enumerate(left) if at not in wrong]
+    return sorted(faults, key=faults.get)
+
+
 def read_limits(plan, lines):
-    """Limits of the specification's radar. `lines`: (GUF text of one line, line of the specification) of its knobs and
-    settings, which are checked here. Raises SpecError at the specification's line."""
+    """Limits of the specification's radar. `lines`: (GUF text of one line, line of the specification, path of its knob or None) of knobs
+    and settings, which are checked here. Raises SpecError with all faults at the specification's lines."""
     try:
         text = printed(plan.config)
     except DatasetError as error:
         raise SpecError(f"{plan.where('radar.config')}: {error}") from None
     if not lines:
         return parse(text)
-    first = text.count("\n") + 1
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "radar.guf"
-        path.write_text(text + "".join(line + "\n" for line, _ in lines))
-        _, output, messages = _run("check", path)
-        found = re.compile(rf"(?:yars[a-z ]*: )?{re.escape(str(path))}:(\d+):\d+: (.*)")
-        faults = []
-        for match in filter(None, map(found.match, (messages + output).splitlines())):
-            at = int(match.group(1)) - first
-            if 0 <= at < len(lines) and ("ignored" in match.group(2) or "expected" in match.group(2)):
-                faults.append(f"{plan.path}:{lines[at][1]}: {match.group(2)}")
+        faults = _faults_of(text, lines, plan, path)
         if faults:
-            raise SpecError("\n".join(dict.fromkeys(faults)))
+            raise SpecError("\n".join(faults))
         try:
             return parse(printed(path))
         except DatasetError as error:
             raise SpecError(f"{plan.where('radar')}: {error}") from None
+
+
+def impossible(law, intervals):
+    """Values of a distribution, as text, that lie in none of the closed intervals; None if some value is possible."""
+    if isinstance(law, (Fixed, Choice)):
+        weights = getattr(law, "weights", [1.0])
+        outside = [value for value, weight in zip(law.ends(), weights)
+                   if weight > 0 and not any(low <= value <= high for low, high in intervals)]
+        return ", ".join(f"{value:g}" for value in outside) or None
+    pieces = getattr(law, "intervals", [law.ends()])
+    if any(max(low, a) <= min(high, b) for low, high in intervals for a, b in pieces):
+        return None
+    return ", ".join(f"{a:g} to {b:g}" for a, b in pieces)
+
+
+def windows_of(plan, limits):
+    """Windows [NM] that the specification can give; None: an interval of them."""
+    if plan.window_nm is None:
+        return [limits.power_up_nm]
+    return list(plan.window_nm.ends()) if isinstance(plan.window_nm, (Fixed, Choice)) else None
+
+
+def range_intervals(plan, limits, window):
+    """Ground ranges [NM] at which a window can be mapped."""
+    low, high = (0.0, math.inf) if plan.geometry["force"] else limits.windows[window]
+    return [(max(low, NEAREST_WINDOWS * window), high)]
+
+
+def squint_intervals(limits):
+    """Angles off the ground track [deg] that are neither in the blind zone nor beyond the gimbal."""
+    low, high = limits.blind_zone_deg, 180.0 - limits.blind_zone_deg
+    return [(low, min(high, limits.azimuth_deg))] if low < limits.azimuth_deg else []
+
+
+def check(plan, limits):
+    """Raises SpecError with every fault at its line."""
+    faults = []
+
+    def fault(key, expected, found, action):
+        faults.append(f"{plan.where(key)}: expected {expected}, found {found}; {action}")
+
+    forced = "or set geometry.force: true"
+    for setting in plan.settings:
+        slots = DECIDING.get(setting.form, ())
+        if not isinstance(setting.value, (list, Fixed)) and (slots is None or setting.slot in slots):
+            faults.append(f"{plan.path}:{setting.line}: expected one value for {setting.form}.{setting.slot}, found a "
+                          "distribution; it decides what the radar can map and has to be the same for all items")
+    windows = windows_of(plan, limits)
+    if not plan.geometry["force"]:
+        known = ", ".join(f"{window:g}" for window in limits.windows)
+        unknown = ["an interval"] if windows is None else [f"{window:g}" for window in windows if window not in limits.windows]
+        if unknown:
+            fault("chip.window_nm", f"windows of the radar ({known} NM)", ", ".join(unknown), f"choose from them, {forced}")
+            windows = []
+        outside = impossible(plan.geometry["squint_deg"], squint_intervals(limits))
+        if outside:
+            low, high = (squint_intervals(limits) or [(0, 0)])[0]
+            fault("geometry.squint_deg", f"angles off the track between blind zone and gimbal ({low:g} to {high:g} deg)", outside,
+                  f"give others, {forced}")
+    for window in windows if windows is not None else [plan.window_nm.ends()[-1]]:
+        low, high = range_intervals(plan, limits, window)[0]
+        outside = impossible(plan.geometry["range_nm"], [(low, high)])
+        if outside:
+            fault("geometry.range_nm", f"ranges at which the window of {window:g} NM can be mapped ({low:g} to {high:g} NM)", outside,
+                  f"give others, {forced}")
+    _check_heights(plan, limits, fault)
+    if faults:
+        raise SpecError("\n".join(faults))
+
+
+def _check_heights(plan, limits, fault):
+    geometry = plan.geometry
+    if geometry["force"]:
+        return
+    if "depression_deg" in geometry:
+        outside = impossible(geometry["depression_deg"], [(0.0, limits.elevation_deg)])
+        if outside:
+            fault("geometry.depression_deg", f"angles within the gimbal ({limits.elevation_deg:g} deg)", outside, "give others")
+        return
+    lowest_m = max(min(geometry["altitude_ft"].ends()) * FOOT_M - HIGHEST_GROUND_M, 0.0)
+    farthest_m = max(geometry["range_nm"].ends()) * MILE_M
+    if math.degrees(math.atan2(lowest_m, farthest_m)) > limits.elevation_deg:
+        fault("geometry.altitude_ft", f"a line of sight within {limits.elevation_deg:g} deg below the horizontal",
+              f"a steeper one from {lowest_m / FOOT_M:.0f} ft over any ground", "fly lower or farther away")

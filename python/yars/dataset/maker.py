@@ -7,7 +7,8 @@ import hashlib
 
 import numpy as np
 
-from .errors import DatasetError
+from . import DatasetError
+from .limits import as_keys
 
 OBJECT = np.dtype([("name", "U64"), ("latitude", "f8"), ("longitude", "f8")])
 
@@ -46,12 +47,15 @@ class YarsMaker:
         self._yars, self._spec = yars, plan
         try:
             yars.Terrain  # raises MissingPart, an Error, without the compiled part  # pylint: disable=pointless-statement
+            where = plan.where("terrain")
             self._terrain = yars.Terrain(terrain) if terrain else yars.Terrain()
+            where = plan.where("scenes")
             without = sorted({name for _, _, names in scenes for name in names})
             files = [scene_text(path, at) for path, at, _ in scenes]
             self._scene = yars.Scene(files, self._terrain, without=without) if scenes else None
         except (ValueError, yars.Error) as error:
-            raise DatasetError(str(error)) from None
+            lines = [scene.line for scene, (path, _, _) in zip(plan.scenes, scenes) if str(path) in str(error)]
+            raise DatasetError(f"{f'{plan.path}:{lines[0]}' if lines else where}: {as_keys(error)}") from None
         self.objects = self._scene.objects if scenes else np.empty(0, OBJECT)
 
     def elevation(self, latitude, longitude):
@@ -73,7 +77,7 @@ class YarsMaker:
                                                  scene=self._scene, arrays=plan.arrays, threads=1,
                                                  force=plan.geometry["force"], min_pixels=plan.min_pixels, **arguments)
         except (ValueError, self._yars.Error) as error:
-            raise DatasetError(str(error)) from None
+            raise DatasetError(f"{plan.path}: {as_keys(error)}") from None
 
     def warm(self, sample, settings):
         """Reads terrain and scenes of the sample, so that workers share them."""

@@ -4,6 +4,7 @@
 Exit codes: 0 done; 1 an error; 2 wrong arguments; 130, 143 ended by Ctrl-C or SIGTERM. The same command goes on where a run ended."""
 import argparse
 import collections
+import itertools
 import json
 import os
 import re
@@ -12,10 +13,11 @@ import signal
 import subprocess
 import sys
 import time
+import warnings
 
-from . import context, files, keys
-from .errors import DatasetError
-from .host import Lines, write_all
+from . import DatasetError, context, files, keys
+from .host import Lines, show_warnings_once, write_all
+from .store import absent_blocks
 
 MOST_BATCH = 8      # blocks that a worker gets at once
 MOST_RESTARTS = 5   # of the host process without a block in between
@@ -23,7 +25,7 @@ LINE_EVERY_S, DRAW_EVERY_S = 10.0, 0.5
 MOST_ERROR_LINES = 20
 
 
-class Interrupted(Exception):
+class Interrupted(BaseException):  # no handler of errors may take it
     """Ctrl-C or SIGTERM. `number`: the signal."""
 
     def __init__(self, number):
@@ -106,26 +108,30 @@ def duration(seconds):
     return f"{seconds // 60} min" if seconds < 7200 else f"{seconds // 3600} h {seconds % 3600 // 60} min"
 
 
-def batches(blocks, workers):
-    """Successive blocks as batches, which get smaller towards the end so that all workers end together."""
-    at = 0
-    while at < len(blocks):
-        size = max(1, min(MOST_BATCH, (len(blocks) - at) // (4 * workers)))
-        yield blocks[at:at + size]
-        at += size
+def batches(blocks, count, workers):
+    """`count` successive blocks as batches, which get smaller towards the end so that all workers end together."""
+    blocks = iter(blocks)
+    while count > 0:
+        size = max(1, min(MOST_BATCH, count // (4 * workers)))
+        yield list(itertools.islice(blocks, size))
+        count -= size
 
 
-def run_local(options, mark, blocks, progress):
-    """Makes blocks with the workers of one host process."""
-    workers = max(1, min(options.workers, len(blocks)))
-    todo, flying, restarts = collections.deque(batches(blocks, workers)), set(), 0
+def run_local(options, mark, blocks, count, progress):
+    """Makes `count` blocks with the workers of one host process."""
+    workers = max(1, min(options.workers, count))
+    todo, again, flying, restarts = batches(blocks, count, workers), collections.deque(), set(), 0
     host = HostProcess(options.plan, options.out, workers, options.maker, mark)
     try:
-        while todo or flying:
-            while todo and len(flying) < 2 * MOST_BATCH * workers:
-                batch = todo.popleft()
+        while True:
+            while len(flying) < 2 * MOST_BATCH * workers:
+                batch = again.popleft() if again else next(todo, None)
+                if batch is None:
+                    break
                 flying.update(batch)
                 host.give(batch)
+            if not flying:
+                return
             ready, _, _ = select.select([host.lines.file], [], [], DRAW_EVERY_S)
             progress.show()
             if not ready:
@@ -138,16 +144,31 @@ def run_local(options, mark, blocks, progress):
                     flying.discard(answer["block"])
                     restarts = 0
                     progress.add(answer["items"], answer["redraws"])
-            if end and (todo or flying):
+            if end and flying:
                 code, restarts = host.close(), restarts + 1
                 if restarts > MOST_RESTARTS:
-                    raise DatasetError(f"expected a host process that runs, found it dead {restarts} times (exit code {code}); is memory short? "
-                                       "Try fewer --workers")
-                todo.extendleft([block] for block in sorted(flying, reverse=True))
+                    raise DatasetError(f"expected a host process that runs, found it dead {restarts} times: {files.end_of(code)}")
+                again.extendleft([block] for block in sorted(flying, reverse=True))
                 flying.clear()
                 host = HostProcess(options.plan, options.out, workers, options.maker, mark)
     finally:
         host.close()
+
+
+def load_once(options, mark):
+    """Has a host process read terrain and scenes and write what it writes then: objects.json and the metadata of the arrays."""
+    host = HostProcess(options.plan, options.out, 0, options.maker, mark)
+    try:
+        end, ready = False, False
+        while not end and not ready:
+            lines, end = host.lines.read()
+            for answer in map(json.loads, lines):
+                check_answer(answer)
+                ready = ready or "ready" in answer
+    finally:
+        code = host.close()
+    if not ready:
+        raise DatasetError(f"expected a host process that runs, found it dead: {files.end_of(code)}")
 
 
 def check_answer(answer):
@@ -155,8 +176,7 @@ def check_answer(answer):
     if "error" in answer:
         raise DatasetError(answer["error"])
     if "lost" in answer:
-        raise DatasetError(f"block {answer['lost']}: expected its files, found its worker ended by {answer['reason']} each time; is memory "
-                           "short? Try fewer --workers, or a smaller output.block")
+        raise DatasetError(f"block {answer['lost']}: expected its files, found its worker ended each time by {answer['reason']}")
 
 
 def shard_of(text):
@@ -182,7 +202,8 @@ def parser():
     result.add_argument("--dask", metavar="ADDRESS", help="scheduler of Dask distributed, such as tcp://host:8786; its workers make the blocks")
     result.add_argument("--verify", action="store_true", help="read all files that are there and compare their hashes")
     result.add_argument("--merge", action="store_true", help="only join the parts of all shards")
-    result.add_argument("--check", action="store_true", help="only check SPEC")
+    result.add_argument("--check", action="store_true",
+                        help="only check SPEC: makes and reads terrain and scenes in a temporary folder, and draws the first items")
     result.add_argument("--keys", action="store_true", help="print all keys of a specification as tables")
     return result
 
@@ -198,6 +219,13 @@ def main(arguments=None, maker=context.MAKER):
     options.maker = maker
     options.plan = os.path.abspath(options.plan) if options.dask else options.plan
     options.out = os.path.abspath(options.out) if options.out and options.dask else options.out
+    with warnings.catch_warnings():
+        show_warnings_once()
+        return guarded(options)
+
+
+def guarded(options):
+    """run() with one message for each fault, and Ctrl-C. Returns the exit code."""
     handlers = {number: signal.signal(number, raise_interrupted) for number in (signal.SIGINT, signal.SIGTERM)}
     try:
         return run(options)
@@ -214,31 +242,73 @@ def main(arguments=None, maker=context.MAKER):
 
 
 def run(options):
+    plan, _, store = context.open_store(options.plan, options.out or os.curdir)
+    if "object" not in plan.arrays:
+        warnings.warn(f"{plan.where('chip.arrays')}: without object there are no boxes; add object to chip.arrays for them")
     if options.check:
-        plan = context.open_store(options.plan, options.out or os.curdir)[0]
-        print(f"{options.plan}: good; {plan.count:,} items in {plan.blocks:,} blocks")
+        context.try_out(options.plan, options.maker)
+        print(f"{options.plan}: good; {plan.count:,} items in {plan.blocks:,} block{'s' * (plan.blocks > 1)}")
         return 0
-    plan, store = context.prepare(options.plan, options.out)
-    shard, shards = options.shard
-    blocks = [] if options.merge else list(range(shard, plan.blocks, shards))
-    faults = {block: store.fault(block, options.verify) for block in blocks}
-    todo = [block for block in blocks if faults[block]]
-    for block in [block for block in todo if faults[block] != "absent"][:MOST_ERROR_LINES]:
-        print(f"yars dataset: block {block} is made again: {faults[block]}", file=sys.stderr)
-    total = sum(last - first for first, last in map(store.items, blocks))
-    there = total - sum(last - first for first, last in map(store.items, todo))
-    progress = Progress(there, total)
+    if options.merge and not os.path.isdir(options.out):
+        raise DatasetError(f"{options.out}: expected the folder of a data set for --merge, found none; check the path, or run the shards first")
+    client = None
+    if options.dask:
+        from . import dask_engine
+        client = dask_engine.connect(options.dask)
     try:
-        if todo and options.dask:
+        store.begin()
+        return make_all(options, plan, store, client)
+    finally:
+        if client:
+            dask_engine.disconnect(client)
+
+
+def make_all(options, plan, store, client):
+    """Makes what is not there. Returns the exit code. `client`: of the Dask cluster, or None."""
+    files.remove_leftovers(options.out)
+    shard, shards = options.shard
+    mine = 0 if options.merge else len(range(shard, plan.blocks, shards))
+    damaged = []
+
+    def note_damage(block, reason):
+        damaged.append(block)
+        if len(damaged) <= MOST_ERROR_LINES:
+            warnings.warn(f"block {block} is made again: {reason}")
+    whole, number = store.whole_blocks(shard, shards, options.verify, note_damage) if mine else (b"", 0)
+    count = mine - number
+    fault = store.unfit("objects", options.verify)
+    if not options.merge or fault:
+        context.make_inputs(plan, store, read=bool(count or fault or options.verify))
+    progress = Progress(*items_of(store, shard, shards, mine, whole, number))
+    try:
+        if count and client:
             from .dask_engine import run_dask
-            run_dask(options, store.mark, todo, progress)
-        elif todo:
-            run_local(options, store.mark, todo, progress)
+            run_dask(client, options, store.mark, absent_blocks(whole, shard, shards, plan.blocks), progress)
+        elif count:
+            run_local(options, store.mark, absent_blocks(whole, shard, shards, plan.blocks), count, progress)
+        elif fault:
+            warnings.warn(f"{options.out}: objects.json and the arrays' metadata are made again: {fault}")
+            load_once(options, store.mark)
     finally:
         progress.end()
+        if count:
+            files.remove_leftovers(options.out)  # of workers that were killed
+    return report(options, store, progress, bool(count))
+
+
+def items_of(store, shard, shards, mine, whole, number):
+    """(items that are there, all items) of a shard with `mine` blocks, `number` of them whole, by the bits `whole`."""
+    last, block = store.plan.blocks - 1, store.plan.block
+    short = block - (store.items(last)[1] - store.items(last)[0])  # items that the last block has less
+    total = mine * block - (short if mine and last % shards == shard else 0)
+    return number * block - (short if number and int(whole[last // 8]) >> last % 8 & 1 else 0), total
+
+
+def report(options, store, progress, made):
+    """Joins the parts, and says what was done."""
     seconds = time.monotonic() - progress.begin
-    whole = join(options, store, bool(todo))
-    text = f"{progress.made:,} items made, {there:,} were there; {seconds:.1f} s"
+    whole = join(options, store, made)
+    text = f"{progress.made:,} items made, {progress.there:,} were there; {seconds:.1f} s"
     if progress.made:
         text += f", {progress.made / seconds:,.0f} items/s, {progress.redraws:,} redraws"
     print(f"{options.out}: {text}; " + ("all items are there" if whole else "blocks of other shards are to come"))
@@ -247,14 +317,12 @@ def run(options):
 
 def join(options, store, made):
     """Joins the parts if all are there. Returns True if they are."""
-    if made:
-        files.remove_leftovers(options.out)  # of workers that were killed
     if not store.complete():
         if options.merge:
             print(f"yars dataset: {options.out}: expected the parts of all blocks, found some absent; run the other shards first", file=sys.stderr)
         return False
-    broken = store.merge(made or options.verify or options.merge)
+    broken = store.merge(made or options.merge, options.verify)
     if broken:
-        raise DatasetError(f"{options.out}: expected whole parts, found {len(broken)} damaged, the first of block {broken[0]}; run the "
+        raise DatasetError(f"{options.out}: expected whole parts, found damaged ones, the first of block {broken[0]}; run the "
                            "command again without --merge and --shard")
     return True

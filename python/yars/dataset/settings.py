@@ -21,13 +21,6 @@ def guf(value):
     return f"{round(float(value), 9):.12g}"
 
 
-def fidelity_line(plan):
-    """The form Fidelity of preset and knobs; None without them."""
-    slots = [f":preset {plan.preset}"] if plan.preset else []
-    slots += [f":{re.sub('_([a-z0-9])', lambda found: found.group(1).upper(), name)} {guf(value)}" for name, value in plan.knobs.items()]
-    return f"( Fidelity {' '.join(slots)} )" if slots else None
-
-
 def is_drawn(value):
     return not isinstance(value, (list, Fixed))
 
@@ -89,16 +82,16 @@ class Settings:
         return " ".join([f"( Noise :seed {self.plan.seed} )"] + lines)
 
     def checked_lines(self):
-        """[(GUF, line of the specification)]: each end that a setting can have, for a check by YARS."""
-        lines = []
-        fidelity = fidelity_line(self.plan)
-        if fidelity:
-            known = [self.plan.lines[key] for key in ("radar.knobs", "radar.preset", "radar") if key in self.plan.lines]
-            lines.append((fidelity, known[0]))
+        """[(GUF, line of the specification, path of a knob or None)]: each end that a setting can have, for a check by YARS."""
+        where = self.plan.lines
+        lines = [(f"( Fidelity :preset {self.plan.preset} )", where["radar.preset"], None)] if self.plan.preset else []
+        for name, value in self.plan.knobs.items():
+            slot, key = re.sub("_([a-z0-9])", lambda found: found.group(1).upper(), name), f"radar.knobs.{name}"
+            lines.append((f"( Fidelity :{slot} {guf(value)} )", where[key], key))
         for setting in self.plan.settings:
             value = setting.value
             ends = [value] if isinstance(value, list) else value.ends()
             if isinstance(value, Normal):
                 ends = [value.mean, *(end for end in (value.low, value.high) if abs(end) < 1e308)]
-            lines += [(f"( {setting.form} :{setting.slot} {guf(end)} )", setting.line) for end in ends]
+            lines += [(f"( {setting.form} :{setting.slot} {guf(end)} )", setting.line, None) for end in ends]
         return lines

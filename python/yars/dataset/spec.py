@@ -1,16 +1,18 @@
 """Specification of a data set: a YAML file, read, checked and completed by defaults. Keys: keys.py, docs/datasets.md.
 
     plan = read_spec("town.yaml")         # SpecError: every fault as FILE:LINE: expected ..., found ...; ...
-Checks that need the radar's limits, terrain or scenes follow in world.py."""
+Checks that need the radar's limits, terrain or scenes follow in limits.py, sampling.py and maker.py."""
 import dataclasses
 import fnmatch
+import os
 import pathlib
 import re
+import stat
 
 import yaml
 
+from . import SpecError
 from .distributions import Fixed, Uniform
-from .errors import SpecError
 from .keys import ARRAYS, KEYS, children
 from .yaml_reader import Reader
 
@@ -344,6 +346,9 @@ class _SpecReader(Reader):
 def read_spec(path):
     """Reads and checks a specification. Raises SpecError with all faults, DatasetError if the file cannot be read."""
     try:
+        if not stat.S_ISREG(os.stat(path).st_mode):
+            raise SpecError(f"{path}: expected a specification, found {'a folder' if os.path.isdir(path) else 'no regular file'}; give the path of "
+                            "a file: each process of a run reads it")
         with open(path, "rb") as file:
             data = file.read(MOST_BYTES + 1)
     except OSError as error:

@@ -1,12 +1,13 @@
 """Values of a YAML file with their lines: collects faults as FILE:LINE, so that one reading reports all of them."""
 import difflib
 import math
+import re
 
 import yaml
 
+from . import SpecError
 from .distributions import Choice, Fixed, LogUniform, Normal, Uniform
-from .errors import SpecError
-from .keys import INFINITY, KEYS, children, value_text
+from .keys import INFINITY, KEYS, children, number_text, value_text
 
 MOST_FAULTS = 20
 DISTRIBUTIONS = ("uniform", "log_uniform", "normal", "choice", "weighted")
@@ -96,11 +97,19 @@ class Reader:
         value = None
         if isinstance(node, yaml.ScalarNode) and node.style is None:
             try:
-                value = int(node.value, 10) if whole else float(node.value)
+                value = float(node.value)
+                if whole and value.is_integer():  # 1000, 1e3
+                    value = int(node.value, 10) if re.fullmatch(r"[-+]?\d+", node.value) else int(value)
+                elif whole:
+                    value = None
             except ValueError:
                 value = None
-        if value is None or not math.isfinite(value) or not least <= value <= most:
+        if value is None or not math.isfinite(value):
             self.fault(node, expected)
+            return None
+        if not least <= value <= most:
+            self.fault(node, expected, action=f"give one {'above' if value < least else 'below'} that end" if math.isinf(least + most) else
+                       f"the {'least' if value < least else 'greatest'} is {number_text(least if value < least else most)}")
             return None
         return value
 

@@ -64,6 +64,29 @@ TEST(Determinism, ThreadsThatStealPiecesGiveTheSameHashesInEveryRun) {
   }
 }
 
+TEST(Determinism, AStoppedScanLeavesTheObjectUsable) {
+  const auto configuration = with(radar::Algorithm::standard, 37);
+  const auto alone = hashes(configuration, 1);
+  test::Cockpit cockpit(configuration, terrain::built_in_hills());
+  for (const int threads : {1, 3}) {
+    OfflineScan scan(configuration, request_of(cockpit.tick), threads);
+    for (int steps = 0; steps < 3; ++steps) {
+      int asked = 0;
+      bool stopped = false;
+      try {
+        scan.run({cockpit.terrain, nullptr}, [&] { return asked++ < steps; });
+      } catch (const parallel::Stopped&) {
+        stopped = true;
+      }
+      // Other threads may take all sweeps before the caller is asked so often.
+      EXPECT_EQ(stopped, asked > steps);
+      EXPECT_TRUE(stopped || threads > 1);
+      scan.run({cockpit.terrain, nullptr}, [] { return true; });
+      for (std::size_t i = 0; i < alone.size(); ++i) ASSERT_EQ(scan.sweeps()[i].hash, alone[i]) << threads << ' ' << i;
+    }
+  }
+}
+
 // 300 houses and a runway (height 0) within the scan of test::Cockpit.
 scene::SceneViewPointer town() {
   std::vector<test::Building> all{{0.0, 900.0, 45.0, 1800.0, 0.0, 9}};

@@ -57,6 +57,21 @@ TEST(DirectoryIndex, CellsAreFoundAtAnyDepth) {
   EXPECT_EQ(chosen(folder, {1, 2}), "N01E002.hgt");
 }
 
+TEST(DirectoryIndex, TheNorthAndEastEdgeOfTheOutermostCellsBelongToThem) {
+  const DirectoryIndex index{{slot_of({39, -115}), {}}, {slot_of({0, 179}), {}}};
+  const auto cell_of = [&](double latitude_deg, double longitude_deg) {
+    return cell_containing(within_index(index, {latitude_deg, longitude_deg}));
+  };
+  EXPECT_EQ(cell_of(40.0, -114.5), (CellCorner{39, -115}));
+  EXPECT_EQ(cell_of(39.5, -114.0), (CellCorner{39, -115}));
+  EXPECT_EQ(cell_of(40.0, -114.0), (CellCorner{39, -115}));
+  EXPECT_EQ(cell_of(0.5, 180.0), (CellCorner{0, 179}));
+  EXPECT_EQ(cell_of(1.0, -180.0), (CellCorner{0, 179}));
+  EXPECT_EQ(cell_of(40.1, -114.5), (CellCorner{40, -115}));  // outside
+  EXPECT_EQ(cell_of(39.0, -115.0), (CellCorner{39, -115}));
+  EXPECT_EQ(cell_of(-90.0, 0.0), (CellCorner{-90, 0}));
+}
+
 TEST(DirectoryIndex, ACellHasItsCultureUnderANameOfEitherCase) {
   const test::TemporaryFolder folder;
   for (const char* name : {"W122/N36.DT1", "W122/N36.SMC.PNG", "W122/N37.DT1", "N38W122.hgt", "n38w122.smc.png"})

@@ -1,0 +1,54 @@
+// Where patch maps lie, and boxes of the objects of a scene in them.
+// Inputs: geometry of a map and its labels. Outputs: corners in pixels, laid over as the foot of the object appears.
+// Units: pixels, degrees. Source: docs/python.md, "Many maps".
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "model/hrm/patch_geometry.hpp"
+#include "python/core/places.hpp"
+
+namespace yars::python {
+
+// Entry of the structured array `geo`.
+struct Geo {
+  double origin_latitude, origin_longitude;
+  double plane_from_pixel[6];
+  double up_deg, distance_m, slant_range_m, grazing_deg, plane_msl_m, window_m, resolution_m;
+};
+Geo geo_of(const model::hrm::PatchGeometry& geometry, int size);
+
+// Linear transform from the plane of a group of footprints to the map, about the group's origin.
+struct GroupOnMap;
+
+// Entry of the structured array `boxes`.
+struct Box {
+  std::int32_t order, object;
+  float corners[4][2];
+  float aspect_deg;
+  std::int32_t pixels;
+};
+
+// Boxes of the objects whose footprint overlaps the picture, in the order of the scene's groups.
+class Boxes {
+ public:
+  // Boxes of objects with fewer than `min_pixels` labelled pixels are left out. `size`: pixels on an edge of a map.
+  Boxes(const Scene& scene, int size, int min_pixels)
+      : scene_(scene), size_(size), min_pixels_(min_pixels), pixels_(scene.objects().size(), 0) {}
+
+  // Adds those of one map. `order`: its index. `labels`: object of each pixel.
+  void add(std::int32_t order, const model::hrm::PatchGeometry& geometry, const std::vector<std::int32_t>& labels);
+  const std::vector<Box>& boxes() const { return boxes_; }
+
+ private:
+  void add_box(std::int32_t order, const model::hrm::PatchGeometry& geometry, const GroupOnMap& transform,
+               const Footprint& footprint);
+
+  const Scene& scene_;
+  int size_, min_pixels_;
+  std::vector<std::int32_t> pixels_;  // by object: pixels with its label in the current map
+  std::vector<Box> boxes_;
+};
+
+}  // namespace yars::python
