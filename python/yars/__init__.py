@@ -15,6 +15,8 @@ import importlib.util
 import pathlib
 import platform
 
+__version__ = "0.2.0"
+
 # Module of the package -> its names that are names of the package. Typed in __init__.pyi.
 _NAMES = {
     "results": ("Terrain", "Scene", "Radar", "Scan", "Patch", "Recording", "trade", "PATCH_ORDER", "MOVER"),

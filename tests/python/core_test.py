@@ -20,6 +20,11 @@ ARRAYS = {"power": (np.float32, "1"), "video": (np.uint8, ""), "shadow": (np.boo
 PRESETS = ("1996", "draft", "standard", "fine", "reference")
 
 
+class Package(unittest.TestCase):
+    def test_version(self):
+        self.assertEqual(yars.__version__, command("--version", text=True).strip())
+
+
 class Shapes(unittest.TestCase):
     """Shape, type, unit, axes; no copies."""
 

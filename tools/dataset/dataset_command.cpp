@@ -95,7 +95,8 @@ void add_dataset_command(databuffer::Command app) {
       .otherwise("this computer");
   command.flag("--verify", options->verify, "read all files, and make what does not fit its hash again");
   command.flag("--merge", options->merge, "only join the parts of all shards");
-  command.flag("--check", options->check, "only check SPEC");
+  command.flag("--check", options->check,
+               "only check SPEC: makes and reads its terrain and scenes in a temporary folder, draws the first items");
   command.flag("--keys", options->keys, "print the tables of the keys of a specification");
   command.callback([options] { become_python(*options); });
 }
