@@ -287,7 +287,7 @@ complete -c yars -n "__yars_at 'dataset'" -l shard -x -d 'i/N: only every Nth bl
 complete -c yars -n "__yars_at 'dataset'" -l dask -x -d 'address of a Dask scheduler, whose workers make the blocks'
 complete -c yars -n "__yars_at 'dataset'" -l verify -d 'read all files, and make what does not fit its hash again'
 complete -c yars -n "__yars_at 'dataset'" -l merge -d 'only join the parts of all shards'
-complete -c yars -n "__yars_at 'dataset'" -l check -d 'only check SPEC'
+complete -c yars -n "__yars_at 'dataset'" -l check -d 'only check SPEC: makes and reads its terrain and scenes in a temporary folder, draws the first items'
 complete -c yars -n "__yars_at 'dataset'" -l keys -d 'print the tables of the keys of a specification'
 complete -c yars -n "__yars_at 'dataset'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'dataset'" -l config -r -F -d 'GUF configuration file'
