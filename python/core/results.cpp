@@ -196,7 +196,7 @@ PatchResult::Parts PatchResult::parts_of(hrm::PatchFormation& formation) {
 }
 
 PatchResult::PatchResult(Parts parts, const hrm::PatchOrder& order, std::string fidelity)
-    : geometry_(std::move(parts.geometry)),
+    : geometry_(parts.geometry),
       order_(order),
       formation_s_(parts.formation_s),
       fidelity_(std::move(fidelity)),
