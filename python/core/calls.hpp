@@ -1,4 +1,5 @@
 // Calls without the interpreter's lock: signals while they run, and locks of objects that outlive fork().
+// Inputs: work that asks between its steps whether it goes on. Outputs: none; the work writes its own.
 // Threads: a signal is noticed by Python's main thread alone, so calls of other threads run to their end.
 // Errors: the exception of a signal's handler, such as KeyboardInterrupt.
 #pragma once

@@ -45,13 +45,15 @@ bool StationFeed::refresh() {
 
 bool StationFeed::refresh_frame(std::int64_t now_ns) {
   if (now_ns - frame_ns_ < kFrameInterval_ns) return false;
-  if (!databuffer::read_newest_frame(std::as_const(*session_).layout(), frame_.id, frame_, pixels_)) return false;
-  if (const auto reason = databuffer::validate(frame_)) {
+  databuffer::GlassFrame frame{};  // a copy that failed may hold anything
+  if (!databuffer::read_newest_frame(std::as_const(*session_).layout(), frame_id_, frame, pixels_)) return false;
+  frame_id_ = frame.id;
+  if (const auto reason = databuffer::validate(frame)) {
     session_->note(databuffer::NoteKind::refusal, "station: frame: " + *reason);
     return false;
   }
   frame_ns_ = now_ns;
-  frames_.take(frame_, pixels_);
+  frames_.take(frame, pixels_);
   return true;
 }
 

@@ -45,7 +45,7 @@ class StationFeed {
   databuffer::Claim lane_;
   std::uint32_t number_ = 0;
   FrameStream frames_;
-  databuffer::GlassFrame frame_{};
+  std::uint64_t frame_id_ = 0;  // of the last frame that was read, valid or not
   std::vector<std::uint8_t> pixels_;
   std::int64_t frame_ns_ = 0;  // CLOCK_MONOTONIC when the newest frame was read; 0: none
   display::DisplayInput input_;
