@@ -55,7 +55,7 @@ double layover_factor(const hrm::PatchGeometry& geometry, hrm::MapPoint point, d
 }
 }  // namespace
 
-void Boxes::add(std::int32_t order, const hrm::PatchGeometry& geometry, const std::vector<std::int32_t>& labels) {
+void Boxes::add(std::int64_t order, const hrm::PatchGeometry& geometry, const std::vector<std::int32_t>& labels) {
   for (const std::int32_t object : labels)
     if (object >= 0) ++pixels_[static_cast<std::size_t>(object)];
   const geo::GeoPoint centre = geometry.position_of({});
@@ -71,7 +71,7 @@ void Boxes::add(std::int32_t order, const hrm::PatchGeometry& geometry, const st
     if (object >= 0) pixels_[static_cast<std::size_t>(object)] = 0;
 }
 
-void Boxes::add_box(std::int32_t order, const hrm::PatchGeometry& geometry, const GroupOnMap& transform,
+void Boxes::add_box(std::int64_t order, const hrm::PatchGeometry& geometry, const GroupOnMap& transform,
                     const Footprint& footprint) {
   const double pixels_per_m = size_ / geometry.window_m();
   const hrm::MapPoint middle = transform.of(footprint.east_m, footprint.north_m);

@@ -22,12 +22,15 @@ Geo geo_of(const model::hrm::PatchGeometry& geometry, int size);
 // Linear transform from the plane of a group of footprints to the map, about the group's origin.
 struct GroupOnMap;
 
-// Entry of the structured array `boxes`.
+// Entry of the structured array `boxes`. Its layout is that of BOX of python/yars/dataset/blocks.py, so that a data set
+// completes and stores these entries where they are.
 struct Box {
-  std::int32_t order, object;
-  float corners[4][2];
-  float aspect_deg;
+  std::int64_t order;
+  std::int32_t object;
+  std::int32_t class_id;  // 0; no field of `boxes`
   std::int32_t pixels;
+  float aspect_deg;
+  float corners[4][2];
 };
 
 // Boxes of the objects whose footprint overlaps the picture, in the order of the scene's groups.
@@ -38,11 +41,11 @@ class Boxes {
       : scene_(scene), size_(size), min_pixels_(min_pixels), pixels_(scene.objects().size(), 0) {}
 
   // Adds those of one map. `order`: its index. `labels`: object of each pixel.
-  void add(std::int32_t order, const model::hrm::PatchGeometry& geometry, const std::vector<std::int32_t>& labels);
+  void add(std::int64_t order, const model::hrm::PatchGeometry& geometry, const std::vector<std::int32_t>& labels);
   const std::vector<Box>& boxes() const { return boxes_; }
 
  private:
-  void add_box(std::int32_t order, const model::hrm::PatchGeometry& geometry, const GroupOnMap& transform,
+  void add_box(std::int64_t order, const model::hrm::PatchGeometry& geometry, const GroupOnMap& transform,
                const Footprint& footprint);
 
   const Scene& scene_;

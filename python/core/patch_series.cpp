@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <functional>
 #include <initializer_list>
@@ -80,8 +81,15 @@ py::dtype geo_type() {
                    {"resolution_m", "<f8"}});
 }
 py::dtype box_type() {
-  return dtype_of(
-      {{"order", "<i4"}, {"object", "<i4"}, {"corners", "(4,2)<f4"}, {"aspect_deg", "<f4"}, {"pixels", "<i4"}});
+  const auto list = [](const auto&... entries) {
+    py::list items;
+    (items.append(entries), ...);
+    return items;
+  };
+  return {list("order", "object", "pixels", "aspect_deg", "corners"), list("<i8", "<i4", "<i4", "<f4", "(4,2)<f4"),
+          list(offsetof(Box, order), offsetof(Box, object), offsetof(Box, pixels), offsetof(Box, aspect_deg),
+               offsetof(Box, corners)),
+          sizeof(Box)};
 }
 
 std::string text_of(const py::dtype& type) {
@@ -282,7 +290,7 @@ class Series {
     store(formation_, index, outputs_);
     hashes_.push_back(tools::picture_hash(formation_.picture()));
     geometries_.push_back(geo_of(formation_.geometry(), configuration_.fidelity.map_size));
-    if (boxes_) boxes_->add(static_cast<std::int32_t>(index), formation_.geometry(), formation_.labels().object);
+    if (boxes_) boxes_->add(static_cast<std::int64_t>(index), formation_.geometry(), formation_.labels().object);
   }
 
   // Adds geometry, boxes and hashes to the arrays. Call it with the interpreter's lock.

@@ -80,11 +80,16 @@ void Warnings::show(const std::string& function, int frames) {
 void add_hashes(py::module_& module) {
   module.def(
       "xxh3",
-      [](const py::buffer& bytes) {
-        const py::buffer_info info = bytes.request();
-        return XXH3_64bits(info.ptr, static_cast<std::size_t>(info.size * info.itemsize));
+      [](const py::args& parts) {
+        XXH3_state_t state;
+        XXH3_64bits_reset(&state);
+        for (const py::handle part : parts) {
+          const py::buffer_info info = py::cast<py::buffer>(part).request();
+          XXH3_64bits_update(&state, info.ptr, static_cast<std::size_t>(info.size * info.itemsize));
+        }
+        return XXH3_64bits_digest(&state);
       },
-      py::arg("bytes"), "XXH3 hash, 64 bits, of the bytes of a contiguous buffer.");
+      "XXH3 hash, 64 bits, of the bytes of contiguous buffers, one after the other.");
   module.def(
       "xxh3_items",
       [](const py::buffer& array) {

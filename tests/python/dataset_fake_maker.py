@@ -15,7 +15,6 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "python"))
 
 OBJECT = np.dtype([("name", "U16"), ("latitude", "f8"), ("longitude", "f8"), ("height_m", "f4")])
 GEO = np.dtype([("origin_latitude", "f8"), ("origin_longitude", "f8"), ("plane_from_pixel", "f8", (6,)), ("up_deg", "f8")])
-BOX = np.dtype([("order", "i4"), ("object", "i4"), ("corners", "f4", (4, 2)), ("aspect_deg", "f4"), ("pixels", "i4")])
 TYPES = {"video": "u1", "power": "f4", "shadow": "u1", "layover": "u1", "object": "i4", "material": "u1", "height": "f4",
          "grazing_angle": "f4"}
 
@@ -52,7 +51,8 @@ class FakeMaker:
         result["geo"] = np.zeros(count, GEO)
         result["geo"]["origin_latitude"], result["geo"]["origin_longitude"] = orders["latitude"], orders["longitude"]
         result["geo"]["plane_from_pixel"] = [0.0, 10.0, 0.0, 0.0, 0.0, -10.0]
-        boxes = np.zeros(count * 3, BOX)
+        from yars.dataset.blocks import RADAR_BOX
+        boxes = np.zeros(count * 3, RADAR_BOX)
         boxes["order"], boxes["object"] = np.repeat(np.arange(count), 3), np.tile([7, 2, 0], count)
         boxes["pixels"], boxes["corners"] = np.tile([4, 2, 0], count), [[1, 1], [5, 1], [5, 3], [1, 3]]
         result["boxes"] = boxes[boxes["pixels"] >= self.plan.min_pixels]

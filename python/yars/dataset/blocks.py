@@ -11,6 +11,10 @@ from .sampling import Sample
 
 BOX = np.dtype([("item", "<i8"), ("object", "<i4"), ("class", "<i4"), ("pixels", "<i4"), ("aspect_deg", "<f4"),
                 ("corners", "<f4", (4, 2))])
+# Boxes as the radar makes them: `order` where BOX has `item`, and room for `class`. So they are completed and stored where they are.
+_OF_RADAR = ("item", "object", "pixels", "aspect_deg", "corners")
+RADAR_BOX = np.dtype({"names": ["order", *_OF_RADAR[1:]], "formats": [BOX[name] for name in _OF_RADAR],
+                      "offsets": [BOX.fields[name][1] for name in _OF_RADAR], "itemsize": BOX.itemsize})
 
 
 def slice_sample(sample, first, last):
@@ -65,16 +69,16 @@ class BlockMaker:
         arrays, checks, geo, boxes = self.compute(sample)
         names = {}
 
-        def put(name, data):
-            files.write(self.store.path(name), data)
-            names[name] = [memoryview(data).nbytes, f"{self.store.hash(data):016x}"]
+        def put(name, *parts):
+            files.write(self.store.path(name), *parts)
+            names[name] = [sum(memoryview(part).nbytes for part in parts), f"{self.store.hash(*parts):016x}"]
         hashes = {}
         for name, array in arrays.items():
             hashes[name] = checks if name == "video" else self.store.hash_items(array)
             if self.plan.format == "zarr":
                 put(f"chips.zarr/{name}/{block}.0.0", formats.zarr_chunk(array, self.plan.block, self._encoders[name]))
         if self.plan.format == "zarr" and boxes is not None:
-            put(self.store.boxes_name(block), boxes.base)
+            put(self.store.boxes_name(block), formats.npy_head(BOX, len(boxes)), boxes.view(np.uint8))
         edges = np.searchsorted(boxes["item"], sample.items[0] + np.arange(len(sample.items) + 1)) if boxes is not None else None
         self._write_items(sample, arrays, geo, boxes, edges, put)
         lines = self._lines(sample, geo, hashes, boxes, edges)
@@ -92,7 +96,7 @@ class BlockMaker:
             result = self.maker.patches(part.orders, part.movers, self.sampler.settings.text(int(runs[first])))
             results.append(result)
             if "object" in self.plan.arrays:
-                found.append(self._wanted(result["boxes"], part.items))
+                found.append(self._boxes(result["boxes"], part.items))
         def joined(name):
             return results[0][name] if len(results) == 1 else np.concatenate([result[name] for result in results])
         shape = (len(runs), self.plan.size, self.plan.size)
@@ -101,25 +105,21 @@ class BlockMaker:
             arrays[name] = np.ascontiguousarray(joined(name), self._types[name])
             if arrays[name].shape != shape:
                 raise DatasetError(f"expected the array {name} with the shape {shape}, found {arrays[name].shape}; this is a fault of YARS")
-        return arrays, joined("hash").tolist(), joined("geo"), self._boxes(found) if found else None
+        boxes = (found[0] if len(found) == 1 else np.concatenate(found)) if found else None
+        return arrays, joined("hash").tolist(), joined("geo"), boxes
 
-    def _wanted(self, rows, items):
-        """(item of each box, boxes of the radar), without those of ignored classes."""
+    def _boxes(self, rows, items):
+        """Boxes of the radar as BOX, in their order, in the memory of `rows` if no class is ignored."""
+        if rows.dtype != RADAR_BOX:
+            raise DatasetError(f"expected boxes of the type {RADAR_BOX}, found {rows.dtype}; this is a fault of YARS")
+        classes = self._class_ids[rows["object"]]
+        boxes = rows.view(BOX)
         if self._ignores:
+            wanted = classes >= 0
             # Whole rows are copied faster than structured ones.
-            rows = rows.view(f"V{rows.dtype.itemsize}")[self._class_ids[rows["object"]] >= 0].view(rows.dtype)
-        return items[rows["order"]], rows
-
-    def _boxes(self, found):
-        """Boxes as BOX, in the order of items and of the radar. Their `base` is the whole .npy file."""
-        boxes = formats.npy_room(BOX, sum(len(rows) for _, rows in found))
-        at = 0
-        for items, rows in found:
-            part = boxes[at:at + len(rows)]
-            part["item"], part["class"] = items, self._class_ids[rows["object"]]
-            for name in ("object", "pixels", "aspect_deg", "corners"):
-                part[name] = rows[name]
-            at += len(rows)
+            boxes, classes = rows.view(f"V{BOX.itemsize}")[wanted].view(BOX), classes[wanted]
+        boxes["item"] = items[boxes["item"]]
+        boxes["class"] = classes
         return boxes
 
     def _write_items(self, sample, arrays, geo, boxes, edges, put):

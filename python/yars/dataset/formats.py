@@ -76,13 +76,11 @@ def zarr_chunk(array, block, encoder):
     return encoder.encode(np.ascontiguousarray(array)) if encoder else np.ascontiguousarray(array)
 
 
-def npy_room(kind, count):
-    """Array of one axis to be filled. Its `base` has the bytes of its .npy file, the header included."""
+def npy_head(kind, count):
+    """Begin of the .npy file of an array of one axis. The bytes of the array follow it."""
     head = io.BytesIO()
     np.lib.format.write_array_header_1_0(head, {"descr": np.lib.format.dtype_to_descr(kind), "fortran_order": False, "shape": (count,)})
-    file = np.empty(head.tell() + count * kind.itemsize, np.uint8)
-    file[:head.tell()] = np.frombuffer(head.getvalue(), np.uint8)
-    return file[head.tell():].view(kind)
+    return head.getvalue()
 
 
 def npz(arrays, compressed):

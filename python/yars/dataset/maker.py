@@ -1,7 +1,8 @@
 """What makes the arrays: the compiled part of YARS. Tests put another maker in its place.
 
 A maker has `objects` (structured: name, latitude, longitude, ...), `elevation(latitudes, longitudes)` [m MSL],
-`patches(orders, movers, settings)` -> dict of arrays, and `warm(sample)`, which reads what workers are to share."""
+`patches(orders, movers, settings)` -> dict of arrays, `boxes` of the type blocks.RADAR_BOX among them, and `warm(sample)`, which reads
+what workers are to share."""
 import functools
 import hashlib
 
@@ -14,14 +15,17 @@ OBJECT = np.dtype([("name", "U64"), ("latitude", "f8"), ("longitude", "f8")])
 
 
 def hasher():
-    """(name, function bytes -> 64-bit hash, function array -> list of the hashes of its items): XXH3 of the compiled part, else
-    BLAKE2b."""
+    """(name, function buffers -> 64-bit hash of their bytes, function array -> list of the hashes of its items): XXH3 of the compiled
+    part, else BLAKE2b."""
     try:
         from yars._core import xxh3, xxh3_items
         return "XXH3-64", xxh3, xxh3_items
     except ImportError:
-        def blake2b(data):
-            return int.from_bytes(hashlib.blake2b(data, digest_size=8).digest(), "little")
+        def blake2b(*parts):
+            state = hashlib.blake2b(digest_size=8)
+            for part in parts:
+                state.update(part)
+            return int.from_bytes(state.digest(), "little")
         return "BLAKE2b-64", blake2b, lambda array: [blake2b(item) for item in array]
 
 
