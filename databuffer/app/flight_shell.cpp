@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "databuffer/bridges/dis.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/receivers.hpp"
 #include "databuffer/session/validated.hpp"
@@ -22,6 +23,12 @@ constexpr std::int64_t kMaxResumeGap_ns = 10'000'000'000;
 // [ticks] Interval of ownship records, 20 ms. At 300 m/s the apex of the sweeps then moves in steps of 6 m. A longer
 // interval would make these steps visible.
 constexpr std::int64_t kTicksBetweenRecords = 4;
+
+// Speed of the epoch's repositioning; nullopt: the model chooses.
+std::optional<geo::Speed> requested_speed(const ClockState& clock) {
+  if (std::isnan(clock.reposition_latitude_deg) || !(clock.reposition_speed_mps > 0.0)) return std::nullopt;
+  return geo::Speed::metres_per_second(clock.reposition_speed_mps);
+}
 
 }  // namespace
 
@@ -63,7 +70,8 @@ void FlightShell::begin_epoch(const ClockState& clock) {
   }
   const flight::Placement placement{{clock.reposition_latitude_deg, clock.reposition_longitude_deg},
                                     geo::AltitudeMsl::metres(clock.reposition_altitude_m),
-                                    geo::Bearing::degrees(clock.reposition_heading_deg)};
+                                    geo::Bearing::degrees(clock.reposition_heading_deg),
+                                    requested_speed(clock)};
   const bool placed = source_.model->reposition(placement);
   // `followed`: a jump of the aircraft's source began this epoch. No user requested the repositioning, so a refusal
   // needs no warning.
@@ -109,8 +117,14 @@ bool FlightShell::resume(const TickLoop::Due& due) {
   if (std::string_view(own.ownship.source) != last.source || last.epoch != due.clock.epoch ||
       last.source_time_ns > due.sim_time_ns || last.source_time_ns < due.sim_time_ns - kMaxResumeGap_ns)
     return false;
-  const std::int64_t gap_ns = due.sim_time_ns - last.source_time_ns;
-  if (!source_.model->resume(last, geo::Duration::seconds(1e-9 * static_cast<double>(gap_ns)))) return false;
+  const auto gap = geo::Duration::seconds(1e-9 * static_cast<double>(due.sim_time_ns - last.source_time_ns));
+  if (!source_.model->resume(last, gap)) return false;
+  // A flight that the instructor set straight stays so.
+  if (const auto speed = requested_speed(due.clock); speed && validate(due.clock) == std::nullopt)
+    source_.model->reposition({{last.latitude_deg, last.longitude_deg},
+                               geo::AltitudeMsl::metres(last.altitude_msl_m),
+                               ground_track_of(last),
+                               speed});
   session_->note(NoteKind::restart, "flight-model resumes");
   log::info("continues the flight of its predecessor");
   return true;

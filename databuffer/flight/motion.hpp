@@ -7,6 +7,7 @@
 // Threads: pure and deterministic.
 #pragma once
 
+#include <optional>
 #include <string_view>
 
 #include "databuffer/messages/world_state.hpp"
@@ -27,6 +28,9 @@ struct Placement {
   geo::GeoPoint point;
   geo::AltitudeMsl altitude;
   geo::Bearing heading;
+  // With a speed, the flight goes on straight and level at it, until it is reset or repositioned. Without one the model
+  // chooses.
+  std::optional<geo::Speed> ground_speed{};
 };
 
 // Returns `dt` if it is positive and finite, else zero.

@@ -102,6 +102,7 @@ RouteFlight::RouteFlight(Route route)
 }
 
 void RouteFlight::reset() {
+  straight_ = false;
   fly_to(1, route_.waypoints[0].point);
   motion_ = start_of(route_, leg_);
   roll_ = {};
@@ -114,7 +115,8 @@ bool RouteFlight::reposition(const Placement& placement) {
   motion_.climb = {};
   roll_ = {};
   fly_to(nearest_leg_end(placement.point), placement.point);
-  motion_.ground_speed = route_.waypoints[target_].ground_speed;
+  motion_.ground_speed = placement.ground_speed.value_or(route_.waypoints[target_].ground_speed);
+  straight_ = placement.ground_speed.has_value();
   return true;
 }
 
@@ -158,6 +160,7 @@ FlightSample RouteFlight::step(geo::Duration dt) {
 }
 
 void RouteFlight::advance(double dt_s) {
+  if (straight_) return move(dt_s);
   fix_ = leg_.fix(motion_.point, fix_.along);
   change_leg_in_time();
   const double bank_deg = commanded_bank().degrees();
@@ -221,6 +224,7 @@ void RouteFlight::change_speeds(double dt_s) {
 
 void RouteFlight::move(double dt_s) {
   const double speed_mps = motion_.ground_speed.metres_per_second();
+  if (!(speed_mps > 0.0)) return;
   const auto turn = geo::Angle::radians(kGravity_mps2 * std::tan(roll_.radians()) / speed_mps * dt_s);
   // The chord of an arc deviates from the initial track by half the turn. So half the turn is applied before the step,
   // and half after it.

@@ -50,7 +50,7 @@ inline constexpr double kAcceleration_mps2 = 2.0;  // limit of the rate of chang
 // Guidance: far from the leg, the aircraft approaches it at a right angle, then on a circular arc. Near the leg, the
 // commanded angle between track and leg is proportional to the distance from the leg.
 // The commanded turn rate is proportional to the difference of commanded and actual track, within kBankLimit.
-// After a repositioning the aircraft flies directly to the end of the nearest leg.
+// After a repositioning the aircraft flies directly to the end of the nearest leg; straight and level if it has a speed.
 // After the last waypoint of an open route the aircraft continues straight ahead.
 class RouteFlight final : public FlightModel {
  public:
@@ -71,6 +71,7 @@ class RouteFlight final : public FlightModel {
   void move(double dt_s);
 
   Route route_;
+  bool straight_ = false;  // after a repositioning with a speed: the aircraft flies straight, and the route waits
   Motion motion_;
   geo::Angle roll_;
   std::size_t target_ = 1;  // index of the waypoint at the end of leg_

@@ -26,14 +26,19 @@ error::Expected<FixedSetting> parse_fixed(std::string_view text) {
 }
 
 FixedFlight::FixedFlight(const FixedSetting& setting)
-    : setting_(setting), origin_(setting.start), ray_(setting.start.point, setting.start.heading) {}
+    : setting_(setting),
+      ground_speed_(setting.ground_speed),
+      origin_(setting.start),
+      ray_(setting.start.point, setting.start.heading) {}
 
 void FixedFlight::reset() {
   reposition(setting_.start);
+  ground_speed_ = setting_.ground_speed;
 }
 
 bool FixedFlight::reposition(const Placement& placement) {
   origin_ = placement;
+  if (placement.ground_speed) ground_speed_ = *placement.ground_speed;
   ray_ = geo::GeodesicRay(placement.point, placement.heading);
   flown_ = geo::Length();
   return true;
@@ -42,10 +47,10 @@ bool FixedFlight::reposition(const Placement& placement) {
 FlightSample FixedFlight::step(geo::Duration dt) {
   const auto motion_here = [this] {
     const auto end = ray_.position_and_azimuth(flown_);
-    return Motion{end.point, origin_.altitude, end.azimuth, setting_.ground_speed, {}};
+    return Motion{end.point, origin_.altitude, end.azimuth, ground_speed_, {}};
   };
   const Motion before = motion_here();
-  const auto flown = geo::Length::metres(setting_.ground_speed.metres_per_second() * forward_step(dt).seconds());
+  const auto flown = geo::Length::metres(ground_speed_.metres_per_second() * forward_step(dt).seconds());
   flown_ = flown_ + surface_distance(before, flown);
   const Motion motion = motion_here();
   return sample_of(motion, coordinated_attitude(motion, {}), "fixed");

@@ -33,6 +33,7 @@ class FixedFlight final : public FlightModel {
 
  private:
   FixedSetting setting_;
+  geo::Speed ground_speed_;
   Placement origin_;  // origin of ray_: the start, or the position and heading of the last repositioning
   geo::GeodesicRay ray_;
   geo::Length flown_;  // distance from the origin along ray_, on the ellipsoid

@@ -56,6 +56,7 @@ Refusal validate(const ClockState& clock) {
   inspection.range("reposition_longitude_deg", clock.reposition_longitude_deg, Range::reposition_longitude_deg);
   inspection.range("reposition_altitude_m", clock.reposition_altitude_m, Range::reposition_altitude_m);
   inspection.range("reposition_heading_deg", clock.reposition_heading_deg, Range::reposition_heading_deg);
+  inspection.range("reposition_speed_mps", clock.reposition_speed_mps, Range::reposition_speed_mps);
   return inspection.result();
 }
 

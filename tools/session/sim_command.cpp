@@ -1,17 +1,17 @@
 // `yars sim`: controls the session's clock and the aircraft's position.
 
-#include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <limits>
+#include <functional>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 #include <utility>
 
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
+#include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/session.hpp"
 #include "lib/geo/quantity.hpp"
 #include "tools/command/command.hpp"
@@ -30,12 +30,7 @@ struct SimOptions {
   bool json = false;
 };
 
-constexpr double kMaxRate = 10.0;         // sim time / real time; at higher rates programs skip late ticks
 constexpr int kMaxSteps = 1'000'000'000;  // of one `step`: 58 days of sim time
-// Ticks by which `step` advances the clock at once. At most kMaxTicksBehind (20): programs skip ticks that are further
-// behind the clock.
-constexpr std::int64_t kStepPortion_ticks = 10;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 Session open_session(const CommonOptions& common) {
   auto running = Session::open_read_only(common.session);
@@ -49,14 +44,6 @@ Session open_session(const CommonOptions& common) {
     throw_failure({"yars sim", "the CLOCK_MONOTONIC of the session's programs", "another one, as in a time namespace",
                    "run yars sim in the namespace of the session's programs", false});
   return std::move(*session);
-}
-
-// The clock with the present time as its base, so that sim time does not jump when `rate` or `running` changes.
-ClockState rebased(const ClockState& clock) {
-  ClockState next = clock;
-  next.base_monotonic_ns = databuffer::monotonic_ns();
-  next.base_sim_ns = databuffer::sim_time_at(clock, next.base_monotonic_ns);
-  return next;
 }
 
 template <class Change>
@@ -82,100 +69,59 @@ void print_state(const SimOptions& options) {
   report(*session, options.json);
 }
 
-void set_running(const SimOptions& options, bool running) {
+// Changes the clock and prints it.
+template <class Change>
+void change_and_report(const SimOptions& options, const Change& change) {
   auto session = open_session(options.common);
-  change_clock(session, [running](const ClockState& clock) {
-    ClockState next = rebased(clock);
-    next.running = running ? 1 : 0;
-    return next;
-  });
-  report(session, options.json);
-}
-
-void set_rate(const SimOptions& options, double rate) {
-  auto session = open_session(options.common);
-  change_clock(session, [rate](const ClockState& clock) {
-    ClockState next = rebased(clock);
-    next.rate = rate;
-    return next;
-  });
+  change_clock(session, change);
   report(session, options.json);
 }
 
 // Gives the programs of the session time to run the ticks that have become due.
 void pause_for_roles() {
-  std::this_thread::sleep_for(std::chrono::milliseconds(30));
+  std::this_thread::sleep_for(std::chrono::milliseconds(databuffer::kPortionTime_ms));
 }
 
-// Freezes the clock and advances it by kStepPortion_ticks at a time, so that no program skips a tick.
+// Freezes the clock and advances it by a portion at a time, so that no program skips a tick.
 void step(const SimOptions& options, std::int64_t ticks) {
   auto session = open_session(options.common);
   const std::uint32_t epoch = session.clock().epoch;
   while (ticks > 0 && !databuffer::stop_requested()) {
-    const std::int64_t portion = std::min(ticks, kStepPortion_ticks);
     change_clock(session, [&](const ClockState& clock) {
-      ClockState next = rebased(clock);
-      next.running = 0;
-      if (clock.epoch != epoch) return next;
-      // Rounded down to a whole tick: from any time within a tick, one step leads to the begin of the next tick.
-      next.base_sim_ns += portion * radar::kTickNanoseconds - next.base_sim_ns % radar::kTickNanoseconds;
-      return next;
+      return databuffer::stepped(clock, clock.epoch == epoch ? ticks : 0);
     });
     if (session.clock().epoch != epoch)
       throw_failure(
           {"step", "no new epoch while stepping", "a reset or repositioning by another program", "step again", false});
-    ticks -= portion;
+    ticks -= databuffer::kStepPortion_ticks;
     pause_for_roles();
   }
   report(session, options.json);
 }
 
-// Advances a frozen clock by one tick after a new epoch has begun. The programs run the first tick of an epoch in
-// no defined order. From the second tick on, each program reads the other programs' records of the new epoch.
-void advance_if_frozen(Session& session) {
-  if (session.clock().running != 0) return;
-  pause_for_roles();
-  change_clock(session, [](const ClockState& clock) {
-    ClockState next = clock;
-    next.base_sim_ns = std::min(next.base_sim_ns + radar::kTickNanoseconds, databuffer::kLatestClockBase_ns);
-    return next;
-  });
-}
-
-void reset(const SimOptions& options, double time_s) {
+// Begins an epoch by a change of the clock, advances a frozen clock into it, and prints the clock.
+template <class Change>
+void begin_epoch(const SimOptions& options, const Change& change) {
   auto session = open_session(options.common);
-  change_clock(session, [time_s](const ClockState& clock) {
-    ClockState next = clock;
-    next.base_monotonic_ns = databuffer::monotonic_ns();
-    // Rounded to a whole tick, because a replay shows the picture of that tick.
-    next.base_sim_ns = std::llround(time_s / radar::kTickSeconds) * radar::kTickNanoseconds;
-    ++next.epoch;
-    next.reposition_latitude_deg = kNaN;
-    next.followed = 0;
-    return next;
-  });
-  advance_if_frozen(session);
+  change_clock(session, change);
+  if (session.clock().running == 0) {
+    pause_for_roles();
+    change_clock(session, databuffer::after_first_tick);
+  }
   report(session, options.json);
 }
 
 struct Position {
   double latitude_deg = 0.0, longitude_deg = 0.0, altitude_ft = 0.0, heading_deg = 0.0;
+  std::optional<double> speed_kt{};
 };
 
-void reposition(const SimOptions& options, const Position& position) {
-  auto session = open_session(options.common);
-  change_clock(session, [&position](const ClockState& clock) {
-    ClockState next = rebased(clock);
-    ++next.epoch;
-    next.followed = 0;
-    next.reposition_latitude_deg = position.latitude_deg;
-    next.reposition_longitude_deg = position.longitude_deg;
-    next.reposition_altitude_m = position.altitude_ft * geo::kMetresPerFoot;
-    next.reposition_heading_deg = std::fmod(position.heading_deg, 360.0);
-    return next;
-  });
-  advance_if_frozen(session);
-  report(session, options.json);
+databuffer::Repositioning repositioning_of(const Position& position) {
+  databuffer::Repositioning to{{position.latitude_deg, position.longitude_deg},
+                               geo::AltitudeMsl::feet(position.altitude_ft),
+                               geo::Bearing::degrees(position.heading_deg)};
+  if (position.speed_kt) to.ground_speed = geo::Speed::knots(*position.speed_kt);
+  return to;
 }
 
 }  // namespace
@@ -191,12 +137,18 @@ void add_sim_command(databuffer::Command app, const CommonOptions& common) {
     return command;
   };
   add("state", "print sim time, rate and epoch", [options] { print_state(*options); });
-  add("freeze", "stop sim time", [options] { set_running(*options, false); });
-  add("run", "let sim time run", [options] { set_running(*options, true); });
+  add("freeze", "stop sim time", [options] {
+    change_and_report(*options, [](const ClockState& clock) { return databuffer::with_running(clock, false); });
+  });
+  add("run", "let sim time run", [options] {
+    change_and_report(*options, [](const ClockState& clock) { return databuffer::with_running(clock, true); });
+  });
   const auto rate = std::make_shared<double>(1.0);
-  add("rate", "set the rate of sim time", [options, rate] { set_rate(*options, *rate); })
+  add("rate", "set the rate of sim time", [options, rate] {
+    change_and_report(*options, [&](const ClockState& clock) { return databuffer::with_rate(clock, *rate); });
+  })
       .option("RATE", *rate, "sim time over real time")
-      .range(0.0, kMaxRate)
+      .range(0.0, databuffer::kMaxClockRate)
       .required();
   const auto ticks = std::make_shared<std::int64_t>(1);
   add("step", "freeze, then advance by TICKS of 5 ms", [options, ticks] { step(*options, *ticks); })
@@ -204,16 +156,26 @@ void add_sim_command(databuffer::Command app, const CommonOptions& common) {
       .range(1, kMaxSteps);
   const auto time_s = std::make_shared<double>(0.0);
   add("reset", "set sim time and begin a new epoch; a replay seeks to this time",
-      [options, time_s] { reset(*options, *time_s); })
+      [options, time_s] {
+        begin_epoch(*options, [&](const ClockState& clock) { return databuffer::reset_to(clock, *time_s); });
+      })
       .option("TIME_S", *time_s, "[s] sim time")
       .range(0.0, databuffer::kLatestSimTime_s);
   const auto position = std::make_shared<Position>();
   databuffer::Command move = add("reposition", "move the aircraft to a position and begin a new epoch",
-                                 [options, position] { reposition(*options, *position); });
+                                 [options, position] {
+                                   const databuffer::Repositioning to = repositioning_of(*position);
+                                   begin_epoch(*options, [&](const ClockState& clock) {
+                                     return databuffer::repositioned(clock, to);
+                                   });
+                                 });
   move.option("LAT", position->latitude_deg, "[deg] north positive").range(-90.0, 90.0).required();
   move.option("LON", position->longitude_deg, "[deg] east positive").range(-180.0, 180.0).required();
   move.option("ALT_FT", position->altitude_ft, "[ft] above mean sea level").range(-3000.0, 600000.0).required();
   move.option("HDG", position->heading_deg, "[deg] true").range(0.0, 360.0).required();
+  move.option("--speed", position->speed_kt, "[kt] over ground: the aircraft then flies straight and level")
+      .range(30.0, 5000.0)
+      .otherwise("the source chooses");
 }
 
 }  // namespace yars::tools
