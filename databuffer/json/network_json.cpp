@@ -1,4 +1,4 @@
-#include "tools/session/network_json.hpp"
+#include "databuffer/json/network_json.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,11 +10,10 @@
 #include "databuffer/session/validated.hpp"
 #include "lib/text/plain_text.hpp"
 
-namespace yars::tools {
+namespace yars::databuffer {
 
 namespace {
 
-using databuffer::Role;
 using nlohmann::ordered_json;
 
 constexpr std::array kRoles{Role::radar_model, Role::state_machine, Role::recorder,
@@ -24,10 +23,10 @@ struct Difference {
   std::uint32_t flag;
   const char* text;
 };
-constexpr std::array<Difference, 4> kDifferences{{{databuffer::kHostOtherLayout, "other layout"},
-                                                  {databuffer::kHostOtherConfiguration, "other configuration"},
-                                                  {databuffer::kHostOtherTerrain, "other terrain"},
-                                                  {databuffer::kHostSameName, "same name"}}};
+constexpr std::array<Difference, 4> kDifferences{{{kHostOtherLayout, "other layout"},
+                                                  {kHostOtherConfiguration, "other configuration"},
+                                                  {kHostOtherTerrain, "other terrain"},
+                                                  {kHostSameName, "same name"}}};
 
 // What a difference means and what to do, behind "host NAME ".
 std::string remedy_of(std::string_view difference) {
@@ -42,28 +41,28 @@ double seconds(std::int64_t time_ns) {
   return 1e-9 * static_cast<double>(time_ns);
 }
 
-ordered_json host_json(const databuffer::HostStatus& host, std::int64_t now_ns) {
+ordered_json host_json(const HostStatus& host, std::int64_t now_ns) {
   const auto has = [&host](std::uint32_t flag) { return (host.flags & flag) != 0; };
   ordered_json roles = ordered_json::array(), differences = ordered_json::array();
   for (const Role role : kRoles)
-    if ((host.held_roles >> static_cast<unsigned>(role) & 1U) != 0) roles.push_back(databuffer::name_of(role));
-  for (unsigned i = 0; i < databuffer::kLockstepRoles; ++i)
-    if ((host.held_roles >> (databuffer::kFirstProcessBit + i) & 1U) != 0)
-      roles.push_back(databuffer::kLockstepRoleNames[i]);
+    if ((host.held_roles >> static_cast<unsigned>(role) & 1U) != 0) roles.push_back(name_of(role));
+  for (unsigned i = 0; i < kLockstepRoles; ++i)
+    if ((host.held_roles >> (kFirstProcessBit + i) & 1U) != 0)
+      roles.push_back(kLockstepRoleNames[i]);
   for (const Difference& difference : kDifferences)
     if (has(difference.flag)) differences.push_back(difference.text);
-  const bool measured = has(databuffer::kHostOffsetKnown);
-  const bool present = has(databuffer::kHostPresent);
+  const bool measured = has(kHostOffsetKnown);
+  const bool present = has(kHostPresent);
   const auto number = [](bool is_known, double value) {
     return is_known ? ordered_json(value) : ordered_json(nullptr);
   };
   return {{"name", text::text_of(host.name)},
           {"version", text::text_of(host.version)},
-          {"self", has(databuffer::kHostSelf)},
+          {"self", has(kHostSelf)},
           {"present", present},
-          {"left", has(databuffer::kHostLeft)},
+          {"left", has(kHostLeft)},
           {"silent_s", number(!present, std::max(0.0, seconds(now_ns) - seconds(host.heard_ns)))},
-          {"owns_clock", has(databuffer::kHostOwnsClock)},
+          {"owns_clock", has(kHostOwnsClock)},
           {"priority", host.priority},
           {"offset_ms", number(measured, 1e3 * seconds(host.offset_ns))},
           {"offset_error_ms", number(measured, 1e3 * seconds(host.offset_error_ns))},
@@ -97,13 +96,13 @@ ordered_json other_holders(const ordered_json& network, const std::string& role)
 
 }  // namespace
 
-ordered_json network_json(const databuffer::Session& session) {
-  const auto status = databuffer::read_valid(session.layout().network_status);
+ordered_json network_json(const Session& session) {
+  const auto status = read_valid(session.layout().network_status);
   if (!status || !session.role_is_held(Role::gateway)) return nullptr;
-  const std::int64_t now_ns = databuffer::monotonic_ns();
+  const std::int64_t now_ns = monotonic_ns();
   ordered_json hosts = ordered_json::array(), topics = ordered_json::array();
-  for (const auto& host : databuffer::used(status->hosts, status->host_count)) hosts.push_back(host_json(host, now_ns));
-  for (const auto& topic : databuffer::used(status->topics, status->topic_count))
+  for (const auto& host : used(status->hosts, status->host_count)) hosts.push_back(host_json(host, now_ns));
+  for (const auto& topic : used(status->topics, status->topic_count))
     topics.push_back({{"name", text::text_of(topic.name)},
                       {"sent", topic.sent},
                       {"sent_bytes", topic.sent_bytes},
@@ -120,7 +119,7 @@ ordered_json network_json(const databuffer::Session& session) {
           {"topics", topics}};
 }
 
-void add_hosts(ordered_json& roles, const ordered_json& network, const databuffer::Session& session) {
+void add_hosts(ordered_json& roles, const ordered_json& network, const Session& session) {
   const std::int32_t gateway = session.role_holder(Role::gateway);
   bool has_gateway = false;
   ordered_json kept = ordered_json::array();
@@ -156,4 +155,4 @@ void add_network_reasons(const ordered_json& network, std::vector<std::string>& 
   if (!network["joined"].get<bool>()) reasons.emplace_back("the session clock of the hosts is not known yet");
 }
 
-}  // namespace yars::tools
+}  // namespace yars::databuffer

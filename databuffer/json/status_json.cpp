@@ -1,4 +1,4 @@
-#include "tools/session/status_json.hpp"
+#include "databuffer/json/status_json.hpp"
 
 #include <algorithm>
 #include <array>
@@ -17,21 +17,21 @@
 #include "databuffer/session/validated.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
-#include "tools/session/network_json.hpp"
+#include "databuffer/json/network_json.hpp"
 
-namespace yars::tools {
+namespace yars::databuffer {
 
-// All entries of the process table, and the needed roles that do not run. The roles come first, in the order of kSet.
+// All entries of the process table, and the needed roles that do not run. The roles come first, in the order of kSetRoles.
 // [{name, pid (0: not running here), heartbeat_ms (age of the last heartbeat; null: not running), hangs, host (where it
 // runs; null: nowhere, or unknown), restarts, restarts_last_minute}]. pid of a role of another host: the gateway's.
-// A role of kSet hangs if its heartbeat is older than 2 s. Only restarts by the supervisor count.
+// A role of kSetRoles hangs if its heartbeat is older than 2 s. Only restarts by the supervisor count.
 // `network`: of network_json().
-nlohmann::ordered_json roles_json(const databuffer::Session& session, const nlohmann::ordered_json& network);
+nlohmann::ordered_json roles_json(const Session& session, const nlohmann::ordered_json& network);
 
 // How far each role of kLockstepRoleNames lags behind the clock: {ROLE: {"skipped": ticks, "share": of the ticks that
 // were due, "seconds": in which ticks were skipped}}, over the last kLag_s. Roles that skipped none, and a frozen
 // clock's roles, are left out.
-nlohmann::ordered_json lag_json(const databuffer::Session& session);
+nlohmann::ordered_json lag_json(const Session& session);
 
 // {"state": "OK", "DEGRADED" or "NOTHING RUNS", "reasons": [texts]}. `status` must have watch, model, roles, recorder,
 // lag, ownship_lanes, frames_failing, input, refusals, clock_problem, named and network.
@@ -54,7 +54,7 @@ struct SetRole {
   const char* name;
   bool needed;  // the radar does not work without this role
 };
-constexpr std::array<SetRole, 7> kSet{{{"state-machine", true},
+constexpr std::array<SetRole, 7> kSetRoles{{{"state-machine", true},
                                        {"radar-model", true},
                                        {"flight-model", false},
                                        {"input-monitor", false},
@@ -62,16 +62,16 @@ constexpr std::array<SetRole, 7> kSet{{{"state-machine", true},
                                        {"recorder", false},
                                        {"gateway", false}}};
 
-// Index in kSet; kSet.size() for another process.
+// Index in kSetRoles; kSetRoles.size() for another process.
 std::size_t set_index(std::string_view name) {
   return static_cast<std::size_t>(
-      std::ranges::find(kSet, name, [](const SetRole& role) { return std::string_view(role.name); }) - kSet.begin());
+      std::ranges::find(kSetRoles, name, [](const SetRole& role) { return std::string_view(role.name); }) - kSetRoles.begin());
 }
 
-ordered_json role_json(const databuffer::ProcessInfo& process, std::int64_t now_ns) {
+ordered_json role_json(const ProcessInfo& process, std::int64_t now_ns) {
   const double heartbeat_ms = static_cast<double>(now_ns - process.heartbeat_ns) * 1e-6;
   // Other processes need not send heartbeats.
-  const bool hangs = set_index(process.name) < kSet.size() && heartbeat_ms > kHangsAfter_ms;
+  const bool hangs = set_index(process.name) < kSetRoles.size() && heartbeat_ms > kHangsAfter_ms;
   return {{"name", process.name}, {"pid", process.pid}, {"heartbeat_ms", heartbeat_ms}, {"hangs", hangs}};
 }
 
@@ -81,16 +81,16 @@ bool runs(const ordered_json& role) {
 }
 
 // True if a gateway has died that kept roles for other hosts, and nobody has taken them since.
-bool misses_gateway(const databuffer::Session& session) {
-  if (session.role_is_held(databuffer::Role::gateway)) return false;
-  return std::ranges::any_of(std::array{databuffer::Role::radar_model, databuffer::Role::state_machine},
+bool misses_gateway(const Session& session) {
+  if (session.role_is_held(Role::gateway)) return false;
+  return std::ranges::any_of(std::array{Role::radar_model, Role::state_machine},
                              [&](auto role) { return session.is_mirrored(role) && !session.role_is_held(role); });
 }
 
 // Restarts have counters in the segment, because the flight recorder keeps only its last 1,000 lines.
-void add_restarts(ordered_json& role, const databuffer::Session& session, std::int64_t now_ns) {
-  const auto index = databuffer::counted_role(role["name"].get<std::string>());
-  const databuffer::RecentCount none{};
+void add_restarts(ordered_json& role, const Session& session, std::int64_t now_ns) {
+  const auto index = counted_role(role["name"].get<std::string>());
+  const RecentCount none{};
   const auto& restarts = index ? session.layout().counters.restarts[*index] : none;
   role["restarts"] = restarts.count.load();
   role["restarts_last_minute"] = restarts.within(kLastMinute_ns, now_ns);
@@ -169,12 +169,12 @@ void add_input_reasons(const ordered_json& status, std::vector<std::string>& rea
 
 }  // namespace
 
-ordered_json roles_json(const databuffer::Session& session, const ordered_json& network) {
-  const std::int64_t now_ns = databuffer::monotonic_ns();
+ordered_json roles_json(const Session& session, const ordered_json& network) {
+  const std::int64_t now_ns = monotonic_ns();
   const auto processes = session.processes();
   ordered_json roles = ordered_json::array();
-  // First the roles in the order of kSet, then other processes.
-  for (std::size_t index = 0; index <= kSet.size(); ++index) {
+  // First the roles in the order of kSetRoles, then other processes.
+  for (std::size_t index = 0; index <= kSetRoles.size(); ++index) {
     bool found = false;
     for (const auto& process : processes) {
       if (set_index(process.name) != index) continue;
@@ -182,28 +182,28 @@ ordered_json roles_json(const databuffer::Session& session, const ordered_json& 
       found = true;
     }
     const bool is_needed =
-        index < kSet.size() && (kSet[index].needed || (set_index("gateway") == index && misses_gateway(session)));
+        index < kSetRoles.size() && (kSetRoles[index].needed || (set_index("gateway") == index && misses_gateway(session)));
     if (!found && is_needed)
-      roles.push_back({{"name", kSet[index].name}, {"pid", 0}, {"heartbeat_ms", nullptr}, {"hangs", false}});
+      roles.push_back({{"name", kSetRoles[index].name}, {"pid", 0}, {"heartbeat_ms", nullptr}, {"hangs", false}});
   }
   add_hosts(roles, network, session);
   for (auto& role : roles) add_restarts(role, session, now_ns);
   return roles;
 }
 
-ordered_json lag_json(const databuffer::Session& session) {
+ordered_json lag_json(const Session& session) {
   ordered_json lags = ordered_json::object();
-  const databuffer::ClockState clock = session.clock();
+  const ClockState clock = session.clock();
   if (clock.running == 0 || !(clock.rate > 0.0)) return lags;
-  const std::int64_t now_ns = databuffer::monotonic_ns();
-  for (std::size_t role = 0; role < databuffer::kLockstepRoles; ++role) {
+  const std::int64_t now_ns = monotonic_ns();
+  for (std::size_t role = 0; role < kLockstepRoles; ++role) {
     const auto lag = session.layout().skipped_ticks[role].within(kLag_s, now_ns);
     if (lag.ticks == 0) continue;
     // A late picture of the display counts by real time.
-    const bool is_display = role == static_cast<std::size_t>(databuffer::LockstepRole::radar_display);
+    const bool is_display = role == static_cast<std::size_t>(LockstepRole::radar_display);
     const double due = static_cast<double>(kLag_s) * 1e9 / static_cast<double>(radar::kTickNanoseconds) *
                        (is_display ? 1.0 : clock.rate);
-    lags[std::string(databuffer::kLockstepRoleNames[role])] = {
+    lags[std::string(kLockstepRoleNames[role])] = {
         {"skipped", lag.ticks},
         {"share", std::min(1.0, static_cast<double>(lag.ticks) / due)},
         {"seconds", lag.seconds}};
@@ -235,17 +235,17 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::array<const char*, databuffer::kNoteKinds> kNoteNames{"restart", "refusal", "loss", "late tick",
+constexpr std::array<const char*, kNoteKinds> kNoteNames{"restart", "refusal", "loss", "late tick",
                                                                      "supervision"};
 
-std::vector<databuffer::Note> notes_of(const databuffer::SessionLayout& layout) {
-  std::vector<databuffer::Note> notes;
+std::vector<Note> notes_of(const SessionLayout& layout) {
+  std::vector<Note> notes;
   const std::uint64_t total = layout.notes.total();
-  databuffer::Note note{};
-  for (std::uint64_t i = total > databuffer::kNotes ? total - databuffer::kNotes : 0; i < total; ++i)
+  Note note{};
+  for (std::uint64_t i = total > kNotes ? total - kNotes : 0; i < total; ++i)
     if (layout.notes.read(i, note)) {
       // Limits a damaged time stamp to the time between boot (0) and now.
-      note.monotonic_ns = std::clamp<std::int64_t>(note.monotonic_ns, 0, databuffer::monotonic_ns());
+      note.monotonic_ns = std::clamp<std::int64_t>(note.monotonic_ns, 0, monotonic_ns());
       notes.push_back(note);
     }
   return notes;
@@ -257,14 +257,14 @@ const char* note_name(std::uint32_t kind) {
 
 // Ownship lanes with a running source. A source that has ended leaves its last record in the lane; such lanes are left
 // out.
-ordered_json lanes_json(const databuffer::Session& session) {
-  const databuffer::SessionLayout& layout = session.layout();
+ordered_json lanes_json(const Session& session) {
+  const SessionLayout& layout = session.layout();
   ordered_json lanes = ordered_json::array();
-  for (std::size_t i = 0; i < databuffer::kOwnshipLanes; ++i) {
-    const auto own = databuffer::read_valid(layout.ownship[i]);
+  for (std::size_t i = 0; i < kOwnshipLanes; ++i) {
+    const auto own = read_valid(layout.ownship[i]);
     if (!own || !session.ownship_lane_is_held(i)) continue;
     lanes.push_back({{"lane", i},
-                     {"source", databuffer::name_of_source(*own, static_cast<std::uint32_t>(i))},
+                     {"source", name_of_source(*own, static_cast<std::uint32_t>(i))},
                      {"priority", layout.ownship_priority[i].load()},
                      {"records", layout.ownship[i].version()}});
   }
@@ -272,9 +272,9 @@ ordered_json lanes_json(const databuffer::Session& session) {
 }
 
 // Status of the recorder; null if no recorder runs or its status fails validation.
-ordered_json recorder_json(const databuffer::Session& session) {
-  const auto status = databuffer::read_valid(session.layout().recorder_status);
-  if (!status || !session.role_is_held(databuffer::Role::recorder)) return nullptr;
+ordered_json recorder_json(const Session& session) {
+  const auto status = read_valid(session.layout().recorder_status);
+  if (!status || !session.role_is_held(Role::recorder)) return nullptr;
   const std::string problem(text::text_of(status->problem));
   return {{"writing", status->writing != 0},
           {"bytes", status->bytes},
@@ -283,11 +283,11 @@ ordered_json recorder_json(const databuffer::Session& session) {
 
 // Frames are images of the display. pid of the process that publishes them (null: none), and id and size of the newest.
 // Null if no process publishes frames and none has done so before.
-ordered_json frames_json(const databuffer::Session& session) {
-  const std::int32_t publisher = session.role_holder(databuffer::Role::glass_frames);
-  databuffer::GlassFrame newest{};
+ordered_json frames_json(const Session& session) {
+  const std::int32_t publisher = session.role_holder(Role::glass_frames);
+  GlassFrame newest{};
   std::vector<std::uint8_t> pixels;
-  if (!databuffer::read_newest_frame(session.layout(), 0, newest, pixels) || databuffer::validate(newest)) newest = {};
+  if (!read_newest_frame(session.layout(), 0, newest, pixels) || validate(newest)) newest = {};
   if (publisher == 0 && newest.id == 0) return nullptr;
   return {{"publisher", publisher == 0 ? ordered_json(nullptr) : ordered_json(publisher)},
           {"newest", newest.id},
@@ -297,18 +297,18 @@ ordered_json frames_json(const databuffer::Session& session) {
 
 // Traffic: ships and vehicles that another program sends. pid of that program, and number of ships and vehicles. Null
 // if no process publishes traffic.
-ordered_json traffic_json(const databuffer::Session& session) {
-  const std::int32_t holder = session.role_holder(databuffer::Role::traffic);
+ordered_json traffic_json(const Session& session) {
+  const std::int32_t holder = session.role_holder(Role::traffic);
   if (holder == 0) return nullptr;
-  const auto newest = databuffer::read_valid(session.layout().traffic).value_or(databuffer::Traffic{});
+  const auto newest = read_valid(session.layout().traffic).value_or(Traffic{});
   return {{"holder", holder}, {"entities", newest.count}};
 }
 
 // `sources`: number of running input sources. `missing`: sources that ended without closing their lane.
-ordered_json input_json(const databuffer::Session& session) {
+ordered_json input_json(const Session& session) {
   const std::uint64_t known = session.layout().counters.input_sources.load();
   std::uint64_t held = 0, missing = 0;
-  for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) {
+  for (std::size_t lane = 0; lane < kInputLanes; ++lane) {
     const bool here = session.input_lane_is_held(lane);
     held += here ? 1 : 0;
     missing += !here && (known >> lane & 1U) != 0 ? 1 : 0;
@@ -316,22 +316,22 @@ ordered_json input_json(const databuffer::Session& session) {
   return {{"sources", held}, {"missing", missing}};
 }
 
-ordered_json refusals_json(const databuffer::Session& session, const std::vector<databuffer::Note>& notes) {
+ordered_json refusals_json(const Session& session, const std::vector<Note>& notes) {
   constexpr std::int64_t kRecently_ns = 10'000'000'000;
   const auto newest = std::ranges::find(
-      notes.rbegin(), notes.rend(), static_cast<std::uint32_t>(databuffer::NoteKind::refusal), &databuffer::Note::kind);
+      notes.rbegin(), notes.rend(), static_cast<std::uint32_t>(NoteKind::refusal), &Note::kind);
   const auto& refusals = session.layout().counters.refusals;
-  return {{"last_10_s", refusals.within(kRecently_ns, databuffer::monotonic_ns())},
+  return {{"last_10_s", refusals.within(kRecently_ns, monotonic_ns())},
           {"newest", newest == notes.rend() ? ordered_json(nullptr) : ordered_json(text::text_of(newest->text))}};
 }
 
 }  // namespace
 
-ordered_json status_json(const databuffer::Session& session, const std::string& name) {
-  const auto model = databuffer::read_valid(session.layout().model_status).value_or(databuffer::ModelStatus{});
+ordered_json status_json(const Session& session, const std::string& name) {
+  const auto model = read_valid(session.layout().model_status).value_or(ModelStatus{});
   ordered_json object;
   object["session"] = name;
-  object["watch"] = databuffer::watch_object(session);
+  object["watch"] = watch_object(session);
   object["model"] = {{"fidelity", text::text_of(model.fidelity)},
                      {"load", model.load},
                      {"scan", model.scan},
@@ -342,12 +342,12 @@ ordered_json status_json(const databuffer::Session& session, const std::string& 
   object["traffic"] = traffic_json(session);
   object["ownship_lanes"] = lanes_json(session);
   ordered_json counts = ordered_json::object();
-  for (std::size_t kind = 0; kind < databuffer::kNoteKinds; ++kind)
+  for (std::size_t kind = 0; kind < kNoteKinds; ++kind)
     counts[kNoteNames[kind]] = session.layout().note_counts[kind].load();
   object["note_counts"] = counts;
   object["notes_folded"] = session.layout().counters.notes_folded.load();
-  const std::int64_t now_ns = databuffer::monotonic_ns();
-  const std::vector<databuffer::Note> lines = notes_of(session.layout());
+  const std::int64_t now_ns = monotonic_ns();
+  const std::vector<Note> lines = notes_of(session.layout());
   ordered_json notes = ordered_json::array();
   for (const auto& note : lines)
     notes.push_back({{"sim_time", static_cast<double>(note.sim_time_ns) * 1e-9},
@@ -370,4 +370,4 @@ ordered_json status_json(const databuffer::Session& session, const std::string& 
   return object;
 }
 
-}  // namespace yars::tools
+}  // namespace yars::databuffer

@@ -19,7 +19,8 @@
 #include "statemachine/app/state_machine_shell.hpp"
 #include "tests/fuzz/overlaid_session.hpp"
 #include "tools/session/recorder.hpp"
-#include "tools/session/status_json.hpp"
+#include "tools/session/status_text.hpp"
+#include "databuffer/json/status_json.hpp"
 
 namespace {
 
@@ -110,7 +111,7 @@ class Readers {
   void read_status_and_frame() const {
     const auto session = Session::open_read_only(name_);
     if (!session) return;
-    const auto object = tools::status_json(*session, "fuzz");
+    const auto object = databuffer::status_json(*session, "fuzz");
     (void)object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     tools::print_status(object, {});
     GlassFrame frame{};

@@ -6,19 +6,81 @@
 namespace yars::station {
 namespace {
 
+AccessRules local() {
+  AccessRules rules;
+  rules.port = 8096;
+  return rules;
+}
+
+AccessRules open_to_all() {
+  AccessRules rules = local();
+  rules.loopback = false;
+  rules.names = {"radar.example"};
+  rules.viewer_token = "0123456789abcdef";
+  rules.instructor_token = "fedcba9876543210";
+  return rules;
+}
+
 TEST(Access, OnlyNamesOfThisComputerAreHosts) {
   for (const char* host : {"127.0.0.1:8096", "localhost:8096", "[::1]:8096"})
-    EXPECT_TRUE(is_local_host(host, 8096)) << host;
-  for (const char* host :
-       {"", "127.0.0.1", "127.0.0.1:80960", "localhost.evil.example:8096", "evil.example:8096", "10.0.0.1:8096"})
-    EXPECT_FALSE(is_local_host(host, 8096)) << host;
+    EXPECT_TRUE(is_allowed_host(host, local())) << host;
+  for (const char* host : {"", "127.0.0.1", "127.0.0.1:80960", "localhost.evil.example:8096", "evil.example:8096",
+                           "10.0.0.1:8096", ":8096"})
+    EXPECT_FALSE(is_allowed_host(host, local())) << host;
+}
+
+TEST(Access, AServerForOthersTakesAddressesInNumbersAndItsNames) {
+  for (const char* host : {"127.0.0.1:8096", "10.0.0.1:8096", "[fe80::1]:8096", "radar.example:8096"})
+    EXPECT_TRUE(is_allowed_host(host, open_to_all())) << host;
+  for (const char* host : {"", ":8096", "10.0.0.1:80", "evil.example:8096", "10.0.0.1.evil.example:8096"})
+    EXPECT_FALSE(is_allowed_host(host, open_to_all())) << host;
 }
 
 TEST(Access, OnlyPagesOfThisServerAreOrigins) {
-  EXPECT_TRUE(is_own_origin("http://localhost:8096", "localhost:8096"));
+  EXPECT_TRUE(is_own_origin("http://localhost:8096", "localhost:8096", local()));
   for (const char* origin :
        {"", "null", "https://localhost:8096", "http://localhost:80", "http://evil.example", "file://"})
-    EXPECT_FALSE(is_own_origin(origin, "localhost:8096")) << origin;
+    EXPECT_FALSE(is_own_origin(origin, "localhost:8096", local())) << origin;
+  AccessRules safe = local();
+  safe.tls = true;
+  EXPECT_TRUE(is_own_origin("https://localhost:8096", "localhost:8096", safe));
+  EXPECT_FALSE(is_own_origin("http://localhost:8096", "localhost:8096", safe));
+}
+
+TEST(Access, WithoutTokensEveryPageIsAnInstructors) {
+  EXPECT_EQ(right_of_cookies("", local()), Right::instructor);
+  EXPECT_EQ(right_of_token("", local()), Right::instructor);
+}
+
+TEST(Access, TokensGiveRights) {
+  const AccessRules rules = open_to_all();
+  EXPECT_EQ(right_of_token(rules.viewer_token, rules), Right::viewer);
+  EXPECT_EQ(right_of_token(rules.instructor_token, rules), Right::instructor);
+  for (const char* token : {"", "0", "0123456789abcdef0", "0123456789abcdeF"})
+    EXPECT_EQ(right_of_token(token, rules), Right::none) << token;
+}
+
+TEST(Access, CookiesCarryTheTokenOfThisPort) {
+  const AccessRules rules = open_to_all();
+  const std::string cookie = cookie_of_token(rules.viewer_token, rules);
+  EXPECT_NE(cookie.find("HttpOnly"), std::string::npos);
+  EXPECT_NE(cookie.find("SameSite=Strict"), std::string::npos);
+  const std::string pair = cookie.substr(0, cookie.find(';'));
+  EXPECT_EQ(right_of_cookies(pair, rules), Right::viewer);
+  EXPECT_EQ(right_of_cookies("a=b; " + pair + "; c=d", rules), Right::viewer);
+  EXPECT_EQ(right_of_cookies(pair + "; " + "yars_station_8096=" + rules.instructor_token, rules), Right::instructor);
+  AccessRules other = rules;
+  other.port = 8097;
+  EXPECT_EQ(right_of_cookies(pair, other), Right::none);
+  for (const char* cookies : {"", ";", "yars_station_8096=", "x" , "; ;=;"})
+    EXPECT_EQ(right_of_cookies(cookies, rules), Right::none) << cookies;
+}
+
+TEST(Access, ParametersAreWordsOfTheQuery) {
+  EXPECT_EQ(parameter_of("/socket?page=instructor&session=a-b_1", "session"), "a-b_1");
+  EXPECT_EQ(parameter_of("/socket?page=instructor&session=a-b_1", "page"), "instructor");
+  for (const char* path : {"/socket", "/socket?", "/socket?session=", "/socket?session=../x", "/socket?xsession=a", "/session=a"})
+    EXPECT_EQ(parameter_of(path, "session"), std::nullopt) << path;
 }
 
 TEST(Access, PathsNameFilesOfOneFolder) {
@@ -30,7 +92,7 @@ TEST(Access, PathsNameFilesOfOneFolder) {
 }
 
 TEST(Access, TheContentPolicyAllowsTheServerAlone) {
-  const std::string policy = content_policy("127.0.0.1:8096");
+  const std::string policy = content_policy("127.0.0.1:8096", local());
   EXPECT_NE(policy.find("default-src 'none'"), std::string::npos);
   EXPECT_EQ(policy.find("unsafe"), std::string::npos);
   EXPECT_NE(policy.find("ws://127.0.0.1:8096"), std::string::npos);

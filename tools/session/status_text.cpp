@@ -9,7 +9,7 @@
 
 #include "databuffer/messages/derived_values.hpp"
 #include "lib/text/plain_text.hpp"
-#include "tools/session/status_json.hpp"
+#include "tools/session/status_text.hpp"
 
 namespace yars::tools {
 

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
-#include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -13,62 +12,24 @@
 #include <vector>
 
 #include "databuffer/json/session_json.hpp"
+#include "databuffer/json/status_json.hpp"
 #include "databuffer/runtime/process.hpp"
+#include "databuffer/runtime/processor_load.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/session/layout_json.hpp"
 #include "databuffer/session/session.hpp"
 #include "lib/log/log.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
-#include "tools/session/status_json.hpp"
+#include "tools/session/status_text.hpp"
 
 namespace yars::tools {
-
-// Measures the CPU load of processes over 0.1 s. Returns the load by pid; 1.0 is one fully used core.
-// Processes whose load cannot be measured are left out. Source: /proc/PID/task/TID/schedstat.
-std::map<int, double> measure_loads(const std::vector<int>& pids);
-
-namespace {
-
-constexpr std::chrono::milliseconds kWindow{100};  // duration of the load measurement
-
-// Total CPU time [ns] of the present threads of a process; nullopt if it cannot be read.
-std::optional<std::uint64_t> run_time_ns(int pid) {
-  std::error_code error;
-  std::filesystem::directory_iterator threads("/proc/" + std::to_string(pid) + "/task", error);
-  if (error) return std::nullopt;
-  std::uint64_t total_ns = 0;
-  bool has_value = false;
-  for (const std::filesystem::directory_iterator end; !error && threads != end; threads.increment(error)) {
-    std::ifstream file(threads->path() / "schedstat");
-    std::uint64_t run_ns = 0;
-    if (!(file >> run_ns)) continue;
-    total_ns += run_ns;
-    has_value = true;
-  }
-  return has_value ? std::optional(total_ns) : std::nullopt;
-}
-
-}  // namespace
-
-std::map<int, double> measure_loads(const std::vector<int>& pids) {
-  std::map<int, std::uint64_t> before;
-  const std::int64_t began_ns = databuffer::monotonic_ns();
-  for (const int pid : pids)
-    if (const auto run_ns = run_time_ns(pid)) before[pid] = *run_ns;
-  std::this_thread::sleep_for(kWindow);
-  const auto elapsed_ns = static_cast<double>(databuffer::monotonic_ns() - began_ns);
-  std::map<int, double> loads;
-  for (const auto& [pid, before_ns] : before)
-    // run_time_ns() covers only present threads. If it has decreased, a thread has ended, and the load is unknown.
-    if (const auto run_ns = run_time_ns(pid); run_ns && *run_ns >= before_ns)
-      loads[pid] = static_cast<double>(*run_ns - before_ns) / elapsed_ns;
-  return loads;
-}
 
 // `yars status`: prints a session's health as text or JSON, or the segment's layout.
 
 namespace {
+
+constexpr std::chrono::milliseconds kLoadWindow{100};  // duration of the load measurement
 
 using nlohmann::ordered_json;
 
@@ -99,14 +60,17 @@ void status(const CommonOptions& common, const StatusOptions& options) {
   const auto session = databuffer::Session::open_read_only(common.session);
   if (!session && !options.json) print_nothing_runs(session.error());
   if (!session) throw_failure(session.error());
-  const auto object = status_json(*session, common.session);
+  const auto object = databuffer::status_json(*session, common.session);
   if (options.json) {
     print_json(object, JsonLines::many);
     return exit_by_health(object["health"]);
   }
   std::vector<int> pids;
   for (const auto& process : session->processes()) pids.push_back(process.pid);
-  print_status(object, measure_loads(pids));
+  databuffer::LoadMeter meter;
+  meter.loads(pids);
+  std::this_thread::sleep_for(kLoadWindow);
+  print_status(object, meter.loads(pids));
   exit_by_health(object["health"]);
 }
 

@@ -183,12 +183,18 @@ std::vector<std::string> SceneStore::take_problems() {
   return problems;
 }
 
-error::Expected<std::unique_ptr<SceneStore>> open_scenes(const std::vector<radar::Scene>& configured,
-                                                         const radar::TerrainConfiguration& terrain, SceneUse use) {
+std::vector<radar::Scene> scenes_with_terrain(const std::vector<radar::Scene>& configured,
+                                              const radar::TerrainConfiguration& terrain) {
   std::vector<radar::Scene> scenes = configured;
   const auto of_terrain = std::filesystem::path(terrain.directory) / kTerrainScenes;
   if (!terrain.directory.empty() && !scene_files_in(of_terrain).empty())
     scenes.push_back({.file = of_terrain.string()});
+  return scenes;
+}
+
+error::Expected<std::unique_ptr<SceneStore>> open_scenes(const std::vector<radar::Scene>& configured,
+                                                         const radar::TerrainConfiguration& terrain, SceneUse use) {
+  const std::vector<radar::Scene> scenes = scenes_with_terrain(configured, terrain);
   if (scenes.empty()) return std::unique_ptr<SceneStore>();
   auto ground = terrain::open_terrain(terrain);
   if (!ground) return tl::unexpected(ground.error());

@@ -114,6 +114,10 @@ class SceneStore {
 // Folder of scenes inside a folder of terrain. Its .flt files belong to the terrain.
 inline constexpr const char* kTerrainScenes = "scenes";
 
+// The configured scenes, and those in the terrain's own folder of scenes.
+std::vector<radar::Scene> scenes_with_terrain(const std::vector<radar::Scene>& configured,
+                                              const radar::TerrainConfiguration& terrain);
+
 // Opens the store of configured scenes and of the terrain's own scenes, over configured terrain. Null if there is no
 // scene.
 error::Expected<std::unique_ptr<SceneStore>> open_scenes(const std::vector<radar::Scene>& configured,

@@ -10,10 +10,11 @@
 #include <optional>
 #include <string>
 
+#include "databuffer/json/status_json.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "tests/databuffer/session/open_session.hpp"
 #include "tests/shm/child_process.hpp"
-#include "tools/session/status_json.hpp"
+#include "tools/session/status_text.hpp"
 
 namespace yars::tools {
 namespace {
@@ -82,7 +83,7 @@ class NetworkStatusTest : public databuffer::testing::OpenSessionTest {
   }
   ordered_json status() {
     if (gateway_) gateway_->layout().network_status.publish(status_);
-    return status_json(*Session::open_read_only(name_), "test");
+    return databuffer::status_json(*Session::open_read_only(name_), "test");
   }
   std::string reasons() {
     std::string all;
