@@ -6,14 +6,69 @@
 
 namespace yars::station {
 
-bool is_local_host(std::string_view host, std::uint16_t port) {
-  constexpr std::array<std::string_view, 3> kNames{"127.0.0.1", "localhost", "[::1]"};
-  return std::ranges::any_of(
-      kNames, [&](std::string_view name) { return host == std::string(name) + ':' + std::to_string(port); });
+namespace {
+
+bool is_digit(char character) {
+  return character >= '0' && character <= '9';
 }
 
-bool is_own_origin(std::string_view origin, std::string_view host) {
-  return origin == "http://" + std::string(host);
+// An IPv4 address, or an IPv6 address in brackets. Browsers resolve no name for these.
+bool is_numeric_address(std::string_view name) {
+  if (name.starts_with('[')) return name.ends_with(']');
+  return !name.empty() && std::ranges::all_of(name, [](char letter) { return is_digit(letter) || letter == '.'; });
+}
+
+// Compares in a time that does not tell how much of the text is right.
+bool equals_secret(std::string_view given, std::string_view secret) {
+  if (secret.empty() || given.size() != secret.size()) return false;
+  unsigned difference = 0;
+  for (std::size_t i = 0; i < secret.size(); ++i) difference |= static_cast<unsigned>(given[i] ^ secret[i]);
+  return difference == 0;
+}
+
+// Cookies of a host are shared by all its ports.
+std::string cookie_name(const AccessRules& rules) {
+  return "yars_station_" + std::to_string(rules.port);
+}
+
+}  // namespace
+
+bool is_allowed_host(std::string_view host, const AccessRules& rules) {
+  const std::string ending = ':' + std::to_string(rules.port);
+  if (!host.ends_with(ending)) return false;
+  const std::string_view name = host.substr(0, host.size() - ending.size());
+  constexpr std::array<std::string_view, 3> kLoopback{"127.0.0.1", "localhost", "[::1]"};
+  if (std::ranges::find(kLoopback, name) != kLoopback.end()) return true;
+  return !rules.loopback &&
+         (is_numeric_address(name) || std::ranges::find(rules.names, name) != rules.names.end());
+}
+
+bool is_own_origin(std::string_view origin, std::string_view host, const AccessRules& rules) {
+  return origin == (rules.tls ? "https://" : "http://") + std::string(host);
+}
+
+Right right_of_token(std::string_view token, const AccessRules& rules) {
+  if (rules.instructor_token.empty()) return Right::instructor;
+  if (equals_secret(token, rules.instructor_token)) return Right::instructor;
+  return equals_secret(token, rules.viewer_token) ? Right::viewer : Right::none;
+}
+
+Right right_of_cookies(std::string_view cookies, const AccessRules& rules) {
+  if (rules.instructor_token.empty()) return Right::instructor;
+  const std::string begin = cookie_name(rules) + '=';
+  Right right = Right::none;
+  while (!cookies.empty()) {
+    const std::string_view cookie = cookies.substr(0, cookies.find(';'));
+    cookies.remove_prefix(std::min(cookies.size(), cookie.size() + 1));
+    const std::string_view trimmed = cookie.substr(std::min(cookie.size(), cookie.find_first_not_of(' ')));
+    if (trimmed.starts_with(begin)) right = std::max(right, right_of_token(trimmed.substr(begin.size()), rules));
+  }
+  return right;
+}
+
+std::string cookie_of_token(std::string_view token, const AccessRules& rules) {
+  return cookie_name(rules) + '=' + std::string(token) + "; Path=/; HttpOnly; SameSite=Strict" +
+         (rules.tls ? "; Secure" : "");
 }
 
 std::string file_of_path(std::string_view path) {
@@ -22,17 +77,38 @@ std::string file_of_path(std::string_view path) {
   if (!path.starts_with('/')) return {};
   path.remove_prefix(1);
   const auto allowed = [](char character) {
-    return (character >= 'a' && character <= 'z') || (character >= '0' && character <= '9') || character == '.' ||
-           character == '_';
+    return (character >= 'a' && character <= 'z') || is_digit(character) || character == '.' || character == '_';
   };
   return !path.empty() && path.front() != '.' && std::ranges::all_of(path, allowed) ? std::string(path) : std::string();
 }
 
+std::optional<std::string> parameter_of(std::string_view path, std::string_view name) {
+  const std::size_t query = path.find('?');
+  if (query == std::string_view::npos) return std::nullopt;
+  path.remove_prefix(query + 1);
+  const std::string begin = std::string(name) + '=';
+  while (!path.empty()) {
+    const std::string_view part = path.substr(0, path.find('&'));
+    path.remove_prefix(std::min(path.size(), part.size() + 1));
+    if (!part.starts_with(begin)) continue;
+    const std::string_view value = part.substr(begin.size());
+    const auto allowed = [](char character) {
+      return (character >= 'a' && character <= 'z') || (character >= 'A' && character <= 'Z') || is_digit(character) ||
+             character == '-' || character == '_';
+    };
+    if (value.empty() || !std::ranges::all_of(value, allowed)) return std::nullopt;
+    return std::string(value);
+  }
+  return std::nullopt;
+}
+
 std::string_view content_type_of(std::string_view file) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kTypes{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kTypes{
       {{".html", "text/html; charset=utf-8"},
        {".js", "text/javascript; charset=utf-8"},
        {".css", "text/css; charset=utf-8"},
+       {".json", "application/json"},
+       {".png", "image/png"},
        {".svg", "image/svg+xml"},
        {".txt", "text/plain; charset=utf-8"}}};
   for (const auto& [ending, type] : kTypes)
@@ -40,9 +116,10 @@ std::string_view content_type_of(std::string_view file) {
   return "application/octet-stream";
 }
 
-std::string content_policy(std::string_view host) {
-  return "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self' ws://" +
-         std::string(host) + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+std::string content_policy(std::string_view host, const AccessRules& rules) {
+  return "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self' " +
+         std::string(rules.tls ? "wss://" : "ws://") + std::string(host) +
+         "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 }
 
 }  // namespace yars::station

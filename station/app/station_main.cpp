@@ -1,15 +1,27 @@
-// The program yars-station: serves the radar's display to browsers.
+// The program yars-station: serves the radar's display and the instructor's page to browsers.
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <random>
 #include <string>
+#include <vector>
 
+#include "config/schema/load.hpp"
+#include "databuffer/flight/route_flight.hpp"
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
-#include "databuffer/session/session.hpp"
 #include "lib/file/file_search.hpp"
-#include "station/app/feed_shell.hpp"
+#include "lib/file/output_file.hpp"
+#include "lib/file/text_file.hpp"
+#include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
+#include "model/scene/index/scene_index.hpp"
+#include "model/scene/index/scene_store.hpp"
+#include "model/terrain/store/directory_store.hpp"
 #include "station/app/server_shell.hpp"
+#include "station/theatre_json.hpp"
 
 namespace {
 
@@ -17,35 +29,173 @@ using namespace yars;
 
 struct StationOptions {
   int port = 8096;
-  std::string pages;
+  std::string pages, terrain, source, recordings = "recordings";
+  std::string listen = "127.0.0.1", names, tokens, certificate, key;
+  bool without_tls = false;
 };
 
-error::Expected<void> run(const databuffer::ProgramOptions& options, const StationOptions& station_options) {
-  auto session = databuffer::Session::open(options.session, "station");
-  if (!session) return tl::unexpected(session.error());
-  auto feed = station::StationFeed::create(*session);
-  if (!feed) return tl::unexpected(feed.error());
-  std::filesystem::path pages = station_options.pages;
-  if (pages.empty()) pages = file::installed_folder("station");
-  auto server = station::Server::listen(*feed, pages, static_cast<std::uint16_t>(station_options.port));
-  if (!server) return tl::unexpected(server.error());
-  std::printf("http://127.0.0.1:%d/display.html\n", server->port());
-  std::fflush(stdout);
-  while (!databuffer::stop_requested()) {
-    session->heartbeat();
-    server->step();
+// 128 random bits in hexadecimal digits.
+std::string random_token() {
+  std::random_device source;
+  std::string token;
+  for (int word = 0; word < 4; ++word) {
+    char digits[9];
+    std::snprintf(digits, sizeof digits, "%08x", source());
+    token += digits;
   }
+  return token;
+}
+
+error::Expected<void> read_tokens(const std::string& file, station::AccessRules& access) {
+  const auto text = file::read_text_file(file);
+  if (!text) return tl::unexpected(text.error());
+  for (const text::NumberedLine& line : text::numbered_lines(*text)) {
+    const auto words = text::words_of(line.text);
+    const bool is_token = words.size() == 2 && words[1].size() >= 16;
+    if (is_token && words[0] == "instructor") access.instructor_token = words[1];
+    if (is_token && words[0] == "viewer") access.viewer_token = words[1];
+  }
+  if (!access.instructor_token.empty() && !access.viewer_token.empty()) return {};
+  return error::fail(file, "a line `instructor TOKEN` and a line `viewer TOKEN`, of 16 characters or more", "none",
+                     "remove the file: a new one is made");
+}
+
+// Tokens of the file; a file that is not there is made, so that a station that starts again has the same.
+error::Expected<void> use_tokens(const std::string& file, station::AccessRules& access) {
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) return read_tokens(file, access);
+  access.instructor_token = random_token();
+  access.viewer_token = random_token();
+  auto fresh = file::NewFile::create(file);  // for its owner alone, by the umask of run_program()
+  if (!fresh) return tl::unexpected(fresh.error());
+  fresh->write("instructor " + access.instructor_token + "\nviewer " + access.viewer_token + "\n");
+  return fresh->finish();
+}
+
+bool is_loopback(const std::string& address) {
+  return address.starts_with("127.") || address == "::1";
+}
+
+error::Expected<void> check_access(const StationOptions& options) {
+  if (options.certificate.empty() != options.key.empty())
+    return tl::unexpected(error::usage_error("--certificate", "--key with it", "one of both"));
+  if (is_loopback(options.listen)) return {};
+  if (options.tokens.empty())
+    return tl::unexpected(error::usage_error(
+        "--listen " + options.listen, "--tokens FILE with it, because others can reach the station", "none"));
+  if (options.certificate.empty() && !options.without_tls)
+    return tl::unexpected(error::usage_error(
+        "--listen " + options.listen,
+        "--certificate and --key with it, or --without-tls: everybody on the way reads the tokens", "none"));
+  return {};
+}
+
+error::Expected<std::vector<geo::GeoPoint>> waypoints_of(const std::string& source) {
+  constexpr std::string_view kBegin = "route:";
+  std::vector<geo::GeoPoint> points;
+  if (!source.starts_with(kBegin)) return points;
+  const std::string file = source.substr(kBegin.size());
+  const auto text = file::read_text_file(file);
+  if (!text) return tl::unexpected(text.error());
+  const auto route = databuffer::flight::parse_route(*text, file);
+  if (!route) return tl::unexpected(route.error());
+  for (const databuffer::flight::Waypoint& waypoint : route->waypoints) points.push_back(waypoint.point);
+  if (route->loop) points.push_back(points.front());
+  return points;
+}
+
+// Names of the files of scenes, with their positions.
+error::Expected<std::vector<station::Place>> places_of(const radar::RadarConfiguration& configuration) {
+  std::vector<station::Place> places;
+  std::vector<std::string> problems;
+  const auto scenes = model::scene::scenes_with_terrain(configuration.world.scenes, configuration.terrain);
+  const auto index = model::scene::index_scenes(scenes, problems);
+  if (!index) return tl::unexpected(index.error());
+  for (const std::string& problem : problems) log::warning(problem);
+  for (const model::scene::IndexedScene& scene : *index)
+    places.push_back({scene.file.stem().string(), scene.placement.position});
+  return places;
+}
+
+error::Expected<station::ServerSettings> settings_of(const databuffer::ProgramOptions& options,
+                                                     const StationOptions& station_options,
+                                                     const radar::RadarConfiguration& configuration) {
+  station::ServerSettings settings;
+  settings.pages = station_options.pages;
+  if (settings.pages.empty()) settings.pages = file::installed_folder("station");
+  settings.address = station_options.listen;
+  settings.access.port = static_cast<std::uint16_t>(station_options.port);
+  for (const std::string_view name : text::fields_of(station_options.names, ','))
+    if (!name.empty()) settings.access.names.emplace_back(name);
+  if (!station_options.tokens.empty())
+    if (auto used = use_tokens(station_options.tokens, settings.access); !used) return tl::unexpected(used.error());
+  settings.certificate = station_options.certificate;
+  settings.key = station_options.key;
+  const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
+  settings.sets = {options.session, programs, std::filesystem::absolute(station_options.recordings), options.config,
+                   station_options.terrain};
+  const auto route = waypoints_of(station_options.source);
+  if (!route) return tl::unexpected(route.error());
+  const auto places = places_of(configuration);
+  if (!places) return tl::unexpected(places.error());
+  settings.theatre = station::theatre_json(configuration, *places, *route)
+                         .dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+  return settings;
+}
+
+void print_addresses(const station::ServerSettings& settings, std::uint16_t port) {
+  const bool everywhere = settings.address == "0.0.0.0" || settings.address == "::";
+  const std::string host = settings.address.find(':') == std::string::npos ? settings.address : '[' + settings.address + ']';
+  const std::string begin = (settings.certificate.empty() ? "http://" : "https://") +
+                            (everywhere ? std::string("127.0.0.1") : host) + ':' + std::to_string(port);
+  const auto with = [](const std::string& token) { return token.empty() ? token : "?token=" + token; };
+  std::printf("%s/display.html%s\n", begin.c_str(), with(settings.access.viewer_token).c_str());
+  std::printf("%s/instructor.html%s\n", begin.c_str(), with(settings.access.instructor_token).c_str());
+  std::fflush(stdout);
+}
+
+error::Expected<void> run(const databuffer::ProgramOptions& options, const StationOptions& station_options) {
+  if (auto good = check_access(station_options); !good) return good;
+  auto configuration = config::load_program_configuration(options.config);
+  if (!configuration) return tl::unexpected(configuration.error());
+  if (!station_options.terrain.empty()) configuration->terrain.directory = station_options.terrain;
+  auto terrain = model::terrain::open_terrain(configuration->terrain);
+  if (!terrain) return tl::unexpected(terrain.error());
+  const auto settings = settings_of(options, station_options, *configuration);
+  if (!settings) return tl::unexpected(settings.error());
+  auto server = station::Server::listen(*settings, std::move(*terrain));
+  if (!server) return tl::unexpected(server.error());
+  print_addresses(*settings, server->port());
+  while (!databuffer::stop_requested()) server->step();
   return {};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::CommandLine app("YARS station: serves the display to browsers on this computer", "yars-station");
+  databuffer::CommandLine app("YARS station: serves the display and the instructor's page to browsers", "yars-station");
   databuffer::ProgramOptions options;
   databuffer::add_common_options(app, options, databuffer::ProgramKind::service);
   StationOptions station_options;
-  app.option("--port", station_options.port, "port at 127.0.0.1; 0: any free one").range(0, 65535);
+  app.option("--port", station_options.port, "port to listen at; 0: any free one").range(0, 65535);
+  app.option("--listen", station_options.listen, "address to listen at; 0.0.0.0: all, which needs --tokens").value_name("ADDRESS");
+  app.option("--names", station_options.names, "names of this computer in the addresses of the pages, with commas between")
+      .value_name("NAMES")
+      .otherwise("none");
+  app.option("--tokens", station_options.tokens, "file with the tokens of instructors and viewers; made if it is not there")
+      .value_name("FILE")
+      .otherwise("none are needed");
+  app.option("--certificate", station_options.certificate, "TLS certificate in PEM").value_name("FILE").otherwise("no TLS");
+  app.option("--key", station_options.key, "private key of the certificate, in PEM").value_name("FILE").otherwise("no TLS");
+  app.flag("--without-tls", station_options.without_tls, "listen beyond this computer without a certificate");
   app.option("--pages", station_options.pages, "folder of the pages").value_name("DIR").otherwise("the installed ones");
+  app.option("--terrain", station_options.terrain, "folder of elevation cells, for the map")
+      .value_name("DIR")
+      .otherwise("the configuration's")
+      .in_user_file();
+  app.option("--source", station_options.source, "source of the flight; the map shows the waypoints of route:FILE")
+      .value_name("SOURCE")
+      .otherwise("no waypoints");
+  app.option("--recordings", station_options.recordings, "folder of recordings").value_name("DIR");
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, station_options); });
 }

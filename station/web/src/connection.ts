@@ -1,20 +1,27 @@
 // The WebSocket to the server; opens it again, after growing waits, whenever it closes.
-import { FrameMessage, frameOf, State } from "./messages";
+import { Answer, frameOf, FrameMessage, InstructorState, SetEntry, State } from "./messages";
 
 const FIRST_WAIT_MS = 250;
 const LONGEST_WAIT_MS = 4000;
+const ANSWER_WITHIN_MS = 10000;
 
 export interface Receiver {
-  state(state: State): void;
-  frame(frame: FrameMessage): void;
+  state?(state: State): void;
+  instructor?(state: InstructorState): void;
+  sets?(sets: SetEntry[]): void;
+  frame?(frame: FrameMessage): void;
   connected(open: boolean): void;
 }
 
 export class Connection {
   private socket: WebSocket | undefined;
   private wait_ms = FIRST_WAIT_MS;
+  private next = 1;
+  private readonly waiting = new Map<number, (answer: Answer) => void>();
+  private closed = false;
 
-  constructor(private readonly receiver: Receiver) {
+  // `session`: empty for the station's own.
+  constructor(private readonly receiver: Receiver, private readonly page: "display" | "instructor", private readonly session = "") {
     this.open();
   }
 
@@ -28,6 +35,27 @@ export class Connection {
   releaseAll(): boolean {
     return this.send({ release: true });
   }
+  // Sends a command of the instructor. The answer has a problem if it was not done.
+  command(name: string, values: object = {}): Promise<Answer> {
+    const id = this.next++;
+    return new Promise((resolve) => {
+      if (!this.send({ do: name, id, ...values })) {
+        resolve({ answer: id, problem: "no connection" });
+        return;
+      }
+      this.waiting.set(id, resolve);
+      setTimeout(() => this.resolve({ answer: id, problem: "no answer within 10 s" }), ANSWER_WITHIN_MS);
+    });
+  }
+  close(): void {
+    this.closed = true;
+    this.socket?.close();
+  }
+
+  private resolve(answer: Answer): void {
+    this.waiting.get(answer.answer)?.(answer);
+    this.waiting.delete(answer.answer);
+  }
 
   private send(message: object): boolean {
     if (this.socket?.readyState !== WebSocket.OPEN) return false;
@@ -35,8 +63,17 @@ export class Connection {
     return true;
   }
 
+  private take(text: string): void {
+    const message = JSON.parse(text) as Partial<State> & { instructor?: InstructorState; sets?: SetEntry[] } & Partial<Answer>;
+    if (message.watch !== undefined) this.receiver.state?.(message as State);
+    else if (message.instructor !== undefined) this.receiver.instructor?.(message.instructor);
+    else if (message.sets !== undefined) this.receiver.sets?.(message.sets);
+    else if (message.answer !== undefined) this.resolve(message as Answer);
+  }
+
   private open(): void {
-    const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/socket`);
+    const query = `page=${this.page}${this.session ? `&session=${this.session}` : ""}`;
+    const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/socket?${query}`);
     this.socket = socket;
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
@@ -44,13 +81,17 @@ export class Connection {
       this.receiver.connected(true);
     };
     socket.onmessage = ({ data }) => {
-      if (typeof data === "string") this.receiver.state(JSON.parse(data) as State);
-      else this.receiver.frame(frameOf(data as ArrayBuffer));
+      if (typeof data === "string") this.take(data);
+      else this.receiver.frame?.(frameOf(data as ArrayBuffer));
     };
     socket.onclose = () => {
       this.receiver.connected(false);
+      if (this.closed) return;
       setTimeout(() => this.open(), this.wait_ms);
       this.wait_ms = Math.min(2 * this.wait_ms, LONGEST_WAIT_MS);
     };
   }
 }
+
+// The session that the address of the page names; empty: the station's own.
+export const sessionOfPage = (): string => new URLSearchParams(location.search).get("session") ?? "";

@@ -1,6 +1,7 @@
 // The page of the display: the MPD with its twenty buttons, keys, touch, and the state of the connection.
-import { Connection } from "./connection";
+import { Connection, sessionOfPage } from "./connection";
 import { State } from "./messages";
+import { element } from "./page";
 import { Picture } from "./picture";
 
 const BUTTONS = 20;
@@ -10,12 +11,6 @@ const SIDES = ["left", "bottom", "right", "top"] as const; // of PB 1-5, 6-10, 1
 // Keys that the browser would act on itself. Others with Ctrl, Alt or Meta stay the browser's.
 const SENT = new Set(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Enter", "Tab", "PageUp", "PageDown", " ", "F4", "F5", "F6", "F7",
   "[", "]"]);
-
-function element<T extends HTMLElement>(id: string): T {
-  const found = document.getElementById(id);
-  if (!found) throw new Error(`expected the element ${id}`);
-  return found as T;
-}
 
 class DisplayPage {
   private readonly picture = new Picture(element<HTMLCanvasElement>("picture"));
@@ -38,7 +33,7 @@ class DisplayPage {
         this.picture.show(frame);
       },
       connected: (open) => this.showConnection(open),
-    });
+    }, "display", sessionOfPage());
     this.listenToKeys();
     this.listenToPointer();
     setInterval(() => this.showAge(), 200);

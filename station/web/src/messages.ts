@@ -46,3 +46,48 @@ export function frameOf(message: ArrayBuffer): FrameMessage {
     png: new Blob([new Uint8Array(message, HEADER_BYTES)], { type: "image/png" }),
   };
 }
+
+// What the instructor's page shows of a session.
+export interface Rain { id: number; latitude_deg: number; longitude_deg: number; radius_nm: number; rate_mmh: number; top_ft: number }
+export interface Jammer { id: number; name: string; latitude_deg: number; longitude_deg: number; altitude_ft: number | null; power_w: number; band: string; channels: number[] }
+export interface Mover {
+  id: number; name: string; latitude_deg: number; longitude_deg: number; speed_kt: number; heading_deg: number; cross_section_m2: number; height_ft: number;
+}
+export interface World {
+  sea_state: number | null; wind_kt: number; wind_from_deg: number; configured: boolean;
+  rain: Rain[]; jammers: Jammer[]; movers: Mover[];
+}
+export interface PatchEntry { id: number; lat: number; lon: number; window_nm: number; up_deg: number; size: number; corners: [number, number][] }
+export interface RoleEntry {
+  name: string; pid: number; load: number | null; heartbeat_ms: number | null; hangs: boolean; restarts: number; can_kill: boolean;
+}
+export interface InstructorState {
+  session: string;
+  clock: { sim_time: number; running: boolean; rate: number; epoch: number };
+  aircraft: { lat: number; lon: number; alt_ft: number; above_ground_ft: number | null; heading_deg: number; track_deg: number; speed_kt: number } | null;
+  scan: { scanning: boolean; frozen: boolean; centre_deg: number; width_deg: number; range_nm: number; beam_deg: number | null } | null;
+  patches: PatchEntry[];
+  forming: { progress: number | null; corners: [number, number][] } | null;
+  world: World | null;
+  fidelity: { wanted: string; used: string; configured: string };
+  navigators: { mission: NavigatorError; ins: NavigatorError } | null;
+  status: {
+    roles: RoleEntry[];
+    health: { state: string; reasons: string[] };
+    recorder: { writing: boolean; bytes: number; problem: string | null } | null;
+    notes: { sim_time: number; process: string; kind: string; text: string }[];
+  } | null;
+}
+export interface NavigatorError { north_ft: number; east_ft: number }
+export interface SetEntry { session: string; kind: "replay" | "branch" | "recorder"; file: string; at: number; ended: string | null }
+export interface Recording {
+  file: string; begin_s: number | null; end_s: number | null; bytes: number; sweeps: boolean; maps: boolean; can_fly_out: boolean; writing: boolean;
+}
+export interface Answer { answer: number; problem: string | null; session?: string; recordings?: Recording[] }
+export interface Theatre {
+  radar: string; fidelity: string;
+  points: { name: string; lat: number; lon: number }[];
+  beacons: { name: string; lat: number; lon: number; code: number }[];
+  scenes: { name: string; lat: number; lon: number }[];
+  route: [number, number][];
+}

@@ -1,0 +1,205 @@
+#include "station/app/instructor_shell.hpp"
+
+#include <sys/types.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "databuffer/json/status_json.hpp"
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/validated.hpp"
+#include "lib/imageio/png.hpp"
+#include "lib/log/log.hpp"
+#include "station/theatre_json.hpp"
+
+namespace yars::station {
+
+namespace {
+
+using databuffer::ClockState;
+using error::Expected;
+using nlohmann::ordered_json;
+
+constexpr std::int64_t kSceneInterval_ns = 100'000'000;  // 10 states a second
+constexpr std::int64_t kStatusInterval_ns = 1'000'000'000;
+constexpr std::int64_t kPortionTime_ns = 1'000'000 * databuffer::kPortionTime_ms;
+constexpr std::size_t kNotesShown = 12;
+
+// Roles that the page may end with a signal. The supervisor of the set starts them again.
+constexpr std::array<std::string_view, 6> kRoles{"flight-model", "input-monitor", "state-machine",
+                                                 "radar-model",  "radar-display", "recorder"};
+
+ordered_json clock_json(const databuffer::Session& session) {
+  const ClockState clock = session.clock();
+  return {{"sim_time", static_cast<double>(session.reached_sim_time_ns()) * 1e-9},
+          {"running", clock.running != 0},
+          {"rate", clock.rate},
+          {"epoch", clock.epoch}};
+}
+
+// Patch maps of the pool, the newest first.
+ordered_json patches_json(const databuffer::SessionLayout& layout) {
+  std::vector<databuffer::PatchMap> maps;
+  for (const databuffer::PatchSlot& slot : layout.patches) {
+    databuffer::PatchMap map{};
+    if (databuffer::read_patch(layout, slot.id.load(std::memory_order_acquire), map) && !databuffer::validate(map))
+      maps.push_back(map);
+  }
+  std::ranges::sort(maps, std::ranges::greater{}, &databuffer::PatchMap::id);
+  ordered_json list = ordered_json::array();
+  for (const databuffer::PatchMap& map : maps) list.push_back(patch_json(map));
+  return list;
+}
+
+}  // namespace
+
+InstructorShell::InstructorShell(databuffer::Session& session, std::string name)
+    : session_(&session), name_(std::move(name)) {}
+
+void InstructorShell::refresh(bool shown) {
+  const std::int64_t now_ns = databuffer::monotonic_ns();
+  go_on_with_clock(now_ns);
+  if (!shown || now_ns < next_state_ns_) return;
+  next_state_ns_ = now_ns + kSceneInterval_ns;
+  if (now_ns >= next_status_ns_) {
+    next_status_ns_ = now_ns + kStatusInterval_ns;
+    refresh_status();
+  }
+  text_ = std::make_shared<const std::string>(state_message());
+  ++number_;
+}
+
+void InstructorShell::refresh_status() {
+  ordered_json all = databuffer::status_json(*session_, name_);
+  std::vector<int> pids;
+  for (const auto& role : all["roles"]) pids.push_back(role["pid"].get<int>());
+  const auto loads = meter_.loads(pids);
+  for (auto& role : all["roles"]) {
+    const auto load = loads.find(role["pid"].get<int>());
+    role["load"] = load == loads.end() ? ordered_json(nullptr) : ordered_json(load->second);
+    role["can_kill"] = role["pid"] != 0 && std::ranges::find(kRoles, role["name"].get<std::string>()) != kRoles.end();
+  }
+  const auto& notes = all["notes"];
+  ordered_json newest = ordered_json::array();
+  for (std::size_t i = notes.size() - std::min(notes.size(), kNotesShown); i < notes.size(); ++i)
+    newest.push_back({{"sim_time", notes[i]["sim_time"]},
+                      {"process", notes[i]["process"]},
+                      {"kind", notes[i]["kind"]},
+                      {"text", notes[i]["text"]}});
+  status_ = {{"roles", all["roles"]},     {"health", all["health"]},
+             {"recorder", all["recorder"]}, {"model", all["model"]},
+             {"lag", all["lag"]},         {"notes", std::move(newest)}};
+}
+
+std::string InstructorShell::state_message() const {
+  const auto& layout = std::as_const(*session_).layout();
+  const auto radar = databuffer::read_valid(layout.radar_state);
+  const auto model = databuffer::read_valid(layout.model_status).value_or(databuffer::ModelStatus{});
+  ordered_json state{{"session", name_},
+                     {"clock", clock_json(*session_)},
+                     {"aircraft", aircraft_json(model)},
+                     {"scan", scan_json(model)},
+                     {"patches", patches_json(layout)},
+                     {"forming", forming_json(model)},
+                     {"navigators", radar ? navigators_json(*radar) : ordered_json(nullptr)},
+                     {"status", status_}};
+  return ordered_json{{"instructor", std::move(state)}}.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
+}
+
+template <class Change>
+Expected<void> InstructorShell::change_clock(const Change& change) {
+  if (std::as_const(*session_).layout().lockstep.enabled.load() != 0)
+    return error::fail("clock", "a live session", "a session in lockstep, whose sim time only its programs advance");
+  steps_left_ = 0;
+  return session_->change_clock(change);
+}
+
+template <class Change>
+Expected<void> InstructorShell::begin_epoch(const Change& change) {
+  auto changed = change_clock(change);
+  if (changed && session_->clock().running == 0) {
+    enters_epoch_ = true;
+    clock_due_ns_ = databuffer::monotonic_ns() + kPortionTime_ns;
+  }
+  return changed;
+}
+
+// A step goes on in portions, and a new epoch begins with a second tick, so that no program skips one.
+void InstructorShell::go_on_with_clock(std::int64_t now_ns) {
+  if (now_ns < clock_due_ns_) return;
+  if (std::exchange(enters_epoch_, false)) {
+    if (session_->clock().running == 0) static_cast<void>(session_->change_clock(databuffer::after_first_tick));
+    clock_due_ns_ = now_ns + kPortionTime_ns;
+  } else if (steps_left_ > 0) {
+    const ClockState clock = session_->clock();
+    if (clock.epoch != steps_epoch_ || clock.running != 0) {
+      steps_left_ = 0;
+      return;
+    }
+    static_cast<void>(session_->change_clock(
+        [&](const ClockState& before) { return databuffer::stepped(before, steps_left_); }));
+    steps_left_ -= std::min(steps_left_, databuffer::kStepPortion_ticks);
+    clock_due_ns_ = now_ns + kPortionTime_ns;
+  }
+}
+
+Expected<void> InstructorShell::kill_role(const std::string& role) {
+  if (std::ranges::find(kRoles, role) == kRoles.end())
+    return error::fail("kill", "a role of the set", role.substr(0, 40));
+  for (const databuffer::ProcessInfo& process : session_->processes()) {
+    if (process.name != role) continue;
+    if (::kill(process.pid, SIGKILL) != 0) return error::fail("kill " + role, "leave to end it", std::strerror(errno));
+    session_->note(databuffer::NoteKind::supervision, "the instructor killed " + role);
+    log::info("the instructor killed " + role);
+    return {};
+  }
+  return error::fail("kill " + role, "a process of this computer", "none");
+}
+
+Expected<void> InstructorShell::execute(const InstructorCommand& command) {
+  if (const auto* run = std::get_if<SetRunning>(&command))
+    return change_clock([&](const ClockState& clock) { return databuffer::with_running(clock, run->running); });
+  if (const auto* rate = std::get_if<SetRate>(&command))
+    return change_clock([&](const ClockState& clock) { return databuffer::with_rate(clock, rate->rate); });
+  if (const auto* step = std::get_if<Step>(&command)) {
+    auto frozen = change_clock([](const ClockState& clock) { return databuffer::with_running(clock, false); });
+    if (!frozen) return frozen;
+    steps_left_ = step->ticks;
+    steps_epoch_ = session_->clock().epoch;
+    return {};
+  }
+  if (const auto* reset = std::get_if<Reset>(&command))
+    return begin_epoch([&](const ClockState& clock) { return databuffer::reset_to(clock, reset->time_s); });
+  if (const auto* move = std::get_if<Reposition>(&command)) {
+    databuffer::Repositioning to{move->position, geo::AltitudeMsl::feet(move->altitude_ft),
+                                 geo::Bearing::degrees(move->heading_deg)};
+    if (move->speed_kt) to.ground_speed = geo::Speed::knots(*move->speed_kt);
+    return begin_epoch([&](const ClockState& clock) { return databuffer::repositioned(clock, to); });
+  }
+  if (const auto* kill = std::get_if<KillRole>(&command)) return kill_role(kill->role);
+  if (const auto* note = std::get_if<WriteNote>(&command)) {
+    session_->note(databuffer::NoteKind::supervision, "instructor: " + note->text);
+    return {};
+  }
+  return error::fail("command", "one of the session", "one of the station");
+}
+
+std::string InstructorShell::patch_png(std::uint64_t id) const {
+  databuffer::PatchMap map{};
+  std::vector<std::uint8_t> pixels;
+  if (!databuffer::read_patch(std::as_const(*session_).layout(), id, map, pixels) || databuffer::validate(map))
+    return {};
+  std::vector<std::uint8_t> rgbx(4 * pixels.size()), png;
+  for (std::size_t i = 0; i < pixels.size(); ++i) std::fill_n(rgbx.begin() + static_cast<std::ptrdiff_t>(4 * i), 3, pixels[i]);
+  const auto edge = static_cast<int>(map.size);
+  imageio::encode_png({rgbx.data(), edge, edge, 4U * map.size}, png);
+  return {png.begin(), png.end()};
+}
+
+}  // namespace yars::station

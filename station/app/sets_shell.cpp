@@ -1,0 +1,248 @@
+#include "station/app/sets_shell.hpp"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/asio/buffers_iterator.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/read.hpp>
+#include <boost/asio/streambuf.hpp>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <ctime>
+#include <memory>
+#include <utility>
+
+#include "lib/file/text_file.hpp"
+#include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
+
+namespace yars::station {
+
+namespace {
+
+using error::Expected;
+using nlohmann::ordered_json;
+
+// Starts a program with its output in `output`. It ends when the station ends. -1: the system refused.
+int spawn(const std::vector<std::string>& command, int output) {
+  std::vector<char*> arguments;
+  for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  const int parent = ::getpid();
+  const int pid = ::fork();
+  if (pid != 0) return pid;
+  // Only functions that are safe in the child of a program with threads.
+  ::setpgid(0, 0);
+  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+  if (::getppid() != parent) ::_exit(1);
+  const int none = ::open("/dev/null", O_RDONLY);
+  ::dup2(none, STDIN_FILENO);
+  ::dup2(output, STDOUT_FILENO);
+  ::dup2(output, STDERR_FILENO);
+  for (int file = STDERR_FILENO + 1; file < 1024; ++file) ::close(file);
+  ::execv(arguments[0], arguments.data());
+  ::_exit(127);
+}
+
+std::string text_of_seconds(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.3f", seconds);
+  return text;
+}
+
+// The last line that a process has written, for the page.
+std::string last_line(const std::filesystem::path& log) {
+  const auto text = file::read_text_file(log);
+  if (!text) return {};
+  std::string_view rest = *text;
+  while (rest.ends_with('\n')) rest.remove_suffix(1);
+  return std::string(rest.substr(rest.rfind('\n') + 1).substr(0, 300));
+}
+
+// "20261128-101500", in UTC.
+std::string text_of_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  ::gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y%m%d-%H%M%S", &parts);
+  return text;
+}
+
+}  // namespace
+
+SetsShell::SetsShell(boost::asio::io_context& context, SetSettings settings)
+    : context_(context),
+      settings_(std::move(settings)),
+      folder_(std::filesystem::temp_directory_path() / ("yars_station." + std::to_string(::getpid()))) {}
+
+SetsShell::~SetsShell() {
+  for (const StartedSet& set : sets_) signal(set, SIGTERM);
+  for (const StartedSet& set : sets_)
+    for (const Process& process : set.processes) ::waitpid(process.pid, nullptr, 0);
+  std::error_code ignored;
+  std::filesystem::remove_all(folder_, ignored);
+}
+
+Expected<SetsShell::Process> SetsShell::start(const std::vector<std::string>& command, const std::string& name) {
+  std::error_code problem;
+  std::filesystem::create_directories(folder_, problem);
+  const std::filesystem::path log = folder_ / (name + ".log");
+  const int output = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+  if (output < 0) return error::fail(log.string(), "to write", std::strerror(errno));
+  const int pid = spawn(command, output);
+  ::close(output);
+  if (pid < 0) return error::fail(command.front(), "to start it", std::strerror(errno));
+  log::info("started for the instructor: " + command.front() + ", pid " + std::to_string(pid));
+  return Process{pid, log};
+}
+
+Expected<void> SetsShell::check_file(const std::string& file) const {
+  if (sets_.size() >= kMaxSets)
+    return error::fail("sets", "at most " + std::to_string(kMaxSets) + " beside this one", "as many", "end one");
+  if (!listed_.contains(file)) return error::fail("file", "a recording of the list", file, "list the recordings again");
+  return {};
+}
+
+std::string SetsShell::new_session(const std::string& kind) {
+  return settings_.session.substr(0, 24) + '-' + kind + '-' + std::to_string(next_++);
+}
+
+std::filesystem::path SetsShell::start_script() const {
+  const std::filesystem::path installed = settings_.programs / "yars-start";
+  return std::filesystem::exists(installed) ? installed : settings_.programs / "../../../scripts/start";
+}
+
+Expected<std::string> SetsShell::play(const std::string& file, double at_s) {
+  if (auto good = check_file(file); !good) return tl::unexpected(good.error());
+  StartedSet set{new_session("replay"), "replay", file, at_s, {}, {}};
+  std::vector<std::string> replay{(settings_.programs / "yars").string(), "--session", set.session, "replay", file,
+                                  "--seek", text_of_seconds(at_s)};
+  auto player = start(replay, set.session + "-replay");
+  if (!player) return tl::unexpected(player.error());
+  set.processes.push_back(*player);
+  std::vector<std::string> display{(settings_.programs / "radar-display").string(), "--session", set.session, "--headless",
+                                   "--publish"};
+  if (!settings_.config.empty()) display.insert(display.end(), {"--config", settings_.config});
+  if (auto shown = start(display, set.session + "-display")) set.processes.push_back(*shown);
+  sets_.push_back(std::move(set));
+  changed_ = true;
+  return sets_.back().session;
+}
+
+Expected<std::string> SetsShell::fly_out(const std::string& file, double at_s) {
+  if (auto good = check_file(file); !good) return tl::unexpected(good.error());
+  constexpr const char* kLonger = "86400";  // [s] than anybody flies
+  StartedSet set{new_session("branch"), "branch", file, at_s, {}, {}};
+  const std::filesystem::path branch = settings_.recordings / (set.session + '-' + text_of_now() + ".yars");
+  auto process = start({start_script().string(), "--bin", settings_.programs.string(), "--session", set.session, "--fly-out",
+                        file, "--at", text_of_seconds(at_s), "--headless", kLonger, "--frames", (folder_ / set.session).string(),
+                        "--every", "100000", "--publish", "--no-input", "--log-dir", "", "--record", branch.string()},
+                       set.session);
+  if (!process) return tl::unexpected(process.error());
+  set.processes.push_back(*process);
+  sets_.push_back(std::move(set));
+  changed_ = true;
+  return sets_.back().session;
+}
+
+Expected<void> SetsShell::record() {
+  if (std::ranges::any_of(sets_, [](const StartedSet& set) { return set.kind == "recorder" && set.ended.empty(); }))
+    return error::fail("recorder", "none that runs", "one", "PB 12 stops and starts it");
+  std::error_code problem;
+  std::filesystem::create_directories(settings_.recordings, problem);
+  const std::filesystem::path file = settings_.recordings / (settings_.session + '-' + text_of_now() + ".yars");
+  std::vector<std::string> command{(settings_.programs / "yars").string(), "--session", settings_.session};
+  if (!settings_.config.empty()) command.insert(command.end(), {"--config", settings_.config});
+  command.insert(command.end(), {"record", file.string(), "--patches"});
+  if (!settings_.terrain.empty()) command.insert(command.end(), {"--terrain", settings_.terrain});
+  auto process = start(command, "recorder-" + std::to_string(next_++));
+  if (!process) return tl::unexpected(process.error());
+  sets_.push_back({settings_.session, "recorder", file.string(), 0.0, {*process}, {}});
+  changed_ = true;
+  return {};
+}
+
+void SetsShell::signal(const StartedSet& set, int number) const {
+  for (const Process& process : set.processes) ::kill(process.pid, number);
+}
+
+Expected<void> SetsShell::end(const std::string& session) {
+  const auto set = std::ranges::find_if(
+      sets_, [&](const StartedSet& entry) { return entry.session == session && entry.kind != "recorder"; });
+  if (set == sets_.end()) return error::fail("end", "a set that the station has started", session.substr(0, 40));
+  signal(*set, SIGTERM);
+  if (set->processes.empty()) sets_.erase(set);
+  else set->ended = "ended by the instructor";
+  changed_ = true;
+  return {};
+}
+
+bool SetsShell::look() {
+  for (StartedSet& set : sets_) {
+    std::erase_if(set.processes, [&](const Process& process) {
+      int status = 0;
+      if (::waitpid(process.pid, &status, WNOHANG) == 0) return false;
+      if (set.ended.empty()) set.ended = "ended" + (last_line(process.log).empty() ? "" : ": " + last_line(process.log));
+      changed_ = true;
+      return true;
+    });
+    // A display without its replay, or the reverse, is of no use.
+    if (!set.ended.empty()) signal(set, SIGTERM);
+  }
+  std::erase_if(sets_, [](const StartedSet& set) {
+    return set.processes.empty() && (set.kind == "recorder" || set.ended == "ended by the instructor");
+  });
+  return std::exchange(changed_, false);
+}
+
+ordered_json SetsShell::sets() const {
+  ordered_json list = ordered_json::array();
+  for (const StartedSet& set : sets_)
+    list.push_back({{"session", set.session},
+                    {"kind", set.kind},
+                    {"file", set.file},
+                    {"at", set.at_s},
+                    {"ended", set.ended.empty() ? ordered_json(nullptr) : ordered_json(set.ended)}});
+  return list;
+}
+
+bool SetsShell::has_session(const std::string& name) const {
+  return name == settings_.session ||
+         std::ranges::any_of(sets_, [&](const StartedSet& set) { return set.session == name && set.ended.empty(); });
+}
+
+void SetsShell::list_recordings(std::function<void(ordered_json)> then) {
+  struct Errand {
+    explicit Errand(boost::asio::io_context& context, int file) : output(context, file) {}
+    boost::asio::posix::stream_descriptor output;
+    boost::asio::streambuf text{1U << 22U};
+    int pid = 0;
+  };
+  std::error_code ignored;
+  if (!std::filesystem::exists(settings_.recordings, ignored)) return then({{"recordings", ordered_json::array()}});
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return then({{"problem", std::strerror(errno)}});
+  auto errand = std::make_shared<Errand>(context_, ends[0]);
+  errand->pid = spawn({(settings_.programs / "yars").string(), "recordings", settings_.recordings.string(), "--json"}, ends[1]);
+  ::close(ends[1]);
+  boost::asio::async_read(
+      errand->output, errand->text, [this, errand, then = std::move(then)](boost::system::error_code, std::size_t) {
+        ::waitpid(errand->pid, nullptr, 0);
+        const auto data = errand->text.data();
+        auto list = ordered_json::parse(boost::asio::buffers_begin(data), boost::asio::buffers_end(data), nullptr, false);
+        if (!list.is_object() || !list.contains("recordings")) return then({{"problem", "the recordings cannot be listed"}});
+        listed_.clear();
+        for (const auto& entry : list["recordings"]) listed_.insert(entry["file"].get<std::string>());
+        then(std::move(list));
+      });
+}
+
+}  // namespace yars::station

@@ -1,0 +1,119 @@
+#include "station/app/visit_shell.hpp"
+
+#include <charconv>
+
+namespace yars::station {
+
+namespace {
+
+namespace http = boost::beast::http;
+
+std::string_view view_of(boost::beast::string_view text) {
+  return {text.data(), text.size()};
+}
+
+Answer refusal(http::status status, std::string body) {
+  return {status, std::move(body) + '\n', "text/plain; charset=utf-8", "default-src 'none'", {}, {}};
+}
+
+// What is wrong with where a request comes from.
+std::optional<Answer> foreign(const Site& site, const Request& request) {
+  const std::string_view host = view_of(request[http::field::host]), origin = view_of(request[http::field::origin]);
+  if (!is_allowed_host(host, site.access)) return refusal(http::status::bad_request, "expected a Host of this computer");
+  const bool must_tell = boost::beast::websocket::is_upgrade(request);
+  if ((must_tell || !origin.empty()) && !is_own_origin(origin, host, site.access))
+    return refusal(http::status::forbidden, "expected a page of this server");
+  return std::nullopt;
+}
+
+Right right_of(const Site& site, const Request& request) {
+  return right_of_cookies(view_of(request[http::field::cookie]), site.access);
+}
+
+// The path /patch/SESSION/ID.png: a map of the session.
+std::optional<Answer> patch_of(Site& site, std::string_view path) {
+  constexpr std::string_view kBegin = "/patch/", kEnd = ".png";
+  if (!path.starts_with(kBegin) || !path.ends_with(kEnd)) return std::nullopt;
+  path = path.substr(kBegin.size(), path.size() - kBegin.size() - kEnd.size());
+  const std::size_t slash = path.find('/');
+  if (slash == std::string_view::npos) return std::nullopt;
+  std::uint64_t id = 0;
+  const std::string_view digits = path.substr(slash + 1);
+  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), id);
+  if (problem != std::errc() || end != digits.data() + digits.size()) return std::nullopt;
+  const auto feed = site.feed_of(std::string(path.substr(0, slash)));
+  std::string png = feed ? (*feed)->instructor.patch_png(id) : std::string();
+  if (png.empty()) return std::nullopt;
+  return Answer{http::status::ok, std::move(png), "image/png", "default-src 'none'", {}, {}};
+}
+
+// The page again, without the token in its address, and with a cookie that has it.
+Answer with_cookie(const Site& site, std::string_view path, const std::string& token) {
+  Answer answer = refusal(http::status::see_other, "the page follows");
+  answer.cookie = cookie_of_token(token, site.access);
+  answer.location = std::string(path.substr(0, path.find('?')));
+  return answer;
+}
+
+// A tile of the map, later.
+std::optional<Answer> tile_later(Site& site, const MapTile& tile, std::function<void(Answer)> later) {
+  const bool taken = site.map.request(tile, [&site, later = std::move(later)](std::shared_ptr<const std::string> png) {
+    boost::asio::post(site.context, [later, png] {
+      later({http::status::ok, *png, "image/png", "default-src 'none'", {}, {}});
+    });
+  });
+  if (taken) return std::nullopt;
+  return refusal(http::status::service_unavailable, "too many tiles are waited for");
+}
+
+}  // namespace
+
+std::optional<Answer> answer_of(Site& site, const Request& request, std::function<void(Answer)> later) {
+  if (auto no = foreign(site, request)) return no;
+  if (request.method() != http::verb::get && request.method() != http::verb::head)
+    return refusal(http::status::method_not_allowed, "expected GET or HEAD");
+  const std::string_view path = view_of(request.target());
+  const std::string name = file_of_path(path);
+  if (const auto token = parameter_of(path, "token");
+      token && right_of_token(*token, site.access) != Right::none && !name.empty())
+    return with_cookie(site, path, *token);
+  const auto file = site.files.find(name);
+  // Files that are no pages hold nothing of the session.
+  const bool is_open = file != site.files.end() && !name.ends_with(".html") && !name.ends_with(".json");
+  if (!is_open && right_of(site, request) == Right::none)
+    return refusal(http::status::unauthorized,
+                   "expected the address with its token, as yars-station printed it when it started");
+  if (file != site.files.end())
+    return Answer{http::status::ok,
+                  file->second,
+                  std::string(content_type_of(name)),
+                  content_policy(view_of(request[http::field::host]), site.access),
+                  {},
+                  {}};
+  if (const auto tile = tile_of_path(path)) return tile_later(site, *tile, std::move(later));
+  if (auto patch = patch_of(site, path)) return patch;
+  return refusal(http::status::not_found, "expected a page of the station");
+}
+
+Upgrade upgrade_of(Site& site, const Request& request) {
+  Upgrade upgrade;
+  const std::string_view path = view_of(request.target());
+  upgrade.refusal = foreign(site, request);
+  if (upgrade.refusal) return upgrade;
+  upgrade.wish.right = right_of(site, request);
+  if (upgrade.wish.right == Right::none) {
+    upgrade.refusal = refusal(http::status::unauthorized, "expected a page that was opened with its token");
+  } else if (path.substr(0, path.find('?')) != "/socket") {
+    upgrade.refusal = refusal(http::status::not_found, "expected /socket");
+  } else {
+    upgrade.wish.instructor = parameter_of(path, "page") == "instructor";
+    auto feed = site.feed_of(parameter_of(path, "session").value_or(site.own_session));
+    if (feed)
+      upgrade.feed = std::move(*feed);
+    else
+      upgrade.refusal = refusal(http::status::not_found, feed.error().message());
+  }
+  return upgrade;
+}
+
+}  // namespace yars::station

@@ -1,0 +1,128 @@
+#include "station/instructor_message.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
+
+#include "lib/text/plain_text.hpp"
+
+namespace yars::station {
+
+namespace {
+
+using error::Expected;
+using nlohmann::json;
+
+constexpr std::size_t kMaxPathLetters = 1000, kMaxNoteLetters = 100;
+constexpr double kMaxRate = 10.0, kMaxTime_s = 1e8, kMaxTicks = 2000.0;
+
+struct Limits {
+  double min, max;
+};
+
+// Arguments of one command, by name.
+class Arguments {
+ public:
+  Arguments(const json& object, std::string command) : object_(object), command_(std::move(command)) {}
+
+  double number(const char* name, Limits limits) {
+    const auto found = object_.find(name);
+    const double value = found != object_.end() && found->is_number() ? found->get<double>() : NAN;
+    if (!(value >= limits.min && value <= limits.max))
+      refuse(name, "a number from " + text::text_of_number(limits.min) + " to " + text::text_of_number(limits.max),
+             found);
+    return value;
+  }
+  std::optional<double> optional_number(const char* name, Limits limits) {
+    const auto found = object_.find(name);
+    if (found == object_.end() || found->is_null()) return std::nullopt;
+    return number(name, limits);
+  }
+  std::string text(const char* name, std::size_t letters) {
+    const auto found = object_.find(name);
+    if (found != object_.end() && found->is_string()) {
+      const auto& value = found->get_ref<const std::string&>();
+      if (!value.empty() && value.size() <= letters && value.find('\0') == std::string::npos) return value;
+    }
+    refuse(name, "a text of 1 to " + std::to_string(letters) + " bytes", found);
+    return {};
+  }
+  const std::optional<error::Error>& problem() const { return problem_; }
+
+ private:
+  void refuse(const char* name, const std::string& expected, json::const_iterator found) {
+    if (problem_) return;
+    problem_ = error::Error{
+        command_ + ": " + name, expected,
+        found == object_.end() ? "nothing" : found->dump(-1, ' ', true, json::error_handler_t::replace), {}, false};
+  }
+
+  const json& object_;
+  std::string command_;
+  std::optional<error::Error> problem_;
+};
+
+using Make = InstructorCommand (*)(Arguments& arguments);
+
+constexpr std::array<std::pair<std::string_view, Make>, 13> kCommands{{
+    {"run", [](Arguments&) -> InstructorCommand { return SetRunning{true}; }},
+    {"freeze", [](Arguments&) -> InstructorCommand { return SetRunning{false}; }},
+    {"rate", [](Arguments& of) -> InstructorCommand { return SetRate{of.number("rate", {0.0, kMaxRate})}; }},
+    {"step",
+     [](Arguments& of) -> InstructorCommand {
+       return Step{static_cast<std::int64_t>(of.number("ticks", {1.0, kMaxTicks}))};
+     }},
+    {"reset", [](Arguments& of) -> InstructorCommand { return Reset{of.number("time", {0.0, kMaxTime_s})}; }},
+    {"reposition",
+     [](Arguments& of) -> InstructorCommand {
+       return Reposition{{of.number("lat", {-90.0, 90.0}), of.number("lon", {-180.0, 180.0})},
+                         of.number("alt_ft", {-3000.0, 600000.0}),
+                         of.number("heading", {0.0, 360.0}),
+                         of.optional_number("speed_kt", {30.0, 5000.0})};
+     }},
+    {"kill", [](Arguments& of) -> InstructorCommand { return KillRole{of.text("role", 30)}; }},
+    {"note", [](Arguments& of) -> InstructorCommand { return WriteNote{of.text("text", kMaxNoteLetters)}; }},
+    {"record", [](Arguments&) -> InstructorCommand { return StartRecorder{}; }},
+    {"recordings", [](Arguments&) -> InstructorCommand { return ListRecordings{}; }},
+    {"play",
+     [](Arguments& of) -> InstructorCommand {
+       return PlayRecording{of.text("file", kMaxPathLetters), of.number("at", {0.0, kMaxTime_s})};
+     }},
+    {"fly out",
+     [](Arguments& of) -> InstructorCommand {
+       return FlyOut{of.text("file", kMaxPathLetters), of.number("at", {0.0, kMaxTime_s})};
+     }},
+    {"end", [](Arguments& of) -> InstructorCommand { return EndSet{of.text("session", 40)}; }},
+}};
+
+std::string names_of_commands() {
+  std::string names;
+  for (const auto& [name, make] : kCommands) names += (names.empty() ? "" : ", ") + std::string(name);
+  return names;
+}
+
+}  // namespace
+
+Expected<InstructorMessage> instructor_message(const json& object) {
+  const auto name = object.find("do"), id = object.find("id");
+  const std::string word = name != object.end() && name->is_string() ? name->get<std::string>() : "";
+  const auto entry = std::ranges::find_if(kCommands, [&](const auto& command) { return command.first == word; });
+  if (entry == kCommands.end())
+    return error::fail("do", "one of " + names_of_commands(), word.empty() ? "nothing" : word.substr(0, 40));
+  if (id == object.end() || !id->is_number_integer()) return error::fail("id", "a whole number", "something else");
+  Arguments arguments(object, word);
+  InstructorMessage message{id->get<std::int64_t>(), entry->second(arguments)};
+  if (arguments.problem()) return tl::unexpected(*arguments.problem());
+  return message;
+}
+
+std::string answer_to(std::int64_t id, const std::optional<std::string>& problem) {
+  nlohmann::ordered_json answer{{"answer", id}, {"problem", nullptr}};
+  if (problem) answer["problem"] = *problem;
+  return answer.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
+}
+
+}  // namespace yars::station
