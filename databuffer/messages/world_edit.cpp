@@ -131,16 +131,13 @@ Expected<Entry*> find(const List<Entry>& list, std::uint32_t id) {
   return &*found;
 }
 
-// The least id that no entry has, above the greatest one if that is possible: an id that was removed a moment ago
-// should not name another entry.
+// An id that no entry of the list has. It was not given before, unless all numbers have been.
 template <class Entry>
-std::uint32_t new_id(std::span<Entry> in_use) {
-  std::uint32_t greatest = 0;
-  for (const Entry& entry : in_use) greatest = std::max(greatest, entry.id);
-  if (greatest < std::numeric_limits<std::uint32_t>::max()) return greatest + 1;
-  std::uint32_t id = 1;
-  while (std::ranges::find(in_use, id, &Entry::id) != in_use.end()) ++id;
-  return id;
+std::uint32_t new_id(WorldState& world, std::span<Entry> in_use) {
+  do {
+    world.last_id = std::max(world.last_id + 1, 1U);
+  } while (std::ranges::find(in_use, world.last_id, &Entry::id) != in_use.end());
+  return world.last_id;
 }
 
 template <class Entry>
@@ -150,7 +147,7 @@ Expected<std::uint32_t> add_entry(WorldState& world, Entry entry) {
   if (list.count >= list.entries.size())
     return fail(std::string(list.subject), "at most " + std::to_string(list.entries.size()) + " in the world",
                 "one more", "remove another one first");
-  entry.id = new_id(list.in_use());
+  entry.id = new_id(world, list.in_use());
   list.entries[list.count++] = entry;
   mark_changed(world);
   return entry.id;

@@ -98,6 +98,7 @@ WorldState world_state_from(const radar::WorldConfiguration& world) {
   state.rain_count = write_list(state.rain, world.rain.cells);
   state.jammer_count = write_list(state.jammers, world.jamming.jammers);
   state.mover_count = write_list(state.movers, world.movers);
+  state.last_id = std::max({state.rain_count, state.jammer_count, state.mover_count});
   return state;
 }
 

@@ -51,7 +51,11 @@ Expected<WorldState> change_world(Session& session, const WorldChange& change) {
   if (!session.role_is_held(Role::radar_model)) return fail_without_model();
   const auto claim = claim_instructor(session);
   if (!claim) return tl::unexpected(claim.error());
-  const auto before = newest_world(std::as_const(session).layout());
+  const SessionLayout& layout = std::as_const(session).layout();
+  if (!layout.world_configured.has_value() && layout.world_latched.next() > 0)
+    return fail("world", "a radar-model that runs", "the replay of a recording, or another host's radar-model",
+                "change the world in the session, and on the host, of radar-model");
+  const auto before = newest_world(layout);
   if (!before)
     return fail("world", "a world that radar-model has published", "none",
                 "wait until radar-model has run a tick, as after `yars sim run`");
