@@ -1,4 +1,5 @@
-// JSON object of a world, as `yars world --json` prints it. Source of its fields and units: docs/spec/commands.md#world.
+// JSON object of a world, as `yars world --json` prints it. Source of its fields and units:
+// docs/spec/commands.md#world.
 #pragma once
 
 #include <cstdint>

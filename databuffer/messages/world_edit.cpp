@@ -66,14 +66,14 @@ Expected<void> check(const WorldJammer& jammer) {
 }
 
 Expected<void> check(const WorldMover& mover) {
-  return check_all("mover", {{"latitude", mover.latitude_deg, -90.0, 90.0, "deg"},
-                             {"longitude", mover.longitude_deg, -180.0, 180.0, "deg"},
-                             {"speed", mover.speed_mps, 0.0, 1000.0, "kt", kMetresPerSecondPerKnot},
-                             {"heading", mover.heading_deg, 0.0, 360.0, "deg"},
-                             {"cross section", mover.cross_section_m2, 0.0, 1e7, "m2"},
-                             {"height", mover.height_m, 0.0, 1000.0, "ft", geo::kMetresPerFoot},
-                             {"sim time", static_cast<double>(mover.since_ns), 0.0,
-                              static_cast<double>(kLatestSimTime_ns), "ns"}});
+  return check_all(
+      "mover", {{"latitude", mover.latitude_deg, -90.0, 90.0, "deg"},
+                {"longitude", mover.longitude_deg, -180.0, 180.0, "deg"},
+                {"speed", mover.speed_mps, 0.0, 1000.0, "kt", kMetresPerSecondPerKnot},
+                {"heading", mover.heading_deg, 0.0, 360.0, "deg"},
+                {"cross section", mover.cross_section_m2, 0.0, 1e7, "m2"},
+                {"height", mover.height_m, 0.0, 1000.0, "ft", geo::kMetresPerFoot},
+                {"sim time", static_cast<double>(mover.since_ns), 0.0, static_cast<double>(kLatestSimTime_ns), "ns"}});
 }
 
 template <std::size_t size>

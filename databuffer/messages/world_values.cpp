@@ -19,7 +19,8 @@ constexpr double kSecondsPerNanosecond = 1e-9;
 template <std::size_t size>
 void write_name(char (&into)[size], std::string_view name) {
   const std::size_t length = name.copy(into, size - 1);
-  std::replace_if(into, into + length, [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  std::replace_if(
+      into, into + length, [](char letter) { return letter < ' ' || letter > '~'; }, '?');
 }
 
 // Number of entries that a record has room for.
@@ -122,14 +123,14 @@ void apply(const WorldState& state, radar::WorldConfiguration& world) {
                                      .power_w = jammer.power_w});
   world.movers.clear();
   for (const WorldMover& mover : used(state.movers, state.mover_count))
-    world.movers.push_back({.name = std::string(text::text_of(mover.name)),
-                            .position = {mover.latitude_deg, mover.longitude_deg},
-                            .speed_mps = mover.speed_mps,
-                            .heading_deg = mover.heading_deg,
-                            .cross_section_m2 = mover.cross_section_m2,
-                            .height_m = mover.height_m,
-                            .since = geo::Duration::seconds(static_cast<double>(mover.since_ns) *
-                                                            kSecondsPerNanosecond)});
+    world.movers.push_back(
+        {.name = std::string(text::text_of(mover.name)),
+         .position = {mover.latitude_deg, mover.longitude_deg},
+         .speed_mps = mover.speed_mps,
+         .heading_deg = mover.heading_deg,
+         .cross_section_m2 = mover.cross_section_m2,
+         .height_m = mover.height_m,
+         .since = geo::Duration::seconds(static_cast<double>(mover.since_ns) * kSecondsPerNanosecond)});
 }
 
 }  // namespace yars::databuffer

@@ -172,8 +172,8 @@ struct FrameSlot {
 };
 
 // [bytes] Part of the reserve that containers occupy: Counters with padding to a cache line, Caption, PilotAdvice,
-// SkippedTicks, NetworkStatus, Network with padding to a cache line, WorldState. The assertions below SessionLayout hold
-// the value.
+// SkippedTicks, NetworkStatus, Network with padding to a cache line, WorldState. The assertions below SessionLayout
+// hold the value.
 inline constexpr std::size_t kUsedSpareBytes =
     688 + sizeof(shm::LatestValue<Caption>) + sizeof(shm::LatestValue<PilotAdvice>) +
     kLockstepRoles * sizeof(SkippedTicks) + sizeof(shm::LatestValue<NetworkStatus>) + sizeof(Network) +
@@ -208,8 +208,8 @@ struct SessionLayout {
   std::array<SkippedTicks, kLockstepRoles> skipped_ticks;  // in the order of kLockstepRoleNames
   shm::LatestValue<NetworkStatus> network_status;          // written by the gateway
   Network network;
-  shm::LatestValue<WorldState> world;             // wanted; written by Session::change_world()
-  shm::LatestValue<WorldState> world_configured;  // of radar-model's configuration
+  shm::LatestValue<WorldState> world;                            // wanted; written by Session::change_world()
+  shm::LatestValue<WorldState> world_configured;                 // of radar-model's configuration
   shm::BroadcastRing<WorldState, kLatchedWorlds> world_latched;  // as latched by radar-model; the last one is in effect
   std::array<std::atomic<std::uint64_t>, (kSpareBytes - kUsedSpareBytes) / 8> spare;
 };

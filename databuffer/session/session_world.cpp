@@ -1,5 +1,6 @@
 #include "databuffer/session/session_world.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <string>
 #include <thread>
@@ -49,12 +50,14 @@ std::optional<WorldState> newest_world(const SessionLayout& layout) {
 
 Expected<WorldState> change_world(Session& session, const WorldChange& change) {
   if (!session.role_is_held(Role::radar_model)) return fail_without_model();
+  if (session.is_mirrored(Role::radar_model))
+    return fail("world", "a radar-model on this host", "one on another host", "change the world on that host");
   const auto claim = claim_instructor(session);
   if (!claim) return tl::unexpected(claim.error());
   const SessionLayout& layout = std::as_const(session).layout();
   if (!layout.world_configured.has_value() && layout.world_latched.next() > 0)
-    return fail("world", "a radar-model that runs", "the replay of a recording, or another host's radar-model",
-                "change the world in the session, and on the host, of radar-model");
+    return fail("world", "a radar-model that runs in the session", "the replay of a recording",
+                "name a live session with --session");
   const auto before = newest_world(layout);
   if (!before)
     return fail("world", "a world that radar-model has published", "none",
@@ -62,6 +65,7 @@ Expected<WorldState> change_world(Session& session, const WorldChange& change) {
   auto next = change(*before);
   if (!next) return next;
   next->edit = before->edit + 1;
+  next->last_id = std::max(next->last_id, before->last_id);
   next->tick = 0;
   next->source_time_ns = monotonic_ns();
   if (const auto refusal = validate(*next))

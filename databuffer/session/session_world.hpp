@@ -1,8 +1,9 @@
 // World of a session: what is in effect, and changes of it.
 // Inputs: the containers world, world_configured and world_latched of the segment (docs/shared_memory.md#world).
 // Outputs: the world in effect; a new wanted world, which radar-model latches at its next tick.
-// Errors: no radar-model; a change that is refused; another program that holds the role instructor for 0.2 s.
-// Threads: any number of programs may change the world: each waits for the others, and no change is lost.
+// Errors: no radar-model, or one on another host; the replay of a recording; a change that is refused; another program
+// that holds the role instructor for 0.2 s. Threads: any number of programs may change the world: each waits for the
+// others, and no change is lost.
 #pragma once
 
 #include <functional>

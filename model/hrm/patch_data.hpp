@@ -23,8 +23,8 @@
 
 namespace yars::model::hrm {
 
-// Terrain, scene, movers and traffic of a map. The terrain views `window` (the map and its surroundings) and `path` (from the
-// aircraft to the map) cover the regions that patch_need() returns.
+// Terrain, scene, movers and traffic of a map. The terrain views `window` (the map and its surroundings) and `path`
+// (from the aircraft to the map) cover the regions that patch_need() returns.
 struct PatchEnvironment {
   terrain::TerrainViewPointer window;
   terrain::TerrainViewPointer path;

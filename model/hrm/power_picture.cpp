@@ -160,8 +160,7 @@ double PowerPicture::thermal_noise(const PatchInputs& inputs, const PatchData& d
 }
 
 void PowerPicture::find_hidden_points(const PatchInputs& inputs, const PatchData& data) {
-  if (data.grid.first_strip == 0)
-    movers_.begin(inputs.order, *data.geometry, data.grid, inputs.environment);
+  if (data.grid.first_strip == 0) movers_.begin(inputs.order, *data.geometry, data.grid, inputs.environment);
   movers_.find_hidden(*data.geometry, {&data.grid, data.surface.data(), data.crests_m(), data.horizon.data()});
 }
 

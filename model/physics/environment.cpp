@@ -37,9 +37,7 @@ std::vector<MovingPoint> moving_points(const radar::WorldConfiguration& world) {
 }
 
 Movers::Movers(const RadarParameters& parameters)
-    : exact_(parameters.fidelity.algorithm == radar::Algorithm::reference),
-      beam_(parameters.beam),
-      gas_(parameters) {
+    : exact_(parameters.fidelity.algorithm == radar::Algorithm::reference), beam_(parameters.beam), gas_(parameters) {
   use_movers(parameters);
 }
 

@@ -20,8 +20,8 @@
 
 namespace yars::model::physics {
 
-// Ship or vehicle as a point that moves along a geodesic at constant speed. A mover starts at its radar::Mover::since, a
-// ship or vehicle of the external traffic at the time of its traffic record.
+// Ship or vehicle as a point that moves along a geodesic at constant speed. A mover starts at its radar::Mover::since,
+// a ship or vehicle of the external traffic at the time of its traffic record.
 struct MovingPoint {
   geo::GeodesicRay way;
   double speed_mps = 0.0;

@@ -1,5 +1,5 @@
-// Changes of the world while a set flies: the picture changes, a restart of radar-model keeps the world, and a replay of
-// the recording computes the same sweeps.
+// Changes of the world while a set flies: the picture changes, a restart of radar-model keeps the world, and a replay
+// of the recording computes the same sweeps.
 #include <gtest/gtest.h>
 #include <signal.h>
 

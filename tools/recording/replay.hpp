@@ -103,8 +103,8 @@ struct PlayerWorld {
   model::scene::SceneStore* scenes = nullptr;
 };
 
-// Records that Player returns from one call: the newest state, status, outputs and world if they changed, all sweeps and
-// maps.
+// Records that Player returns from one call: the newest state, status, outputs and world if they changed, all sweeps
+// and maps.
 struct Played {
   std::optional<databuffer::RadarState> state;
   std::optional<databuffer::ModelStatus> status;  // newest status, with the ownship of the newest tick
@@ -117,10 +117,9 @@ struct Played {
 };
 
 // Plays a recording: seek() returns a key frame of a tick, play_to() returns the records that follow it.
-// A key frame has state, status, outputs and world at that tick, the maps that the state names, and the newest sweeps. The
-// sweeps include the current scan and the complete scan before it, up to kMaxSeekSweeps sweeps.
-// If the recording has video, sweeps are returned as recorded. Else the kernel computes the sweeps, from a status
-// recorded before them.
+// A key frame has state, status, outputs and world at that tick, the maps that the state names, and the newest sweeps.
+// The sweeps include the current scan and the complete scan before it, up to kMaxSeekSweeps sweeps. If the recording
+// has video, sweeps are returned as recorded. Else the kernel computes the sweeps, from a status recorded before them.
 // A cut ends a call of play_to(). A cut is a pause of the recorder, a new epoch, or a jump of the ticks by over 10 s.
 // After a damaged block the kernel waits for the next status.
 class Player {

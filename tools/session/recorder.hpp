@@ -69,7 +69,7 @@ class Recorder {
   RecordedExtras extras_;
   std::uint64_t tick_cursor_ = 0, event_cursor_ = 0, sweep_cursor_ = 0, traffic_cursor_ = 0;
   std::optional<std::uint64_t> world_cursor_;  // nullopt: no tick was written since writing began
-  std::optional<std::int64_t> from_tick_;  // earlier ticks of from_epoch_ are not written; nullopt: all are written
+  std::optional<std::int64_t> from_tick_;      // earlier ticks of from_epoch_ are not written; nullopt: all are written
   std::uint32_t from_epoch_ = 0;
   std::uint64_t begin_cursor_ = 0;  // ticks before it were published before the starting point was read
   shm::LatestReader<databuffer::RadarState> state_;

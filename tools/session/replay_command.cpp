@@ -1,6 +1,6 @@
 // `yars replay`: plays a recording into a session, for a radar-display. --events instead runs the kernel over the
-// recorded ticks and compares each sweep with the recorded one. --print prints events, radar states, worlds, and id, size
-// and hash of patch maps as JSON.
+// recorded ticks and compares each sweep with the recorded one. --print prints events, radar states, worlds, and id,
+// size and hash of patch maps as JSON.
 
 #include <algorithm>
 #include <cstdio>
@@ -265,8 +265,8 @@ void add_replay_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Option events =
       command.flag("--events", options->events,
                    "compute the sweeps from the recorded ticks, offline, and compare them with the recorded sweeps");
-  databuffer::Option print =
-      command.flag("--print", options->print, "print events, radar states, worlds and patch maps, one JSON object per line");
+  databuffer::Option print = command.flag(
+      "--print", options->print, "print events, radar states, worlds and patch maps, one JSON object per line");
   events.excludes(print);
   databuffer::Option rate =
       command.option("--rate", options->rate, "rate relative to real time; 0 freezes the picture");

@@ -53,7 +53,7 @@ std::string position_text(double latitude_deg, double longitude_deg) {
 
 std::string rounded(double value, const char* unit) {
   char text[48];
-  std::snprintf(text, sizeof text, "%.4g %s", value, unit);
+  std::snprintf(text, sizeof text, "%.6g %s", value, unit);
   return text;
 }
 
@@ -117,8 +117,8 @@ void print_world(const WorldOptions& options) {
   if (!session) throw_failure(session.error());
   const auto world = databuffer::newest_world(std::as_const(*session).layout());
   if (!world)
-    throw_failure({"world", "a world that radar-model has published", "none", "start radar-model, or let it run a tick",
-                   false});
+    throw_failure(
+        {"world", "a world that radar-model has published", "none", "start radar-model, or let it run a tick", false});
   report(*session, *world, "", options.json);
 }
 
@@ -223,8 +223,8 @@ databuffer::Command add_action(databuffer::Command parent, const char* name, con
 void add_move_and_remove(databuffer::Command list_command, WorldList list, const std::string& what,
                          const Shared& options) {
   const auto place = std::make_shared<Place>();
-  databuffer::Command moving = add_action(
-      list_command, "move", "move an entry to a position", options, [options, place, list, what] {
+  databuffer::Command moving =
+      add_action(list_command, "move", "move an entry to a position", options, [options, place, list, what] {
         change(*options, [&](WorldState& world, std::int64_t now_ns) {
           const auto id = static_cast<std::uint32_t>(place->id);
           return text_if_done(databuffer::move(world, list, id, place->point(), now_ns),

@@ -93,6 +93,37 @@ TEST_F(SessionWorldTest, AResetGivesTheConfigurationsWorldAlsoBeforeItIsLatched)
   EXPECT_EQ(reset->sea_state, 2.0);
   EXPECT_NE(reset->flags & kWorldConfigured, 0U);
   EXPECT_EQ(add_rain(model_)->sea_state, 2.0);
+  latch();
+  const std::uint32_t id = world_in_effect(model_.layout())->rain[0].id;
+  ASSERT_TRUE(reset_world(model_));
+  EXPECT_GT(add_rain(model_)->rain[0].id, id) << "a reset gives no id again";
+}
+
+// A replay publishes recorded worlds, and nobody latches a change.
+TEST_F(SessionWorldTest, InTheSessionOfAReplayAChangeIsRefused) {
+  start_model();
+  model_.layout().world_configured.clear();
+  const auto refused = set_sea(model_, 3.0);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message().find("replay"), std::string::npos) << refused.error().message();
+}
+
+TEST_F(SessionWorldTest, OfARadarModelOnAnotherHostAChangeIsRefused) {
+  start_model();
+  model_.layout().network.mirrored_roles = 1U << static_cast<unsigned>(Role::radar_model);
+  const auto refused = set_sea(model_, 3.0);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message().find("another host"), std::string::npos) << refused.error().message();
+}
+
+TEST_F(SessionWorldTest, ADamagedWishIsNoWorld) {
+  start_model();
+  WorldState damaged{};
+  damaged.edit = 7;
+  damaged.wind_speed_mps = -1.0;
+  model_.layout().world.publish(damaged);
+  EXPECT_EQ(newest_world(model_.layout())->edit, 0U);
+  EXPECT_EQ(set_sea(model_, 3.0)->edit, 1U);
 }
 
 TEST_F(SessionWorldTest, SeveralEditorsAtOnceLoseNoEdit) {

@@ -60,6 +60,7 @@ struct SeaCockpit : test::Cockpit {
   SeaCockpit(const radar::RadarConfiguration& configuration, radar::Mode mode)
       : Cockpit(configuration, terrain::flat(0.0)) {
     tick.command.mode = static_cast<std::uint8_t>(mode);
+    tick.command.channel = 1;
   }
 };
 
@@ -148,7 +149,6 @@ TEST(WorldChange, ToAnEqualWorldChangesNoBit) {
 TEST(WorldChange, AddsAJammerWhoseLineOfSightNeedsTerrain) {
   SeaCockpit cockpit({}, radar::Mode::rbm);
   cockpit.set_flag(databuffer::kSniff, true);
-  cockpit.run(10);
   EXPECT_FALSE(cockpit.kernel.need(cockpit.tick).ground);
   radar::WorldConfiguration world;
   add_jammer(world);
