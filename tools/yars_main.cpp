@@ -18,6 +18,7 @@ void add_commands(databuffer::Command app, const tools::CommonOptions& common) {
   tools::add_dataset_command(app);
   tools::add_config_command(app, common);
   tools::add_sim_command(app, common);
+  tools::add_world_command(app, common);
   tools::add_inject_command(app, common);
   tools::add_note_command(app, common);
   tools::add_status_command(app, common);

@@ -99,6 +99,31 @@ Refusal validate(const Traffic& traffic) {
   return validate_fields(traffic);
 }
 
+namespace {
+
+// Checks that no two of the entries in use have the same id.
+template <class Entry, std::size_t size>
+void inspect_ids(Inspection& inspection, const std::string& list, const Entry (&entries)[size], std::uint32_t count) {
+  const auto in_use = used(entries, count);
+  for (std::size_t i = 1; i < in_use.size(); ++i) {
+    const std::uint32_t id = in_use[i].id;
+    const auto earlier = in_use.first(i);
+    if (std::ranges::find(earlier, id, &Entry::id) != earlier.end())
+      inspection.fault(list + '[' + std::to_string(i) + "].id", "an id that no earlier entry has", std::to_string(id));
+  }
+}
+
+}  // namespace
+
+Refusal validate(const WorldState& world) {
+  Inspection inspection;
+  check_fields(inspection, world);
+  inspect_ids(inspection, "rain", world.rain, world.rain_count);
+  inspect_ids(inspection, "jammers", world.jammers, world.jammer_count);
+  inspect_ids(inspection, "movers", world.movers, world.mover_count);
+  return inspection.result();
+}
+
 Refusal validate(const GlassFrame& frame) {
   return validate_fields(frame);
 }

@@ -29,6 +29,7 @@ Refusal validate(const ClockState& clock);
 Refusal validate(const PatchMap& map);
 Refusal validate(const RecorderStatus& status);
 Refusal validate(const Traffic& traffic);
+Refusal validate(const WorldState& world);
 Refusal validate(const GlassFrame& frame);
 Refusal validate(const Outputs& outputs);
 Refusal validate(const RadarState& state);

@@ -128,6 +128,9 @@ std::string containers() {
                                    {"slot_words", 16}}));
   parts.add("traffic", latest_value<shm::LatestValue<Traffic>>("Traffic"));
   parts.add("traffic_latched", ring<decltype(SessionLayout::traffic_latched)>("Traffic"));
+  parts.add("world", latest_value<shm::LatestValue<WorldState>>("WorldState"));
+  parts.add("world_configured", latest_value<shm::LatestValue<WorldState>>("WorldState"));
+  parts.add("world_latched", ring<decltype(SessionLayout::world_latched)>("WorldState"));
   parts.add("patches", pool<PatchSlot>("PatchMap", kPatchSlots, offsetof(PatchSlot, map)));
   parts.add("frames", pool<FrameSlot>("GlassFrame", kFrameSlots, offsetof(FrameSlot, frame)));
   return parts.text();
@@ -159,14 +162,17 @@ std::string offsets() {
                     {"advice", offsetof(SessionLayout, advice)},
                     {"skipped_ticks", offsetof(SessionLayout, skipped_ticks)},
                     {"network_status", offsetof(SessionLayout, network_status)},
-                    {"network", offsetof(SessionLayout, network)}});
+                    {"network", offsetof(SessionLayout, network)},
+                    {"world", offsetof(SessionLayout, world)},
+                    {"world_configured", offsetof(SessionLayout, world_configured)},
+                    {"world_latched", offsetof(SessionLayout, world_latched)}});
 }
 
 std::string lock_bytes() {
   ObjectText object;
   object.add("participation", std::size_t{0});
   for (const Role role : {Role::radar_model, Role::state_machine, Role::recorder, Role::clock, Role::traffic,
-                          Role::glass_frames, Role::tour, Role::gateway})
+                          Role::glass_frames, Role::tour, Role::gateway, Role::instructor})
     object.add(name_of(role), static_cast<std::size_t>(role));
   object.add("first_ownship_lane", kFirstOwnshipByte);
   object.add("first_input_lane", kFirstInputByte);

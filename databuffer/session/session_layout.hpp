@@ -33,6 +33,7 @@ inline constexpr std::size_t kInputLaneDepth = 128;
 inline constexpr std::size_t kProcesses = 32;
 inline constexpr std::size_t kNotes = 1000;
 inline constexpr std::size_t kPatchSlots = 8;
+inline constexpr std::size_t kLatchedWorlds = 16;
 // [bytes] Reserve at the end. New containers go there without a new layout version; older programs still attach.
 inline constexpr std::size_t kSpareBytes = std::size_t{1} << 20;
 
@@ -171,10 +172,12 @@ struct FrameSlot {
 };
 
 // [bytes] Part of the reserve that containers occupy: Counters with padding to a cache line, Caption, PilotAdvice,
-// SkippedTicks, NetworkStatus, Network with padding to a cache line. The assertions below SessionLayout hold the value.
+// SkippedTicks, NetworkStatus, Network with padding to a cache line, WorldState. The assertions below SessionLayout
+// hold the value.
 inline constexpr std::size_t kUsedSpareBytes =
-    680 + sizeof(shm::LatestValue<Caption>) + sizeof(shm::LatestValue<PilotAdvice>) +
-    kLockstepRoles * sizeof(SkippedTicks) + sizeof(shm::LatestValue<NetworkStatus>) + sizeof(Network);
+    688 + sizeof(shm::LatestValue<Caption>) + sizeof(shm::LatestValue<PilotAdvice>) +
+    kLockstepRoles * sizeof(SkippedTicks) + sizeof(shm::LatestValue<NetworkStatus>) + sizeof(Network) +
+    2 * sizeof(shm::LatestValue<WorldState>) + sizeof(shm::BroadcastRing<WorldState, kLatchedWorlds>);
 
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is the layout, and cache lines need the padding
 struct SessionLayout {
@@ -205,6 +208,9 @@ struct SessionLayout {
   std::array<SkippedTicks, kLockstepRoles> skipped_ticks;  // in the order of kLockstepRoleNames
   shm::LatestValue<NetworkStatus> network_status;          // written by the gateway
   Network network;
+  shm::LatestValue<WorldState> world;                            // wanted; written by Session::change_world()
+  shm::LatestValue<WorldState> world_configured;                 // of radar-model's configuration
+  shm::BroadcastRing<WorldState, kLatchedWorlds> world_latched;  // as latched by radar-model; the last one is in effect
   std::array<std::atomic<std::uint64_t>, (kSpareBytes - kUsedSpareBytes) / 8> spare;
 };
 // New containers leave the end of the reserve, and thus the size of the layout, where it was.

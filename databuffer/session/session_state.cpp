@@ -50,6 +50,8 @@ std::string_view name_of(Role role) {
       return "tour";
     case Role::gateway:
       return "gateway";
+    case Role::instructor:
+      return "instructor";
   }
   return "unknown role";
 }

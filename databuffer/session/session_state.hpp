@@ -28,7 +28,8 @@ enum class Role : std::uint8_t {
   traffic = 5,
   glass_frames = 6,
   tour = 7,
-  gateway = 12
+  gateway = 12,
+  instructor = 13  // changes the world; held during a change only
 };
 std::string_view name_of(Role role);
 
@@ -37,7 +38,7 @@ inline constexpr std::size_t kFirstOwnshipByte = 8;
 inline constexpr std::size_t kFirstInputByte = 16;
 inline constexpr std::size_t kFirstProcessByte = 32;
 static_assert(kFirstOwnshipByte + kOwnshipLanes <= static_cast<std::size_t>(Role::gateway));
-static_assert(static_cast<std::size_t>(Role::gateway) < kFirstInputByte);
+static_assert(static_cast<std::size_t>(Role::instructor) < kFirstInputByte);
 static_assert(kFirstInputByte + kInputLanes <= kFirstProcessByte);
 static_assert(kFirstProcessByte + kProcesses <= shm::kLockBytes);
 

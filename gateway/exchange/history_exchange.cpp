@@ -199,6 +199,7 @@ void HistoryExchange::publish(Context& context) {
     const auto traffic = local_traffic(tick.traffic);
     if (!traffic && !is_late(waiting.arrived_ns)) break;
     tick.traffic = traffic.value_or(layout.traffic_latched.next());
+    tick.world = 0;  // latched worlds are not copied; the number would name a record of this host's ring
     keep_progress<yars_net_ModelTickSample>(context, waiting, layout.model_ticks.next());
     layout.model_ticks.publish(tick);
     last_tick_ = {tick.epoch, tick.tick};

@@ -114,14 +114,15 @@ struct BeaconConfiguration {
   std::vector<Beacon> beacons;
 };
 
-// Moving target: a point that follows a geodesic at constant speed from sim time 0 on.
+// Moving target: a point that follows a geodesic at constant speed.
 struct Mover {
   std::string name;
-  geo::GeoPoint position;            // position at sim time 0
+  geo::GeoPoint position;            // position at sim time `since`
   double speed_mps = 0.0;            // [m/s] over ground
-  double heading_deg = 0.0;          // [deg] true direction of motion at sim time 0
+  double heading_deg = 0.0;          // [deg] true direction of motion at sim time `since`
   double cross_section_m2 = 1000.0;  // [m^2] radar cross section
   double height_m = 6.096;           // [m] height of the scatterer above the ground; 20 ft
+  geo::Duration since{};             // sim time; the configuration has 0
 };
 
 // Polygonal scene of the OpenFlight format.
@@ -156,5 +157,16 @@ struct WorldConfiguration {
   std::vector<Scene> scenes;
   BeaconConfiguration beacons;
 };
+
+// Which parts of the world that an instructor changes at run time differ between two worlds.
+struct WorldChanges {
+  bool sea = false;  // sea state or wind
+  bool rain = false;
+  bool jammers = false;
+  bool movers = false;
+
+  bool any() const { return sea || rain || jammers || movers; }
+};
+WorldChanges changes_between(const WorldConfiguration& before, const WorldConfiguration& after);
 
 }  // namespace yars::radar

@@ -175,8 +175,8 @@ PatchMaker::~PatchMaker() {
   thread_.join();
 }
 
-void PatchMaker::request(const kernel::PendingMap& map, const std::vector<physics::MovingPoint>& traffic) {
-  const Job job{map.order, map.id, map.start_tick, traffic};
+void PatchMaker::request(const kernel::PendingMap& map, const Targets& targets) {
+  const Job job{map.order, map.id, map.start_tick, targets};
   if (synchronous_) return make(job);
   {
     const std::scoped_lock lock(mutex_);
@@ -201,7 +201,8 @@ std::vector<std::string> PatchMaker::take_problems() {
 void PatchMaker::make(const Job& job) {
   const hrm::PatchNeed need = formation_.begin(job.order);
   formation_.set_environment({stores_.window->prepare(need.window), stores_.path->prepare(need.path),
-                              stores_.scenes ? stores_.scenes->prepare(need.window) : nullptr, job.traffic});
+                              stores_.scenes ? stores_.scenes->prepare(need.window) : nullptr, job.targets.traffic,
+                              job.targets.movers});
   std::vector<std::string> problems = stores_.window->take_problems();
   for (std::string& problem : stores_.path->take_problems()) problems.push_back(std::move(problem));
   if (stores_.scenes)

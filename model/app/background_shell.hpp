@@ -120,8 +120,12 @@ class PatchMaker {
     std::vector<std::uint8_t> pixels;  // video, size x size, row 0 at the far edge
   };
 
-  // Requests the picture of a map. `traffic`: moving targets at the start of the map's formation.
-  void request(const kernel::PendingMap& map, const std::vector<physics::MovingPoint>& traffic);
+  // Moving targets at the start of a map's formation: those of the world, and the traffic.
+  struct Targets {
+    std::vector<physics::MovingPoint> movers{}, traffic{};
+  };
+  // Requests the picture of a map.
+  void request(const kernel::PendingMap& map, const Targets& targets);
   // Picture of the map if the picture is complete, else null. Valid until the next finished().
   const Picture* finished(const kernel::PendingMap& map);
   std::vector<std::string> take_problems();
@@ -131,7 +135,7 @@ class PatchMaker {
     hrm::PatchOrder order;
     std::uint64_t id = 0;
     std::int64_t start_tick = 0;
-    std::vector<physics::MovingPoint> traffic{};
+    Targets targets{};
   };
   void serve();
   void make(const Job& job);

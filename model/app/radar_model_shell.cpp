@@ -9,6 +9,7 @@
 #include "databuffer/messages/derived_values.hpp"
 #include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "databuffer/messages/world_values.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/configuration.hpp"
@@ -43,6 +44,7 @@ RadarModelShell::RadarModelShell(databuffer::Session& session, const radar::Rada
       kernel_(configuration),
       governor_(configuration.fidelity.core_share),
       fidelity_(configuration.fidelity) {
+  session.layout().world_configured.publish(databuffer::world_state_from(configuration.world));
   resume();
 }
 
@@ -92,6 +94,7 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
   for (const std::string& refusal : ownship_.refusals()) session_->note(databuffer::NoteKind::refusal, refusal);
   latch_command();
   latch_traffic();
+  latch_world();
   tick_.flags = selected.valid ? databuffer::kTickOwnshipValid : 0U;
   if (first_tick_) tick_.flags |= databuffer::kTickRestart;
   if (first_tick_ || std::memcmp(&before, &tick_.ownship, sizeof before) != 0)
@@ -163,9 +166,33 @@ void RadarModelShell::latch_traffic() {
   if (traffic_.refusal()) session_->note(databuffer::NoteKind::refusal, *traffic_.refusal());
   if (changed || (first_tick_ && ring.next() > 0)) {
     ring.publish(traffic_.latched());
-    traffic_points_ = kernel::points_of(traffic_.latched());
+    targets_.traffic = kernel::points_of(traffic_.latched());
   }
   tick_.traffic = ring.next();
+}
+
+// The first tick always latches a world: the wanted one, which a previous process may have latched before, or else that
+// of the configuration. So the last record of the ring is always in effect.
+void RadarModelShell::latch_world() {
+  auto& layout = session_->layout();
+  const bool is_new = wanted_world_.refresh(layout.world, *session_, "world");
+  if (wanted_world_.refusal()) ++refused_;
+  if (is_new || first_tick_) {
+    radar::WorldConfiguration world = configuration_->world;
+    const databuffer::WorldState& wanted = wanted_world_.value();
+    databuffer::WorldState latched = databuffer::world_state_from(world);
+    if (wanted_world_.has_value() && (wanted.flags & databuffer::kWorldConfigured) == 0U) {
+      latched = wanted;
+      databuffer::apply(wanted, world);
+    }
+    latched.edit = wanted.edit;
+    latched.source_time_ns = wanted.source_time_ns;
+    latched.tick = tick_.tick;
+    layout.world_latched.publish(latched);
+    kernel_.use_world(world);
+    targets_.movers = physics::moving_points(world);
+  }
+  tick_.world = layout.world_latched.next();
 }
 
 void RadarModelShell::run_kernel() {
@@ -180,7 +207,7 @@ void RadarModelShell::run_kernel() {
   tick_.terrain_generation = view->generation();
   // The tick is published before its sweep, so that a truncated recording never has a sweep without its tick.
   session_->layout().model_ticks.publish(tick_);
-  if (kernel_.step(tick_, {*view, loaded_scenes_.view.get(), loaded_scenes_.complete, traffic_points_}, sweep_)) {
+  if (kernel_.step(tick_, {*view, loaded_scenes_.view.get(), loaded_scenes_.complete, targets_.traffic}, sweep_)) {
     session_->layout().sweeps.publish(sweep_);
     ++status_.sweeps;
   }
@@ -206,7 +233,7 @@ void RadarModelShell::request_map() {
   if (map.id == requested_map_ && map.start_tick == requested_map_tick_) return;
   requested_map_ = map.id;
   requested_map_tick_ = map.start_tick;
-  patches_->request(map, traffic_points_);
+  patches_->request(map, targets_);
 }
 
 // Publishes a map at its end tick, or at the first later tick with a complete picture. The flag kTickMapComplete in the

@@ -1,6 +1,6 @@
 // Shell of radar-model: latches the inputs of a session, calls the kernel and publishes the results, tick by tick.
-// Inputs, latched once a tick: ownship, nav, traffic and radar state of the segment; the clock.
-// Outputs: ModelTick (the latched inputs), Sweep, patch maps, ModelStatus, notes and log.
+// Inputs, latched once a tick: ownship, nav, traffic, world and radar state of the segment; the clock.
+// Outputs: ModelTick (the latched inputs), latched traffic and world, Sweep, patch maps, ModelStatus, notes and log.
 // Errors: a record that fails validation is refused, counted and noted; the last valid record stays in use.
 // Threads: one, the thread of the tick loop.
 // Source: docs/architecture.md#time, docs/architecture.md#kernel-and-shell.
@@ -17,6 +17,7 @@
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/radar/fidelity.hpp"
+#include "lib/radar/world.hpp"
 #include "model/app/background_shell.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "model/kernel/tick_inputs.hpp"
@@ -44,6 +45,7 @@ class RadarModelShell {
   void latch(const databuffer::TickLoop::Due& due);
   void latch_command();
   void latch_traffic();
+  void latch_world();
   void announce_jump(const databuffer::Ownship& ownship, std::uint32_t lane);
   void latch_fidelity();
   void govern(double elapsed_s, double rate);
@@ -63,7 +65,8 @@ class RadarModelShell {
   kernel::RadarKernel kernel_;
   databuffer::OwnshipReceiver ownship_;
   databuffer::TrafficReceiver traffic_;
-  std::vector<physics::MovingPoint> traffic_points_;
+  PatchMaker::Targets targets_;  // movers and traffic in effect
+  databuffer::Validated<databuffer::WorldState> wanted_world_;
   databuffer::ModelTick tick_{};
   databuffer::ModelStatus status_{};
   databuffer::Sweep sweep_{};

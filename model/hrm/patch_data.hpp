@@ -23,13 +23,14 @@
 
 namespace yars::model::hrm {
 
-// Terrain, scene and traffic of a map. The terrain views `window` (the map and its surroundings) and `path` (from the
-// aircraft to the map) cover the regions that patch_need() returns.
+// Terrain, scene, movers and traffic of a map. The terrain views `window` (the map and its surroundings) and `path`
+// (from the aircraft to the map) cover the regions that patch_need() returns.
 struct PatchEnvironment {
   terrain::TerrainViewPointer window;
   terrain::TerrainViewPointer path;
   scene::SceneViewPointer scene;  // null: no scene
   std::vector<physics::MovingPoint> traffic{};
+  std::optional<std::vector<physics::MovingPoint>> movers{};  // nullopt: those of the configuration
 };
 
 // Inputs of a map, constant for all stages.

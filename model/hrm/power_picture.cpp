@@ -32,7 +32,7 @@ void splat(const Response& response, double column, double row, double power, Ma
 }  // namespace
 
 MapMovers::MapMovers(const physics::RadarParameters& parameters)
-    : gas_(parameters), points_(physics::configured_points(parameters)) {}
+    : gas_(parameters), points_(physics::moving_points(parameters.world)) {}
 
 MapMovers::Trace MapMovers::trace_of(const physics::MovingPoint& mover, const PatchOrder& order,
                                      const PatchGeometry& geometry, geo::Duration formation, double height_m) const {
@@ -83,12 +83,12 @@ bool MapMovers::hidden(const PatchGeometry& geometry, const Horizons& horizons, 
 }
 
 void MapMovers::begin(const PatchOrder& order, const PatchGeometry& geometry, const PolarGrid& grid,
-                      const physics::Environment& environment) {
+                      const PatchEnvironment& environment) {
   targets_.clear();
-  for (const std::span<const physics::MovingPoint> points :
-       {std::span<const physics::MovingPoint>(points_), environment.traffic})
-    for (const physics::MovingPoint& mover : points)
-      if (auto target = find_target(mover, order.sim_time, geometry, environment.terrain)) {
+  const std::vector<physics::MovingPoint>& movers = environment.movers ? *environment.movers : points_;
+  for (const auto* points : {&movers, &environment.traffic})
+    for (const physics::MovingPoint& mover : *points)
+      if (auto target = find_target(mover, order.sim_time, geometry, *environment.window)) {
         place_on_grid(grid, *target);
         targets_.push_back(*target);
       }
@@ -160,9 +160,7 @@ double PowerPicture::thermal_noise(const PatchInputs& inputs, const PatchData& d
 }
 
 void PowerPicture::find_hidden_points(const PatchInputs& inputs, const PatchData& data) {
-  if (data.grid.first_strip == 0)
-    movers_.begin(inputs.order, *data.geometry, data.grid,
-                  {*inputs.environment.window, nullptr, true, inputs.environment.traffic});
+  if (data.grid.first_strip == 0) movers_.begin(inputs.order, *data.geometry, data.grid, inputs.environment);
   movers_.find_hidden(*data.geometry, {&data.grid, data.surface.data(), data.crests_m(), data.horizon.data()});
 }
 

@@ -40,10 +40,10 @@ class MapMovers {
  public:
   explicit MapMovers(const physics::RadarParameters& parameters);
 
-  // Finds the points of configuration and traffic near the window, except those over ground without a known elevation.
+  // Finds the points of world and traffic near the window, except those over ground without a known elevation.
   // Call it before the first sector. `environment` must exist until draw() has returned.
   void begin(const PatchOrder& order, const PatchGeometry& geometry, const PolarGrid& grid,
-             const physics::Environment& environment);
+             const PatchEnvironment& environment);
   // Tests the points in the columns that the sector draws.
   void find_hidden(const PatchGeometry& geometry, const Horizons& horizons);
   // Adds the points to the image, except hidden ones.

@@ -56,6 +56,10 @@ void RadarKernel::resume(const ModelStatus& status) {
   state.started = true;
 }
 
+void RadarKernel::use_world(const radar::WorldConfiguration& world) {
+  state_->use_world(world);
+}
+
 RadarKernel::Need RadarKernel::need(const ModelTick& tick) const {
   Need need;
   const bool stays_frozen = state_->frozen && frozen_by(tick.command);

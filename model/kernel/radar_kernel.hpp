@@ -1,8 +1,8 @@
 // The radar model without clock, file, log or segment. step() advances the model by one tick of 5 ms sim time.
-// Inputs: configuration; a ModelTick per step; terrain, scenes and traffic by reference.
+// Inputs: configuration; a ModelTick per step; terrain, scenes and traffic by reference; changes of the world.
 // Outputs: a Sweep record when a tick completes one; the needed terrain region; ModelStatus; the pending patch map.
-// Determinism: configuration (with its seed), terrain, scenes, traffic and the ticks so far determine every bit of a
-// sweep.
+// Determinism: configuration (with its seed), terrain, scenes, traffic, changes of the world and the ticks so far
+// determine every bit of a sweep.
 // Errors: without a valid ownship record (state of the radar's own aircraft) sweeps start at the last valid position;
 // with none so far there are no sweeps. If the record is flagged valid but has values out of range, sweeps are blank.
 // Threads: one at a time per instance. step() allocates only if the number of samples or the preset changes.
@@ -17,6 +17,7 @@
 
 namespace yars::radar {
 struct RadarConfiguration;
+struct WorldConfiguration;
 }  // namespace yars::radar
 
 namespace yars::model::kernel {
@@ -31,6 +32,10 @@ class RadarKernel {
   // Continues from the last status of a previous process: antenna, scan, velocity update, and the numbers of scans,
   // sweeps and maps.
   void resume(const databuffer::ModelStatus& status);
+
+  // Uses the sea state, wind, rain cells, jammers and movers of another world from the next step on. The other parts of
+  // `world` are those of the configuration. Allocates. An equal world changes nothing.
+  void use_world(const radar::WorldConfiguration& world);
 
   // Schedule of patch maps. The caller forms the picture of the pending map. In the first tick with the map due and the
   // picture complete, the caller sets the flag kTickMapComplete.

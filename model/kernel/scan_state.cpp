@@ -129,6 +129,14 @@ bool ScanState::follow_command(const ModelTick& input, databuffer::Sweep& sweep)
   return false;
 }
 
+void ScanState::use_world(const radar::WorldConfiguration& world) {
+  const radar::WorldChanges changes = radar::changes_between(configuration.world, world);
+  if (!changes.any()) return;
+  configuration.world = dbs_settings.world = world;
+  beam_chain.use_world(configuration, changes);
+  dbs_chain.use_world(dbs_settings, changes);
+}
+
 void ScanState::use_samples(std::uint32_t samples) {
   if (samples == 0 || samples == beam_chain.samples() || samples > static_cast<std::uint32_t>(radar::kMaxSamples))
     return;

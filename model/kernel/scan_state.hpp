@@ -64,6 +64,8 @@ struct ScanState {
   // Starts, restarts or stops the scan as commanded. Returns true if freeze or a velocity update stops the scan while
   // its last sweep is unfinished. That sweep is then finished and written to `sweep`.
   bool follow_command(const ModelTick& tick, databuffer::Sweep& sweep);
+  // Uses another world from the next sweep on. The scan goes on; a sweep that is not finished keeps its power.
+  void use_world(const radar::WorldConfiguration& world);
   void use_samples(std::uint32_t samples);
   void use_fidelity(const ModelTick& tick);
   double commanded_width_deg(const databuffer::RadarCommand& command) const;

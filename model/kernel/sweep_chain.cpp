@@ -10,6 +10,7 @@
 #include "databuffer/messages/record_hashes.hpp"
 #include "lib/radar/fidelity.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/world.hpp"
 
 namespace yars::model::kernel {
 
@@ -60,6 +61,11 @@ SweepChain::SweepChain(const physics::RadarParameters& parameters)
       strobes_(parameters),
       beacons_(parameters) {
   for (Measured& measured : measured_) measured.power.assign(samples_, 0.0F);
+}
+
+void SweepChain::use_world(const physics::RadarParameters& parameters, const radar::WorldChanges& changes) {
+  beam_.use_world(parameters, changes);
+  if (changes.jammers) strobes_.use_jammers(parameters);
 }
 
 bool SweepChain::advance(const SweepHeader& header, const Labels& labels, const physics::Environment& environment,

@@ -19,6 +19,10 @@
 #include "model/rbm/beam.hpp"
 #include "model/rbm/emitters.hpp"
 
+namespace yars::radar {
+struct WorldChanges;
+}  // namespace yars::radar
+
 namespace yars::model::kernel {
 
 // Position and geometry of one sweep: the fields of its record without labels, video and hash; and what else its ray
@@ -75,6 +79,10 @@ class SweepChain {
     std::uint8_t gain = 3;
     bool no_return = false;  // blind zone: black video replaces the old picture; kSweepBlank leaves the old picture
   };
+
+  // Uses the changed parts of another world, which `parameters` has, for the sweeps that are measured from here on.
+  // Measured sweeps keep their power.
+  void use_world(const physics::RadarParameters& parameters, const radar::WorldChanges& changes);
 
   // Measures the next sweep. If the pass has a sweep before it, finishes that one into `sweep` and returns true.
   bool advance(const SweepHeader& header, const Labels& labels, const physics::Environment& environment,

@@ -302,8 +302,13 @@ std::vector<Shower> configured_showers(const RadarParameters& parameters) {
   return showers;
 }
 
-RainPath::RainPath(const RadarParameters& parameters)
-    : beam_(parameters.beam), showers_(configured_showers(parameters)) {
+RainPath::RainPath(const RadarParameters& parameters) : beam_(parameters.beam) {
+  use_showers(parameters);
+}
+
+void RainPath::use_showers(const RadarParameters& parameters) {
+  showers_ = configured_showers(parameters);
+  crossed_.clear();
   crossed_.reserve(showers_.size());
 }
 

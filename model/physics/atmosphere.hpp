@@ -162,6 +162,8 @@ RainChord rain_chord(geo::GeoPoint apex, geo::Bearing azimuth, geo::GeoPoint mid
 class RainPath {
  public:
   explicit RainPath(const RadarParameters& parameters);
+  // Replaces the showers. The next call must be enter().
+  void use_showers(const RadarParameters& parameters);
 
   // Finds the showers that a sweep crosses within its range. Call enter() once a sweep. Does not allocate.
   void enter(const SweepGeometry& geometry);

@@ -27,19 +27,24 @@ MovingPoint moving_point(const Course& course, double cross_section_m2, double h
           on_ellipsoid(course.start)};
 }
 
-std::vector<MovingPoint> configured_points(const RadarParameters& parameters) {
+std::vector<MovingPoint> moving_points(const radar::WorldConfiguration& world) {
   std::vector<MovingPoint> points;
-  for (const radar::Mover& mover : parameters.world.movers)
-    points.push_back(moving_point({mover.position, geo::Bearing::degrees(mover.heading_deg), mover.speed_mps, {}},
-                                  mover.cross_section_m2, mover.height_m));
+  for (const radar::Mover& mover : world.movers)
+    points.push_back(
+        moving_point({mover.position, geo::Bearing::degrees(mover.heading_deg), mover.speed_mps, mover.since},
+                     mover.cross_section_m2, mover.height_m));
   return points;
 }
 
 Movers::Movers(const RadarParameters& parameters)
-    : exact_(parameters.fidelity.algorithm == radar::Algorithm::reference),
-      beam_(parameters.beam),
-      gas_(parameters),
-      points_(configured_points(parameters)) {
+    : exact_(parameters.fidelity.algorithm == radar::Algorithm::reference), beam_(parameters.beam), gas_(parameters) {
+  use_movers(parameters);
+}
+
+void Movers::use_movers(const RadarParameters& parameters) {
+  points_ = moving_points(parameters.world);
+  fixes_.clear();
+  echoes_.clear();
   for (const MovingPoint& point : points_) fixes_.push_back({point.start_ecef, point.since});
   echoes_.reserve(points_.size() + kMaxTraffic);
 }

@@ -20,8 +20,8 @@
 
 namespace yars::model::physics {
 
-// Ship or vehicle as a point that moves along a geodesic at constant speed. A configured mover starts at sim time 0. A
-// mover of the external traffic starts at the time of its traffic record.
+// Ship or vehicle as a point that moves along a geodesic at constant speed. A mover starts at its radar::Mover::since,
+// a ship or vehicle of the external traffic at the time of its traffic record.
 struct MovingPoint {
   geo::GeodesicRay way;
   double speed_mps = 0.0;
@@ -44,8 +44,8 @@ struct Course {
 };
 MovingPoint moving_point(const Course& course, double cross_section_m2, double height_m);
 
-// Movers of the configuration.
-std::vector<MovingPoint> configured_points(const RadarParameters& parameters);
+// Movers of a world.
+std::vector<MovingPoint> moving_points(const radar::WorldConfiguration& world);
 
 // Terrain, polygonal scenes and external traffic of one sweep or map. Keeps references to its arguments.
 struct Environment {
@@ -79,6 +79,8 @@ inline constexpr std::size_t kMaxTraffic = 64;  // traffic targets per sweep; fu
 class Movers {
  public:
   explicit Movers(const RadarParameters& parameters);
+  // Replaces the configured movers.
+  void use_movers(const RadarParameters& parameters);
 
   // Echoes of the movers within the range and within the azimuth interval point_interval(). The span is valid until the
   // next call. Does not allocate. Distances are within 3 m of the geodesic, azimuths within 1e-5 rad; with the

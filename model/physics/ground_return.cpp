@@ -100,15 +100,12 @@ Direction middle_direction(const SweepGeometry& geometry) {
 
 Ground::Ground(const RadarParameters& parameters, std::size_t samples)
     : land_(make_land_return(parameters)),
-      sea_(make_sea_table(make_sea_return(parameters))),
       sigma0_(sea_.across.size() + terrain::kRunSlack),
       codes_(samples + kPairSlack),
       wall_gain_(codes_.size(), 1.0F),
       land_gamma_(codes_.size()),
       sea_sigma0_(codes_.size()) {
-  const double wind_rad = make_sea_return(parameters).wind_from.radians();
-  wind_north_ = std::cos(wind_rad);
-  wind_east_ = std::sin(wind_rad);
+  use_sea(parameters);
   const radar::WorldConfiguration& world = parameters.world;
   std::transform(land_.gamma.begin(), land_.gamma.end(), tables_.gamma.begin(),
                  [](double gamma) { return static_cast<float>(gamma); });
@@ -135,6 +132,14 @@ Ground::Ground(const RadarParameters& parameters, std::size_t samples)
   texture(kWater, world.sea.texture);
   inputs_.textured_sea = world.sea.texture > 0.0;
   inputs_.textured &= ~(1U << kWater);
+}
+
+void Ground::use_sea(const RadarParameters& parameters) {
+  const SeaReturn sea = make_sea_return(parameters);
+  sea_ = make_sea_table(sea);
+  const double wind_rad = sea.wind_from.radians();
+  wind_north_ = std::cos(wind_rad);
+  wind_east_ = std::sin(wind_rad);
 }
 
 void Ground::resize(std::size_t samples) {

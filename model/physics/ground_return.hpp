@@ -38,6 +38,8 @@ struct Facet {
 class SurfaceReturn {
  public:
   explicit SurfaceReturn(const RadarParameters& parameters);
+  // Replaces sea state and wind.
+  void use_sea(const RadarParameters& parameters) { sea_ = make_sea_return(parameters); }
 
   // Sets the cell size of the texture. Call it once a sweep; it does nothing if the size is unchanged.
   void use_resolution(double pulse_length_m, double spacing_m);
@@ -62,6 +64,8 @@ class Ground {
  public:
   Ground(const RadarParameters& parameters, std::size_t samples);
 
+  // Replaces sea state and wind.
+  void use_sea(const RadarParameters& parameters);
   // Sets the number of samples of the following sweeps.
   void resize(std::size_t samples);
 
@@ -90,7 +94,7 @@ class Ground {
 
   LandReturn land_;
   SeaTable sea_;
-  double wind_north_, wind_east_;  // unit vector in the direction that the wind blows from
+  double wind_north_ = 1.0, wind_east_ = 0.0;  // unit vector in the direction that the wind blows from
   simd::MaterialTables tables_;
   simd::GroundInputs inputs_;
   memory::CacheAlignedVector<float> sigma0_;  // sea table at the sweep's azimuth

@@ -287,11 +287,14 @@ RainChord rain_chord_in_plane(double ahead_m, double right_m, double radius_of_c
 }
 
 RainSamples::RainSamples(const RadarParameters& parameters, std::size_t samples)
-    : beam_(parameters.beam),
-      showers_(configured_showers(parameters)),
-      samples_(samples),
-      power_(samples + terrain::kRunSlack),
-      transmission_(power_) {
+    : beam_(parameters.beam), samples_(samples), power_(samples + terrain::kRunSlack), transmission_(power_) {
+  use_showers(parameters);
+}
+
+void RainSamples::use_showers(const RadarParameters& parameters) {
+  showers_ = configured_showers(parameters);
+  centres_.clear();
+  crossed_.clear();
   for (const Shower& shower : showers_)
     centres_.push_back(geo::ecef_from_geodetic(shower.position, geo::HeightAboveEllipsoid::metres(0.0)));
   crossed_.reserve(showers_.size());

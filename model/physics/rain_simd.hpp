@@ -58,6 +58,8 @@ struct RainGround {
 class RainSamples {
  public:
   RainSamples(const RadarParameters& parameters, std::size_t samples);
+  // Replaces the showers. The next call must be enter().
+  void use_showers(const RadarParameters& parameters);
 
   // Finds the showers that a sweep crosses within its range. Call enter() once a sweep.
   void enter(const SweepGeometry& geometry);

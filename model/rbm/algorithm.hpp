@@ -30,6 +30,9 @@ class Algorithm {
   Algorithm& operator=(const Algorithm&) = delete;
   virtual ~Algorithm() = default;
 
+  // Replaces sea state, wind and rain from the next measure() on. Report1996 has neither.
+  virtual void use_weather(const physics::RadarParameters& /*parameters*/) {}
+
   // Computes the power of sample_count() samples after sensitivity time control (a gain that increases with range) and
   // pulse smear (mean over the samples that the pulse covers), without noise: that of the ground along one ray, with
   // the covers of scenes and the rain, without point targets. Report1996 has no sensitivity time control and smears

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lib/radar/fidelity.hpp"
+#include "lib/radar/world.hpp"
 #include "model/physics/receiver.hpp"
 #include "model/rbm/reference.hpp"
 #include "model/rbm/report_1996.hpp"
@@ -34,6 +35,13 @@ Beam::Beam(std::unique_ptr<Algorithm> algorithm, const physics::RadarParameters&
   beam_.reserve(rays_.size());
   weighted_.reserve(rays_.size());
   grounds_.reserve(rays_.size());
+}
+
+void Beam::use_world(const physics::RadarParameters& parameters, const radar::WorldChanges& changes) {
+  if (changes.movers && points_) points_->use_movers(parameters);
+  if (!changes.sea && !changes.rain) return;
+  algorithm_->use_weather(parameters);
+  for (Ray& ray : rays_) ray.current = false;
 }
 
 void Beam::begin_pass() {

@@ -18,6 +18,10 @@
 #include "model/rbm/ray_ground.hpp"
 #include "model/rbm/sweep_simd.hpp"
 
+namespace yars::radar {
+struct WorldChanges;
+}  // namespace yars::radar
+
 namespace yars::model::rbm {
 
 inline constexpr double kSubBeamsWidth = 1.5;  // [beamwidths] outside it the two-way gain is below 5 % of the maximum
@@ -42,6 +46,9 @@ class Beam {
   // The same with an algorithm of the caller's.
   Beam(std::unique_ptr<Algorithm> algorithm, const physics::RadarParameters& parameters);
 
+  // Uses the changed parts of another world, which `parameters` has, from the next measure() on. A change of sea or
+  // rain measures the rays of the next beam again: kept ones have the power of the world before.
+  void use_world(const physics::RadarParameters& parameters, const radar::WorldChanges& changes);
   // Discards the rays that are kept. Call it before the first sweep of a pass (one crossing of the scan width).
   void begin_pass();
   // Longest time for which what a sweep leaves serves later sweeps.

@@ -42,9 +42,15 @@ constexpr double kMaxPlane_m = 1'000'000.0;  // beyond this distance the series 
 EmitterSights::EmitterSights(const physics::RadarParameters& parameters, std::vector<Emitter> emitters)
     : exact_(parameters.fidelity.algorithm == radar::Algorithm::reference),
       geometry_parameters_(parameters.geometry),
-      gas_(parameters),
-      emitters_(std::move(emitters)),
-      sights_(emitters_.size()) {
+      gas_(parameters) {
+  use_emitters(std::move(emitters));
+}
+
+void EmitterSights::use_emitters(std::vector<Emitter> emitters) {
+  emitters_ = std::move(emitters);
+  sights_.assign(emitters_.size(), {});
+  origin_ = {};
+  ecef_.clear();
   ecef_.reserve(emitters_.size());
   for (const Emitter& emitter : emitters_)
     ecef_.push_back(geo::ecef_from_geodetic(emitter.position, geo::HeightAboveEllipsoid::metres(0.0)));
@@ -124,6 +130,11 @@ Strobes::Strobes(const physics::RadarParameters& parameters)
       sidelobe_(physics::ratio(parameters.world.jamming.sidelobe_db)),
       receivers_(parameters),
       sights_(parameters, emitters_of(parameters.world.jamming)) {}
+
+void Strobes::use_jammers(const physics::RadarParameters& parameters) {
+  jamming_ = std::make_shared<const radar::JammingConfiguration>(parameters.world.jamming);
+  sights_.use_emitters(emitters_of(*jamming_));
+}
 
 double Strobes::level(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain) {
   const radar::JammingConfiguration& jamming = *jamming_;

@@ -46,6 +46,8 @@ class EmitterSights {
     physics::EffectiveEarth earth{geo::kMeanEarthRadius_m};
   };
   EmitterSights(const physics::RadarParameters& parameters, std::vector<Emitter> emitters);
+  // Replaces all emitters. The next call must be from().
+  void use_emitters(std::vector<Emitter> emitters);
 
   // The sights of all emitters. The span is valid until the next call.
   std::span<const Sight> from(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);
@@ -83,6 +85,8 @@ class EmitterSights {
 class Strobes {
  public:
   explicit Strobes(const physics::RadarParameters& parameters);
+  // Replaces the jammers.
+  void use_jammers(const physics::RadarParameters& parameters);
 
   // Received power of all jammers together, full scale = 1; 0 without jamming.
   double level(const physics::SweepGeometry& geometry, const terrain::TerrainView& terrain);

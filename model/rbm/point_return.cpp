@@ -45,6 +45,13 @@ PointReturn::PointReturn(const physics::RadarParameters& parameters)
   rays_.reserve(radar::kMaxSubBeams + 2);
 }
 
+void PointReturn::use_movers(const physics::RadarParameters& parameters) {
+  has_movers_ = !parameters.world.movers.empty();
+  movers_.use_movers(parameters);
+  // The lines of sight are kept by number, and each number may be another mover from here on.
+  mover_sights_ = MoverSights(parameters, parameters.world.movers.size() + physics::kMaxTraffic);
+}
+
 bool PointReturn::may_return(const physics::SweepGeometry& geometry, const physics::Environment& environment) const {
   if (has_movers_ || !environment.traffic.empty()) return true;
   if (environment.scenes == nullptr || environment.scenes->scatterers().empty()) return false;

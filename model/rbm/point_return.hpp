@@ -34,6 +34,8 @@ namespace yars::model::rbm {
 class PointReturn {
  public:
   explicit PointReturn(const physics::RadarParameters& parameters);
+  // Replaces the configured movers.
+  void use_movers(const physics::RadarParameters& parameters);
 
   // False if there is no mover, and no scene within the range. Then add() changes nothing.
   bool may_return(const physics::SweepGeometry& geometry, const physics::Environment& environment) const;

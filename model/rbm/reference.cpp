@@ -32,6 +32,11 @@ Reference::Reference(const physics::RadarParameters& parameters)
       samples_(sample_count(parameters)),
       distance_m_(samples_.size()) {}
 
+void Reference::use_weather(const physics::RadarParameters& parameters) {
+  surface_.use_sea(parameters);
+  rain_.use_showers(parameters);
+}
+
 std::size_t Reference::measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                                std::span<float> power) {
   const terrain::TerrainView& terrain = environment.terrain;

@@ -21,6 +21,7 @@ class Reference : public Algorithm {
  public:
   explicit Reference(const physics::RadarParameters& parameters);
 
+  void use_weather(const physics::RadarParameters& parameters) override;
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;

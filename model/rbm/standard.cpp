@@ -62,6 +62,11 @@ Standard::Standard(const physics::RadarParameters& parameters)
       variate_(count_, 1.0F),
       cell_(count_ + terrain::kRunSlack) {}
 
+void Standard::use_weather(const physics::RadarParameters& parameters) {
+  ground_.use_sea(parameters);
+  rain_.use_showers(parameters);
+}
+
 std::size_t Standard::measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                               std::span<float> power) {
   const terrain::TerrainView& terrain = environment.terrain;

@@ -31,6 +31,7 @@ class Standard : public Algorithm {
  public:
   explicit Standard(const physics::RadarParameters& parameters);
 
+  void use_weather(const physics::RadarParameters& parameters) override;
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power) override;
   void lit(std::span<std::uint8_t> mask) const override;

@@ -6,6 +6,7 @@
 
 #include "config/schema/load.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "databuffer/messages/world_values.hpp"
 #include "lib/error/error.hpp"
 #include "statemachine/machine.hpp"
 
@@ -65,6 +66,18 @@ Sweep good_sweep() {
   return sweep;
 }
 
+// A world with one entry of each list.
+WorldState good_world() {
+  radar::WorldConfiguration world;
+  world.rain.cells = {{.position = {36.5, -122.0}}};
+  world.jamming.jammers = {{.name = "jammer", .position = {36.5, -122.0}}};
+  world.movers = {{.name = "ship", .position = {36.5, -122.0}}};
+  WorldState state = world_state_from(world);
+  state.flags = {};
+  state.edit = 1;
+  return state;
+}
+
 // Overwrites bytes of the record from `offset` on.
 template <class T>
 void lay(T& record, std::size_t offset, std::span<const std::uint8_t> bytes) {
@@ -103,6 +116,7 @@ OverlaidSession::Records OverlaidSession::well_formed() {
   records.applied.event = records.event;
   records.sweep = good_sweep();
   records.traffic.count = 2;
+  records.world = good_world();
   records.map = good_map();
   records.frame.id = 3;
   records.frame.width = records.frame.height = 32;
@@ -143,6 +157,8 @@ std::vector<OverlaidSession::Part> OverlaidSession::parts() {
   add(whole.caption);
   add(whole.network_status);
   add(whole.network);
+  add(whole.world);
+  add(whole.world_latched);
   return parts;
 }
 
@@ -156,7 +172,7 @@ void OverlaidSession::lay_raw(std::size_t what, std::size_t offset, std::span<co
 
 void OverlaidSession::publish(std::size_t what, std::size_t offset, std::span<const std::uint8_t> bytes) {
   SessionLayout& to = layout();
-  constexpr std::size_t kKinds = 16;
+  constexpr std::size_t kKinds = 17;
   const std::size_t lane = what / kKinds % kOwnshipLanes;
   const auto with = [&](auto& record) -> auto& {
     lay(record, offset, bytes);
@@ -208,6 +224,8 @@ void OverlaidSession::publish(std::size_t what, std::size_t offset, std::span<co
     case 14:
       to.notes.append(with(records_.note));
       break;
+    case 15:
+      return to.world.publish(with(records_.world));
     default:
       return to.caption.publish(with(records_.caption));
   }

@@ -50,6 +50,7 @@ class OverlaidSession {
     databuffer::Sweep sweep;
     databuffer::InputEvent event;
     databuffer::Traffic traffic;
+    databuffer::WorldState world;
     databuffer::PatchMap map;
     databuffer::GlassFrame frame;
     databuffer::Note note;

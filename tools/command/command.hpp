@@ -89,6 +89,7 @@ void add_scene_command(databuffer::Command app, const CommonOptions& common);
 void add_dataset_command(databuffer::Command app);
 void add_config_command(databuffer::Command app, const CommonOptions& common);
 void add_sim_command(databuffer::Command app, const CommonOptions& common);
+void add_world_command(databuffer::Command app, const CommonOptions& common);
 void add_inject_command(databuffer::Command app, const CommonOptions& common);
 void add_note_command(databuffer::Command app, const CommonOptions& common);
 void add_status_command(databuffer::Command app, const CommonOptions& common);

@@ -103,10 +103,13 @@ inline constexpr KindName kKindOf<databuffer::RecorderStatus>{13, "RecorderStatu
 
 template <>
 inline constexpr KindName kKindOf<databuffer::Traffic>{14, "Traffic"};
+template <>
+inline constexpr KindName kKindOf<databuffer::WorldState>{15, "WorldState"};
 
-using RecordingItem = std::variant<databuffer::ModelTick, databuffer::AppliedEvent, SweepDigest, StartingPoint, Gap,
-                                   StateChange, StatusReport, databuffer::Nav, databuffer::Ownship, databuffer::Sweep,
-                                   Patch, databuffer::Outputs, databuffer::RecorderStatus, databuffer::Traffic>;
+using RecordingItem =
+    std::variant<databuffer::ModelTick, databuffer::AppliedEvent, SweepDigest, StartingPoint, Gap, StateChange,
+                 StatusReport, databuffer::Nav, databuffer::Ownship, databuffer::Sweep, Patch, databuffer::Outputs,
+                 databuffer::RecorderStatus, databuffer::Traffic, databuffer::WorldState>;
 
 // Bytes of a record as stored, in two parts.
 struct RecordParts {

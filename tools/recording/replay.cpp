@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "databuffer/messages/world_values.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/beam.hpp"
 
@@ -57,11 +58,23 @@ Replay::Replay(const radar::RadarConfiguration& configuration, model::terrain::T
       store_(&store),
       kernel_(configuration),
       view_(store.prepare({})),
-      scenes_(scenes) {}
+      scenes_(scenes),
+      world_(configuration.world) {}
+
+void Replay::begin_kernel(const databuffer::ModelStatus& status) {
+  kernel_ = model::kernel::RadarKernel(*configuration_);
+  kernel_.use_world(world_);
+  kernel_.resume(status);
+}
+
+void Replay::world(const databuffer::WorldState& world) {
+  world_ = configuration_->world;
+  if ((world.flags & databuffer::kWorldConfigured) == 0U) databuffer::apply(world, world_);
+  kernel_.use_world(world_);
+}
 
 void Replay::start(const StartingPoint& point) {
-  kernel_ = model::kernel::RadarKernel(*configuration_);
-  kernel_.resume(point.status);
+  begin_kernel(point.status);
   last_ = before_last_ = point.status;
   smeared_sweeps_ = kSmearMemory;
   old_rays_ = has_sub_beams(*configuration_);
@@ -103,14 +116,14 @@ const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {
 // before.
 void Replay::restart(std::int64_t resumed_tick) {
   const databuffer::ModelStatus& resumed = before_last_.tick == resumed_tick ? before_last_ : last_;
-  kernel_ = model::kernel::RadarKernel(*configuration_);
-  kernel_.resume(resumed);
+  begin_kernel(resumed);
 }
 
 namespace {
 
 using databuffer::ModelStatus;
 using databuffer::ModelTick;
+using databuffer::WorldState;
 
 constexpr double kMaxJump_ticks = 2'000.0;  // 10 s; a larger jump between consecutive ticks is a cut
 
@@ -203,7 +216,8 @@ Played Player::seek(std::int64_t tick) {
   if (const auto report = reader_->last_before<StatusReport>()) {
     take_status(report->status, played);
   }
-  if (const auto traffic = reader_->last_before<databuffer::Traffic>()) use_traffic(*traffic);
+  if (const auto traffic = reader_->last_before<databuffer::Traffic>()) use(*traffic);
+  if ((played.world = reader_->last_before<databuffer::WorldState>())) use(*played.world);
   // The kernel cannot resume from the last status before the block, because the ticks between that status and the
   // block are not played. It waits for the first status in the block.
   awaits_status_ = world_.has_value() && begin > 0;
@@ -243,11 +257,12 @@ void Player::take(Played& played) {
     add(played.sweeps, *sweep);
   } else if (const auto* digest = std::get_if<SweepDigest>(&item)) {
     if (kernel_) kernel_->recorded(*digest);
-  } else if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) {
+  } else if (std::holds_alternative<databuffer::Traffic>(item) || std::holds_alternative<WorldState>(item)) {
+    if (const auto* world = std::get_if<WorldState>(&item)) played.world = *world;
     if (awaits_status_)
       pending_.push_back(item);
     else
-      use_traffic(*traffic);
+      use_targets(item);
   } else if (const auto* patch = std::get_if<Patch>(&item)) {
     played.maps.push_back(*patch);
   }
@@ -276,8 +291,7 @@ void Player::run_kernel(const ModelTick& tick, Played& played) {
   if (tick.tick <= kernel_from_tick_ && tick.epoch == kernel_from_epoch_ && !restart) return;
   kernel_from_tick_ = -1;
   world_->configuration->fidelity.samples = static_cast<int>(tick.samples);
-  if (!kernel_) kernel_.emplace(*world_->configuration, *world_->store, world_->scenes);
-  if (const databuffer::Sweep* sweep = kernel_->tick(tick)) add(played.sweeps, *sweep);
+  if (const databuffer::Sweep* sweep = kernel().tick(tick)) add(played.sweeps, *sweep);
 }
 
 void Player::take_status(const ModelStatus& status, Played& played) {
@@ -289,16 +303,28 @@ void Player::take_status(const ModelStatus& status, Played& played) {
 
 void Player::start_kernel(const ModelStatus& status) {
   if (!world_) return;
-  if (!kernel_) kernel_.emplace(*world_->configuration, *world_->store, world_->scenes);
-  kernel_->start({status});
+  kernel().start({status});
   kernel_from_tick_ = status.tick;
   kernel_from_epoch_ = status.epoch;
 }
 
-void Player::use_traffic(const databuffer::Traffic& traffic) {
-  if (!world_) return;
+Replay& Player::kernel() {
   if (!kernel_) kernel_.emplace(*world_->configuration, *world_->store, world_->scenes);
-  kernel_->traffic(traffic);
+  return *kernel_;
+}
+
+void Player::use(const databuffer::Traffic& traffic) {
+  if (world_) kernel().traffic(traffic);
+}
+
+void Player::use(const WorldState& world) {
+  if (world_) kernel().world(world);
+}
+
+// Traffic or a world; other items have no effect.
+void Player::use_targets(const RecordingItem& item) {
+  if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) use(*traffic);
+  if (const auto* world = std::get_if<WorldState>(&item)) use(*world);
 }
 
 // Ticks are missing, so the kernel resumes from the next status.
@@ -313,7 +339,7 @@ void Player::start_late(const ModelStatus& status, Played& played) {
   awaits_status_ = false;
   start_kernel(status);
   for (const RecordingItem& item : std::exchange(pending_, {})) {
-    if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) use_traffic(*traffic);
+    use_targets(item);
     const auto* tick = std::get_if<ModelTick>(&item);
     if (tick != nullptr && tick->epoch == status.epoch && tick->tick > status.tick) run_kernel(*tick, played);
   }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "databuffer/messages/model_records.hpp"
+#include "lib/radar/world.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/scene/index/scene_store.hpp"
@@ -65,6 +66,8 @@ class Replay {
   const databuffer::Sweep* tick(const databuffer::ModelTick& tick);
   // Sets the traffic from the next tick on.
   void traffic(const databuffer::Traffic& traffic) { traffic_ = model::kernel::points_of(traffic); }
+  // Sets the world from the next tick on. One with kWorldConfigured is that of this replay's configuration.
+  void world(const databuffer::WorldState& world);
   void recorded(const SweepDigest& digest) { comparison_.recorded(digest); }
 
   std::uint64_t ticks() const { return ticks_; }
@@ -73,6 +76,7 @@ class Replay {
 
  private:
   void restart(std::int64_t resumed_tick);
+  void begin_kernel(const databuffer::ModelStatus& status);
   bool is_whole(const databuffer::Sweep& sweep);
 
   const radar::RadarConfiguration* configuration_;
@@ -82,6 +86,7 @@ class Replay {
   model::scene::SceneStore* scenes_;
   model::scene::SceneViewPointer scene_view_;
   std::vector<model::physics::MovingPoint> traffic_;
+  radar::WorldConfiguration world_;
   databuffer::Sweep sweep_{};
   databuffer::ModelStatus last_{}, before_last_{};  // status after the newest tick, and after the tick before
   Comparison comparison_;
@@ -98,11 +103,13 @@ struct PlayerWorld {
   model::scene::SceneStore* scenes = nullptr;
 };
 
-// Records that Player returns from one call: the newest state, status and outputs if they changed, all sweeps and maps.
+// Records that Player returns from one call: the newest state, status, outputs and world if they changed, all sweeps
+// and maps.
 struct Played {
   std::optional<databuffer::RadarState> state;
   std::optional<databuffer::ModelStatus> status;  // newest status, with the ownship of the newest tick
   std::optional<databuffer::Outputs> outputs;
+  std::optional<databuffer::WorldState> world;  // newest world in effect, if it changed
   std::deque<databuffer::Sweep> sweeps;
   std::vector<Patch> maps;
   std::optional<std::int64_t> cut_to_tick;  // tick at which the recording continues after a cut (see Player)
@@ -110,10 +117,9 @@ struct Played {
 };
 
 // Plays a recording: seek() returns a key frame of a tick, play_to() returns the records that follow it.
-// A key frame has state, status and outputs at that tick, the maps that the state names, and the newest sweeps. The
-// sweeps include the current scan and the complete scan before it, up to kMaxSeekSweeps sweeps.
-// If the recording has video, sweeps are returned as recorded. Else the kernel computes the sweeps, from a status
-// recorded before them.
+// A key frame has state, status, outputs and world at that tick, the maps that the state names, and the newest sweeps.
+// The sweeps include the current scan and the complete scan before it, up to kMaxSeekSweeps sweeps. If the recording
+// has video, sweeps are returned as recorded. Else the kernel computes the sweeps, from a status recorded before them.
 // A cut ends a call of play_to(). A cut is a pause of the recorder, a new epoch, or a jump of the ticks by over 10 s.
 // After a damaged block the kernel waits for the next status.
 class Player {
@@ -148,7 +154,10 @@ class Player {
   void pass_over_damage();
   void start_late(const databuffer::ModelStatus& status, Played& played);
   void start_kernel(const databuffer::ModelStatus& status);
-  void use_traffic(const databuffer::Traffic& traffic);
+  Replay& kernel();
+  void use(const databuffer::Traffic& traffic);
+  void use(const databuffer::WorldState& world);
+  void use_targets(const RecordingItem& item);
   std::size_t picture_begin(std::size_t block, std::int64_t tick);
   std::optional<databuffer::ModelStatus> status_at(std::size_t block, std::int64_t tick);
   void find_maps(std::size_t block, Played& played);
@@ -157,7 +166,7 @@ class Player {
   std::optional<PlayerWorld> world_;
   std::optional<Replay> kernel_;
   bool awaits_status_ = false;          // the kernel needs a status to resume from
-  std::vector<RecordingItem> pending_;  // ticks and traffic while awaits_status_ is true
+  std::vector<RecordingItem> pending_;  // ticks, traffic and worlds while awaits_status_ is true
   // Tick of the status from which the kernel resumed; -1: none. Ticks up to this tick are not run.
   std::int64_t kernel_from_tick_ = -1;
   std::uint32_t kernel_from_epoch_ = 0;

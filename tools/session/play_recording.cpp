@@ -146,6 +146,7 @@ void ReplaySession::publish_key_frame(const recording::Played& played) {
 void ReplaySession::publish(const recording::Played& played) {
   if (played.state)
     maps_named_ = {played.state->map_newest, played.state->map_old, played.state->map_stored, played.state->map_shown};
+  if (played.world) model_.layout().world_latched.publish(*played.world);
   publish_maps(played);
   publish_sweeps(played);
   if (played.status) publish_status(*played.status);

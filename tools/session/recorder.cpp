@@ -60,6 +60,7 @@ void Recorder::begin_here() {
   sweep_cursor_ = layout.sweeps.next();
   const std::uint64_t traffic = layout.traffic_latched.next();
   traffic_cursor_ = traffic > 0 ? traffic - 1 : 0;  // the newest traffic is still in effect
+  world_cursor_.reset();
   // Ticks up to the tick of the status are not written: the replay starts from this status.
   const auto status = databuffer::read_valid(layout.model_status);
   if (!status) return;
@@ -211,6 +212,7 @@ void Recorder::take_ticks(std::uint64_t& lost) {
     if (from_tick_ && is_before_start(tick)) continue;
     from_tick_.reset();
     take_traffic_before(tick);
+    take_world_before(tick);
     if (!is_valid(tick)) continue;
     append(tick);
     ++ticks_;
@@ -223,6 +225,14 @@ void Recorder::take_traffic_before(const databuffer::ModelTick& tick) {
   databuffer::Traffic traffic{};
   while (traffic_cursor_ < tick.traffic && session_->layout().traffic_latched.read(traffic_cursor_, traffic).delivered)
     if (is_valid(traffic)) append(traffic);
+}
+
+// Appends the worlds up to the one in effect at this tick. The first tick since writing began has only that one.
+void Recorder::take_world_before(const databuffer::ModelTick& tick) {
+  if (!world_cursor_) world_cursor_ = std::max<std::uint64_t>(tick.world, 1) - 1;
+  databuffer::WorldState world{};
+  while (*world_cursor_ < tick.world && session_->layout().world_latched.read(*world_cursor_, world).delivered)
+    if (is_valid(world)) append(world);
 }
 
 // Appends radar state, model status and outputs at a limited rate. The segment keeps only the latest value of each: in

@@ -57,6 +57,7 @@ class Recorder {
   bool is_before_start(const databuffer::ModelTick& tick) const;
   void take_ticks(std::uint64_t& lost);
   void take_traffic_before(const databuffer::ModelTick& tick);
+  void take_world_before(const databuffer::ModelTick& tick);
   void take_sweeps(std::uint64_t& lost);
   void take_latest(std::int64_t tick);
   void take_patches();
@@ -67,7 +68,8 @@ class Recorder {
   recording::RecordingWriter* writer_;
   RecordedExtras extras_;
   std::uint64_t tick_cursor_ = 0, event_cursor_ = 0, sweep_cursor_ = 0, traffic_cursor_ = 0;
-  std::optional<std::int64_t> from_tick_;  // earlier ticks of from_epoch_ are not written; nullopt: all are written
+  std::optional<std::uint64_t> world_cursor_;  // nullopt: no tick was written since writing began
+  std::optional<std::int64_t> from_tick_;      // earlier ticks of from_epoch_ are not written; nullopt: all are written
   std::uint32_t from_epoch_ = 0;
   std::uint64_t begin_cursor_ = 0;  // ticks before it were published before the starting point was read
   shm::LatestReader<databuffer::RadarState> state_;

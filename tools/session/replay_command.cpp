@@ -1,6 +1,6 @@
 // `yars replay`: plays a recording into a session, for a radar-display. --events instead runs the kernel over the
-// recorded ticks and compares each sweep with the recorded one. --print prints events, radar states, and id, size and
-// hash of patch maps as JSON.
+// recorded ticks and compares each sweep with the recorded one. --print prints events, radar states, worlds, and id,
+// size and hash of patch maps as JSON.
 
 #include <algorithm>
 #include <cstdio>
@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "databuffer/json/session_json.hpp"
+#include "databuffer/json/world_json.hpp"
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
@@ -99,6 +100,9 @@ void print_entries(recording::RecordingReader& reader) {
     } else if (const auto* patch = std::get_if<recording::Patch>(&*entry)) {
       object["tick"] = patch->map.end_tick;
       object["patch"] = {{"id", patch->map.id}, {"size", patch->map.size}, {"hash", patch->map.hash}};
+    } else if (const auto* world = std::get_if<databuffer::WorldState>(&*entry)) {
+      object["tick"] = world->tick;
+      object["world"] = databuffer::world_json(*world, world->tick * radar::kTickNanoseconds);
     } else {
       continue;
     }
@@ -129,7 +133,7 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
 
 // Runs the kernel again over the items of a recording. After a damaged block it buffers the items until the next model
 // status, from which the kernel can resume. Then it runs the buffered items after the tick of the status, and all
-// buffered traffic. A starting point also ends the buffering; the buffered items are then dropped.
+// buffered traffic and worlds. A starting point also ends the buffering; the buffered items are then dropped.
 class KernelRerun {
  public:
   explicit KernelRerun(World& world) : world_(world) {}
@@ -172,7 +176,9 @@ class KernelRerun {
     for (const auto& item : buffered) {
       const auto tick = std::visit([](const auto& record) { return recording::tick_of(record); }, item);
       const bool done = tick && *tick <= status.tick;
-      if (!done || std::holds_alternative<databuffer::Traffic>(item)) run(item);
+      const bool stays =
+          std::holds_alternative<databuffer::Traffic>(item) || std::holds_alternative<databuffer::WorldState>(item);
+      if (!done || stays) run(item);
     }
   }
   void run(const recording::RecordingItem& item) {
@@ -181,6 +187,8 @@ class KernelRerun {
       kernel().tick(*tick);
     } else if (const auto* traffic = std::get_if<databuffer::Traffic>(&item)) {
       kernel().traffic(*traffic);
+    } else if (const auto* state = std::get_if<databuffer::WorldState>(&item)) {
+      kernel().world(*state);
     } else if (const auto* digest = std::get_if<recording::SweepDigest>(&item)) {
       if (run_) run_->recorded(*digest);
     } else if (const auto* sweep = std::get_if<databuffer::Sweep>(&item)) {
@@ -257,8 +265,8 @@ void add_replay_command(databuffer::Command app, const CommonOptions& common) {
   databuffer::Option events =
       command.flag("--events", options->events,
                    "compute the sweeps from the recorded ticks, offline, and compare them with the recorded sweeps");
-  databuffer::Option print =
-      command.flag("--print", options->print, "print events, radar states and patch maps, one JSON object per line");
+  databuffer::Option print = command.flag(
+      "--print", options->print, "print events, radar states, worlds and patch maps, one JSON object per line");
   events.excludes(print);
   databuffer::Option rate =
       command.option("--rate", options->rate, "rate relative to real time; 0 freezes the picture");

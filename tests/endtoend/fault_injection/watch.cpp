@@ -50,12 +50,13 @@ struct Watch::SegmentState {
     next_event = layout.applied_events.next();
     next_sweep = layout.sweeps.next();
     next_traffic = layout.traffic_latched.next();
+    next_world = layout.world_latched.next();
     newest_frame = databuffer::greatest_id<shm::PlainAccess>(layout.frames);
   }
   const SessionLayout& layout() const { return session.layout(); }
 
   databuffer::Session session;
-  std::uint64_t next_tick, next_event, next_sweep, next_traffic, newest_frame;
+  std::uint64_t next_tick, next_event, next_sweep, next_traffic, next_world, newest_frame;
   std::array<std::uint64_t, databuffer::kPatchSlots> maps{};
   Seen<databuffer::RadarState> state;
   Seen<databuffer::ModelStatus> status;
@@ -227,6 +228,8 @@ void Watch::check_rings(SegmentState& last) {
   }
   for (databuffer::Traffic traffic{}; layout.traffic_latched.read(last.next_traffic, traffic).delivered; ++read)
     refuse(validate(traffic), "latched traffic");
+  for (databuffer::WorldState world{}; layout.world_latched.read(last.next_world, world).delivered; ++read)
+    refuse(validate(world), "latched world");
   const std::scoped_lock lock(mutex_);
   verdict_.records += read;
   verdict_.witnessed += hashed;

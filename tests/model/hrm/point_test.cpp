@@ -152,5 +152,27 @@ TEST(Mover, ThatMovesAcrossTheLineOfSightIsSmearedAndNotDisplaced) {
   EXPECT_NEAR(bright * pixel_m, 2.0 * path_m, 2.0 * pixel_m);
 }
 
+// A world that was changed at run time comes with the environment, in place of the configuration's movers.
+TEST(PatchPoints, OfAChangedWorldReplaceTheConfiguredOnes) {
+  const auto picture_of = [](const radar::RadarConfiguration& configuration,
+                             std::optional<std::vector<model::physics::MovingPoint>> movers) {
+    hrm::PatchFormation process(configuration, executor_of(1));
+    const auto ground = ground_of(model::terrain::flat(kGround_m));
+    process.begin(order_from({}));
+    hrm::PatchEnvironment environment{ground, ground, nullptr};
+    environment.movers = std::move(movers);
+    process.set_environment(environment);
+    while (process.state() != hrm::PatchState::done) process.advance();
+    return process.picture();
+  };
+  const radar::RadarConfiguration without = bare_map();
+  radar::RadarConfiguration with = without;
+  with.world.movers.push_back({.name = "truck", .position = kTarget, .cross_section_m2 = 1e6});
+  const auto shown = picture_of(with, std::nullopt), empty = picture_of(without, std::nullopt);
+  EXPECT_NE(shown, empty);
+  EXPECT_EQ(picture_of(without, model::physics::moving_points(with.world)), shown);
+  EXPECT_EQ(picture_of(with, std::vector<model::physics::MovingPoint>{}), empty);
+}
+
 }  // namespace
 }  // namespace yars::test

@@ -61,7 +61,7 @@ TEST(Movers, MoveAlongAGeodesicWithSimTime) {
   radar::Mover ship = ship_at(10000.0);
   ship.speed_mps = geo::Speed::knots(30.0).metres_per_second();
   ship.heading_deg = 45.0;
-  const auto points = physics::configured_points(with(ship));
+  const auto points = physics::moving_points(with(ship).world);
   EXPECT_LT(geo::geodesic_inverse(ship.position, points.at(0).position(geo::Duration())).distance.metres(), 1e-6);
   const auto path = geo::geodesic_inverse(ship.position, points.at(0).position(geo::Duration::seconds(3600.0)));
   EXPECT_NEAR(path.distance.nautical_miles(), 30.0, 1e-6);
@@ -229,7 +229,7 @@ TEST(Movers, AreFoundAfterAnyTime) {
   const radar::RadarConfiguration configuration = with(ship);
   const terrain::AnalyticTerrain sea(terrain::flat(0.0));
   physics::Movers movers(configuration);
-  const physics::MovingPoint point = physics::configured_points(configuration).at(0);
+  const physics::MovingPoint point = physics::moving_points(configuration.world).at(0);
   for (const double time_s : {0.0, 3.0, 400.0, 2.0, 40000.0, 40000.01, -5.0}) {
     physics::SweepGeometry geometry = test::geometry_north(kMoversAltitude_m, kMoversRange_m);
     geometry.sim_time = geo::Duration::seconds(time_s);

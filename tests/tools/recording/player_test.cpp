@@ -9,6 +9,7 @@
 #include <sstream>
 #include <utility>
 
+#include "databuffer/messages/world_values.hpp"
 #include "display/symbology/radar_video.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/tools/recording/made_recording.hpp"
@@ -63,6 +64,12 @@ class Session {
     ++cockpit_.tick.command.scan_restart;
     state_.tick = cockpit_.tick.tick;
     put(StateChange{state_});
+  }
+  void change_world(const databuffer::WorldState& world) {
+    radar::WorldConfiguration next = configuration_.world;
+    databuffer::apply(world, next);
+    cockpit_.kernel.use_world(next);
+    put(world);
   }
   void freeze(bool on) { cockpit_.set_flag(databuffer::kFreeze, on); }
   void make_map(std::uint64_t id) {
@@ -224,6 +231,57 @@ TEST_P(RecordingPlayed, AtThreeTicksTheDisplayShowsWhatItShowedInTheSession) {
   radar_display.jump(player->seek(1));
   for (std::int64_t tick = 2; tick <= run.begin()->first; ++tick) radar_display.take(player->play_to(tick));
   EXPECT_TRUE(same_display(radar_display.seen(), run.begin()->second));
+  EXPECT_EQ(player->different(), 0U);
+}
+
+// A world of the edit `edit` with one rain cell over the scanned area.
+databuffer::WorldState rain_of(std::uint64_t edit, double rate_mmh) {
+  radar::WorldConfiguration world;
+  world.rain.cells = {{{37.25, -121.7}, 30'000.0, rate_mmh, 6000.0}};
+  databuffer::WorldState state = databuffer::world_state_from(world);
+  state.flags = {};
+  state.edit = edit;
+  return state;
+}
+
+TEST_P(RecordingPlayed, ASeekRestoresTheWorldInEffectAtItsTick) {
+  std::map<std::uint64_t, std::pair<std::int64_t, Seen>> run;  // by edit
+  for (const std::uint64_t edit : {1U, 2U, 3U}) {
+    session.change_world(rain_of(edit, 40.0 * static_cast<double>(edit)));
+    session.run(2500);
+    run[edit] = {session.tick(), session.seen()};
+    session.run(1);  // a record without a tick of its own is played with the one before it
+  }
+  EXPECT_NE(run[1].second.sweeps, run[2].second.sweeps);
+  open();
+  for (const std::uint64_t edit : {2U, 1U, 3U}) {
+    SCOPED_TRACE(edit);
+    const Played played = player->seek(run[edit].first);
+    ASSERT_TRUE(played.world);
+    EXPECT_EQ(played.world->edit, edit);
+    radar_display.jump(played);
+    EXPECT_GT(radar_display.seen().sweeps.size(), 100U);
+    EXPECT_EQ(radar_display.seen().sweeps, run[edit].second.sweeps);
+    EXPECT_EQ(player->different(), 0U);
+  }
+}
+
+// The change lies between the tick of a seek and a later tick.
+TEST_P(RecordingPlayed, PlaysAChangeOfTheWorldAtItsTick) {
+  session.run(1200);
+  const std::int64_t before = session.tick();
+  session.run(100);
+  session.change_world(rain_of(7, 60.0));
+  session.run(900);
+  open();
+  const Played sought = player->seek(before);
+  EXPECT_FALSE(sought.world);
+  radar_display.jump(sought);
+  const Played played = player->play_to(session.tick());
+  ASSERT_TRUE(played.world);
+  EXPECT_EQ(played.world->edit, 7U);
+  radar_display.take(played);
+  EXPECT_EQ(radar_display.seen().sweeps, session.seen().sweeps);
   EXPECT_EQ(player->different(), 0U);
 }
 

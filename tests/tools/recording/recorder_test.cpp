@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include "databuffer/messages/world_values.hpp"
 #include "tests/databuffer/session/open_session.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
@@ -62,6 +63,57 @@ TEST_F(RecorderTest, BeginsWithTheTickAfterTheStatus) {
       EXPECT_EQ(ticks[i], last_status + 1 + static_cast<std::int64_t>(i)) << still_computes;
     std::filesystem::remove(folder_.path() / "recording");
   }
+}
+
+// Worlds and ticks in the order of a recording: the edit of a world, or -1 for a tick.
+std::vector<std::int64_t> edits_and_ticks(const std::filesystem::path& path) {
+  std::vector<std::int64_t> found;
+  auto reader = recording::RecordingReader::open(path);
+  while (const auto item = reader->next()) {
+    if (const auto* world = std::get_if<databuffer::WorldState>(&*item)) found.push_back(std::int64_t(world->edit));
+    if (std::holds_alternative<databuffer::ModelTick>(*item)) found.push_back(-1);
+  }
+  return found;
+}
+
+TEST_F(RecorderTest, WritesTheWorldInEffectBeforeTheFirstTickAndEachLaterOneBeforeItsTick) {
+  auto session = open();
+  const auto latch = [&](std::uint64_t edit) {
+    databuffer::WorldState world = databuffer::world_state_from({});
+    world.edit = edit;
+    session.layout().world_latched.publish(world);
+    cockpit_.tick.world = session.layout().world_latched.next();
+  };
+  for (const std::uint64_t edit : {0U, 1U, 2U}) {
+    latch(edit);
+    run_tick(session, false);
+  }
+  const auto path = folder_.path() / "worlds";
+  {
+    auto writer = recording::RecordingWriter::create(path, {});
+    Recorder recorder(session, *writer, {}, false);
+    // Latched after the recorder began, and before it reads the tick that used the world before.
+    run_tick(session, true);
+    latch(3);
+    run_tick(session, true);
+    recorder.drain(cockpit_.tick.tick);
+    recorder.flush();
+  }
+  EXPECT_EQ(edits_and_ticks(path), (std::vector<std::int64_t>{2, -1, 3, -1}));
+}
+
+TEST_F(RecorderTest, WithoutAWorldWritesNone) {
+  auto session = open();
+  run_tick(session, false);
+  const auto path = folder_.path() / "no-world";
+  {
+    auto writer = recording::RecordingWriter::create(path, {});
+    Recorder recorder(session, *writer, {}, false);
+    run_tick(session, true);
+    recorder.drain(cockpit_.tick.tick);
+    recorder.flush();
+  }
+  EXPECT_EQ(edits_and_ticks(path), std::vector<std::int64_t>{-1});
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "databuffer/messages/world_values.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/made_up_objects.hpp"
 
@@ -65,11 +66,20 @@ class Recorded {
   }
   void restart() {
     cockpit_.kernel = model::kernel::RadarKernel(configuration_);
+    cockpit_.kernel.use_world(world_);
     cockpit_.kernel.resume(status_);
     cockpit_.tick.flags |= databuffer::kTickRestart;
     cockpit_.tick.resumed_tick = status_.tick;
     cockpit_.tick.tick += 7;  // ticks without a model
   }
+  // Another world from the next tick on.
+  void change_world(const databuffer::WorldState& world) {
+    world_ = configuration_.world;
+    databuffer::apply(world, world_);
+    cockpit_.kernel.use_world(world_);
+    replay_.world(world);
+  }
+  void tell_replay(const databuffer::WorldState& world) { replay_.world(world); }
   void update_velocity() { cockpit_.set_flag(databuffer::kIpvu, true); }
   const databuffer::ModelStatus& status() const { return status_; }
   const Comparison& comparison() const { return replay_.comparison(); }
@@ -88,10 +98,52 @@ class Recorded {
   double step_deg_ = 0.0, turn_deg_ = 0.0;
   radar::RadarConfiguration configuration_;
   test::Cockpit cockpit_;
+  radar::WorldConfiguration world_ = configuration_.world;
   model::terrain::FixedTerrainStore store_;
   Replay replay_;
   databuffer::ModelStatus status_{};
 };
+
+// Rain over the scanned area.
+databuffer::WorldState rainy_world() {
+  radar::WorldConfiguration world;
+  world.rain.cells = {{{37.25, -121.7}, 30'000.0, 60.0, 6000.0}};
+  databuffer::WorldState state = databuffer::world_state_from(world);
+  state.flags = {};
+  state.edit = 1;
+  return state;
+}
+
+TEST(Replay, UsesAWorldFromItsTickOn) {
+  Recorded recorded;
+  recorded.run(300);
+  recorded.change_world(rainy_world());
+  recorded.run(400);
+  EXPECT_EQ(recorded.comparison().different(), 0U);
+  EXPECT_GT(recorded.comparison().equal(), 500U);
+}
+
+TEST(Replay, KeepsTheWorldOverARestartOfTheModel) {
+  Recorded recorded;
+  recorded.run(300);
+  recorded.change_world(rainy_world());
+  recorded.run(100);
+  recorded.restart();
+  recorded.run(300);
+  EXPECT_EQ(recorded.comparison().different(), 0U);
+  EXPECT_GT(recorded.comparison().equal(), 400U);
+}
+
+TEST(Replay, OfTheConfiguredWorldUsesItsOwnConfiguration) {
+  radar::RadarConfiguration configuration;
+  configuration.world.rain.cells = {{{37.25, -121.7}, 30'000.0, 60.0, 6000.0}};
+  Recorded recorded(nullptr, nullptr, configuration);
+  databuffer::WorldState world = databuffer::world_state_from({});
+  recorded.tell_replay(world);  // the values are another configuration's
+  recorded.run(300);
+  EXPECT_EQ(recorded.comparison().different(), 0U);
+  EXPECT_GT(recorded.comparison().equal(), 150U);
+}
 
 TEST(Replay, ComputesEverySweepAgain) {
   Recorded recorded;

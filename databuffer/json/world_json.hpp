@@ -1,0 +1,18 @@
+// JSON object of a world, as `yars world --json` prints it. Source of its fields and units:
+// docs/spec/commands.md#world.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+
+#include "databuffer/messages/world_state.hpp"
+
+namespace yars::databuffer {
+
+// `sim_time_ns`: movers are given with position and heading at this time.
+nlohmann::ordered_json world_json(const WorldState& world, std::int64_t sim_time_ns);
+
+// Name of a jammer's band: "A" to "E", or "all" for -1.
+const char* band_name(std::int32_t band);
+
+}  // namespace yars::databuffer

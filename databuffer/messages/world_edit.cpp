@@ -1,0 +1,305 @@
+#include "databuffer/messages/world_edit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "databuffer/messages/inspection.hpp"
+#include "databuffer/messages/world_values.hpp"
+#include "lib/text/plain_text.hpp"
+
+namespace yars::databuffer {
+
+using error::Expected;
+using error::fail;
+
+namespace {
+
+constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
+
+// A value with its limits in the unit of the configuration's forms. `factor`: that unit in the unit of the record.
+struct Quantity {
+  std::string_view name;
+  double value;
+  double min, max;
+  std::string_view unit;
+  double factor = 1.0;
+};
+
+std::string number_with_unit(double value, std::string_view unit) {
+  return text::text_of_number(value) + (unit.empty() ? "" : " ") + std::string(unit);
+}
+
+Expected<void> check_all(std::string_view subject, std::initializer_list<Quantity> quantities) {
+  constexpr double kRounding = 1e-9;  // relative; the conversion of a limit to another unit rounds it
+  for (const Quantity& quantity : quantities) {
+    const double value = quantity.value / quantity.factor;
+    const double slack = kRounding * std::max(std::abs(quantity.min), std::abs(quantity.max));
+    if (value >= quantity.min - slack && value <= quantity.max + slack) continue;  // NaN is out of range
+    return fail(std::string(subject) + ": " + std::string(quantity.name),
+                text::text_of_number(quantity.min) + " to " + number_with_unit(quantity.max, quantity.unit),
+                number_with_unit(value, quantity.unit), "give a value within these limits");
+  }
+  return {};
+}
+
+Expected<void> check(const WorldRainCell& cell) {
+  return check_all("rain cell", {{"latitude", cell.latitude_deg, -90.0, 90.0, "deg"},
+                                 {"longitude", cell.longitude_deg, -180.0, 180.0, "deg"},
+                                 {"radius", cell.radius_m, 0.1, 100.0, "NM", geo::kMetresPerNauticalMile},
+                                 {"rate", cell.rate_mmh, 0.1, 300.0, "mm/h"},
+                                 {"top", cell.top_m, 500.0, 60'000.0, "ft", geo::kMetresPerFoot}});
+}
+
+Expected<void> check(const WorldJammer& jammer) {
+  const double altitude_m = std::isnan(jammer.altitude_m) ? 0.0 : jammer.altitude_m;
+  return check_all("jammer", {{"latitude", jammer.latitude_deg, -90.0, 90.0, "deg"},
+                              {"longitude", jammer.longitude_deg, -180.0, 180.0, "deg"},
+                              {"altitude", altitude_m, -1500.0, 100'000.0, "ft", geo::kMetresPerFoot},
+                              {"band", static_cast<double>(jammer.band), -1.0, 4.0, ""},
+                              {"channels (bits)", static_cast<double>(jammer.channels), 1.0, 255.0, ""},
+                              {"power", jammer.power_w, 0.0, 1e9, "W"}});
+}
+
+Expected<void> check(const WorldMover& mover) {
+  return check_all(
+      "mover", {{"latitude", mover.latitude_deg, -90.0, 90.0, "deg"},
+                {"longitude", mover.longitude_deg, -180.0, 180.0, "deg"},
+                {"speed", mover.speed_mps, 0.0, 1000.0, "kt", kMetresPerSecondPerKnot},
+                {"heading", mover.heading_deg, 0.0, 360.0, "deg"},
+                {"cross section", mover.cross_section_m2, 0.0, 1e7, "m2"},
+                {"height", mover.height_m, 0.0, 1000.0, "ft", geo::kMetresPerFoot},
+                {"sim time", static_cast<double>(mover.since_ns), 0.0, static_cast<double>(kLatestSimTime_ns), "ns"}});
+}
+
+template <std::size_t size>
+Expected<void> store_name(char (&into)[size], std::string_view subject, std::string_view name) {
+  const auto printable = [](char letter) { return letter >= ' ' && letter <= '~'; };
+  if (name.size() >= size || !std::ranges::all_of(name, printable))
+    return fail(std::string(subject) + ": name",
+                "at most " + std::to_string(size - 1) + " characters of printable ASCII",
+                '"' + text::printable(std::string(name)) + '"', "choose a shorter or plainer name");
+  std::ranges::fill(into, '\0');
+  std::ranges::copy(name, into);
+  return {};
+}
+
+// One list of a world: its entries, the number in use, and a word for messages.
+template <class Entry>
+struct List {
+  std::span<Entry> entries;
+  std::uint32_t& count;
+  std::string_view subject;
+  std::span<Entry> in_use() const { return entries.first(std::min<std::size_t>(count, entries.size())); }
+};
+
+List<WorldRainCell> list_of(WorldState& world, const WorldRainCell* /*kind*/) {
+  return {world.rain, world.rain_count, "rain cell"};
+}
+List<WorldJammer> list_of(WorldState& world, const WorldJammer* /*kind*/) {
+  return {world.jammers, world.jammer_count, "jammer"};
+}
+List<WorldMover> list_of(WorldState& world, const WorldMover* /*kind*/) {
+  return {world.movers, world.mover_count, "mover"};
+}
+template <class Entry>
+List<Entry> list_in(WorldState& world) {
+  return list_of(world, static_cast<const Entry*>(nullptr));
+}
+
+void mark_changed(WorldState& world) {
+  world.flags &= ~kWorldConfigured;
+}
+
+template <class Entry>
+std::string ids_of(std::span<Entry> entries) {
+  std::string ids;
+  for (const Entry& entry : entries) ids += (ids.empty() ? "" : ", ") + std::to_string(entry.id);
+  return ids.empty() ? "no entry in the world" : "one of the ids " + ids;
+}
+
+template <class Entry>
+Expected<Entry*> find(const List<Entry>& list, std::uint32_t id) {
+  const auto in_use = list.in_use();
+  const auto found = std::ranges::find(in_use, id, &Entry::id);
+  if (found == in_use.end())
+    return fail(std::string(list.subject), ids_of(in_use), "id " + std::to_string(id), "see `yars world`");
+  return &*found;
+}
+
+// An id that no entry of the list has. It was not given before, unless all numbers have been.
+template <class Entry>
+std::uint32_t new_id(WorldState& world, std::span<Entry> in_use) {
+  do {
+    world.last_id = std::max(world.last_id + 1, 1U);
+  } while (std::ranges::find(in_use, world.last_id, &Entry::id) != in_use.end());
+  return world.last_id;
+}
+
+template <class Entry>
+Expected<std::uint32_t> add_entry(WorldState& world, Entry entry) {
+  if (auto valid = check(entry); !valid) return tl::unexpected(valid.error());
+  const List<Entry> list = list_in<Entry>(world);
+  if (list.count >= list.entries.size())
+    return fail(std::string(list.subject), "at most " + std::to_string(list.entries.size()) + " in the world",
+                "one more", "remove another one first");
+  entry.id = new_id(world, list.in_use());
+  list.entries[list.count++] = entry;
+  mark_changed(world);
+  return entry.id;
+}
+
+template <class Entry>
+Expected<void> replace_entry(WorldState& world, const Entry& entry) {
+  if (auto valid = check(entry); !valid) return valid;
+  const auto found = find(list_in<Entry>(world), entry.id);
+  if (!found) return tl::unexpected(found.error());
+  **found = entry;
+  mark_changed(world);
+  return {};
+}
+
+template <class Entry>
+Expected<void> move_entry(WorldState& world, std::uint32_t id, geo::GeoPoint position, std::int64_t sim_time_ns) {
+  const auto found = find(list_in<Entry>(world), id);
+  if (!found) return tl::unexpected(found.error());
+  Entry moved = **found;
+  if constexpr (std::is_same_v<Entry, WorldMover>) moved = at_sim_time(moved, sim_time_ns);
+  moved.latitude_deg = position.latitude_deg;
+  moved.longitude_deg = position.longitude_deg;
+  return replace_entry(world, moved);
+}
+
+// The entries behind the removed one keep their order.
+template <class Entry>
+Expected<void> remove_entry(WorldState& world, std::uint32_t id) {
+  const List<Entry> list = list_in<Entry>(world);
+  const auto found = find(list, id);
+  if (!found) return tl::unexpected(found.error());
+  const auto in_use = list.in_use();
+  std::copy(in_use.begin() + (*found - in_use.data()) + 1, in_use.end(), *found);
+  in_use.back() = {};
+  --list.count;
+  mark_changed(world);
+  return {};
+}
+
+}  // namespace
+
+WorldRainCell default_rain_cell(geo::GeoPoint position) {
+  radar::WorldConfiguration world;
+  world.rain.cells = {{.position = position}};
+  return world_state_from(world).rain[0];
+}
+
+WorldJammer default_jammer(geo::GeoPoint position) {
+  radar::WorldConfiguration world;
+  world.jamming.jammers = {{.name = {}, .position = position}};
+  return world_state_from(world).jammers[0];
+}
+
+WorldMover default_mover(geo::GeoPoint position, std::int64_t sim_time_ns) {
+  radar::WorldConfiguration world;
+  world.movers = {{.name = {}, .position = position}};
+  WorldMover mover = world_state_from(world).movers[0];
+  mover.since_ns = sim_time_ns;
+  return mover;
+}
+
+Expected<void> set_name(WorldJammer& jammer, std::string_view name) {
+  return store_name(jammer.name, "jammer", name);
+}
+Expected<void> set_name(WorldMover& mover, std::string_view name) {
+  return store_name(mover.name, "mover", name);
+}
+
+Expected<std::uint32_t> add(WorldState& world, WorldRainCell cell) {
+  return add_entry(world, cell);
+}
+Expected<std::uint32_t> add(WorldState& world, WorldJammer jammer) {
+  return add_entry(world, jammer);
+}
+Expected<std::uint32_t> add(WorldState& world, WorldMover mover) {
+  return add_entry(world, mover);
+}
+
+Expected<void> replace(WorldState& world, const WorldRainCell& cell) {
+  return replace_entry(world, cell);
+}
+Expected<void> replace(WorldState& world, const WorldJammer& jammer) {
+  return replace_entry(world, jammer);
+}
+Expected<void> replace(WorldState& world, const WorldMover& mover) {
+  return replace_entry(world, mover);
+}
+
+Expected<void> move(WorldState& world, WorldList list, std::uint32_t id, geo::GeoPoint position,
+                    std::int64_t sim_time_ns) {
+  switch (list) {
+    case WorldList::rain:
+      return move_entry<WorldRainCell>(world, id, position, sim_time_ns);
+    case WorldList::jammers:
+      return move_entry<WorldJammer>(world, id, position, sim_time_ns);
+    case WorldList::movers:
+      break;
+  }
+  return move_entry<WorldMover>(world, id, position, sim_time_ns);
+}
+
+Expected<void> steer(WorldState& world, std::uint32_t id, double speed_mps, double heading_deg,
+                     std::int64_t sim_time_ns) {
+  const auto found = find(list_in<WorldMover>(world), id);
+  if (!found) return tl::unexpected(found.error());
+  WorldMover steered = at_sim_time(**found, sim_time_ns);
+  steered.speed_mps = speed_mps;
+  steered.heading_deg = heading_deg;
+  return replace_entry(world, steered);
+}
+
+Expected<void> remove(WorldState& world, WorldList list, std::uint32_t id) {
+  switch (list) {
+    case WorldList::rain:
+      return remove_entry<WorldRainCell>(world, id);
+    case WorldList::jammers:
+      return remove_entry<WorldJammer>(world, id);
+    case WorldList::movers:
+      break;
+  }
+  return remove_entry<WorldMover>(world, id);
+}
+
+Expected<void> set_sea_state(WorldState& world, double state) {
+  if (auto valid = check_all("sea", {{"state", std::isnan(state) ? 0.0 : state, 0.0, 6.0, ""}}); !valid) return valid;
+  world.sea_state = state;
+  mark_changed(world);
+  return {};
+}
+
+Expected<void> set_wind(WorldState& world, double speed_mps, double from_deg) {
+  if (auto valid = check_all("wind", {{"speed", speed_mps, 0.0, 120.0, "kt", kMetresPerSecondPerKnot},
+                                      {"from", from_deg, 0.0, 360.0, "deg"}});
+      !valid)
+    return valid;
+  world.wind_speed_mps = speed_mps;
+  world.wind_from_deg = from_deg;
+  mark_changed(world);
+  return {};
+}
+
+WorldMover at_sim_time(const WorldMover& mover, std::int64_t sim_time_ns) {
+  const geo::GeodesicRay way({mover.latitude_deg, mover.longitude_deg}, geo::Bearing::degrees(mover.heading_deg));
+  const double elapsed_s = static_cast<double>(sim_time_ns - mover.since_ns) * 1e-9;
+  const auto there = way.position_and_azimuth(geo::Length::metres(mover.speed_mps * elapsed_s));
+  WorldMover now = mover;
+  now.latitude_deg = there.point.latitude_deg;
+  now.longitude_deg = there.point.longitude_deg;
+  now.heading_deg = there.azimuth.degrees();
+  now.since_ns = sim_time_ns;
+  return now;
+}
+
+}  // namespace yars::databuffer

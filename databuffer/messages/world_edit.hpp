@@ -1,0 +1,55 @@
+// Edits of a world: what an instructor changes while the set flies. Pure functions on a WorldState.
+// Inputs: a valid WorldState and the change. Outputs: the changed WorldState, without flag kWorldConfigured.
+// Units: those of the record. Messages name limits in the units of the configuration's forms: NM, ft, kt, deg.
+// Errors: a value out of range, an unknown id, a full list. The world then stays as it was.
+// Use: inside databuffer::change_world() (session_world.hpp), so that no edit of another program is lost.
+// Source: limits as in docs/configuration (forms Sea, RainCell, Jammer, Mover).
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "databuffer/messages/world_state.hpp"
+#include "lib/error/error.hpp"
+#include "lib/geo/geodesy.hpp"
+
+namespace yars::databuffer {
+
+enum class WorldList : std::uint8_t { rain, jammers, movers };
+
+// Entries with the values that hold for what a user does not give.
+WorldRainCell default_rain_cell(geo::GeoPoint position);
+WorldJammer default_jammer(geo::GeoPoint position);
+// `sim_time_ns`: sim time at which the mover is at `position`.
+WorldMover default_mover(geo::GeoPoint position, std::int64_t sim_time_ns);
+
+// Name of a jammer or mover: at most 15 characters of printable ASCII.
+error::Expected<void> set_name(WorldJammer& jammer, std::string_view name);
+error::Expected<void> set_name(WorldMover& mover, std::string_view name);
+
+// Add an entry with a new id and return the id; the id of the argument is not used.
+error::Expected<std::uint32_t> add(WorldState& world, WorldRainCell cell);
+error::Expected<std::uint32_t> add(WorldState& world, WorldJammer jammer);
+error::Expected<std::uint32_t> add(WorldState& world, WorldMover mover);
+
+// Replace the entry with the id of the argument.
+error::Expected<void> replace(WorldState& world, const WorldRainCell& cell);
+error::Expected<void> replace(WorldState& world, const WorldJammer& jammer);
+error::Expected<void> replace(WorldState& world, const WorldMover& mover);
+
+// Moves an entry to a position. A mover is there at `sim_time_ns`, and goes on with its speed and present heading.
+error::Expected<void> move(WorldState& world, WorldList list, std::uint32_t id, geo::GeoPoint position,
+                           std::int64_t sim_time_ns);
+// Gives a mover another speed and heading at its position at `sim_time_ns`.
+error::Expected<void> steer(WorldState& world, std::uint32_t id, double speed_mps, double heading_deg,
+                            std::int64_t sim_time_ns);
+error::Expected<void> remove(WorldState& world, WorldList list, std::uint32_t id);
+
+// Sea state, WMO code 3700, 0 to 6; NaN: from the wind.
+error::Expected<void> set_sea_state(WorldState& world, double state);
+error::Expected<void> set_wind(WorldState& world, double speed_mps, double from_deg);
+
+// Mover as it is at a sim time: position, heading and since_ns; all else is equal.
+WorldMover at_sim_time(const WorldMover& mover, std::int64_t sim_time_ns);
+
+}  // namespace yars::databuffer

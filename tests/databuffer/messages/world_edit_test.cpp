@@ -1,0 +1,201 @@
+// Edits of a world: each changes what it names and nothing else, and refuses what is out of range, with the limits.
+#include "databuffer/messages/world_edit.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/messages/world_values.hpp"
+
+namespace yars::databuffer {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+// A configured world with one entry of each kind and every value different from its default.
+radar::WorldConfiguration configured() {
+  radar::WorldConfiguration world;
+  world.sea.state = 3.5;
+  world.sea.wind_speed_mps = 7.7;
+  world.sea.wind_from_deg = 123.4;
+  world.rain.cells = {{{37.1, -122.1}, 9000.0, 20.0, 6000.0}};
+  world.jamming.jammers = {{"noise", {37.2, -122.2}, 300.0, 2, {1, 4, 8}, 55.0}};
+  world.movers = {{"ship", {37.3, -122.3}, 9.0, 45.0, 5000.0, 12.0, geo::Duration::seconds(1.5)}};
+  return world;
+}
+
+WorldState a_world() {
+  return world_state_from(configured());
+}
+
+bool equal_but_flags(WorldState a, WorldState b) {
+  a.flags = b.flags = {};
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+TEST(WorldValues, ARecordGivesTheConfigurationBack) {
+  const radar::WorldConfiguration world = configured();
+  const WorldState state = world_state_from(world);
+  EXPECT_EQ(validate(state), std::nullopt);
+  EXPECT_EQ(state.flags, kWorldConfigured);
+  radar::WorldConfiguration other;
+  EXPECT_TRUE(radar::changes_between(world, other).any());
+  apply(state, other);
+  EXPECT_FALSE(radar::changes_between(world, other).any());
+  EXPECT_EQ(other.jamming.jammers[0].name, "noise");
+  EXPECT_EQ(other.movers[0].name, "ship");
+}
+
+TEST(WorldValues, TheDefaultsAreValidAndValuesThatAreNotGivenStayMissing) {
+  radar::WorldConfiguration world;
+  world.jamming.jammers.emplace_back();
+  const WorldState state = world_state_from(world);
+  EXPECT_EQ(validate(state), std::nullopt);
+  EXPECT_TRUE(std::isnan(state.sea_state) && std::isnan(state.jammers[0].altitude_m));
+  EXPECT_EQ(state.jammers[0].channels, 255U);
+  radar::WorldConfiguration again;
+  apply(state, again);
+  EXPECT_FALSE(radar::changes_between(world, again).any());
+}
+
+TEST(WorldValues, LongAndForeignNamesAreCutToWhatARecordHas) {
+  radar::WorldConfiguration world;
+  world.movers.push_back({.name = "K\xC3\xB6nigin der Meere", .position = {1.0, 2.0}});
+  const WorldState state = world_state_from(world);
+  EXPECT_EQ(validate(state), std::nullopt);
+  EXPECT_STREQ(state.movers[0].name, "K??nigin der Me");
+}
+
+TEST(WorldEdit, AddsEntriesWithIdsOfTheirOwn) {
+  WorldState world = a_world();
+  EXPECT_EQ(add(world, default_rain_cell({38.0, -123.0})), 2U);
+  EXPECT_EQ(add(world, default_jammer({38.0, -123.0})), 3U);
+  EXPECT_EQ(add(world, default_mover({38.0, -123.0}, 5 * kSecond_ns)), 4U);
+  EXPECT_EQ(world.rain_count, 2U);
+  EXPECT_EQ(world.rain[1].latitude_deg, 38.0);
+  EXPECT_EQ(world.movers[1].since_ns, 5 * kSecond_ns);
+  EXPECT_EQ(validate(world), std::nullopt);
+  EXPECT_EQ(world.flags & kWorldConfigured, 0U) << "an edited world is not the configuration's";
+}
+
+TEST(WorldEdit, RemovesTheEntryWithTheIdAndKeepsTheOrderOfTheOthers) {
+  WorldState world = a_world();
+  for (const double longitude_deg : {1.0, 2.0, 3.0}) ASSERT_TRUE(add(world, default_rain_cell({0.0, longitude_deg})));
+  ASSERT_TRUE(remove(world, WorldList::rain, 2));
+  ASSERT_EQ(world.rain_count, 3U);
+  EXPECT_EQ(world.rain[1].longitude_deg, 2.0);
+  EXPECT_EQ(world.rain[2].longitude_deg, 3.0);
+  EXPECT_EQ(world.rain[3].id, 0U) << "the freed place is empty";
+  const auto again = remove(world, WorldList::rain, 2);
+  ASSERT_FALSE(again);
+  EXPECT_NE(again.error().message().find("1, 3, 4"), std::string::npos) << again.error().message();
+}
+
+TEST(WorldEdit, GivesARemovedEntrysIdToNoOther) {
+  WorldState world = a_world();
+  ASSERT_EQ(add(world, default_rain_cell({0.0, 0.0})), 2U);
+  ASSERT_TRUE(remove(world, WorldList::rain, 2));
+  EXPECT_EQ(add(world, default_rain_cell({0.0, 0.0})), 3U);
+}
+
+TEST(WorldEdit, AfterTheGreatestIdGivesTheLeastFreeOne) {
+  WorldState world = a_world();
+  world.last_id = std::numeric_limits<std::uint32_t>::max();
+  EXPECT_EQ(add(world, default_rain_cell({0.0, 0.0})), 2U) << "the configured cell has the id 1";
+  EXPECT_EQ(validate(world), std::nullopt);
+}
+
+TEST(WorldEdit, AFullListRefusesOneMore) {
+  WorldState world{};
+  for (std::size_t i = 0; i < kMaxJammers; ++i) ASSERT_TRUE(add(world, default_jammer({0.0, 0.0})));
+  const WorldState full = world;
+  const auto refused = add(world, default_jammer({0.0, 0.0}));
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message().find("at most 16"), std::string::npos) << refused.error().message();
+  EXPECT_TRUE(equal_but_flags(world, full));
+}
+
+TEST(WorldEdit, MovesAMoverFromTheGivenTimeOn) {
+  WorldState world = a_world();
+  ASSERT_TRUE(move(world, WorldList::movers, 1, {36.0, -121.0}, 60 * kSecond_ns));
+  EXPECT_EQ(world.movers[0].latitude_deg, 36.0);
+  EXPECT_EQ(world.movers[0].since_ns, 60 * kSecond_ns);
+  EXPECT_EQ(world.movers[0].speed_mps, 9.0);
+  ASSERT_TRUE(move(world, WorldList::rain, 1, {36.0, -121.0}, 60 * kSecond_ns));
+  EXPECT_EQ(world.rain[0].longitude_deg, -121.0);
+  ASSERT_TRUE(move(world, WorldList::jammers, 1, {36.0, -120.0}, 60 * kSecond_ns));
+  EXPECT_EQ(world.jammers[0].longitude_deg, -120.0);
+}
+
+TEST(WorldEdit, ASteeredMoverTurnsWhereItIs) {
+  WorldState world = a_world();
+  const std::int64_t now_ns = 3601 * kSecond_ns + kSecond_ns / 2;
+  const WorldMover before = at_sim_time(world.movers[0], now_ns);
+  const auto run = geo::geodesic_inverse({37.3, -122.3}, {before.latitude_deg, before.longitude_deg});
+  EXPECT_NEAR(run.distance.metres(), 9.0 * 3600.0, 1e-3) << "an hour at 9 m/s";
+  ASSERT_TRUE(steer(world, 1, 20.0, 270.0, now_ns));
+  EXPECT_EQ(world.movers[0].latitude_deg, before.latitude_deg);
+  EXPECT_EQ(world.movers[0].longitude_deg, before.longitude_deg);
+  EXPECT_EQ(world.movers[0].heading_deg, 270.0);
+  EXPECT_EQ(world.movers[0].speed_mps, 20.0);
+  EXPECT_EQ(world.movers[0].since_ns, now_ns);
+  EXPECT_FALSE(steer(world, 7, 20.0, 270.0, now_ns));
+}
+
+TEST(WorldEdit, ValuesOutOfRangeAreRefusedWithTheLimitsAndChangeNothing) {
+  WorldState world = a_world();
+  const WorldState before = world;
+  const auto refused = [](const auto& outcome, const char* limits) {
+    return !outcome && outcome.error().message().find(limits) != std::string::npos;
+  };
+  WorldRainCell wide = default_rain_cell({0.0, 0.0});
+  wide.radius_m = 200'000.0;
+  EXPECT_TRUE(refused(add(world, wide), "0.1 to 100 NM"));
+  WorldMover fast = world.movers[0];
+  fast.speed_mps = 600.0;
+  EXPECT_TRUE(refused(replace(world, fast), "0 to 1000 kt"));
+  WorldJammer lost = world.jammers[0];
+  lost.latitude_deg = kNaN;
+  EXPECT_TRUE(refused(replace(world, lost), "-90 to 90 deg"));
+  EXPECT_TRUE(refused(move(world, WorldList::rain, 1, {0.0, 181.0}, 0), "-180 to 180 deg"));
+  EXPECT_TRUE(refused(set_sea_state(world, 6.1), "0 to 6"));
+  EXPECT_TRUE(refused(set_wind(world, 62.0, 0.0), "0 to 120 kt"));
+  EXPECT_TRUE(refused(set_wind(world, 5.0, -1.0), "0 to 360 deg"));
+  EXPECT_TRUE(refused(set_name(lost, "a name of 16 chr"), "at most 15 characters"));
+  EXPECT_TRUE(refused(set_name(lost, "\x1b[2J"), "printable ASCII"));
+  EXPECT_TRUE(equal_but_flags(world, before));
+}
+
+TEST(WorldEdit, TheLimitsThemselvesAreValid) {
+  WorldState world{};
+  WorldRainCell cell = default_rain_cell({90.0, 180.0});
+  cell.radius_m = 100.0 * geo::kMetresPerNauticalMile;
+  cell.top_m = 60'000.0 * geo::kMetresPerFoot;
+  EXPECT_TRUE(add(world, cell));
+  WorldMover mover = default_mover({-90.0, -180.0}, 0);
+  mover.speed_mps = geo::Speed::knots(1000.0).metres_per_second();
+  mover.height_m = 1000.0 * geo::kMetresPerFoot;
+  mover.heading_deg = 360.0;
+  EXPECT_TRUE(add(world, mover));
+  EXPECT_TRUE(set_wind(world, geo::Speed::knots(120.0).metres_per_second(), 360.0));
+  EXPECT_TRUE(set_sea_state(world, kNaN));
+  EXPECT_EQ(validate(world), std::nullopt);
+}
+
+TEST(WorldEdit, ARecordWithTwoEqualIdsIsRefused) {
+  WorldState world = a_world();
+  ASSERT_TRUE(add(world, default_mover({0.0, 0.0}, 0)));
+  world.movers[1].id = world.movers[0].id;
+  const auto refusal = validate(world);
+  ASSERT_TRUE(refusal);
+  EXPECT_NE(refusal->find("movers[1].id"), std::string::npos) << *refusal;
+  world.mover_count = 1;
+  EXPECT_EQ(validate(world), std::nullopt) << "entries behind the count are not in use";
+}
+
+}  // namespace
+}  // namespace yars::databuffer

@@ -1,0 +1,149 @@
+// Changes of a session's world: each builds on the newest one, and several programs at once lose none.
+#include "databuffer/session/session_world.hpp"
+
+#include <gtest/gtest.h>
+
+#include <thread>
+#include <vector>
+
+#include "databuffer/messages/validation.hpp"
+#include "databuffer/messages/world_edit.hpp"
+#include "databuffer/messages/world_values.hpp"
+#include "tests/databuffer/session/open_session.hpp"
+
+namespace yars::databuffer {
+namespace {
+
+class SessionWorldTest : public testing::OpenSessionTest {
+ protected:
+  // A radar-model that has published its configuration's world.
+  void start_model() {
+    auto claim = model_.claim(Role::radar_model);
+    ASSERT_TRUE(claim);
+    role_ = std::move(*claim);
+    radar::WorldConfiguration world;
+    world.sea.state = 2.0;
+    const WorldState configured = world_state_from(world);
+    model_.layout().world_configured.publish(configured);
+    model_.layout().world_latched.publish(configured);
+  }
+  void latch() {
+    WorldState wanted{};
+    ASSERT_TRUE(model_.layout().world.read(wanted));
+    model_.layout().world_latched.publish(wanted);
+  }
+  static error::Expected<WorldState> set_sea(Session& session, double state) {
+    return change_world(session, [state](const WorldState& before) -> error::Expected<WorldState> {
+      WorldState next = before;
+      if (auto done = set_sea_state(next, state); !done) return tl::unexpected(done.error());
+      return next;
+    });
+  }
+  static error::Expected<WorldState> add_rain(Session& session) {
+    return change_world(session, [](const WorldState& before) -> error::Expected<WorldState> {
+      WorldState next = before;
+      if (auto id = add(next, default_rain_cell({0.0, 0.0})); !id) return tl::unexpected(id.error());
+      return next;
+    });
+  }
+
+  Session model_ = open("radar-model");
+  Claim role_;
+};
+
+TEST_F(SessionWorldTest, WithoutARadarModelAChangeIsRefused) {
+  const auto refused = set_sea(model_, 3.0);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message().find("radar-model"), std::string::npos) << refused.error().message();
+  EXPECT_FALSE(newest_world(model_.layout()));
+}
+
+TEST_F(SessionWorldTest, AChangeBuildsOnTheOneThatIsNotLatchedYet) {
+  start_model();
+  ASSERT_TRUE(set_sea(model_, 5.0));
+  const auto second = add_rain(model_);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->edit, 2U);
+  EXPECT_EQ(second->sea_state, 5.0);
+  EXPECT_EQ(second->rain_count, 1U);
+  EXPECT_EQ(world_in_effect(model_.layout())->edit, 0U);
+  EXPECT_EQ(newest_world(model_.layout())->edit, 2U);
+  latch();
+  EXPECT_EQ(world_in_effect(model_.layout())->edit, 2U);
+}
+
+TEST_F(SessionWorldTest, ARefusedChangeLeavesTheWorldAsItIs) {
+  start_model();
+  EXPECT_FALSE(set_sea(model_, 9.0));
+  EXPECT_FALSE(change_world(model_, [](WorldState world) -> error::Expected<WorldState> {
+    world.wind_speed_mps = -1.0;
+    return world;
+  }));
+  EXPECT_FALSE(model_.layout().world.has_value());
+  EXPECT_FALSE(model_.role_is_held(Role::instructor));
+}
+
+TEST_F(SessionWorldTest, AResetGivesTheConfigurationsWorldAlsoBeforeItIsLatched) {
+  start_model();
+  ASSERT_TRUE(set_sea(model_, 5.0));
+  latch();
+  const auto reset = reset_world(model_);
+  ASSERT_TRUE(reset);
+  EXPECT_EQ(reset->edit, 2U);
+  EXPECT_EQ(reset->sea_state, 2.0);
+  EXPECT_NE(reset->flags & kWorldConfigured, 0U);
+  EXPECT_EQ(add_rain(model_)->sea_state, 2.0);
+  latch();
+  const std::uint32_t id = world_in_effect(model_.layout())->rain[0].id;
+  ASSERT_TRUE(reset_world(model_));
+  EXPECT_GT(add_rain(model_)->rain[0].id, id) << "a reset gives no id again";
+}
+
+// A replay publishes recorded worlds, and nobody latches a change.
+TEST_F(SessionWorldTest, InTheSessionOfAReplayAChangeIsRefused) {
+  start_model();
+  model_.layout().world_configured.clear();
+  const auto refused = set_sea(model_, 3.0);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message().find("replay"), std::string::npos) << refused.error().message();
+}
+
+TEST_F(SessionWorldTest, OfARadarModelOnAnotherHostAChangeIsRefused) {
+  start_model();
+  model_.layout().network.mirrored_roles = 1U << static_cast<unsigned>(Role::radar_model);
+  const auto refused = set_sea(model_, 3.0);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message().find("another host"), std::string::npos) << refused.error().message();
+}
+
+TEST_F(SessionWorldTest, ADamagedWishIsNoWorld) {
+  start_model();
+  WorldState damaged{};
+  damaged.edit = 7;
+  damaged.wind_speed_mps = -1.0;
+  model_.layout().world.publish(damaged);
+  EXPECT_EQ(newest_world(model_.layout())->edit, 0U);
+  EXPECT_EQ(set_sea(model_, 3.0)->edit, 1U);
+}
+
+TEST_F(SessionWorldTest, SeveralEditorsAtOnceLoseNoEdit) {
+  start_model();
+  constexpr int kEditors = 4, kEdits = 10;
+  std::vector<std::thread> editors;
+  for (int i = 0; i < kEditors; ++i)
+    editors.emplace_back([this] {
+      Session session = open("editor");
+      for (int edit = 0; edit < kEdits; ++edit) {
+        while (!add_rain(session)) std::this_thread::yield();  // another editor may hold the role for long
+      }
+    });
+  for (std::thread& editor : editors) editor.join();
+  const auto world = newest_world(model_.layout());
+  ASSERT_TRUE(world);
+  EXPECT_EQ(world->edit, static_cast<std::uint64_t>(kEditors * kEdits));
+  EXPECT_EQ(world->rain_count, static_cast<std::uint32_t>(kEditors * kEdits));
+  EXPECT_EQ(validate(*world), std::nullopt);
+}
+
+}  // namespace
+}  // namespace yars::databuffer

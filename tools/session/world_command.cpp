@@ -1,0 +1,396 @@
+// `yars world`: prints the world in effect, and changes it while the set flies: sea, wind, rain, jammers, movers.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "databuffer/json/world_json.hpp"
+#include "databuffer/messages/inspection.hpp"
+#include "databuffer/messages/world_edit.hpp"
+#include "databuffer/session/session_world.hpp"
+#include "lib/geo/quantity.hpp"
+#include "lib/text/plain_text.hpp"
+#include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
+
+namespace yars::tools {
+
+namespace {
+
+using databuffer::Session;
+using databuffer::WorldList;
+using databuffer::WorldState;
+using error::Expected;
+
+struct WorldOptions {
+  const CommonOptions& common;
+  bool json = false;
+};
+
+// A change, given the world before and the session's sim time. It ends with a text for the user: what was done.
+using Edit = std::function<Expected<std::string>(WorldState& world, std::int64_t sim_time_ns)>;
+
+// ---- Output
+std::string number(double value) {
+  return text::text_of_number(value);
+}
+
+std::string position_text(double latitude_deg, double longitude_deg) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.5f %.5f", latitude_deg, longitude_deg);
+  return text;
+}
+
+std::string rounded(double value, const char* unit) {
+  char text[48];
+  std::snprintf(text, sizeof text, "%.6g %s", value, unit);
+  return text;
+}
+
+std::string named(std::uint32_t id, const char* name) {
+  std::string text = std::to_string(id);
+  if (*name != '\0') text.append(" ").append(name);
+  return text;
+}
+
+void print_entries(const WorldState& world, std::int64_t sim_time_ns) {
+  for (const auto& cell : databuffer::used(world.rain, world.rain_count))
+    std::printf("rain %u: %s, radius %s, %s, top %s\n", cell.id,
+                position_text(cell.latitude_deg, cell.longitude_deg).c_str(),
+                rounded(cell.radius_m / geo::kMetresPerNauticalMile, "NM").c_str(),
+                rounded(cell.rate_mmh, "mm/h").c_str(), rounded(cell.top_m / geo::kMetresPerFoot, "ft").c_str());
+  for (const auto& jammer : databuffer::used(world.jammers, world.jammer_count))
+    std::printf("jammer %s: %s, %s, band %s, %s\n", named(jammer.id, jammer.name).c_str(),
+                position_text(jammer.latitude_deg, jammer.longitude_deg).c_str(),
+                std::isnan(jammer.altitude_m) ? "10 m above ground"
+                                              : rounded(jammer.altitude_m / geo::kMetresPerFoot, "ft").c_str(),
+                databuffer::band_name(jammer.band), rounded(jammer.power_w, "W").c_str());
+  for (const auto& mover : databuffer::used(world.movers, world.mover_count)) {
+    const auto now = databuffer::at_sim_time(mover, sim_time_ns);
+    std::printf("mover %s: %s, %s, heading %s, %s\n", named(now.id, now.name).c_str(),
+                position_text(now.latitude_deg, now.longitude_deg).c_str(),
+                rounded(geo::Speed::metres_per_second(now.speed_mps).knots(), "kt").c_str(),
+                rounded(now.heading_deg, "deg").c_str(), rounded(now.cross_section_m2, "m2").c_str());
+  }
+}
+
+bool is_in_effect(const Session& session, const WorldState& world) {
+  const auto in_effect = databuffer::world_in_effect(session.layout());
+  return in_effect && in_effect->edit == world.edit;
+}
+
+// Prints a world; `done`: line about a change that led to it, or empty.
+void report(const Session& session, const WorldState& world, const std::string& done, bool json) {
+  const std::int64_t now_ns = session.reached_sim_time_ns();
+  const bool in_effect = is_in_effect(session, world);
+  if (json) {
+    auto object = databuffer::world_json(world, now_ns);
+    object["in_effect"] = in_effect;
+    return print_json(object);
+  }
+  const char* waiting = in_effect ? "" : "; radar-model latches it at its next tick (frozen clock: yars sim run)";
+  if (!done.empty()) {
+    std::printf("%s; edit %llu%s\n", done.c_str(), static_cast<unsigned long long>(world.edit), waiting);
+    return;
+  }
+  std::printf("edit %llu%s%s\n", static_cast<unsigned long long>(world.edit),
+              (world.flags & databuffer::kWorldConfigured) != 0U ? ", the configuration's world" : "", waiting);
+  std::printf("sea state %s, wind %s from %s\n",
+              std::isnan(world.sea_state) ? "from the wind" : number(world.sea_state).c_str(),
+              rounded(geo::Speed::metres_per_second(world.wind_speed_mps).knots(), "kt").c_str(),
+              rounded(world.wind_from_deg, "deg").c_str());
+  print_entries(world, now_ns);
+}
+
+void print_world(const WorldOptions& options) {
+  const auto session = Session::open_read_only(options.common.session);
+  if (!session) throw_failure(session.error());
+  const auto world = databuffer::newest_world(std::as_const(*session).layout());
+  if (!world)
+    throw_failure(
+        {"world", "a world that radar-model has published", "none", "start radar-model, or let it run a tick", false});
+  report(*session, *world, "", options.json);
+}
+
+// ---- Changes
+Session open_session(const CommonOptions& common) {
+  // A command that changes the world makes no session.
+  if (const auto running = Session::open_read_only(common.session); !running) throw_failure(running.error());
+  auto session = Session::open(common.session, "yars world");
+  if (!session) throw_failure(session.error());
+  return std::move(*session);
+}
+
+// radar-model latches a change within a tick if the clock runs.
+WorldState await_effect(const Session& session, const WorldState& world) {
+  constexpr int kAttempts = 40;
+  for (int attempt = 0; attempt < kAttempts && !is_in_effect(session, world); ++attempt)
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  return is_in_effect(session, world) ? databuffer::world_in_effect(session.layout()).value_or(world) : world;
+}
+
+void change(const WorldOptions& options, const Edit& edit) {
+  Session session = open_session(options.common);
+  const std::int64_t now_ns = session.reached_sim_time_ns();
+  std::string done;
+  const auto changed = databuffer::change_world(session, [&](const WorldState& before) -> Expected<WorldState> {
+    WorldState next = before;
+    auto outcome = edit(next, now_ns);
+    if (!outcome) return tl::unexpected(outcome.error());
+    done = std::move(*outcome);
+    return next;
+  });
+  if (!changed) throw_failure(changed.error());
+  report(session, await_effect(std::as_const(session), *changed), done, options.json);
+}
+
+void reset(const WorldOptions& options) {
+  Session session = open_session(options.common);
+  const auto changed = databuffer::reset_world(session);
+  if (!changed) throw_failure(changed.error());
+  report(session, await_effect(std::as_const(session), *changed), "the configuration's world", options.json);
+}
+
+// Result of an edit without a value, as a text.
+Expected<std::string> text_if_done(Expected<void> outcome, std::string done) {
+  if (!outcome) return tl::unexpected(outcome.error());
+  return done;
+}
+
+template <class Entry>
+Expected<std::string> added(WorldState& world, const Entry& entry, const std::string& what) {
+  const auto id = databuffer::add(world, entry);
+  if (!id) return tl::unexpected(id.error());
+  return what + " " + std::to_string(*id) + " added";
+}
+
+void set_sea(const WorldOptions& options, const std::string& word) {
+  double state = std::numeric_limits<double>::quiet_NaN();
+  if (word != "auto") {
+    char* end = nullptr;
+    state = std::strtod(word.c_str(), &end);
+    if (end == word.c_str() || *end != '\0' || std::isnan(state))
+      throw_failure(error::usage_error("STATE", "a sea state from 0 to 6, or auto", '\'' + word + '\''));
+  }
+  change(options, [state, &word](WorldState& world, std::int64_t) {
+    return text_if_done(databuffer::set_sea_state(world, state),
+                        word == "auto" ? "sea state from the wind" : "sea state " + word);
+  });
+}
+
+struct Place {
+  double latitude_deg = 0.0, longitude_deg = 0.0;
+  std::uint64_t id = 0;
+  geo::GeoPoint point() const { return {latitude_deg, longitude_deg}; }
+};
+
+void add_id(databuffer::Command command, Place& place) {
+  command.option("ID", place.id, "number of the entry, as `yars world` prints it")
+      .range(std::uint64_t{1}, std::uint64_t{std::numeric_limits<std::uint32_t>::max()})
+      .required();
+}
+
+void add_position(databuffer::Command command, Place& place) {
+  command.option("LAT", place.latitude_deg, "[deg] north positive")
+      .range(kLatitudes_deg.min, kLatitudes_deg.max)
+      .required();
+  command.option("LON", place.longitude_deg, "[deg] east positive")
+      .range(kLongitudes_deg.min, kLongitudes_deg.max)
+      .required();
+}
+
+using Shared = std::shared_ptr<WorldOptions>;
+
+databuffer::Command add_action(databuffer::Command parent, const char* name, const char* help, const Shared& options,
+                               const std::function<void()>& call) {
+  databuffer::Command command = parent.subcommand(name, help);
+  add_json_flag(command, options->json);
+  command.callback(call);
+  return command;
+}
+
+// `move` and `remove` of one list.
+void add_move_and_remove(databuffer::Command list_command, WorldList list, const std::string& what,
+                         const Shared& options) {
+  const auto place = std::make_shared<Place>();
+  databuffer::Command moving =
+      add_action(list_command, "move", "move an entry to a position", options, [options, place, list, what] {
+        change(*options, [&](WorldState& world, std::int64_t now_ns) {
+          const auto id = static_cast<std::uint32_t>(place->id);
+          return text_if_done(databuffer::move(world, list, id, place->point(), now_ns),
+                              what + " " + std::to_string(id) + " moved");
+        });
+      });
+  add_id(moving, *place);
+  add_position(moving, *place);
+  databuffer::Command removing =
+      add_action(list_command, "remove", "remove an entry", options, [options, place, list, what] {
+        change(*options, [&](WorldState& world, std::int64_t) {
+          const auto id = static_cast<std::uint32_t>(place->id);
+          return text_if_done(databuffer::remove(world, list, id), what + " " + std::to_string(id) + " removed");
+        });
+      });
+  add_id(removing, *place);
+}
+
+void add_rain(databuffer::Command parent, const Shared& options) {
+  struct Values {
+    Place place;
+    double radius_nm = 5.0, rate_mmh = 10.0, top_ft = 15'000.0;
+  };
+  databuffer::Command rain = parent.subcommand("rain", "rain cells");
+  rain.require_subcommand();
+  const auto values = std::make_shared<Values>();
+  databuffer::Command command = add_action(rain, "add", "add a rain cell", options, [options, values] {
+    change(*options, [&](WorldState& world, std::int64_t) {
+      auto cell = databuffer::default_rain_cell(values->place.point());
+      cell.radius_m = values->radius_nm * geo::kMetresPerNauticalMile;
+      cell.rate_mmh = values->rate_mmh;
+      cell.top_m = values->top_ft * geo::kMetresPerFoot;
+      return added(world, cell, "rain cell");
+    });
+  });
+  add_position(command, values->place);
+  command.option("--radius-nm", values->radius_nm, "[NM] radius of the rim").range(0.1, 100.0);
+  command.option("--rate", values->rate_mmh, "[mm/h] rain rate at the axis").range(0.1, 300.0);
+  command.option("--top-ft", values->top_ft, "[ft] top above mean sea level").range(500.0, 60'000.0);
+  add_move_and_remove(rain, WorldList::rain, "rain cell", options);
+}
+
+void add_jammer(databuffer::Command parent, const Shared& options) {
+  struct Values {
+    Place place;
+    std::string name, band = "all";
+    std::optional<double> altitude_ft;
+    double power_w = 10.0;
+    std::vector<double> channels;
+  };
+  databuffer::Command jammer = parent.subcommand("jammer", "noise jammers");
+  jammer.require_subcommand();
+  const auto values = std::make_shared<Values>();
+  databuffer::Command command = add_action(jammer, "add", "add a jammer", options, [options, values] {
+    change(*options, [&](WorldState& world, std::int64_t) -> Expected<std::string> {
+      auto entry = databuffer::default_jammer(values->place.point());
+      if (auto named_entry = databuffer::set_name(entry, values->name); !named_entry)
+        return tl::unexpected(named_entry.error());
+      if (values->altitude_ft) entry.altitude_m = *values->altitude_ft * geo::kMetresPerFoot;
+      entry.power_w = values->power_w;
+      entry.band = values->band == "all" ? -1 : values->band.front() - 'A';
+      if (!values->channels.empty()) entry.channels = 0;
+      for (const double channel : values->channels) entry.channels |= 1U << (static_cast<unsigned>(channel) - 1U);
+      return added(world, entry, "jammer");
+    });
+  });
+  add_position(command, values->place);
+  command.option("--name", values->name, "name, at most 15 characters");
+  command.option("--altitude-ft", values->altitude_ft, "[ft] above mean sea level")
+      .range(-1500.0, 100'000.0)
+      .otherwise("a mast of 10 m on the ground");
+  command.option("--band", values->band, "jammed band").one_of({"A", "B", "C", "D", "E", "all"});
+  command.option("--channel", values->channels, "jammed channel; repeatable")
+      .one_of({"1", "2", "3", "4", "5", "6", "7", "8"})
+      .repeatable()
+      .otherwise("all channels");
+  command.option("--power", values->power_w, "[W] effective radiated power in the receiver's bandwidth")
+      .range(0.0, 1e9);
+  add_move_and_remove(jammer, WorldList::jammers, "jammer", options);
+}
+
+void add_steer(databuffer::Command mover, const Shared& options) {
+  struct Values {
+    Place place;
+    double speed_kt = 0.0, heading_deg = 0.0;
+  };
+  const auto values = std::make_shared<Values>();
+  databuffer::Command command =
+      add_action(mover, "steer", "change speed and heading where the mover is", options, [options, values] {
+        change(*options, [&](WorldState& world, std::int64_t now_ns) {
+          const auto id = static_cast<std::uint32_t>(values->place.id);
+          const double speed_mps = geo::Speed::knots(values->speed_kt).metres_per_second();
+          return text_if_done(databuffer::steer(world, id, speed_mps, values->heading_deg, now_ns),
+                              "mover " + std::to_string(id) + " steered");
+        });
+      });
+  add_id(command, values->place);
+  command.option("SPEED_KT", values->speed_kt, "[kt] over ground").range(0.0, 1000.0).required();
+  command.option("HDG", values->heading_deg, "[deg] true").range(0.0, 360.0).required();
+}
+
+void add_mover(databuffer::Command parent, const Shared& options) {
+  struct Values {
+    Place place;
+    std::string name;
+    double speed_kt = 0.0, heading_deg = 0.0, cross_section_m2 = 1000.0, height_ft = 20.0;
+  };
+  databuffer::Command mover = parent.subcommand("mover", "moving targets: ships and vehicles");
+  mover.require_subcommand();
+  const auto values = std::make_shared<Values>();
+  databuffer::Command command = add_action(mover, "add", "add a moving target", options, [options, values] {
+    change(*options, [&](WorldState& world, std::int64_t now_ns) -> Expected<std::string> {
+      auto entry = databuffer::default_mover(values->place.point(), now_ns);
+      if (auto named_entry = databuffer::set_name(entry, values->name); !named_entry)
+        return tl::unexpected(named_entry.error());
+      entry.speed_mps = geo::Speed::knots(values->speed_kt).metres_per_second();
+      entry.heading_deg = values->heading_deg;
+      entry.cross_section_m2 = values->cross_section_m2;
+      entry.height_m = values->height_ft * geo::kMetresPerFoot;
+      return added(world, entry, "mover");
+    });
+  });
+  add_position(command, values->place);
+  command.option("--name", values->name, "name, at most 15 characters");
+  command.option("--speed-kt", values->speed_kt, "[kt] over ground").range(0.0, 1000.0);
+  command.option("--heading", values->heading_deg, "[deg] true").range(0.0, 360.0);
+  command.option("--cross-section", values->cross_section_m2, "[m2] radar cross section").range(0.0, 1e7);
+  command.option("--height-ft", values->height_ft, "[ft] of the reflecting point above the ground").range(0.0, 1000.0);
+  add_move_and_remove(mover, WorldList::movers, "mover", options);
+  add_steer(mover, options);
+}
+
+void add_wind(databuffer::Command parent, const Shared& options) {
+  struct Values {
+    double speed_kt = 0.0, from_deg = 0.0;
+  };
+  const auto values = std::make_shared<Values>();
+  databuffer::Command command = add_action(parent, "wind", "set the wind over the sea", options, [options, values] {
+    change(*options, [&](WorldState& world, std::int64_t) {
+      const double speed_mps = geo::Speed::knots(values->speed_kt).metres_per_second();
+      return text_if_done(databuffer::set_wind(world, speed_mps, values->from_deg),
+                          "wind " + number(values->speed_kt) + " kt from " + number(values->from_deg) + " deg");
+    });
+  });
+  command.option("SPEED_KT", values->speed_kt, "[kt]").range(0.0, 120.0).required();
+  command.option("FROM_DEG", values->from_deg, "[deg] true direction from which it blows").range(0.0, 360.0).required();
+}
+
+}  // namespace
+
+void add_world_command(databuffer::Command app, const CommonOptions& common) {
+  databuffer::Command world = app.subcommand("world", "print or change sea, wind, rain, jammers and movers");
+  const auto options = std::make_shared<WorldOptions>(WorldOptions{common});
+  add_json_flag(world, options->json);
+  world.callback([world, options] {
+    if (!world.has_subcommand()) print_world(*options);
+  });
+  const auto state = std::make_shared<std::string>();
+  add_action(world, "sea", "set the sea state", options, [options, state] { set_sea(*options, *state); })
+      .option("STATE", *state, "WMO code 3700, 0 to 6; auto: from the wind")
+      .required();
+  add_wind(world, options);
+  add_rain(world, options);
+  add_jammer(world, options);
+  add_mover(world, options);
+  add_action(world, "reset", "the configuration's world", options, [options] { reset(*options); });
+}
+
+}  // namespace yars::tools
