@@ -67,7 +67,7 @@ class Arguments {
 
 using Make = InstructorCommand (*)(Arguments& arguments);
 
-constexpr std::array<std::pair<std::string_view, Make>, 13> kCommands{{
+constexpr std::array<std::pair<std::string_view, Make>, 14> kCommands{{
     {"run", [](Arguments&) -> InstructorCommand { return SetRunning{true}; }},
     {"freeze", [](Arguments&) -> InstructorCommand { return SetRunning{false}; }},
     {"rate", [](Arguments& of) -> InstructorCommand { return SetRate{of.number("rate", {0.0, kMaxRate})}; }},
@@ -83,6 +83,7 @@ constexpr std::array<std::pair<std::string_view, Make>, 13> kCommands{{
                          of.number("heading", {0.0, 360.0}),
                          of.optional_number("speed_kt", {30.0, 5000.0})};
      }},
+    {"reset world", [](Arguments&) -> InstructorCommand { return ResetWorld{}; }},
     {"kill", [](Arguments& of) -> InstructorCommand { return KillRole{of.text("role", 30)}; }},
     {"note", [](Arguments& of) -> InstructorCommand { return WriteNote{of.text("text", kMaxNoteLetters)}; }},
     {"record", [](Arguments&) -> InstructorCommand { return StartRecorder{}; }},
@@ -101,7 +102,7 @@ constexpr std::array<std::pair<std::string_view, Make>, 13> kCommands{{
 std::string names_of_commands() {
   std::string names;
   for (const auto& [name, make] : kCommands) names += (names.empty() ? "" : ", ") + std::string(name);
-  return names;
+  return names + ", " + std::string(world_commands());
 }
 
 }  // namespace
@@ -110,9 +111,13 @@ Expected<InstructorMessage> instructor_message(const json& object) {
   const auto name = object.find("do"), id = object.find("id");
   const std::string word = name != object.end() && name->is_string() ? name->get<std::string>() : "";
   const auto entry = std::ranges::find_if(kCommands, [&](const auto& command) { return command.first == word; });
+  if (id == object.end() || !id->is_number_integer()) return error::fail("id", "a whole number", "something else");
+  if (auto edit = world_edit(word, object)) {
+    if (!*edit) return tl::unexpected(edit->error());
+    return InstructorMessage{id->get<std::int64_t>(), EditWorld{std::move(**edit)}};
+  }
   if (entry == kCommands.end())
     return error::fail("do", "one of " + names_of_commands(), word.empty() ? "nothing" : word.substr(0, 40));
-  if (id == object.end() || !id->is_number_integer()) return error::fail("id", "a whole number", "something else");
   Arguments arguments(object, word);
   InstructorMessage message{id->get<std::int64_t>(), entry->second(arguments)};
   if (arguments.problem()) return tl::unexpected(*arguments.problem());

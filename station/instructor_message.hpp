@@ -1,4 +1,4 @@
-// Commands of the instructor's page: the clock, the aircraft, roles, recordings.
+// Commands of the instructor's page: the clock, the aircraft, the world, roles, recordings.
 // Inputs: an object of JSON with "do", the name of a command, its arguments, and "id", a number for the answer.
 // Outputs: the command with checked arguments.
 // Errors: an unknown command, an argument that is absent or out of range; each says what was expected.
@@ -14,6 +14,7 @@
 
 #include "lib/error/error.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "station/world_message.hpp"
 
 namespace yars::station {
 
@@ -53,8 +54,12 @@ struct FlyOut {
 struct EndSet {
   std::string session;
 };
-using InstructorCommand = std::variant<SetRunning, SetRate, Step, Reset, Reposition, KillRole, WriteNote, StartRecorder,
-                                       ListRecordings, PlayRecording, FlyOut, EndSet>;
+struct EditWorld {
+  WorldEdit edit;
+};
+struct ResetWorld {};  // to that of the configuration
+using InstructorCommand = std::variant<SetRunning, SetRate, Step, Reset, Reposition, EditWorld, ResetWorld, KillRole,
+                                       WriteNote, StartRecorder, ListRecordings, PlayRecording, FlyOut, EndSet>;
 
 struct InstructorMessage {
   std::int64_t id = 0;  // of the page; the answer bears it

@@ -10,6 +10,7 @@
 
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/messages/world_values.hpp"
+#include "lib/radar/fidelity.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
@@ -286,6 +287,18 @@ Expected<void> set_wind(WorldState& world, double speed_mps, double from_deg) {
     return valid;
   world.wind_speed_mps = speed_mps;
   world.wind_from_deg = from_deg;
+  mark_changed(world);
+  return {};
+}
+
+Expected<void> set_fidelity(WorldState& world, std::string_view preset) {
+  if (!preset.empty() && !radar::fidelity_preset(preset)) {
+    std::string names;
+    for (const std::string_view name : radar::fidelity_names()) names += std::string(name) + ", ";
+    return fail("fidelity", names + "or an empty text for the configured one", std::string(preset.substr(0, 40)));
+  }
+  std::fill(std::begin(world.fidelity), std::end(world.fidelity), '\0');
+  preset.copy(world.fidelity, sizeof world.fidelity - 1);
   mark_changed(world);
   return {};
 }

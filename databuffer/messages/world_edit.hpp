@@ -49,6 +49,9 @@ error::Expected<void> remove(WorldState& world, WorldList list, std::uint32_t id
 error::Expected<void> set_sea_state(WorldState& world, double state);
 error::Expected<void> set_wind(WorldState& world, double speed_mps, double from_deg);
 
+// Preset of fidelity for sweeps, by its name; empty: as configured.
+error::Expected<void> set_fidelity(WorldState& world, std::string_view preset);
+
 // Mover as it is at a sim time: position, heading and since_ns; all else is equal.
 WorldMover at_sim_time(const WorldMover& mover, std::int64_t sim_time_ns);
 

@@ -14,6 +14,7 @@
 #include "lib/log/log.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/mapping.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/kernel/map_schedule.hpp"
 #include "model/kernel/tick_inputs.hpp"
 
@@ -144,7 +145,7 @@ void RadarModelShell::govern(double elapsed_s, double rate) {
   governor_.record_load(scan_time_s_ / (scan_ticks_ * radar::kTickSeconds));
   scan_time_s_ = 0.0;
   scan_ticks_ = 0;
-  if (governor_.preset() == fidelity_.name) return;
+  if (selected_fidelity_ || governor_.preset() == fidelity_.name) return;
   fidelity_ = *radar::fidelity_preset(governor_.preset());
   log::info("fidelity " + fidelity_.name);
 }
@@ -191,8 +192,18 @@ void RadarModelShell::latch_world() {
     layout.world_latched.publish(latched);
     kernel_.use_world(world);
     targets_.movers = physics::moving_points(world);
+    select_fidelity(text::text_of(latched.fidelity));
   }
   tick_.world = layout.world_latched.next();
+}
+
+// The kernel changes to the preset that a tick names when a scan begins. An unknown name selects the configured one.
+void RadarModelShell::select_fidelity(std::string_view preset) {
+  const auto selected = radar::fidelity_preset(preset);
+  if (!selected && !selected_fidelity_) return;
+  selected_fidelity_ = selected.has_value();
+  fidelity_ = selected.value_or(configuration_->fidelity);
+  log::info("fidelity " + fidelity_.name);
 }
 
 void RadarModelShell::run_kernel() {

@@ -46,6 +46,7 @@ class RadarModelShell {
   void latch_command();
   void latch_traffic();
   void latch_world();
+  void select_fidelity(std::string_view preset);
   void announce_jump(const databuffer::Ownship& ownship, std::uint32_t lane);
   void latch_fidelity();
   void govern(double elapsed_s, double rate);
@@ -78,7 +79,8 @@ class RadarModelShell {
   std::uint64_t previous_late_ticks_ = 0;           // ticks that previous processes skipped
   double load_ = 0.0;                               // processor time per tick / 5 ms, smoothed
   kernel::FidelityGovernor governor_;
-  radar::Fidelity fidelity_;                          // selected by the governor, or configured
+  radar::Fidelity fidelity_;         // selected by the instructor or the governor, or configured
+  bool selected_fidelity_ = false;  // by the instructor
   double scan_time_s_ = 0.0;                          // processor time of the current scan, multiplied by clock rate
   std::uint32_t scan_ticks_ = 0, governed_scan_ = 0;  // ticks and number of the current scan
   bool first_tick_ = true;

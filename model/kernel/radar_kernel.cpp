@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "lib/radar/mapping.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/kernel/scan_state.hpp"
 #include "model/kernel/tick_inputs.hpp"
 
@@ -89,7 +90,10 @@ bool RadarKernel::step(const ModelTick& tick, const physics::Environment& enviro
     state.pose = pose;
     state.pose_fresh = true;
   }
-  if (!state.configuration.fidelity.automatic) state.use_samples(tick.samples);
+  // The samples are those of the preset that the tick names, which comes into use when a scan begins.
+  const std::string_view preset = text::text_of(tick.fidelity);
+  const bool is_in_use = preset.empty() || preset == state.configuration.fidelity.name;
+  if (!state.configuration.fidelity.automatic && is_in_use) state.use_samples(tick.samples);
   if (!state.pose) {
     state.command = tick.command;
     return false;

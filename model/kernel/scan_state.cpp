@@ -149,12 +149,11 @@ void ScanState::use_samples(std::uint32_t samples) {
 void ScanState::use_fidelity(const ModelTick& input) {
   const std::string_view name = text::text_of(input.fidelity);
   if (name == configuration.fidelity.name) return;
-  const auto preset = radar::fidelity_preset(name);
+  const auto preset = name == configured_fidelity.name ? std::optional(configured_fidelity) : radar::fidelity_preset(name);
   if (!preset) return;
-  const radar::Fidelity before = configuration.fidelity;
   configuration.fidelity = *preset;
-  configuration.fidelity.automatic = true;
-  configuration.fidelity.core_share = before.core_share;
+  configuration.fidelity.automatic = configured_fidelity.automatic;
+  configuration.fidelity.core_share = configured_fidelity.core_share;
   beam_chain = SweepChain(configuration);
   dbs_settings = dbs_configuration(configuration);
   dbs_chain = SweepChain(dbs_settings);
@@ -188,7 +187,7 @@ void ScanState::start_scan(const databuffer::RadarCommand& request) {
 bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& step,
                            const physics::Environment& environment, databuffer::Sweep& sweep) {
   if (step.scan_start || scan_range_m <= 0.0) {
-    if (configuration.fidelity.automatic) use_fidelity(input);
+    use_fidelity(input);
     start_scan(input.command);
   }
   SweepHeader header{pose->position,

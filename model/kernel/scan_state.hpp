@@ -47,6 +47,7 @@ inline bool frozen_by(const databuffer::RadarCommand& command) {
 struct ScanState {
   explicit ScanState(const radar::RadarConfiguration& initial)
       : configuration(initial),
+        configured_fidelity(initial.fidelity),
         dbs_settings(dbs_configuration(initial)),
         antenna(initial.antenna),
         beam_chain(initial),
@@ -82,6 +83,7 @@ struct ScanState {
   void write_status(ModelStatus& status) const;
 
   radar::RadarConfiguration configuration;
+  radar::Fidelity configured_fidelity;  // that of `configuration` changes with the ticks
   radar::RadarConfiguration dbs_settings;  // from dbs_configuration()
   antenna::Antenna antenna;
   SweepChain beam_chain;

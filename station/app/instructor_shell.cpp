@@ -11,11 +11,14 @@
 #include <vector>
 
 #include "databuffer/json/status_json.hpp"
+#include "databuffer/json/world_json.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/session_world.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/log/log.hpp"
+#include "lib/text/plain_text.hpp"
 #include "station/theatre_json.hpp"
 
 namespace yars::station {
@@ -55,6 +58,11 @@ ordered_json patches_json(const databuffer::SessionLayout& layout) {
   ordered_json list = ordered_json::array();
   for (const databuffer::PatchMap& map : maps) list.push_back(patch_json(map));
   return list;
+}
+
+Expected<void> without_value(const Expected<databuffer::WorldState>& changed) {
+  if (!changed) return tl::unexpected(changed.error());
+  return {};
 }
 
 }  // namespace
@@ -101,6 +109,7 @@ std::string InstructorShell::state_message() const {
   const auto& layout = std::as_const(*session_).layout();
   const auto radar = databuffer::read_valid(layout.radar_state);
   const auto model = databuffer::read_valid(layout.model_status).value_or(databuffer::ModelStatus{});
+  const auto world = databuffer::newest_world(layout);
   ordered_json state{{"session", name_},
                      {"clock", clock_json(*session_)},
                      {"aircraft", aircraft_json(model)},
@@ -108,6 +117,10 @@ std::string InstructorShell::state_message() const {
                      {"patches", patches_json(layout)},
                      {"forming", forming_json(model)},
                      {"navigators", radar ? navigators_json(*radar) : ordered_json(nullptr)},
+                     {"world", world ? databuffer::world_json(*world, session_->reached_sim_time_ns()) : ordered_json(nullptr)},
+                     {"fidelity",
+                      {{"wanted", world ? std::string(text::text_of(world->fidelity)) : std::string()},
+                       {"used", std::string(text::text_of(model.fidelity))}}},
                      {"status", status_}};
   return ordered_json{{"instructor", std::move(state)}}.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
 }
@@ -182,6 +195,11 @@ Expected<void> InstructorShell::execute(const InstructorCommand& command) {
     if (move->speed_kt) to.ground_speed = geo::Speed::knots(*move->speed_kt);
     return begin_epoch([&](const ClockState& clock) { return databuffer::repositioned(clock, to); });
   }
+  if (const auto* edit = std::get_if<EditWorld>(&command))
+    return without_value(databuffer::change_world(*session_, [&](const databuffer::WorldState& world) {
+      return edit->edit(world, session_->reached_sim_time_ns());
+    }));
+  if (std::holds_alternative<ResetWorld>(command)) return without_value(databuffer::reset_world(*session_));
   if (const auto* kill = std::get_if<KillRole>(&command)) return kill_role(kill->role);
   if (const auto* note = std::get_if<WriteNote>(&command)) {
     session_->note(databuffer::NoteKind::supervision, "instructor: " + note->text);

@@ -192,7 +192,7 @@ class InstructorPage {
 
   private listenToSet(): void {
     const fidelity = element<HTMLSelectElement>("fidelity");
-    fidelity.addEventListener("change", () => void this.order("fidelity", { preset: fidelity.value }));
+    fidelity.addEventListener("change", () => void this.order("fidelity", { preset: fidelity.value === this.theatre?.fidelity ? "" : fidelity.value }));
     this.onClick("record", () => {
       if (this.state?.status?.recorder) this.connection.event("pb 12");
       else void this.order("record");
@@ -250,10 +250,11 @@ class InstructorPage {
   private showSet(state: InstructorState): void {
     const { status } = state;
     const { fidelity } = state;
-    const choices = [...new Set([fidelity.configured, ...Object.keys(PRESETS)])];
-    fill("fidelity", choices.join(), () => choices.map((name) => new Option(name === fidelity.configured ? `${name} (configured)` : name, name)));
+    const configured = this.theatre?.fidelity ?? fidelity.used;
+    const choices = [...new Set([configured, ...Object.keys(PRESETS)])];
+    fill("fidelity", choices.join(), () => choices.map((name) => new Option(name === configured ? `${name} (configured)` : name, name)));
     const dial = element<HTMLSelectElement>("fidelity");
-    if (document.activeElement !== dial) dial.value = fidelity.wanted || fidelity.configured;
+    if (document.activeElement !== dial) dial.value = fidelity.wanted || configured;
     say("fidelity_error", `in use: ${fidelity.used}. Error: ${PRESETS[fidelity.used] ?? "not measured"}`);
     if (!status) return;
     say("health", status.health.state === "OK" ? "OK" : `${status.health.state}: ${status.health.reasons.join("; ")}`);

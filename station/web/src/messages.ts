@@ -69,7 +69,7 @@ export interface InstructorState {
   patches: PatchEntry[];
   forming: { progress: number | null; corners: [number, number][] } | null;
   world: World | null;
-  fidelity: { wanted: string; used: string; configured: string };
+  fidelity: { wanted: string; used: string }; // presets; wanted empty: the configured one
   navigators: { mission: NavigatorError; ins: NavigatorError } | null;
   status: {
     roles: RoleEntry[];

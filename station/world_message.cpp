@@ -1,0 +1,158 @@
+#include "station/world_message.hpp"
+
+#include <cmath>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "databuffer/messages/inspection.hpp"
+#include "databuffer/messages/world_edit.hpp"
+#include "lib/geo/quantity.hpp"
+
+namespace yars::station {
+
+namespace {
+
+using databuffer::WorldList;
+using databuffer::WorldState;
+using error::Expected;
+using nlohmann::json;
+
+constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
+
+// Number of an object; NaN if it is absent or something else.
+double number(const json& object, const char* name) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_number() ? found->get<double>() : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::string text(const json& object, const char* name) {
+  const auto found = object.find(name);
+  return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::optional<WorldList> list_of(const json& object) {
+  const std::string name = text(object, "list");
+  if (name == "rain") return WorldList::rain;
+  if (name == "jammers") return WorldList::jammers;
+  if (name == "movers") return WorldList::movers;
+  return std::nullopt;
+}
+
+// Ids of entries are whole numbers from 1; 0 for anything else, which no entry has.
+std::uint32_t item_of(const json& object) {
+  const double id = number(object, "item");
+  return id >= 1.0 && id <= 4294967295.0 ? static_cast<std::uint32_t>(id) : 0;
+}
+
+// The world after `change(world)`, or its error.
+template <class Change>
+WorldEdit edit_by(Change change) {
+  return [change](WorldState world, std::int64_t sim_time_ns) -> Expected<WorldState> {
+    auto done = change(world, sim_time_ns);
+    if (!done) return tl::unexpected(done.error());
+    return world;
+  };
+}
+
+Expected<WorldEdit> refused(const char* subject, const char* expected) {
+  return error::fail(subject, expected, "something else");
+}
+
+Expected<WorldEdit> add_edit(WorldList list, geo::GeoPoint position) {
+  switch (list) {
+    case WorldList::rain:
+      return edit_by([=](WorldState& world, std::int64_t) { return add(world, databuffer::default_rain_cell(position)); });
+    case WorldList::jammers:
+      return edit_by([=](WorldState& world, std::int64_t) { return add(world, databuffer::default_jammer(position)); });
+    case WorldList::movers:
+      return edit_by([=](WorldState& world, std::int64_t sim_time_ns) {
+        return add(world, databuffer::default_mover(position, sim_time_ns));
+      });
+  }
+  return refused("list", "rain, jammers or movers");
+}
+
+// Replaces the values of an entry that the object has.
+Expected<WorldEdit> change_edit(WorldList list, std::uint32_t id, const json& object) {
+  const auto changed = [](auto entries, std::uint32_t wanted) {
+    for (const auto& entry : entries)
+      if (entry.id == wanted) return entry;
+    typename decltype(entries)::value_type absent{};
+    absent.id = wanted;
+    return absent;
+  };
+  switch (list) {
+    case WorldList::rain: {
+      const double radius_nm = number(object, "radius_nm"), rate_mmh = number(object, "rate_mmh"), top_ft = number(object, "top_ft");
+      return edit_by([=](WorldState& world, std::int64_t) {
+        auto cell = changed(databuffer::used(std::as_const(world.rain), world.rain_count), id);
+        cell.radius_m = radius_nm * geo::kMetresPerNauticalMile;
+        cell.rate_mmh = rate_mmh;
+        cell.top_m = top_ft * geo::kMetresPerFoot;
+        return replace(world, cell);
+      });
+    }
+    case WorldList::jammers: {
+      const double power_w = number(object, "power_w");
+      return edit_by([=](WorldState& world, std::int64_t) {
+        auto jammer = changed(databuffer::used(std::as_const(world.jammers), world.jammer_count), id);
+        jammer.power_w = power_w;
+        return replace(world, jammer);
+      });
+    }
+    case WorldList::movers: {
+      const double speed_kt = number(object, "speed_kt"), heading_deg = number(object, "heading_deg");
+      return edit_by([=](WorldState& world, std::int64_t sim_time_ns) {
+        return steer(world, id, speed_kt * kMetresPerSecondPerKnot, heading_deg, sim_time_ns);
+      });
+    }
+  }
+  return refused("list", "rain, jammers or movers");
+}
+
+Expected<WorldEdit> entry_edit(std::string_view command, const json& object) {
+  const auto list = list_of(object);
+  if (!list) return refused("list", "rain, jammers or movers");
+  const std::uint32_t id = item_of(object);
+  const geo::GeoPoint position{number(object, "lat"), number(object, "lon")};
+  const bool has_position = std::isfinite(position.latitude_deg) && std::isfinite(position.longitude_deg);
+  if ((command == "add" || command == "move") && !has_position) return refused("lat, lon", "two numbers");
+  if (command == "add") return add_edit(*list, position);
+  if (command == "change") return change_edit(*list, id, object);
+  if (command == "move")
+    return edit_by([=, list = *list](WorldState& world, std::int64_t sim_time_ns) {
+      return move(world, list, id, position, sim_time_ns);
+    });
+  return edit_by([=, list = *list](WorldState& world, std::int64_t) { return remove(world, list, id); });
+}
+
+}  // namespace
+
+std::string_view world_commands() {
+  return "add, move, change, remove, sea, wind, fidelity";
+}
+
+std::optional<Expected<WorldEdit>> world_edit(std::string_view command, const json& object) {
+  if (command == "add" || command == "move" || command == "change" || command == "remove")
+    return entry_edit(command, object);
+  if (command == "sea") {
+    const auto state = object.find("state");
+    const bool by_wind = state != object.end() && state->is_null();
+    const double value = number(object, "state");
+    if (!by_wind && !std::isfinite(value)) return refused("state", "a number, or null: from the wind");
+    return edit_by([=](WorldState& world, std::int64_t) { return set_sea_state(world, value); });
+  }
+  if (command == "wind") {
+    const double speed_mps = number(object, "speed_kt") * kMetresPerSecondPerKnot, from_deg = number(object, "from");
+    return edit_by([=](WorldState& world, std::int64_t) { return set_wind(world, speed_mps, from_deg); });
+  }
+  if (command == "fidelity") {
+    const std::string preset = text(object, "preset");
+    return edit_by([=](WorldState& world, std::int64_t) { return set_fidelity(world, preset); });
+  }
+  return std::nullopt;
+}
+
+}  // namespace yars::station
