@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Pages of the station in Debian's Chromium, by Playwright: pages.mjs against a running set.
-usage: pages_test.py BIN [--keep]    (BIN: folder of the programs). Exit code 77: no npm, no Chromium, or no packages of npm.
+"""Pages of the station in Debian's Chromium, by Playwright: a script against a running set.
+usage: pages_test.py BIN SCRIPT    (BIN: folder of the programs; SCRIPT: pages.mjs or instructor.mjs).
+Exit code 77: no npm, no Chromium, or no packages of npm.
 
 It also checks that station/web/dist is what the sources give, and that no page loads more than 500 KB."""
 import filecmp
@@ -67,10 +68,11 @@ def main():
         skip("expected npm, found none")
     if not shutil.which("chromium"):
         skip("expected chromium, found none")
-    folder = binaries.parent / "station_web"
+    script = sys.argv[2]
+    folder = binaries.parent / f"station_web_{pathlib.Path(script).stem}"  # tests may run beside each other
     install(folder)
     check_build(folder)
-    shutil.copy(TOP / "tests/station/pages.mjs", folder)
+    shutil.copy(TOP / "tests/station" / script, folder)
     session = f"pages{os.getpid()}"
     with socket.socket() as free:  # a fixed port, at which a restarted station is found again
         free.bind(("127.0.0.1", 0))
@@ -81,11 +83,11 @@ def main():
             terrain = pathlib.Path(name) / "terrain"
             subprocess.run([binaries / "yars", "terrain", "generate", "--out", terrain, "--south=36", "--west=-123", "--level=0"], check=True,
                            stdout=subprocess.DEVNULL)
-            process = subprocess.Popen([TOP / "scripts/start", "--bin", binaries, "--session", session, "--terrain", terrain, "--headless", "300",
+            process = subprocess.Popen([TOP / "scripts/start", "--bin", binaries, "--session", session, "--terrain", terrain, "--headless", "600",
                                         "--frames", f"{name}/frames", "--every", "100", "--no-input", "--log-dir", "", "--web", "--web-port", str(port)],
-                                       stdout=out, stderr=subprocess.STDOUT)
+                                       stdout=out, stderr=subprocess.STDOUT, cwd=name)
         try:
-            done = subprocess.run(["node", "pages.mjs", address(log, process), binaries / "yars", session], cwd=folder, check=False, timeout=240)
+            done = subprocess.run(["node", script, address(log, process), binaries / "yars", session], cwd=folder, check=False, timeout=480)
             if done.returncode:
                 print(log.read_text())
             sys.exit(done.returncode)

@@ -32,7 +32,7 @@ struct SimOptions {
 
 constexpr int kMaxSteps = 1'000'000'000;  // of one `step`: 58 days of sim time
 
-Session open_session(const CommonOptions& common) {
+Session open_live_session(const CommonOptions& common) {
   auto running = Session::open_read_only(common.session);
   if (!running) throw_failure(running.error());
   if (std::as_const(*running).layout().lockstep.enabled.load() != 0)
@@ -72,7 +72,7 @@ void print_state(const SimOptions& options) {
 // Changes the clock and prints it.
 template <class Change>
 void change_and_report(const SimOptions& options, const Change& change) {
-  auto session = open_session(options.common);
+  auto session = open_live_session(options.common);
   change_clock(session, change);
   report(session, options.json);
 }
@@ -84,7 +84,7 @@ void pause_for_roles() {
 
 // Freezes the clock and advances it by a portion at a time, so that no program skips a tick.
 void step(const SimOptions& options, std::int64_t ticks) {
-  auto session = open_session(options.common);
+  auto session = open_live_session(options.common);
   const std::uint32_t epoch = session.clock().epoch;
   while (ticks > 0 && !databuffer::stop_requested()) {
     change_clock(session, [&](const ClockState& clock) {
@@ -102,7 +102,7 @@ void step(const SimOptions& options, std::int64_t ticks) {
 // Begins an epoch by a change of the clock, advances a frozen clock into it, and prints the clock.
 template <class Change>
 void begin_epoch(const SimOptions& options, const Change& change) {
-  auto session = open_session(options.common);
+  auto session = open_live_session(options.common);
   change_clock(session, change);
   if (session.clock().running == 0) {
     pause_for_roles();

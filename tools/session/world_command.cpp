@@ -123,7 +123,7 @@ void print_world(const WorldOptions& options) {
 }
 
 // ---- Changes
-Session open_session(const CommonOptions& common) {
+Session open_world_session(const CommonOptions& common) {
   // A command that changes the world makes no session.
   if (const auto running = Session::open_read_only(common.session); !running) throw_failure(running.error());
   auto session = Session::open(common.session, "yars world");
@@ -140,7 +140,7 @@ WorldState await_effect(const Session& session, const WorldState& world) {
 }
 
 void change(const WorldOptions& options, const Edit& edit) {
-  Session session = open_session(options.common);
+  Session session = open_world_session(options.common);
   const std::int64_t now_ns = session.reached_sim_time_ns();
   std::string done;
   const auto changed = databuffer::change_world(session, [&](const WorldState& before) -> Expected<WorldState> {
@@ -155,7 +155,7 @@ void change(const WorldOptions& options, const Edit& edit) {
 }
 
 void reset(const WorldOptions& options) {
-  Session session = open_session(options.common);
+  Session session = open_world_session(options.common);
   const auto changed = databuffer::reset_world(session);
   if (!changed) throw_failure(changed.error());
   report(session, await_effect(std::as_const(session), *changed), "the configuration's world", options.json);

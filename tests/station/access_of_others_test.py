@@ -1,0 +1,300 @@
+#!/usr/bin/env python3
+"""A station that others can reach: tokens, rights, TLS, limits. usage: access_of_others_test.py BIN (folder of the programs)"""
+import base64
+import http.client
+import json
+import os
+import pathlib
+import re
+import shutil
+import socket
+import ssl
+import stat
+import subprocess
+import sys
+import tempfile
+import unittest
+
+BIN = pathlib.Path(sys.argv.pop(1)).resolve()
+
+
+class Station:
+    """A running yars-station. `addresses`: as it printed them."""
+
+    def __init__(self, folder, *options):
+        self.session = f"access{os.getpid()}"
+        self.process = subprocess.Popen([BIN / "yars-station", "--session", self.session, "--port", "0", "--log-level", "warning", *options],
+                                        stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder)
+        self.addresses = [self.process.stdout.readline().strip() for _ in range(2)]
+        self.port = int(re.search(r":(\d+)/", self.addresses[0]).group(1)) if all(self.addresses) else 0
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.communicate()
+
+
+def refusal(*options):
+    with tempfile.TemporaryDirectory() as folder:
+        done = subprocess.run([BIN / "yars-station", "--session", f"refused{os.getpid()}", "--port", "0", *options], capture_output=True,
+                              text=True, check=False, timeout=60, cwd=folder)
+    return done.returncode, done.stderr
+
+
+class SocketOfPage:
+    """A WebSocket with the given headers."""
+
+    def __init__(self, port, path="/socket?page=instructor", cookie="", context=None, host="127.0.0.1"):
+        self.socket = socket.create_connection(("127.0.0.1", port), timeout=20)
+        if context:
+            self.socket = context.wrap_socket(self.socket, server_hostname="localhost")
+        scheme = "https" if context else "http"
+        key = base64.b64encode(os.urandom(16)).decode()
+        self.socket.sendall((f"GET {path} HTTP/1.1\r\nHost: {host}:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+                             f"Origin: {scheme}://{host}:{port}\r\nSec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n"
+                             + (f"Cookie: {cookie}\r\n" if cookie else "") + "\r\n").encode())
+        self.data = b""
+        while b"\r\n\r\n" not in self.data:
+            part = self.socket.recv(65536)
+            if not part:
+                break
+            self.data += part
+        head, _, self.data = self.data.partition(b"\r\n\r\n")
+        self.status = int(head.split()[1])
+
+    def send(self, message):
+        data = json.dumps(message).encode()
+        size = bytes([0x80 | len(data)]) if len(data) < 126 else bytes([0x80 | 126]) + len(data).to_bytes(2, "big")
+        self.socket.sendall(b"\x81" + size + b"\0\0\0\0" + data)
+
+    def texts(self):
+        """Text messages, until the connection closes."""
+        while True:
+            while len(self.data) < 10 or len(self.data) < self.end()[1]:
+                part = self.socket.recv(65536)
+                if not part:
+                    return
+                self.data += part
+            begin, end = self.end()
+            opcode, content = self.data[0] & 15, self.data[begin:end]
+            self.data = self.data[end:]
+            if opcode == 8:
+                return
+            if opcode == 1:
+                yield json.loads(content)
+
+    def end(self):
+        size, begin = self.data[1] & 127, 2
+        if size == 126:
+            size, begin = int.from_bytes(self.data[2:4], "big"), 4
+        elif size == 127:
+            size, begin = int.from_bytes(self.data[2:10], "big"), 10
+        return begin, begin + size
+
+    def answer(self, identity):
+        for text in self.texts():
+            if text.get("answer") == identity:
+                return text["problem"]
+        return "closed"
+
+    def close(self):
+        self.socket.close()
+
+
+def get(port, path, cookie="", host="127.0.0.1", context=None):
+    """(status, headers, content)"""
+    connection = (http.client.HTTPSConnection("127.0.0.1", port, context=context, timeout=20) if context
+                  else http.client.HTTPConnection("127.0.0.1", port, timeout=20))
+    headers = {"Host": f"{host}:{port}"}
+    if cookie:
+        headers["Cookie"] = cookie
+    connection.request("GET", path, headers=headers)
+    response = connection.getresponse()
+    content = response.read()
+    connection.close()
+    return response.status, dict(response.getheaders()), content
+
+
+class Options(unittest.TestCase):
+    def test_beyond_loopback_needs_tokens_and_a_certificate(self):
+        code, text = refusal("--listen", "0.0.0.0")
+        self.assertEqual(code, 2, text)
+        self.assertIn("expected --tokens FILE", text)
+        code, text = refusal("--listen", "0.0.0.0", "--tokens", "tokens")
+        self.assertEqual(code, 2, text)
+        self.assertIn("--without-tls", text)
+
+    def test_what_cannot_be_used_is_named(self):
+        for options, words in [(("--certificate", "x.pem"), "--key"), (("--certificate", "x.pem", "--key", "y.pem"), "x.pem"),
+                               (("--listen", "nowhere", "--tokens", "t", "--without-tls"), "an address in numbers"),
+                               (("--pages", "/nowhere"), "display.html"), (("--terrain", "/nowhere"), "/nowhere"),
+                               (("--source", "route:/nowhere"), "/nowhere")]:
+            code, text = refusal(*options)
+            self.assertNotEqual(code, 0, options)
+            self.assertIn(words, text)
+
+    def test_a_file_without_tokens_is_refused(self):
+        with tempfile.NamedTemporaryFile("w") as file:
+            file.write("viewer short\n")
+            file.flush()
+            code, text = refusal("--tokens", file.name)
+        self.assertEqual(code, 1, text)
+        self.assertIn("instructor TOKEN", text)
+
+
+class Tokens(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.file = pathlib.Path(cls.folder.name) / "tokens"
+        cls.station = Station(cls.folder.name, "--listen", "0.0.0.0", "--tokens", str(cls.file), "--without-tls", "--names", "radar.example")
+        cls.port = cls.station.port
+        cls.tokens = [re.search(r"token=(\w+)", address).group(1) for address in cls.station.addresses]
+        cls.cookies = [f"yars_station_{cls.port}={token}" for token in cls.tokens]
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.station.__exit__()
+        cls.folder.cleanup()
+
+    def test_the_file_of_tokens_is_its_owners_alone_and_stays(self):
+        self.assertEqual(stat.S_IMODE(self.file.stat().st_mode), 0o600)
+        with Station(self.folder.name, "--listen", "0.0.0.0", "--tokens", str(self.file), "--without-tls") as again:
+            self.assertEqual([re.search(r"token=(\w+)", address).group(1) for address in again.addresses], self.tokens)
+
+    def test_without_a_token_there_is_nothing_of_the_session(self):
+        for path in ("/display.html", "/instructor.html", "/theatre.json", "/map/0/0/0.png", "/patch/x/1.png", "/nothing"):
+            self.assertEqual(get(self.port, path)[0], 401, path)
+            self.assertEqual(get(self.port, path, cookie=f"yars_station_{self.port}=wrong")[0], 401, path)
+        self.assertEqual(SocketOfPage(self.port).status, 401)
+        self.assertEqual(get(self.port, "/display.html?token=wrong")[0], 401)
+
+    def test_an_address_with_a_token_gives_a_cookie_and_leaves_the_token_out(self):
+        status, headers, _ = get(self.port, f"/instructor.html?token={self.tokens[1]}")
+        self.assertEqual(status, 303)
+        self.assertEqual(headers["Location"], "/instructor.html")
+        self.assertIn("HttpOnly", headers["Set-Cookie"])
+        cookie = headers["Set-Cookie"].split(";")[0]
+        self.assertEqual(get(self.port, "/instructor.html", cookie)[0], 200)
+        self.assertEqual(get(self.port, "/theatre.json", cookie)[0], 200)
+        self.assertEqual(get(self.port, "/map/0/0/0.png", cookie)[0], 200)
+
+    def test_a_viewer_looks_and_changes_nothing(self):
+        page = SocketOfPage(self.port, cookie=self.cookies[0])
+        self.assertEqual(page.status, 101)
+        page.send({"do": "freeze", "id": 5})
+        self.assertIn("token of an instructor", page.answer(5))
+        page.send({"event": "pb 13"})
+        page.send({"do": "rate", "id": 6, "rate": 2})
+        self.assertIn("token of an instructor", page.answer(6))
+        page.close()
+
+    def test_an_instructor_changes_the_clock(self):
+        page = SocketOfPage(self.port, cookie=self.cookies[1])
+        page.send({"do": "freeze", "id": 5})
+        self.assertIsNone(page.answer(5))
+        page.send({"do": "run", "id": 6})
+        self.assertIsNone(page.answer(6))
+        page.send({"do": "kill", "id": 7, "role": "init"})
+        self.assertIn("a role of the set", page.answer(7))
+        page.send({"do": "sea", "id": 8, "state": 3})
+        self.assertIn("radar-model", page.answer(8))
+        page.close()
+
+    def test_hosts_are_addresses_in_numbers_and_the_names_that_were_given(self):
+        for host, status in (("10.1.2.3", 200), ("radar.example", 200), ("evil.example", 400)):
+            self.assertEqual(get(self.port, "/display.html", self.cookies[0], host=host)[0], status, host)
+
+    def test_only_sessions_of_the_station_are_shown(self):
+        self.assertEqual(SocketOfPage(self.port, path="/socket?session=other", cookie=self.cookies[1]).status, 404)
+        self.assertEqual(SocketOfPage(self.port, path="/other", cookie=self.cookies[1]).status, 404)
+        self.assertFalse(any(path.name.endswith(".other") for path in pathlib.Path("/dev/shm").iterdir()), "no session comes into being")
+
+
+class Limits(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.station = Station(self.folder.name)
+        self.port = self.station.port
+
+    def tearDown(self):
+        self.station.__exit__()
+        self.folder.cleanup()
+
+    def test_a_page_that_sends_too_much_is_closed_and_others_go_on(self):
+        good, bad = SocketOfPage(self.port), SocketOfPage(self.port)
+        try:
+            for number in range(300):
+                bad.send({"do": "run", "id": number})
+        except OSError:
+            pass  # closed while it sends
+        answers = [text for text in self.until_closed(bad) if "answer" in text]
+        self.assertLessEqual(len(answers), 200)
+        good.send({"do": "run", "id": 9})
+        self.assertIsNone(good.answer(9))
+
+    @staticmethod
+    def until_closed(page):
+        try:
+            yield from page.texts()
+        except ConnectionError:
+            return
+
+    def test_a_message_that_is_none_or_too_long_closes(self):
+        for message in ({"x": 1}, {"event": "pb 99"}, {"note": "x" * 2000}):
+            page = SocketOfPage(self.port)
+            page.send(message)
+            list(self.until_closed(page))  # ends when it is closed
+            page.close()
+
+    def test_a_command_that_is_none_is_answered(self):
+        page = SocketOfPage(self.port)
+        page.send({"do": "dance", "id": 3})
+        self.assertIn("one of run", page.answer(3))
+        page.close()
+
+    def test_there_are_at_most_64_connections(self):
+        pages = [SocketOfPage(self.port) for _ in range(64)]
+        self.assertEqual({page.status for page in pages}, {101})
+        with self.assertRaises((OSError, IndexError)):
+            SocketOfPage(self.port)
+        pages.pop().close()
+        for _ in range(100):
+            try:
+                self.assertEqual(SocketOfPage(self.port).status, 101)
+                break
+            except (OSError, IndexError):
+                continue
+        else:
+            self.fail("expected room for a page after another has gone")
+        for page in pages:
+            page.close()
+
+
+@unittest.skipUnless(shutil.which("openssl"), "expected openssl, found none")
+class Tls(unittest.TestCase):
+    def test_pages_come_over_tls_with_the_given_certificate(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", "key.pem", "-out", "certificate.pem", "-days", "2",
+                            "-subj", "/CN=localhost", "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1"], cwd=folder, check=True, capture_output=True)
+            with Station(folder, "--certificate", "certificate.pem", "--key", "key.pem") as station:
+                self.assertTrue(station.addresses[0].startswith("https://"))
+                context = ssl.create_default_context(cafile=f"{folder}/certificate.pem")
+                self.assertEqual(get(station.port, "/display.html", context=context)[0], 200)
+                page = SocketOfPage(station.port, context=context)
+                self.assertEqual(page.status, 101)
+                page.send({"do": "run", "id": 2})
+                self.assertIsNone(page.answer(2))
+                page.close()
+                with self.assertRaises((http.client.HTTPException, OSError)):
+                    get(station.port, "/display.html")
+            (pathlib.Path(folder) / "key.pem").write_text("no key")
+            code, text = refusal("--certificate", f"{folder}/certificate.pem", "--key", f"{folder}/key.pem")
+            self.assertEqual(code, 1, text)
+            self.assertIn("private key", text)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,264 @@
+// The instructor's page as an instructor uses it. usage: node instructor.mjs ADDRESS YARS SESSION
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { readFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { chromium } from "playwright-core";
+
+const [address, yars, session] = process.argv.slice(2);
+const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const call = (...words) => execFileSync(yars, ["--session", session, ...words], { encoding: "utf8" });
+const watch = () => JSON.parse(call("watch", "--json", "--once"));
+const world = () => JSON.parse(call("world", "--json"));
+const status = () => { // exit code 3: degraded
+  try {
+    return JSON.parse(call("status", "--json"));
+  } catch (error) {
+    return JSON.parse(error.stdout);
+  }
+};
+
+async function until(what, check, turns = 100) {
+  for (let turn = 0; turn < turns; ++turn) {
+    if (await check()) return;
+    await new Promise((resolve) => setTimeout(resolve, 100));
+  }
+  assert.fail(`expected within ${turns / 10} s: ${what}`);
+}
+
+const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
+const faults = [];
+async function open(width, height, path = "/instructor.html") {
+  const page = await browser.newPage({ viewport: { width, height } });
+  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+  page.on("pageerror", (error) => faults.push(String(error)));
+  await page.goto(address + path);
+  await page.waitForFunction(() => document.body.dataset.state === "shown");
+  return page;
+}
+const near = (value, expected, tolerance) => Math.abs(value - expected) <= tolerance;
+const noProblem = async (page) => assert.equal(await page.textContent("#problem"), "");
+
+// Mean of the green of the radar picture in a part of it: x, y, width, height in shares of its edge.
+const brightness = (page, part) => page.evaluate(([left, top, width, height]) => {
+  const canvas = document.getElementById("picture");
+  const { data } = canvas.getContext("2d").getImageData(left * canvas.width, top * canvas.height, width * canvas.width, height * canvas.height);
+  let sum = 0;
+  for (let at = 1; at < data.length; at += 4) sum += data[at];
+  return (4 * sum) / data.length;
+}, part);
+
+const tests = {
+  async "time is frozen, stepped, run, set to a rate and reset"(page) {
+    await page.click("#run");
+    await until("frozen", () => !watch().running);
+    const before = watch().sim_time;
+    await page.fill("#ticks", "200");
+    await page.click("#step_form button");
+    await until("one second later", () => near(watch().sim_time, before + 1, 0.0051));
+    await page.selectOption("#rate", "2");
+    await until("rate 2", () => watch().rate === 2);
+    await page.click("#run");
+    await until("running", () => watch().running);
+    await page.selectOption("#rate", "1");
+    await until("rate 1", () => watch().rate === 1);
+    const { epoch } = watch();
+    await page.fill("#time", "0");
+    await page.click("#reset_form button");
+    await until("a new epoch at 0", () => watch().epoch === epoch + 1 && watch().sim_time < 5);
+    await noProblem(page);
+  },
+  async "the form moves the aircraft, and a speed lets it fly straight"(page) {
+    const values = { lat: "37.5", lon: "-122.9", alt: "20000", heading: "45", speed: "300" };
+    for (const [id, value] of Object.entries(values)) await page.fill(`#${id}`, value);
+    await page.click("#aircraft_form button:not([type])");
+    await until("there", () => near(watch().ownship.lat, 37.5, 0.1) && near(watch().ownship.lon, -122.9, 0.1));
+    const { ownship } = watch();
+    assert.ok(near(ownship.ground_speed_kt, 300, 1) && near(ownship.heading_deg, 45, 1) && near(ownship.alt_ft, 20000, 1), JSON.stringify(ownship));
+    await noProblem(page);
+  },
+  async "the aircraft is dragged to another place"(page) {
+    await page.fill("#speed", "30"); // it stays about where it is put
+    if (await page.getAttribute("#follow", "aria-pressed") === "false") await page.click("#follow");
+    await new Promise((resolve) => setTimeout(resolve, 500));
+    const before = watch().ownship;
+    const box = await (await page.$("#map")).boundingBox();
+    const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
+    await page.mouse.move(x, y);
+    await page.mouse.down();
+    await page.mouse.move(x - 60, y - 40, { steps: 5 });
+    await page.mouse.up();
+    await until("north-west of where it was", () => {
+      const { ownship } = watch();
+      return ownship && ownship.lat > before.lat + 0.01 && ownship.lon < before.lon - 0.01;
+    });
+    await noProblem(page);
+  },
+  async "errors of the navigators are set"(page) {
+    await page.click("text=Navigator errors");
+    await page.selectOption("#navigator", "ins");
+    await page.fill("#north", "500");
+    await page.fill("#east", "-250");
+    await page.click("#nav_form button");
+    await until("the errors in the state", async () => /INS 5\d\d ft north, -2\d\d ft east/.test(await page.textContent("#errors")));
+  },
+  async "sea state and wind are set"(page) {
+    await page.selectOption("#sea", "5");
+    await until("sea state 5", () => world().sea_state === 5);
+    await page.selectOption("#sea", "");
+    await until("sea state by the wind", () => world().sea_state === null);
+    await page.fill("#wind", "25");
+    await page.fill("#wind_from", "200");
+    await page.click("#wind_form button");
+    await until("the wind", () => near(world().wind_kt, 25, 0.01) && world().wind_from_deg === 200);
+    await noProblem(page);
+  },
+  async "rain over a town is seen on the map and darkens what lies behind it"(page) {
+    const values = { lat: "37.0", lon: "-122.6", alt: "15000", heading: "90", speed: "30" };
+    for (const [id, value] of Object.entries(values)) await page.fill(`#${id}`, value);
+    await page.click("#aircraft_form button:not([type])");
+    await until("there", () => watch().ownship && near(watch().ownship.lon, -122.6, 0.05));
+    const far = [0.4, 0.2, 0.2, 0.2]; // ahead, in the farther half
+    await new Promise((resolve) => setTimeout(resolve, 5000)); // two scans
+    const before = await brightness(page, far);
+    assert.ok(before > 12, `expected land ahead, found brightness ${before}`);
+    await page.click("#add_rain");
+    await page.click("#add_rain"); // where the middle of the map is: at the aircraft
+    await until("a rain cell", () => world().rain.length === 1);
+    await page.click("#things li:has-text('rain') button");
+    await page.fill("#thing_rate_mmh", "100");
+    await page.fill("#thing_radius_nm", "8");
+    await page.fill("#thing_top_ft", "40000");
+    await page.click("#thing_form button");
+    await until("changed rain", () => world().rain[0].rate_mmh === 100);
+    await until("a darker picture behind it", async () => await brightness(page, far) < 0.6 * before);
+    await page.click("#things button[aria-label^='Remove']");
+    await until("no rain", () => world().rain.length === 0);
+    await until("the picture from before", async () => await brightness(page, far) > 0.8 * before);
+    await noProblem(page);
+  },
+  async "jammers and movers are added, dragged, changed and removed"(page) {
+    for (const list of ["jammers", "movers"]) {
+      await page.click(`#add_${list}`);
+      await page.mouse.click(...await middle(page, 80, 60));
+      await until(`one of ${list}`, () => world()[list].length === 1);
+      const before = world()[list][0];
+      await page.mouse.move(...await middle(page, 80, 60));
+      await page.mouse.down();
+      await page.mouse.move(...await middle(page, -80, 90), { steps: 5 });
+      await page.mouse.up();
+      await until("moved", () => world()[list][0].longitude_deg < before.longitude_deg - 0.001);
+    }
+    await page.click("#things li:has-text('mover') button");
+    await page.fill("#thing_speed_kt", "25");
+    await page.fill("#thing_heading_deg", "270");
+    await page.click("#thing_form button");
+    await until("the mover's way", () => near(world().movers[0].speed_kt, 25, 0.01) && near(world().movers[0].heading_deg, 270, 0.1));
+    await page.click("#reset_world");
+    await until("the configured world", () => world().jammers.length + world().movers.length === 0);
+    await noProblem(page);
+  },
+  async "a killed role is started again, and the world stays"(page) {
+    await page.selectOption("#sea", "3");
+    await until("sea state 3", () => world().sea_state === 3);
+    const before = watch().processes["radar-model"].pid;
+    await page.click("button[aria-label^='Kill radar-model']");
+    await until("another process", () => watch().processes["radar-model"] && watch().processes["radar-model"].pid !== before);
+    await until("sea state 3 in effect", () => world().sea_state === 3);
+    await page.click("#reset_world");
+  },
+  async "the dial of fidelity changes the preset of the next scan"(page) {
+    await page.selectOption("#fidelity", "draft");
+    await until("draft", () => status().model.fidelity === "draft");
+    await until("the page says so", async () => /in use: draft/.test(await page.textContent("#fidelity_error")));
+    await page.selectOption("#fidelity", await page.$eval("#fidelity option:has-text('configured')", (option) => option.value));
+    await until("standard", () => status().model.fidelity === "standard");
+  },
+  async "notes are written"(page) {
+    await page.fill("#note", "a note of the test");
+    await page.click("#note_form button");
+    await until("the note", async () => /a note of the test/.test(await page.textContent("#notes")));
+    assert.ok(status().notes.some(({ text }) => text.includes("a note of the test")));
+  },
+  async "a recording is made, played, scrubbed, and flown out of"(page) {
+    await page.click("#record");
+    await until("the recorder writes", () => status().recorder?.writing);
+    await new Promise((resolve) => setTimeout(resolve, 6000));
+    const end = watch().sim_time;
+    await until("the page says so", async () => await page.textContent("#record") === "Stop recording");
+    await page.click("#record");
+    await until("the recorder stands", () => status().recorder?.writing === false);
+    await page.click("#machine summary");
+    await until("a recording in the list", async () => {
+      await page.click("#list");
+      return await page.$("#recordings li button") !== null;
+    });
+    await page.click("#recordings li button");
+    await page.click("#play");
+    await page.waitForFunction(() => document.getElementById("replay_picture").dataset.frame, undefined, { timeout: 20000 });
+    await page.click("#replay_run");
+    await until("the replay stands", async () => await page.textContent("#replay_run") === "Run");
+    const at = Math.round((end - 3) * 10) / 10;
+    const frame = await page.getAttribute("#replay_picture", "data-frame");
+    await page.$eval("#scrub", (scrub, value) => {
+      scrub.value = String(value);
+      scrub.dispatchEvent(new Event("input"));
+      scrub.dispatchEvent(new Event("change"));
+    }, at);
+    await until("another picture of that time", async () => await page.getAttribute("#replay_picture", "data-frame") !== frame &&
+      near(Number(await page.getAttribute("#replay_picture", "data-sim-time")), at, 0.3));
+    await page.click("#replay_fly");
+    await until("a branch", async () => await page.$("#sets li:has-text('branch') a") !== null);
+    const branch = /session=([\w-]+)/.exec(await page.getAttribute("#sets li:has-text('branch') a", "href"))[1];
+    const beside = await browser.newPage();
+    await until("the branch flies", async () => {
+      const answer = await beside.goto(`${address}/beside.html?right=${branch}`);
+      if (!answer.ok()) return false;
+      try {
+        await beside.waitForFunction((from) => parseFloat(document.getElementById("right_words").textContent) > from &&
+          document.getElementById("right_picture").dataset.frame, at, { timeout: 3000 });
+        return true;
+      } catch {
+        return false;
+      }
+    });
+    await beside.close();
+    await page.click(`button[aria-label='End ${branch}']`);
+    await until("the branch has ended", async () => await page.$(`button[aria-label='End ${branch}']`) === null);
+    faults.length = 0; // a page that waits for a session logs refused connections
+    await noProblem(page);
+  },
+  async "no serious fault of accessibility"(page) {
+    await page.evaluate(axe);
+    const { violations } = await page.evaluate(() => globalThis.axe.run());
+    const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
+    assert.deepEqual(serious.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]), []);
+  },
+  async "phone and tablet show it without scrolling sideways"() {
+    for (const [width, height] of [[390, 844], [820, 1180], [844, 390]]) {
+      const page = await open(width, height);
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width} x ${height}`);
+      await page.close();
+    }
+  },
+};
+
+async function middle(page, right, down) {
+  const box = await (await page.$("#map")).boundingBox();
+  return [box.x + box.width / 2 + right, box.y + box.height / 2 + down];
+}
+
+const page = await open(1400, 1000);
+let failed = 0;
+for (const [name, test] of Object.entries(tests)) {
+  try {
+    await test(page);
+    console.log(`passed: ${name}`);
+  } catch (error) {
+    ++failed;
+    console.log(`FAILED: ${name}: ${error.stack}`);
+  }
+}
+if (faults.length > 0) console.log(`FAILED: errors in the browser's console: ${faults.join("; ")}`);
+await browser.close();
+process.exit(failed + faults.length > 0 ? 1 : 0);
