@@ -67,7 +67,7 @@ class Whole(unittest.TestCase):
 
     def test_fields_are_those_of_the_records(self):
         layout = json.loads(subprocess.run([BUILD / "bin/yars", "status", "--layout"], capture_output=True, check=True).stdout)["records"]
-        for kind in ("ModelTick", "AppliedEvent", "RadarState", "ModelStatus", "Nav", "Ownship", "PatchMap", "Outputs", "RecorderStatus", "Traffic",
+        for kind in ("ModelTick", "AppliedEvent", "RadarState", "ModelStatus", "Nav", "Ownship", "PatchMap", "Outputs", "RecorderStatus", "Traffic", "WorldState",
                      "Sweep"):
             record = self.recording.records(kind)
             fields = {name: offset for name, offset in layout[kind]["fields"].items() if name != "video"}
@@ -90,6 +90,9 @@ class Whole(unittest.TestCase):
                 np.testing.assert_array_equal(ours[name], [one["state"][name] for one in states], err_msg=name)
         events = [one for one in printed if "event" in one]
         self.assertEqual(len(self.recording.records("AppliedEvent")), len(events))
+        worlds, ours = [one["world"] for one in printed if "world" in one], self.recording.records("WorldState")
+        self.assertGreaterEqual(len(ours), 1)
+        self.assertEqual([(one["edit"], one["tick"]) for one in worlds], list(zip(ours["edit"].tolist(), ours["tick"].tolist(), strict=True)))
 
     def test_ticks(self):
         ticks = self.recording.records("ModelTick")["tick"]
@@ -131,7 +134,7 @@ class Whole(unittest.TestCase):
             self.assertFalse(array.flags.writeable)
 
     def test_faults(self):
-        for call, pattern in ((lambda: self.recording.records("Ownships"), "kind: expected one of ModelTick, .*Traffic, found 'Ownships'"),
+        for call, pattern in ((lambda: self.recording.records("Ownships"), "kind: expected one of ModelTick, .*Traffic, WorldState, found 'Ownships'"),
                               (lambda: yars.Recording.units(""), "kind: expected one of"),
                               (lambda: self.recording.records("Nav", 1.5), "first_tick: expected a whole number"),
                               (lambda: self.recording.sweeps(None, 2 ** 70), "last_tick: expected a whole number"),

@@ -90,7 +90,8 @@ def refusals():
     (damaged / "n36.dt0").write_bytes(b"short")
     found = object_of("terrain", "info", "damaged", "--json", code=1)
     expect("a damaged cell", found.get("problems") and found["total"]["cells"] == 0, found)
-    for words in (["status", "--json"], ["watch", "--json"], ["sim", "state", "--json"], ["inject", "freeze", "--json"]):
+    for words in (["status", "--json"], ["watch", "--json"], ["sim", "state", "--json"], ["inject", "freeze", "--json"],
+                  ["world", "--json"], ["world", "sea", "3", "--json"]):
         done = run(*words, code=1)
         expect(words, not done.stdout and done.stderr.count("\n") == 1, done)
 
@@ -108,6 +109,28 @@ def progress():
         shown = subprocess.run(["script", "-qec", f"{info} >/dev/null", "/dev/null"], capture_output=True, text=True,
                                timeout=120, stdin=subprocess.DEVNULL, env={**os.environ, "TERM": terminal})
         expect(f"TERM={terminal}", ("\x1b" in shown.stdout) == escapes, shown)
+
+
+def world():
+    """Changes of the world, beside the state machine of session()."""
+    model = subprocess.Popen([str(BIN / "radar-model"), "--session", SESSION], stderr=subprocess.PIPE, text=True)
+    try:
+        deadline = time.monotonic() + 60
+        while time.monotonic() < deadline and subprocess.run(
+                [str(BIN / "yars"), "--session", SESSION, "world"], capture_output=True, check=False).returncode:
+            time.sleep(0.05)
+        configured = object_of("world", "--json")
+        expect("world", configured["configured"] and configured["sea_state"] is None, configured)
+        for words in (["sea", "3"], ["wind", "20", "90"], ["rain", "add", "37", "-122"], ["jammer", "add", "37", "-122"],
+                      ["mover", "add", "37", "-122"], ["mover", "steer", "3", "5", "90"]):
+            changed = object_of("world", *words, "--json")
+        for kind in ("rain", "jammers", "movers"):
+            expect("world", len(changed[kind]) == 1 and all(f"`{field}`" in DOCUMENT.read_text() for field in changed[kind][0]), changed)
+        expect("world", (changed["edit"], changed["sea_state"], changed["movers"][0]["id"]) == (6, 3, 3), changed)
+        expect("world reset", object_of("world", "reset", "--json")["rain"] == [])
+    finally:
+        model.terminate()
+        model.communicate(timeout=60)
 
 
 def session():
@@ -128,6 +151,8 @@ def session():
         expect("sim reposition", object_of("sim", "reposition", "36", "-122", "10000", "0", "--json")["epoch"] == 2)
         expect("sim run", object_of("sim", "run", "--json")["running"] is True)
         expect("sim state", object_of("sim", "state", "--json")["rate"] == 2)
+        run("world", "sea", "3", "--json", code=1)  # no radar-model
+        world()
         done = object_of("inject", "power opr", "nav mn", "--json")
         expect("inject", done["done"] == 1 and done["without_effect"] == 1, done)
         expect("inject", [event["effect"] for event in done["events"]] == ["done", "without effect"], done)

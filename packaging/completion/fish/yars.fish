@@ -10,7 +10,7 @@ function __yars_path
             continue
         end
         switch $word
-            case --airfields --alt-ft --band --base --cells-lat --cells-lon --channel --color --config --csv --dask --east --edge --elevation --fidelity --gain --heading --in --keep --kind --knob --lat --level --lockstep --log-dir --log-level --lon --looks --map --markdown --north --origin --out --pixels --presets --range-nm --rate --reduction --repeat --restarted --ruler --ruler-samples --ruler-size --samples --scan-width --scene --scene-without --seed --seek --session --shadow --shard --size --south --speed-kt --step --target-lat --target-lon --terrain --threads --time-s --to --triangles --view --west --width --window-nm --without --workers
+            case --airfields --alt-ft --altitude-ft --band --base --cells-lat --cells-lon --channel --color --config --cross-section --csv --dask --east --edge --elevation --fidelity --gain --heading --height-ft --in --keep --kind --knob --lat --level --lockstep --log-dir --log-level --lon --looks --map --markdown --name --north --origin --out --pixels --power --presets --radius-nm --range-nm --rate --reduction --repeat --restarted --ruler --ruler-samples --ruler-size --samples --scan-width --scene --scene-without --seed --seek --session --shadow --shard --size --south --speed-kt --step --target-lat --target-lon --terrain --threads --time-s --to --top-ft --triangles --view --west --width --window-nm --without --workers
                 set left 1
             case --from --to
                 set left 2
@@ -19,7 +19,7 @@ function __yars_path
             case '-*'
             case '*'
                 set -l longer (string join ' ' $path $word)
-                contains -- $longer 'scan' 'patch' 'trade' 'trade maps' 'terrain' 'terrain generate' 'terrain info' 'terrain image' 'terrain profile' 'terrain dump' 'terrain reduce' 'terrain convert' 'terrain pack' 'scene' 'scene generate' 'scene info' 'scene image' 'dataset' 'config' 'config check' 'config print' 'config convert' 'config user' 'sim' 'sim state' 'sim freeze' 'sim run' 'sim rate' 'sim step' 'sim reset' 'sim reposition' 'inject' 'note' 'status' 'watch' 'record' 'replay' 'help'; and set -a path $word
+                contains -- $longer 'scan' 'patch' 'trade' 'trade maps' 'terrain' 'terrain generate' 'terrain info' 'terrain image' 'terrain profile' 'terrain dump' 'terrain reduce' 'terrain convert' 'terrain pack' 'scene' 'scene generate' 'scene info' 'scene image' 'dataset' 'config' 'config check' 'config print' 'config convert' 'config user' 'sim' 'sim state' 'sim freeze' 'sim run' 'sim rate' 'sim step' 'sim reset' 'sim reposition' 'world' 'world sea' 'world wind' 'world rain' 'world rain add' 'world rain move' 'world rain remove' 'world jammer' 'world jammer add' 'world jammer move' 'world jammer remove' 'world mover' 'world mover add' 'world mover move' 'world mover remove' 'world mover steer' 'world reset' 'inject' 'note' 'status' 'watch' 'record' 'replay' 'help'; and set -a path $word
         end
     end
     string join ' ' $path
@@ -53,6 +53,7 @@ complete -c yars -n "__yars_at ''" -a scene -d 'polygonal scenes (OpenFlight): g
 complete -c yars -n "__yars_at ''" -a dataset -d 'make training data: patch maps with labels, by a specification'
 complete -c yars -n "__yars_at ''" -a config -d 'check, print and convert configurations; print user defaults'
 complete -c yars -n "__yars_at ''" -a sim -d 'the session\'s clock and the aircraft\'s position'
+complete -c yars -n "__yars_at ''" -a world -d 'print or change sea, wind, rain, jammers and movers'
 complete -c yars -n "__yars_at ''" -a inject -d 'send events, e.g. yars inject \'power opr\' \'pb 13\' \'elevation -5\''
 complete -c yars -n "__yars_at ''" -a note -d 'write a note into the session\'s flight recorder'
 complete -c yars -n "__yars_at ''" -a status -d 'health of a session and of the hosts that share it'
@@ -377,6 +378,141 @@ complete -c yars -n "__yars_at 'sim reposition'" -l json -d 'print one JSON obje
 complete -c yars -n "__yars_at 'sim reposition'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'sim reposition'" -l config -r -F -d 'GUF configuration file'
 complete -c yars -n "__yars_at 'sim reposition'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world'" -a sea -d 'set the sea state'
+complete -c yars -n "__yars_at 'world'" -a wind -d 'set the wind over the sea'
+complete -c yars -n "__yars_at 'world'" -a rain -d 'rain cells'
+complete -c yars -n "__yars_at 'world'" -a jammer -d 'noise jammers'
+complete -c yars -n "__yars_at 'world'" -a mover -d 'moving targets: ships and vehicles'
+complete -c yars -n "__yars_at 'world'" -a reset -d 'the configuration\'s world'
+complete -c yars -n "__yars_at 'world'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world sea'"
+complete -c yars -n "__yars_at 'world sea'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world sea'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world sea'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world sea'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world sea'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world wind'"
+complete -c yars -n "__yars_at 'world wind'"
+complete -c yars -n "__yars_at 'world wind'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world wind'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world wind'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world wind'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world wind'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world rain'" -a add -d 'add a rain cell'
+complete -c yars -n "__yars_at 'world rain'" -a move -d 'move an entry to a position'
+complete -c yars -n "__yars_at 'world rain'" -a remove -d 'remove an entry'
+complete -c yars -n "__yars_at 'world rain'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world rain'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world rain'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world rain'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world rain add'"
+complete -c yars -n "__yars_at 'world rain add'"
+complete -c yars -n "__yars_at 'world rain add'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world rain add'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world rain add'" -l radius-nm -x -d '[NM] radius of the rim'
+complete -c yars -n "__yars_at 'world rain add'" -l rate -x -d '[mm/h] rain rate at the axis'
+complete -c yars -n "__yars_at 'world rain add'" -l top-ft -x -d '[ft] top above mean sea level'
+complete -c yars -n "__yars_at 'world rain add'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world rain add'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world rain add'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world rain move'"
+complete -c yars -n "__yars_at 'world rain move'"
+complete -c yars -n "__yars_at 'world rain move'"
+complete -c yars -n "__yars_at 'world rain move'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world rain move'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world rain move'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world rain move'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world rain move'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world rain remove'"
+complete -c yars -n "__yars_at 'world rain remove'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world rain remove'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world rain remove'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world rain remove'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world rain remove'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world jammer'" -a add -d 'add a jammer'
+complete -c yars -n "__yars_at 'world jammer'" -a move -d 'move an entry to a position'
+complete -c yars -n "__yars_at 'world jammer'" -a remove -d 'remove an entry'
+complete -c yars -n "__yars_at 'world jammer'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world jammer'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world jammer'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world jammer'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world jammer add'"
+complete -c yars -n "__yars_at 'world jammer add'"
+complete -c yars -n "__yars_at 'world jammer add'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world jammer add'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world jammer add'" -l name -x -d 'name, at most 15 characters'
+complete -c yars -n "__yars_at 'world jammer add'" -l altitude-ft -x -d '[ft] above mean sea level'
+complete -c yars -n "__yars_at 'world jammer add'" -l band -x -a 'A B C D E all' -d 'jammed band'
+complete -c yars -n "__yars_at 'world jammer add'" -l channel -x -a '1 2 3 4 5 6 7 8' -d 'jammed channel; repeatable'
+complete -c yars -n "__yars_at 'world jammer add'" -l power -x -d '[W] effective radiated power in the receiver\'s bandwidth'
+complete -c yars -n "__yars_at 'world jammer add'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world jammer add'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world jammer add'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world jammer move'"
+complete -c yars -n "__yars_at 'world jammer move'"
+complete -c yars -n "__yars_at 'world jammer move'"
+complete -c yars -n "__yars_at 'world jammer move'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world jammer move'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world jammer move'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world jammer move'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world jammer move'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world jammer remove'"
+complete -c yars -n "__yars_at 'world jammer remove'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world jammer remove'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world jammer remove'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world jammer remove'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world jammer remove'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world mover'" -a add -d 'add a moving target'
+complete -c yars -n "__yars_at 'world mover'" -a move -d 'move an entry to a position'
+complete -c yars -n "__yars_at 'world mover'" -a remove -d 'remove an entry'
+complete -c yars -n "__yars_at 'world mover'" -a steer -d 'change speed and heading where the mover is'
+complete -c yars -n "__yars_at 'world mover'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world mover'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world mover'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world mover'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world mover add'"
+complete -c yars -n "__yars_at 'world mover add'"
+complete -c yars -n "__yars_at 'world mover add'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world mover add'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world mover add'" -l name -x -d 'name, at most 15 characters'
+complete -c yars -n "__yars_at 'world mover add'" -l speed-kt -x -d '[kt] over ground'
+complete -c yars -n "__yars_at 'world mover add'" -l heading -x -d '[deg] true'
+complete -c yars -n "__yars_at 'world mover add'" -l cross-section -x -d '[m2] radar cross section'
+complete -c yars -n "__yars_at 'world mover add'" -l height-ft -x -d '[ft] of the reflecting point above the ground'
+complete -c yars -n "__yars_at 'world mover add'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world mover add'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world mover add'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world mover move'"
+complete -c yars -n "__yars_at 'world mover move'"
+complete -c yars -n "__yars_at 'world mover move'"
+complete -c yars -n "__yars_at 'world mover move'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world mover move'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world mover move'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world mover move'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world mover move'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world mover remove'"
+complete -c yars -n "__yars_at 'world mover remove'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world mover remove'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world mover remove'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world mover remove'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world mover remove'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world mover steer'"
+complete -c yars -n "__yars_at 'world mover steer'"
+complete -c yars -n "__yars_at 'world mover steer'"
+complete -c yars -n "__yars_at 'world mover steer'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world mover steer'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world mover steer'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world mover steer'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world mover steer'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world reset'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world reset'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world reset'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world reset'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world reset'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
 complete -c yars -n "__yars_at 'inject'" -a 'aa acq aft ag agr altimeter bcn contrast coolie cursor down drift elevation error fail freeze fwd hrm ins mn mode nav next off ok opr pb power press pvu radar rbm release sp stby tdc toggle up'
 complete -c yars -n "__yars_at 'inject'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'inject'" -l json -d 'print one JSON object in place of text'
@@ -417,7 +553,7 @@ complete -c yars -n "__yars_at 'record'" -l log-level -x -a 'trace debug info wa
 complete -c yars -n "__yars_at 'replay'" -F
 complete -c yars -n "__yars_at 'replay'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'replay'" -l events -d 'compute the sweeps from the recorded ticks, offline, and compare them with the recorded sweeps'
-complete -c yars -n "__yars_at 'replay'" -l print -d 'print events, radar states and patch maps, one JSON object per line'
+complete -c yars -n "__yars_at 'replay'" -l print -d 'print events, radar states, worlds and patch maps, one JSON object per line'
 complete -c yars -n "__yars_at 'replay'" -l rate -x -d 'rate relative to real time; 0 freezes the picture'
 complete -c yars -n "__yars_at 'replay'" -l seek -x -d '[s] sim time at which to begin'
 complete -c yars -n "__yars_at 'replay'" -l terrain -x -a '(__fish_complete_directories)' -d 'folder of elevation cells'
@@ -425,7 +561,7 @@ complete -c yars -n "__yars_at 'replay'" -l json -d 'print one JSON object in pl
 complete -c yars -n "__yars_at 'replay'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'replay'" -l config -r -F -d 'GUF configuration file'
 complete -c yars -n "__yars_at 'replay'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
-complete -c yars -n "__yars_at 'help'" -a 'scan patch trade terrain scene dataset config sim inject note status watch record replay help'
+complete -c yars -n "__yars_at 'help'" -a 'scan patch trade terrain scene dataset config sim world inject note status watch record replay help'
 complete -c yars -n "__yars_at 'help'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'help'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'help'" -l config -r -F -d 'GUF configuration file'
