@@ -76,6 +76,10 @@ error::Expected<void> check_kinds(std::span<const std::byte> entries, const std:
 
 }  // namespace
 
+std::string_view file_magic() {
+  return {kFileMagic.data(), kFileMagic.size()};
+}
+
 std::vector<std::byte> bytes_of(const RecordingHeader& header) {
   std::vector<std::byte> bytes;
   append(bytes, Preamble{kFileMagic, kVersion, static_cast<std::uint32_t>(recorded_kinds().size()),

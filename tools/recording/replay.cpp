@@ -219,6 +219,20 @@ Played Player::seek(std::int64_t tick) {
   return played;
 }
 
+Played Player::key_frame(const BranchPoint& point) {
+  Played played = seek(point.tick);
+  played.state = point.state;
+  played.status = point.status;
+  played.outputs = point.outputs;
+  played.traffic = point.traffic;
+  std::erase_if(played.sweeps, [&](const databuffer::Sweep& sweep) {
+    return sweep.epoch != point.epoch || sweep.tick > point.tick;
+  });
+  played.maps.clear();
+  find_maps(reader_->block_of(point.tick), played);
+  return played;
+}
+
 void Player::take(Played& played) {
   const RecordingItem item = std::move(*ahead_);
   ahead_.reset();

@@ -17,6 +17,7 @@
 #include "model/kernel/tick_inputs.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
+#include "tools/recording/branch.hpp"
 #include "tools/recording/recorded_kinds.hpp"
 #include "tools/recording/recording_reader.hpp"
 
@@ -103,6 +104,7 @@ struct Played {
   std::optional<databuffer::RadarState> state;
   std::optional<databuffer::ModelStatus> status;  // newest status, with the ownship of the newest tick
   std::optional<databuffer::Outputs> outputs;
+  std::optional<databuffer::Traffic> traffic;  // in the key frame of a branch alone
   std::deque<databuffer::Sweep> sweeps;
   std::vector<Patch> maps;
   std::optional<std::int64_t> cut_to_tick;  // tick at which the recording continues after a cut (see Player)
@@ -131,6 +133,8 @@ class Player {
   static bool has_ticks(const RecordingReader& reader);
 
   Played seek(std::int64_t tick);
+  // Key frame of a branch: as seek(), with the records of the point, and without sweeps after its tick.
+  Played key_frame(const BranchPoint& point);
   // Records after those that seek() and play_to() have returned so far, up to and including this tick.
   Played play_to(std::int64_t tick);
 
