@@ -104,7 +104,7 @@ struct Played {
   std::optional<databuffer::RadarState> state;
   std::optional<databuffer::ModelStatus> status;  // newest status, with the ownship of the newest tick
   std::optional<databuffer::Outputs> outputs;
-  std::optional<databuffer::Traffic> traffic;  // in the key frame of a branch alone
+  std::optional<databuffer::Traffic> traffic;  // never from Player: a live set goes on with it
   std::deque<databuffer::Sweep> sweeps;
   std::vector<Patch> maps;
   std::optional<std::int64_t> cut_to_tick;  // tick at which the recording continues after a cut (see Player)
@@ -133,8 +133,8 @@ class Player {
   static bool has_ticks(const RecordingReader& reader);
 
   Played seek(std::int64_t tick);
-  // Key frame of a branch: as seek(), with the records of the point, and without sweeps after its tick.
-  Played key_frame(const BranchPoint& point);
+  // Picture of a branch point: its maps, and the sweeps of the current scan and the one before up to its tick.
+  Played picture(const BranchPoint& point);
   // Records after those that seek() and play_to() have returned so far, up to and including this tick.
   Played play_to(std::int64_t tick);
 
@@ -153,7 +153,8 @@ class Player {
   void start_late(const databuffer::ModelStatus& status, Played& played);
   void start_kernel(const databuffer::ModelStatus& status);
   void use_traffic(const databuffer::Traffic& traffic);
-  std::size_t picture_begin(std::size_t block, std::int64_t tick);
+  Played seek(std::int64_t tick, std::uint32_t least_sweeps);
+  std::size_t picture_begin(std::size_t block, std::int64_t tick, std::uint32_t least_sweeps);
   std::optional<databuffer::ModelStatus> status_at(std::size_t block, std::int64_t tick);
   void find_maps(std::size_t block, Played& played);
 

@@ -110,11 +110,16 @@ error::Expected<void> hand_over(recording::RecordingReader& reader, const record
   if (!session) return tl::unexpected(session.error());
   // The live roles begin with the tick behind the point.
   if (auto held = session->hold(point.tick + 1, point.epoch, point.status.ownship); !held) return held;
+  // The records that are known without the kernel come first: a standing-by radar model loads its terrain meanwhile.
+  recording::Played records;
+  records.state = point.state;
+  records.status = point.status;
+  records.outputs = point.outputs;
+  if (point.traffic) records.traffic = traffic_at(*point.traffic, point.tick + 1);
+  session->publish_key_frame(records);
   report(options, "claimed");
   recording::Player player(reader, open_world());
-  recording::Played key_frame = player.key_frame(point);
-  if (key_frame.traffic) key_frame.traffic = traffic_at(*key_frame.traffic, point.tick + 1);
-  session->publish_key_frame(key_frame);
+  session->publish(player.picture(point));
   session->release_roles();
   const std::int64_t deadline_ns = databuffer::monotonic_ns() + kPatience_ns;
   Joining joining(session->session(), point, options.roles);

@@ -30,6 +30,7 @@ using recording::RecordingReader;
 struct RecordingsOptions {
   std::vector<std::string> paths;
   bool json = false;
+  bool lines = false;  // for scripts/start: the facts of --at alone, NAME = VALUE
   std::optional<double> at_s;
 };
 
@@ -104,7 +105,7 @@ ordered_json description_of(RecordingReader& reader, const std::filesystem::path
   const auto range = recording::tick_range(reader);
   const bool writing = recording::is_being_written(file);
   ordered_json object;
-  object["file"] = std::filesystem::absolute(file).string();
+  object["file"] = std::filesystem::absolute(file).lexically_normal().string();
   object["begin_s"] = range ? seconds_at(range->first) : ordered_json();
   object["end_s"] = range ? seconds_at(range->last) : ordered_json();
   object["duration_s"] = range ? seconds_at(range->last - range->first) : ordered_json();
@@ -155,6 +156,7 @@ class Listing {
     for (const auto& file : recordings_in(path)) add_file(file, false);
   }
   void print() const {
+    if (options_->lines) return print_lines();
     if (options_->json) return print_json({{"recordings", recordings_}, {"refused", refused_}});
     for (const ordered_json& one : recordings_) print_text(one);
     for (const ordered_json& one : refused_)
@@ -175,6 +177,14 @@ class Listing {
     ordered_json object = description_of(*reader, file);
     if (options_->at_s) object["fly_out"] = fly_out_of(*reader, file.string(), *options_->at_s);
     recordings_.push_back(std::move(object));
+  }
+  void print_lines() const {
+    for (const ordered_json& one : recordings_)
+      for (const auto& [name, value] : {std::pair<const char*, std::string>{"config", one["configuration"]},
+                                        {"terrain", one["terrain"]},
+                                        {"source", one["fly_out"]["source"]},
+                                        {"reason", one["fly_out"]["reason"]}})
+        std::printf("%s = %s\n", name, text::printable(value).c_str());
   }
   static void print_text(const ordered_json& one) {
     const auto yes = [&one](const char* field, const char* text) {
@@ -227,11 +237,12 @@ void add_recordings_command(databuffer::Command app) {
   command.option("FILE", options->paths, "recordings, or folders with recordings")
       .value_name("FILE")
       .otherwise("the current folder");
-  command
-      .option("--at", options->at_s,
-              "[s] sim time: say where a live set goes on from there, and by which flight (scripts/start --fly-out)")
-      .range(0.0, databuffer::kLatestSimTime_s)
+  databuffer::Option at = command.option(
+      "--at", options->at_s,
+      "[s] sim time: say where a live set goes on from there, and by which flight (scripts/start --fly-out)");
+  at.range(0.0, databuffer::kLatestSimTime_s)
       .otherwise("none");
+  command.flag("--lines", options->lines, "print the facts of --at as lines NAME = VALUE, for scripts").needs(at);
   add_json_flag(command, options->json);
   command.callback([options] { list(*options); });
 }
