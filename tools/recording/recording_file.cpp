@@ -82,6 +82,7 @@ std::string_view file_magic() {
 
 std::vector<std::byte> bytes_of(const RecordingHeader& header) {
   std::vector<std::byte> bytes;
+  bytes.reserve(sizeof(Preamble) + kMaxKinds * sizeof(KindEntry) + header.configuration.size() + header.terrain.size());
   append(bytes, Preamble{kFileMagic, kVersion, static_cast<std::uint32_t>(recorded_kinds().size()),
                          static_cast<std::uint32_t>(header.configuration.size()),
                          static_cast<std::uint32_t>(header.terrain.size())});
