@@ -39,8 +39,9 @@ static_assert(sizeof(Preamble) == 24 && sizeof(KindEntry) == 8);
 
 template <class T>
 void append(std::vector<std::byte>& bytes, const T& value) {
-  const auto more = std::as_bytes(std::span(&value, 1));
-  bytes.insert(bytes.end(), more.begin(), more.end());
+  const std::size_t begin = bytes.size();
+  bytes.resize(begin + sizeof value);
+  std::memcpy(bytes.data() + begin, &value, sizeof value);
 }
 
 void append(std::vector<std::byte>& bytes, const std::string& text) {
@@ -82,7 +83,6 @@ std::string_view file_magic() {
 
 std::vector<std::byte> bytes_of(const RecordingHeader& header) {
   std::vector<std::byte> bytes;
-  bytes.reserve(sizeof(Preamble) + kMaxKinds * sizeof(KindEntry) + header.configuration.size() + header.terrain.size());
   append(bytes, Preamble{kFileMagic, kVersion, static_cast<std::uint32_t>(recorded_kinds().size()),
                          static_cast<std::uint32_t>(header.configuration.size()),
                          static_cast<std::uint32_t>(header.terrain.size())});
