@@ -135,7 +135,8 @@ bool RouteFlight::resume(const Ownship& last, geo::Duration gap) {
   const std::size_t to = route_.after(from);
   const Leg leg(route_.waypoints[from].point, route_.waypoints[to].point);
   const geo::Length across = leg.fix(motion.point, {}).across;
-  const bool is_near = std::abs(across.metres()) < kNearLeg_radii * turn_radius_m(motion.ground_speed.metres_per_second());
+  const bool is_near =
+      std::abs(across.metres()) < kNearLeg_radii * turn_radius_m(motion.ground_speed.metres_per_second());
   motion_ = motion;
   roll_ = std::clamp(geo::Angle::degrees(last.roll_deg), -kBankLimit, kBankLimit);
   fly_to(to, is_near ? route_.waypoints[from].point : motion.point);
@@ -157,7 +158,8 @@ std::size_t RouteFlight::leg_flown(const Motion& motion) const {
     const Leg::Fix fix = leg.fix(motion.point, {});
     // An open route ends with straight flight beyond its last waypoint.
     const bool is_last = route_.after(to) == route_.waypoints.size();
-    const auto along = is_last ? std::max(fix.along, geo::Length()) : std::clamp(fix.along, geo::Length(), leg.length());
+    const auto along =
+        is_last ? std::max(fix.along, geo::Length()) : std::clamp(fix.along, geo::Length(), leg.length());
     const double distance_m = geo::geodesic_inverse(motion.point, leg.point(along)).distance.metres();
     const double cost_m = distance_m + radius_m * std::abs((fix.course - motion.track).radians());
     if (cost_m >= best_m) continue;

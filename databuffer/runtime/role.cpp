@@ -48,8 +48,7 @@ void add_standby_option(CommandLine& app, bool& standby) {
 }
 
 error::Expected<std::optional<HeldRole>> take_role(const std::string& session_name, Role role, std::string_view program,
-                                                   bool standby,
-                                                   const std::function<void(const Session&)>& meanwhile) {
+                                                   bool standby, const std::function<void(const Session&)>& meanwhile) {
   if (!standby) {
     auto held = open_and_claim(session_name, role, program);
     if (!held) return tl::unexpected(held.error());

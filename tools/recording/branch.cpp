@@ -155,8 +155,7 @@ const RadarState* state_at(const Window& window, std::int64_t tick) {
 
 // True if the radar state has applied all events up to the tick. An event changes the state in its own tick.
 bool has_all_events(const Window& window, const RadarState& state, std::int64_t tick) {
-  return std::ranges::none_of(window.events,
-                              [&](std::int64_t event) { return event > state.tick && event <= tick; });
+  return std::ranges::none_of(window.events, [&](std::int64_t event) { return event > state.tick && event <= tick; });
 }
 
 // The status at which the branch begins; nullptr: none.
@@ -221,10 +220,10 @@ error::Expected<std::int64_t> tick_at(const RecordingReader& reader, double seco
   const double tick = std::round(seconds / radar::kTickSeconds);  // NaN fails both comparisons
   if (tick >= static_cast<double>(range->first) && tick <= static_cast<double>(range->last))
     return static_cast<std::int64_t>(tick);
-  return tl::unexpected(error::usage_error(option,
-                                           "a time within " + file + ", " + text_of_seconds(range->first) + " to " +
-                                               text_of_seconds(range->last) + " s",
-                                           std::to_string(seconds)));
+  return tl::unexpected(error::usage_error(
+      option,
+      "a time within " + file + ", " + text_of_seconds(range->first) + " to " + text_of_seconds(range->last) + " s",
+      std::to_string(seconds)));
 }
 
 error::Expected<BranchPoint> find_branch_point(RecordingReader& reader, std::int64_t tick, const std::string& file) {

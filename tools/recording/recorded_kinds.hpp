@@ -115,9 +115,10 @@ inline constexpr KindName kKindOf<databuffer::Traffic>{14, "Traffic"};
 template <>
 inline constexpr KindName kKindOf<FlightSource>{16, "FlightSource"};
 
-using RecordingItem = std::variant<databuffer::ModelTick, databuffer::AppliedEvent, SweepDigest, StartingPoint, Gap,
-                                   StateChange, StatusReport, databuffer::Nav, databuffer::Ownship, databuffer::Sweep,
-                                   Patch, databuffer::Outputs, databuffer::RecorderStatus, databuffer::Traffic, FlightSource>;
+using RecordingItem =
+    std::variant<databuffer::ModelTick, databuffer::AppliedEvent, SweepDigest, StartingPoint, Gap, StateChange,
+                 StatusReport, databuffer::Nav, databuffer::Ownship, databuffer::Sweep, Patch, databuffer::Outputs,
+                 databuffer::RecorderStatus, databuffer::Traffic, FlightSource>;
 
 // Bytes of a record as stored, in two parts.
 struct RecordParts {

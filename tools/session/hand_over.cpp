@@ -1,5 +1,7 @@
 #include "tools/session/hand_over.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <ctime>
 #include <span>
@@ -92,8 +94,8 @@ error::Expected<void> await(ReplaySession& session, const HandOverOptions& optio
     if (databuffer::stop_requested())
       return error::fail("hand-over", "the live roles to join session " + options.session, "a request to stop");
     if (databuffer::monotonic_ns() > deadline_ns)
-      return error::fail("hand-over", options.roles + " in session " + options.session + " within 30 s",
-                         "no " + role, "start it with --session " + options.session + ", or choose roles by --await");
+      return error::fail("hand-over", options.roles + " in session " + options.session + " within 30 s", "no " + role,
+                         "start it with --session " + options.session + ", or choose roles by --await");
     session.heartbeat();
     const timespec pause{0, kLookInterval_ns};
     nanosleep(&pause, nullptr);

@@ -23,7 +23,7 @@ namespace yars::tools {
 struct HandOverOptions {
   std::string session;
   std::string roles = "state-machine,radar-model,flight-model";  // awaited before the clock runs
-  bool prints = true;                                             // the lines `claimed` and `ready`
+  bool prints = true;                                            // the lines `claimed` and `ready`
 };
 
 // `open_world` is called after the line `claimed`: see recording::Player.

@@ -141,8 +141,8 @@ Trunk open_trunk(const RecordOptions& options) {
   return {std::move(*reader), std::move(*point)};
 }
 
-// Begins the recording with the items of its trunk. Returns false, with a line in the log, if the session has run on too
-// far: a recorder that was started again begins in the middle of the session.
+// Begins the recording with the items of its trunk. Returns false, with a line in the log, if the session has run on
+// too far: a recorder that was started again begins in the middle of the session.
 bool begin_branch(const Session& session, Trunk& trunk, recording::RecordingWriter& writer) {
   if (!Recorder::holds_branch(session)) {
     log::warning("the session has run on since the branch began; the recording begins here, without what was before");
@@ -208,8 +208,8 @@ void add_record_command(databuffer::Command app, const CommonOptions& common) {
               "the value of flight-model's --source; a set that flies out of the recording continues this flight")
       .value_name("SOURCE")
       .otherwise("not recorded");
-  Option from = command.option("--from", options->from,
-                               "begin with the items of this recording up to --until S: a branch of it");
+  Option from =
+      command.option("--from", options->from, "begin with the items of this recording up to --until S: a branch of it");
   from.value_name("FILE").otherwise("a recording of its own");
   Option until = command.option("--until", options->until_s, "[s] sim time at which the branch leaves --from FILE");
   until.range(0.0, databuffer::kLatestSimTime_s).needs(from).otherwise("none");

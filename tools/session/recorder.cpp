@@ -259,7 +259,8 @@ void Recorder::take_traffic_before(const databuffer::ModelTick& tick) {
 // Appends radar state, model status and outputs at a limited rate. The segment keeps only the latest value of each: in
 // a live session, a state that lasted less than one poll is missed.
 void Recorder::take_latest(std::int64_t tick) {
-  if (state_.has_value() && !is_in_branch(state_.value()) && state_pace_.takes(state_.value(), tick) && is_valid(state_.value()))
+  if (state_.has_value() && !is_in_branch(state_.value()) && state_pace_.takes(state_.value(), tick) &&
+      is_valid(state_.value()))
     append(recording::StateChange{state_.value()});
   if (status_pace_.is_due(tick) && status_.refresh()) {
     status_pace_.taken(tick);

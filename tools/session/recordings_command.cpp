@@ -1,6 +1,7 @@
 // `yars recordings`: lists recordings by their headers and indexes, and says where a live set would go on (--at).
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "databuffer/runtime/program.hpp"
+#include "lib/geo/quantity.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
@@ -34,8 +36,9 @@ struct RecordingsOptions {
   std::optional<double> at_s;
 };
 
+// Sim time [s] of a tick; a tick is 5 ms, so three decimals are exact.
 ordered_json seconds_at(std::int64_t tick) {
-  return static_cast<double>(tick) * radar::kTickSeconds;
+  return std::round(static_cast<double>(tick) * radar::kTickSeconds * 1e3) / 1e3;
 }
 
 template <class T>
@@ -140,8 +143,8 @@ std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& fo
     if (entry->is_regular_file(kind) && may_be_recording(entry->path())) files.push_back(entry->path());
   }
   if (code)
-    throw_failure({folder.string(), "a folder that can be read", error::reason_of(code.value()), "check the path",
-                   false});
+    throw_failure(
+        {folder.string(), "a folder that can be read", error::reason_of(code.value()), "check the path", false});
   std::ranges::sort(files);
   return files;
 }
@@ -159,8 +162,7 @@ class Listing {
     if (options_->lines) return print_lines();
     if (options_->json) return print_json({{"recordings", recordings_}, {"refused", refused_}});
     for (const ordered_json& one : recordings_) print_text(one);
-    for (const ordered_json& one : refused_)
-      log::warning("not listed: " + one["reason"].get<std::string>());
+    for (const ordered_json& one : refused_) log::warning("not listed: " + one["reason"].get<std::string>());
     if (recordings_.empty() && refused_.empty()) std::printf("no recordings\n");
   }
   // True if a file that the user named is no recording.
@@ -169,6 +171,7 @@ class Listing {
  private:
   void add_file(const std::filesystem::path& file, bool named) {
     auto reader = RecordingReader::open(file);
+    if (!reader && options_->at_s) throw_failure(reader.error());
     if (!reader) {
       refused_.push_back({{"file", file.string()}, {"reason", reader.error().message()}});
       failed_ = failed_ || named;
@@ -190,12 +193,11 @@ class Listing {
     const auto yes = [&one](const char* field, const char* text) {
       return one[field].get<bool>() ? std::string(", ") + text : std::string();
     };
-    const std::string time =
-        one["begin_s"].is_null()
-            ? "no ticks"
-            : text::text_of_number(one["begin_s"].get<double>()) + " to " +
-                  text::text_of_number(one["end_s"].get<double>()) + " s of sim time, " +
-                  text::text_of_number(one["duration_s"].get<double>()) + " s";
+    const std::string time = one["begin_s"].is_null()
+                                 ? "no ticks"
+                                 : text::text_of_number(one["begin_s"].get<double>()) + " to " +
+                                       text::text_of_number(one["end_s"].get<double>()) + " s of sim time, " +
+                                       text::text_of_number(one["duration_s"].get<double>()) + " s";
     const auto or_built_in = [](const std::string& path) { return path.empty() ? std::string("built-in") : path; };
     std::printf("%s: %s; %s%s%s%s%s\n  configuration %s, terrain %s\n", one["file"].get<std::string>().c_str(),
                 time.c_str(), text::counted(one["bytes"].get<std::uint64_t>(), "byte").c_str(),
@@ -207,8 +209,7 @@ class Listing {
     const std::string reason = point["reason"];
     std::printf("  goes on at %s s (tick %lld), flight-model --source %s%s\n",
                 text::text_of_number(point["at_s"].get<double>()).c_str(),
-                static_cast<long long>(point["tick"].get<std::int64_t>()),
-                point["source"].get<std::string>().c_str(),
+                static_cast<long long>(point["tick"].get<std::int64_t>()), point["source"].get<std::string>().c_str(),
                 reason.empty() ? "" : (", straight and level: " + reason).c_str());
   }
 
@@ -219,8 +220,8 @@ class Listing {
 
 void list(const RecordingsOptions& options) {
   if (options.at_s && options.paths.size() != 1)
-    throw_failure(error::usage_error("--at", "one FILE with it", std::to_string(options.paths.size()),
-                                     "name the recording"));
+    throw_failure(
+        error::usage_error("--at", "one FILE with it", std::to_string(options.paths.size()), "name the recording"));
   Listing listing(options);
   for (const std::string& path : options.paths.empty() ? std::vector<std::string>{"."} : options.paths)
     listing.add(path);
@@ -240,8 +241,7 @@ void add_recordings_command(databuffer::Command app) {
   databuffer::Option at = command.option(
       "--at", options->at_s,
       "[s] sim time: say where a live set goes on from there, and by which flight (scripts/start --fly-out)");
-  at.range(0.0, databuffer::kLatestSimTime_s)
-      .otherwise("none");
+  at.range(0.0, databuffer::kLatestSimTime_s).otherwise("none");
   command.flag("--lines", options->lines, "print the facts of --at as lines NAME = VALUE, for scripts").needs(at);
   add_json_flag(command, options->json);
   command.callback([options] { list(*options); });

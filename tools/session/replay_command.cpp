@@ -114,7 +114,8 @@ error::Error no_ticks(const std::string& file) {
   return {file, "at least one tick", "none", "record while radar-model runs", false};
 }
 
-// World of a player that computes the sweeps. Empty for a recording with video. `world` keeps what the result refers to.
+// World of a player that computes the sweeps. Empty for a recording with video. `world` keeps what the result refers
+// to.
 std::optional<recording::PlayerWorld> player_world(const CommonOptions& common,
                                                    const recording::RecordingReader& reader,
                                                    const ReplayOptions& options, std::optional<World>& world) {

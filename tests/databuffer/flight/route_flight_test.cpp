@@ -231,8 +231,9 @@ TEST(RouteFlight, AFlightThatIsResumedGoesOnAsIfItHadNotEnded) {
       RouteFlight later(route);
       later.resume(last, geo::Duration::seconds(10.0));
       RouteFlight after = flight;
-      EXPECT_LT(distance_m(point_of(later.step({}).ownship), point_of(after.step(geo::Duration::seconds(10.0)).ownship)),
-                1.0);
+      EXPECT_LT(
+          distance_m(point_of(later.step({}).ownship), point_of(after.step(geo::Duration::seconds(10.0)).ownship)),
+          1.0);
     }
   }
 }

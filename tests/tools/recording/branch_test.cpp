@@ -1,11 +1,12 @@
 // Branch of a recording: the point at which it begins, and its items.
+#include "tools/recording/branch.hpp"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <set>
 
 #include "tests/tools/recording/made_recording.hpp"
-#include "tools/recording/branch.hpp"
 
 namespace yars::tools::recording {
 namespace {
