@@ -175,6 +175,12 @@ TEST_F(FlyOut, NamesWhatIsWrong) {
   // Another set has the session.
   start();
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].size() >= 3; }, kTimeout_s));
+  const auto not_flown_out =
+      set_.yars({"record", branch_of("not").string(), "--from", original_.string(), "--until", "9"});
+  EXPECT_EQ(not_flown_out.code, 1);
+  EXPECT_NE(not_flown_out.errors.find("a session that goes on from that recording"), std::string::npos)
+      << not_flown_out.errors;
+  EXPECT_FALSE(std::filesystem::exists(branch_of("not")));
   const auto taken = run_tool(fly_out("refused", {"--at", "9", "--session", set_.session()}));
   EXPECT_EQ(taken.code, 1);
   EXPECT_NE(taken.errors.find("one process of this role in a session"), std::string::npos) << taken.errors;

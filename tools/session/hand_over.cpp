@@ -108,7 +108,7 @@ error::Expected<void> await(ReplaySession& session, const HandOverOptions& optio
 error::Expected<void> hand_over(recording::RecordingReader& reader, const recording::BranchPoint& point,
                                 const std::function<std::optional<recording::PlayerWorld>()>& open_world,
                                 const HandOverOptions& options) {
-  auto session = ReplaySession::create(options.session, {"hand-over", "hand-over"});
+  auto session = ReplaySession::create(options.session);
   if (!session) return tl::unexpected(session.error());
   // The live roles begin with the tick behind the point.
   if (auto held = session->hold(point.tick + 1, point.epoch, point.status.ownship); !held) return held;

@@ -43,10 +43,10 @@ void pause_for_readers() {
 
 ReplaySession::ReplaySession(Session machine, Session model) : machine_(std::move(machine)), model_(std::move(model)) {}
 
-error::Expected<ReplaySession> ReplaySession::create(const std::string& name, ReplayNames names) {
-  auto machine = Session::open(name, names.machine);
+error::Expected<ReplaySession> ReplaySession::create(const std::string& name) {
+  auto machine = Session::open(name, databuffer::name_of(databuffer::Role::state_machine));
   if (!machine) return tl::unexpected(machine.error());
-  auto model = Session::open(name, names.model);
+  auto model = Session::open(name, databuffer::name_of(databuffer::Role::radar_model));
   if (!model) return tl::unexpected(model.error());
   if (std::as_const(*machine).layout().lockstep.enabled.load() != 0)
     return error::fail("session " + name, "a live session", "a lockstep session", "name a live session with --session");

@@ -6,19 +6,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "databuffer/session/session.hpp"
 #include "lib/error/error.hpp"
 #include "tools/recording/replay.hpp"
 
 namespace yars::tools {
-
-// Names of a process in the process table, one for each role.
-struct ReplayNames {
-  std::string_view machine = databuffer::name_of(databuffer::Role::state_machine);
-  std::string_view model = databuffer::name_of(databuffer::Role::radar_model);
-};
 
 // The session of a replay. This process takes the roles state-machine and radar-model and sets the clock to the
 // recording's time. Each jump begins a new epoch, so that no picture mixes records from before and after the jump.
@@ -27,7 +20,7 @@ struct ReplayNames {
 class ReplaySession {
  public:
   // Errors: another process has one of the two roles, or the session runs in lockstep.
-  static error::Expected<ReplaySession> create(const std::string& name, ReplayNames names = ReplayNames());
+  static error::Expected<ReplaySession> create(const std::string& name);
 
   // jump_to() and start() set the clock to `tick` in a new epoch. start() also sets the rate and runs the clock.
   error::Expected<void> jump_to(std::int64_t tick);

@@ -126,7 +126,7 @@ struct Trunk {
   recording::BranchPoint point;
 };
 
-Trunk open_trunk(const RecordOptions& options) {
+Trunk open_trunk(const RecordOptions& options, const Session& session) {
   if (!options.until_s)
     throw_failure(error::usage_error("--from", "--until S with it", "none", "give the time of the branch"));
   std::error_code code;
@@ -138,6 +138,9 @@ Trunk open_trunk(const RecordOptions& options) {
   if (!tick) throw_failure(tick.error());
   auto point = recording::find_branch_point(*reader, *tick, options.from);
   if (!point) throw_failure(point.error());
+  if (Recorder::holds_branch(session) && !Recorder::is_branch(session, *point))
+    throw_failure({"--from", "a session that goes on from that recording, at that time", "another session",
+                   "start both by scripts/start --fly-out", false});
   return {std::move(*reader), std::move(*point)};
 }
 
@@ -160,7 +163,7 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   auto role = session->claim(databuffer::Role::recorder);
   if (!role) throw_failure(error::usage_error(role.error()));
   std::optional<Trunk> trunk;
-  if (!options.from.empty()) trunk = open_trunk(options);
+  if (!options.from.empty()) trunk = open_trunk(options, *session);
   auto writer = recording::RecordingWriter::create(
       options.file, {absolute(common.config), absolute(options.terrain)},
       options.overwrite ? recording::Existing::overwritten : recording::Existing::refused);

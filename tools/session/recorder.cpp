@@ -57,6 +57,16 @@ bool Recorder::holds_branch(const databuffer::Session& session) {
   return layout.model_ticks.oldest() == 0 && layout.applied_events.oldest() == 0;
 }
 
+bool Recorder::is_branch(const databuffer::Session& session, const recording::BranchPoint& point) {
+  const auto& ring = session.layout().model_ticks;
+  std::uint64_t cursor = 0;
+  databuffer::ModelTick first{};
+  first.tick = session.sim_time_ns() / radar::kTickNanoseconds;
+  first.epoch = session.clock().epoch;
+  ring.read(cursor, first);  // while there is none, the hand-over holds the clock at the first tick
+  return first.tick == point.tick + 1 && first.epoch == point.epoch;
+}
+
 void Recorder::continue_branch(const recording::BranchPoint& point) {
   tick_cursor_ = event_cursor_ = sweep_cursor_ = traffic_cursor_ = 0;
   branch_tick_ = point.tick;

@@ -37,6 +37,8 @@ class Recorder {
   void continue_branch(const recording::BranchPoint& point);
   // True if the rings of the session have lost no record since the session began.
   static bool holds_branch(const databuffer::Session& session);
+  // True if the session's first tick is, or will be, the one behind the point.
+  static bool is_branch(const databuffer::Session& session, const recording::BranchPoint& point);
 
   // One poll: appends the new records of the rings, and the latest values at a limited rate. Also tries to write again
   // after a write error, begins the next file, applies presses of push button 12, and publishes RecorderStatus.
