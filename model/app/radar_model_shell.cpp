@@ -200,7 +200,7 @@ void RadarModelShell::latch_traffic() {
 
 // Waits until the ground is loaded, so that the first sweeps of a set that goes on from a recording have it.
 void RadarModelShell::await_ground(const terrain::TerrainRegion& region) {
-  constexpr std::int64_t kPatience_ns = 2'000'000'000;
+  constexpr std::int64_t kPatience_ns = 500'000'000;  // 0.5 s; then sweeps are flagged not ready as in flight
   constexpr timespec kPause{0, 2'000'000};
   const std::int64_t deadline_ns = databuffer::monotonic_ns() + kPatience_ns;
   while (!(terrain_->is_idle() && loaded_scenes_.complete) && databuffer::monotonic_ns() < deadline_ns) {
