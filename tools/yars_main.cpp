@@ -24,6 +24,7 @@ void add_commands(databuffer::Command app, const tools::CommonOptions& common) {
   tools::add_status_command(app, common);
   tools::add_watch_command(app, common);
   tools::add_record_command(app, common);
+  tools::add_recordings_command(app);
   tools::add_replay_command(app, common);
 }
 
@@ -37,7 +38,7 @@ int run(int argc, char** argv) {
   app.before_callbacks([&] {
     if (auto error = databuffer::begin_program("yars", options)) tools::throw_failure(*error);
     // These subcommands do not poll the stop flag that the signal handler sets. The default signal action ends them.
-    for (const auto* command : {"scan", "patch", "trade", "terrain", "scene", "dataset", "config"})
+    for (const auto* command : {"scan", "patch", "trade", "terrain", "scene", "dataset", "config", "recordings"})
       if (app.has_subcommand(command)) databuffer::restore_default_signal_actions();
     common.session = options.session;
     common.config = options.config;

@@ -81,6 +81,10 @@ constexpr double kMaxIntercept_deg = 90.0;  // [deg] maximum of intercept()
 // [deg] Track error beyond which a turn in progress keeps its direction, even if the other direction is shorter.
 constexpr double kAmbiguousTurn_deg = 150.0;
 
+constexpr double kLeastSpeed_mps = 1.0;  // [m/s] a slower aircraft has no course
+// [turn radii] Distance from a leg up to which a resumed flight goes on along it; else it flies directly to its end.
+constexpr double kNearLeg_radii = 4.0;
+
 double turn_radius_m(double speed_mps) {
   return speed_mps * speed_mps / (kGravity_mps2 * std::tan(kPlannedBank.radians()));
 }
@@ -118,6 +122,53 @@ bool RouteFlight::reposition(const Placement& placement) {
   motion_.ground_speed = placement.ground_speed.value_or(route_.waypoints[target_].ground_speed);
   straight_ = placement.ground_speed.has_value();
   return true;
+}
+
+bool RouteFlight::resume(const Ownship& last, geo::Duration gap) {
+  const double north_mps = last.velocity_north_mps, east_mps = last.velocity_east_mps;
+  const Motion motion{{last.latitude_deg, last.longitude_deg},
+                      geo::AltitudeMsl::metres(last.altitude_msl_m),
+                      geo::Bearing::radians(std::atan2(east_mps, north_mps)),
+                      geo::Speed::metres_per_second(std::hypot(north_mps, east_mps)),
+                      geo::Speed::metres_per_second(-last.velocity_down_mps)};
+  // No route has an aircraft that stands still, and its course would be unknown.
+  if (!(motion.ground_speed.metres_per_second() > kLeastSpeed_mps)) return FlightModel::resume(last, gap);
+  const std::size_t from = leg_flown(motion);
+  const std::size_t to = route_.after(from);
+  const Leg leg(route_.waypoints[from].point, route_.waypoints[to].point);
+  const geo::Length across = leg.fix(motion.point, {}).across;
+  const bool is_near =
+      std::abs(across.metres()) < kNearLeg_radii * turn_radius_m(motion.ground_speed.metres_per_second());
+  motion_ = motion;
+  roll_ = std::clamp(geo::Angle::degrees(last.roll_deg), -kBankLimit, kBankLimit);
+  fly_to(to, is_near ? route_.waypoints[from].point : motion.point);
+  fix_ = leg_.fix(motion_.point, {});
+  step(gap);
+  return true;
+}
+
+// Index of the waypoint at the begin of the leg that the aircraft flies. A leg in another direction than the track
+// counts as farther away: by the radius of a turn for each radian.
+std::size_t RouteFlight::leg_flown(const Motion& motion) const {
+  std::size_t best = 0;
+  double best_m = std::numeric_limits<double>::infinity();
+  const double radius_m = turn_radius_m(motion.ground_speed.metres_per_second());
+  for (std::size_t from = 0; from < route_.waypoints.size(); ++from) {
+    const std::size_t to = route_.after(from);
+    if (to == route_.waypoints.size()) break;
+    const Leg leg(route_.waypoints[from].point, route_.waypoints[to].point);
+    const Leg::Fix fix = leg.fix(motion.point, {});
+    // An open route ends with straight flight beyond its last waypoint.
+    const bool is_last = route_.after(to) == route_.waypoints.size();
+    const auto along =
+        is_last ? std::max(fix.along, geo::Length()) : std::clamp(fix.along, geo::Length(), leg.length());
+    const double distance_m = geo::geodesic_inverse(motion.point, leg.point(along)).distance.metres();
+    const double cost_m = distance_m + radius_m * std::abs((fix.course - motion.track).radians());
+    if (cost_m >= best_m) continue;
+    best = from;
+    best_m = cost_m;
+  }
+  return best;
 }
 
 void RouteFlight::fly_to(std::size_t waypoint, geo::GeoPoint from) {

@@ -50,6 +50,7 @@ inline constexpr double kAcceleration_mps2 = 2.0;  // limit of the rate of chang
 // Guidance: far from the leg, the aircraft approaches it at a right angle, then on a circular arc. Near the leg, the
 // commanded angle between track and leg is proportional to the distance from the leg.
 // The commanded turn rate is proportional to the difference of commanded and actual track, within kBankLimit.
+// A flight that is resumed keeps position, altitude, track, speed, climb and roll, and goes on along the nearest leg.
 // After a repositioning the aircraft flies directly to the end of the nearest leg; straight and level if it has a speed.
 // After the last waypoint of an open route the aircraft continues straight ahead.
 class RouteFlight final : public FlightModel {
@@ -58,8 +59,10 @@ class RouteFlight final : public FlightModel {
   FlightSample step(geo::Duration dt) override;
   void reset() override;
   bool reposition(const Placement& placement) override;
+  bool resume(const Ownship& last, geo::Duration gap) override;
 
  private:
+  std::size_t leg_flown(const Motion& motion) const;
   void fly_to(std::size_t waypoint, geo::GeoPoint from);  // sets leg_, next_, target_, fix_
   std::size_t nearest_leg_end(geo::GeoPoint position) const;
   void advance(double dt_s);

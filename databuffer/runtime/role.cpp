@@ -48,7 +48,7 @@ void add_standby_option(CommandLine& app, bool& standby) {
 }
 
 error::Expected<std::optional<HeldRole>> take_role(const std::string& session_name, Role role, std::string_view program,
-                                                   bool standby) {
+                                                   bool standby, const std::function<void(const Session&)>& meanwhile) {
   if (!standby) {
     auto held = open_and_claim(session_name, role, program);
     if (!held) return tl::unexpected(held.error());
@@ -67,6 +67,7 @@ error::Expected<std::optional<HeldRole>> take_role(const std::string& session_na
     if (!std::exchange(reported, true))
       log::info("stands by: another process holds the role " + std::string(name_of(role)));
     waiting->heartbeat();
+    if (meanwhile) meanwhile(*waiting);
     std::this_thread::sleep_for(kStandbyInterval);
   }
   return std::optional<HeldRole>();

@@ -5,6 +5,7 @@
 // Threads: main thread only.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -25,8 +26,10 @@ void add_standby_option(CommandLine& app, bool& standby);
 
 // Claims the role. With `standby` waits while another process holds it, and while another host of the session does. The
 // process table shows a waiting program as "NAME standby". nullopt: a stop was requested while waiting.
+// `meanwhile` is called every 10 ms while it waits, to prepare for the role.
 error::Expected<std::optional<HeldRole>> take_role(const std::string& session, Role role, std::string_view program,
-                                                   bool standby);
+                                                   bool standby,
+                                                   const std::function<void(const Session&)>& meanwhile = {});
 
 // Outcome of a program without --standby whose role another host of the session has taken.
 tl::unexpected<error::Error> fail_yielded(Role role);

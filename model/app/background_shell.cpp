@@ -57,6 +57,11 @@ void TerrainLoader::request(const terrain::TerrainRegion& region) {
   wake_.notify_one();
 }
 
+bool TerrainLoader::is_idle() const {
+  const std::scoped_lock lock(mutex_);
+  return !pending_ && !loading_;
+}
+
 terrain::TerrainViewPointer TerrainLoader::view() const {
   const std::scoped_lock lock(mutex_);
   return view_;
@@ -78,6 +83,7 @@ void TerrainLoader::serve() {
     if (ending_) return;
     const terrain::TerrainRegion region = *pending_;
     pending_.reset();
+    loading_ = true;
     lock.unlock();
     auto view = store_->prepare_in_steps(region, [this](const terrain::TerrainViewPointer& interim) {
       const std::scoped_lock hold(mutex_);
@@ -86,6 +92,7 @@ void TerrainLoader::serve() {
     });
     lock.lock();
     view_ = std::move(view);
+    loading_ = false;
     collect_problems();
   }
 }

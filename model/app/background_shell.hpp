@@ -36,6 +36,8 @@ class TerrainLoader {
   // the same detail, still contains the region with half of the margin and is not much larger. A synchronous loader
   // blocks until the region is loaded.
   void request(const terrain::TerrainRegion& region);
+  // True if the region of the last request is loaded as far as it can be.
+  bool is_idle() const;
   // Latest view; empty at first, never null.
   terrain::TerrainViewPointer view() const;
   // Problems with cells since the last call; each cell is named once.
@@ -47,12 +49,13 @@ class TerrainLoader {
 
   std::unique_ptr<terrain::TerrainStore> store_;
   bool synchronous_;
-  mutable std::mutex mutex_;  // with a thread: guards pending_, view_, problems_ and ending_
+  mutable std::mutex mutex_;  // with a thread: guards pending_, view_, problems_, loading_ and ending_
   std::condition_variable wake_;
   std::optional<terrain::TerrainRegion> pending_;
   std::optional<terrain::TerrainRegion> requested_;
   terrain::TerrainViewPointer view_;
   std::vector<std::string> problems_;
+  bool loading_ = false;
   bool ending_ = false;
   std::thread thread_;
 };

@@ -56,15 +56,23 @@ error::Expected<Stores> open_stores(const radar::RadarConfiguration& configurati
   return Stores{std::move(*terrain), std::move(*patches), std::move(*scenes)};
 }
 
+struct Loaders {
+  Loaders(Stores stores, const radar::RadarConfiguration& configuration, bool synchronous)
+      : terrain(std::move(stores.terrain), synchronous),
+        scenes(std::move(stores.scenes), synchronous),
+        patches(configuration, std::move(stores.patches), synchronous) {}
+
+  model::TerrainLoader terrain;
+  model::SceneLoader scenes;
+  model::PatchMaker patches;
+};
+
 // Runs the ticks of the role until a stop is requested. True: the role went to another host instead.
 error::Expected<bool> run_as_holder(databuffer::Session& session, const databuffer::ProgramOptions& options,
-                                    const radar::RadarConfiguration& configuration, Stores stores) {
+                                    const radar::RadarConfiguration& configuration, Loaders& loaders) {
   auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::radar_model, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
-  model::TerrainLoader terrain(std::move(stores.terrain), loop->lockstep());
-  model::SceneLoader scenes(std::move(stores.scenes), loop->lockstep());
-  model::PatchMaker patches(configuration, std::move(stores.patches), loop->lockstep());
-  model::RadarModelShell shell(session, configuration, {terrain, scenes, patches});
+  model::RadarModelShell shell(session, configuration, {loaders.terrain, loaders.scenes, loaders.patches});
   log::info("runs in session " + options.session + ", terrain " +
             (configuration.terrain.directory.empty() ? "built-in hills" : configuration.terrain.directory));
   while (const auto due = loop->wait()) {
@@ -84,11 +92,18 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Model
   while (true) {
     auto stores = open_stores(*configuration);
     if (!stores) return tl::unexpected(stores.error());
-    auto held =
-        databuffer::take_role(options.session, databuffer::Role::radar_model, "radar-model", model_options.standby);
+    Loaders loaders(std::move(*stores), *configuration, !options.lockstep.empty());
+    int waits = 0;
+    const auto load_ahead = [&](const databuffer::Session& session) {
+      constexpr int kWaitsBetween = 25;  // 0.25 s
+      if (waits++ % kWaitsBetween == 0 && options.lockstep.empty())
+        model::load_ahead(session, *configuration, loaders.terrain, loaders.scenes);
+    };
+    auto held = databuffer::take_role(options.session, databuffer::Role::radar_model, "radar-model",
+                                      model_options.standby, load_ahead);
     if (!held) return tl::unexpected(held.error());
     if (!*held) return {};
-    const auto yielded = run_as_holder((*held)->session, options, *configuration, std::move(*stores));
+    const auto yielded = run_as_holder((*held)->session, options, *configuration, loaders);
     if (!yielded) return tl::unexpected(yielded.error());
     if (!*yielded) return {};
     (*held)->session.note(databuffer::NoteKind::restart, "radar-model yields to another host");

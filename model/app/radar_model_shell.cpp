@@ -35,6 +35,26 @@ double thread_time_s() {
 
 }  // namespace
 
+void load_ahead(const databuffer::Session& session, const radar::RadarConfiguration& configuration,
+                TerrainLoader& terrain, SceneLoader& scenes) {
+  const auto status = databuffer::read_valid(session.layout().model_status);
+  const auto state = databuffer::read_valid(session.layout().radar_state);
+  if (!status || !state) return;
+  databuffer::ModelTick tick{};
+  tick.tick = status->tick;
+  tick.sim_time_ns = status->sim_time_ns;
+  tick.epoch = status->epoch;
+  tick.ownship = status->ownship;
+  tick.command = databuffer::command_from_state(*state);
+  tick.flags = databuffer::kTickOwnshipValid;
+  kernel::RadarKernel kernel(configuration);
+  kernel.resume(*status);
+  const auto need = kernel.need(tick);
+  if (!need.ground) return;
+  terrain.request(need.region);
+  scenes.request(need.region);
+}
+
 RadarModelShell::RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration,
                                  const Workers& workers)
     : session_(&session),
@@ -61,6 +81,7 @@ void RadarModelShell::resume() {
   status_.nav = previous.nav;
   status_.ownship_received_ns = previous.ownship_received_ns;
   tick_.resumed_tick = previous.tick;
+  resumed_epoch_ = previous.epoch;
   refused_ = previous.refused;
   session_->note(databuffer::NoteKind::restart, "radar-model resumes at scan " + std::to_string(previous.scan));
   log::info("resumes at scan " + std::to_string(previous.scan));
@@ -69,7 +90,8 @@ void RadarModelShell::resume() {
 void RadarModelShell::step(const databuffer::TickLoop::Due& due, std::uint64_t late_ticks) {
   const double begin_s = thread_time_s();
   latch(due);
-  run_kernel();
+  // While the clock is frozen nobody waits for this tick.
+  run_kernel(first_tick_ && tick_.resumed_tick >= 0 && due.clock.running == 0);
   const double elapsed_s = thread_time_s() - begin_s;
   load_ += kLoadSmoothing * (elapsed_s / radar::kTickSeconds - load_);
   if (configuration_->fidelity.automatic) govern(elapsed_s, due.clock.rate);
@@ -96,7 +118,7 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
   latch_command();
   latch_traffic();
   latch_world();
-  tick_.flags = selected.valid ? databuffer::kTickOwnshipValid : 0U;
+  tick_.flags = selected.valid || inherits_ownship(due) ? databuffer::kTickOwnshipValid : 0U;
   if (first_tick_) tick_.flags |= databuffer::kTickRestart;
   if (first_tick_ || std::memcmp(&before, &tick_.ownship, sizeof before) != 0)
     tick_.flags |= databuffer::kTickOwnshipChanged;
@@ -104,6 +126,14 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
     tick_.flags |= databuffer::kTickCommandChanged;
   latch_fidelity();
   if (publish_due_map()) tick_.flags |= databuffer::kTickMapComplete;
+}
+
+// True until a source is selected, while the ownship of the previous process is fresh. Without it the beam would stand
+// still until the source delivers its next record.
+bool RadarModelShell::inherits_ownship(const databuffer::TickLoop::Due& due) const {
+  const std::int64_t age_ns = due.sim_time_ns - status_.ownship_received_ns;
+  return tick_.resumed_tick >= 0 && resumed_epoch_ == due.clock.epoch && age_ns >= 0 &&
+         age_ns <= databuffer::kStaleAfter_ns;
 }
 
 // Starts a new epoch at the position to which the ownship source has jumped. In a new epoch JumpGuard
@@ -206,11 +236,24 @@ void RadarModelShell::select_fidelity(std::string_view preset) {
   log::info("fidelity " + fidelity_.name);
 }
 
-void RadarModelShell::run_kernel() {
+// Waits until the ground is loaded, so that the first sweeps of a set that goes on from a recording have it.
+void RadarModelShell::await_ground(const terrain::TerrainRegion& region) {
+  constexpr std::int64_t kPatience_ns = 500'000'000;  // 0.5 s; then sweeps are flagged not ready as in flight
+  constexpr timespec kPause{0, 2'000'000};
+  const std::int64_t deadline_ns = databuffer::monotonic_ns() + kPatience_ns;
+  while (!(terrain_->is_idle() && loaded_scenes_.complete) && databuffer::monotonic_ns() < deadline_ns) {
+    nanosleep(&kPause, nullptr);
+    session_->heartbeat();
+    loaded_scenes_ = scenes_->request(region);
+  }
+}
+
+void RadarModelShell::run_kernel(bool may_wait) {
   const auto need = kernel_.need(tick_);
   if (need.ground) {
     terrain_->request(need.region);
     loaded_scenes_ = scenes_->request(need.region);
+    if (may_wait) await_ground(need.region);
   }
   note_problems(terrain_->take_problems());
   note_problems(scenes_->take_problems());

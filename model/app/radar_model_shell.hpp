@@ -28,6 +28,11 @@ struct RadarConfiguration;
 
 namespace yars::model {
 
+// Requests the terrain and the scenes that a radar model will need when it resumes from the session's model status.
+// A standby calls it while it waits. No effect while the session has no status or no radar state.
+void load_ahead(const databuffer::Session& session, const radar::RadarConfiguration& configuration,
+                TerrainLoader& terrain, SceneLoader& scenes);
+
 class RadarModelShell {
  public:
   // Background workers. They must outlive the shell.
@@ -50,7 +55,9 @@ class RadarModelShell {
   void announce_jump(const databuffer::Ownship& ownship, std::uint32_t lane);
   void latch_fidelity();
   void govern(double elapsed_s, double rate);
-  void run_kernel();
+  bool inherits_ownship(const databuffer::TickLoop::Due& due) const;
+  void await_ground(const terrain::TerrainRegion& region);
+  void run_kernel(bool may_wait);
   void note_problems(const std::vector<std::string>& problems);
   void request_map();
   bool publish_due_map();
@@ -84,6 +91,7 @@ class RadarModelShell {
   double scan_time_s_ = 0.0;                          // processor time of the current scan, multiplied by clock rate
   std::uint32_t scan_ticks_ = 0, governed_scan_ = 0;  // ticks and number of the current scan
   bool first_tick_ = true;
+  std::uint32_t resumed_epoch_ = 0;  // epoch of the status from which this process resumed
 };
 
 }  // namespace yars::model

@@ -95,6 +95,7 @@ void add_note_command(databuffer::Command app, const CommonOptions& common);
 void add_status_command(databuffer::Command app, const CommonOptions& common);
 void add_watch_command(databuffer::Command app, const CommonOptions& common);
 void add_record_command(databuffer::Command app, const CommonOptions& common);
+void add_recordings_command(databuffer::Command app);
 void add_replay_command(databuffer::Command app, const CommonOptions& common);
 
 // Subcommands of `yars terrain`.

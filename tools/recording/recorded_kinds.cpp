@@ -81,6 +81,16 @@ static_assert(numbers_differ());
 
 }  // namespace
 
+FlightSource flight_source(std::string_view text) {
+  FlightSource source{};
+  if (text.size() < sizeof source.text) text.copy(source.text, text.size());
+  return source;
+}
+
+std::string text_of(const FlightSource& source) {
+  return {source.text, strnlen(source.text, sizeof source.text)};
+}
+
 RecordParts parts_of(const Sweep& sweep) {
   const auto bytes = std::as_bytes(std::span(&sweep, 1));
   return {bytes.first(kSweepFields), bytes.subspan(kSweepFields, sweep_tail(bytes))};

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <type_traits>
 #include <variant>
@@ -66,6 +67,14 @@ struct Patch {
   std::vector<std::uint8_t> pixels;
 };
 
+// Source of the aircraft's flight, the value of flight-model's --source. A live set that goes on from the recording
+// (branch.hpp) continues this flight. Recorded when a file begins, if the recorder knows it.
+struct FlightSource {
+  char text[1024];  // zero-terminated; relative paths are made absolute
+};
+FlightSource flight_source(std::string_view text);  // empty if the text is too long
+std::string text_of(const FlightSource& source);
+
 struct KindName {
   std::uint8_t number;  // 1..63
   std::string_view name;
@@ -105,11 +114,13 @@ template <>
 inline constexpr KindName kKindOf<databuffer::Traffic>{14, "Traffic"};
 template <>
 inline constexpr KindName kKindOf<databuffer::WorldState>{15, "WorldState"};
+template <>
+inline constexpr KindName kKindOf<FlightSource>{16, "FlightSource"};
 
 using RecordingItem =
     std::variant<databuffer::ModelTick, databuffer::AppliedEvent, SweepDigest, StartingPoint, Gap, StateChange,
                  StatusReport, databuffer::Nav, databuffer::Ownship, databuffer::Sweep, Patch, databuffer::Outputs,
-                 databuffer::RecorderStatus, databuffer::Traffic, databuffer::WorldState>;
+                 databuffer::RecorderStatus, databuffer::Traffic, databuffer::WorldState, FlightSource>;
 
 // Bytes of a record as stored, in two parts.
 struct RecordParts {

@@ -39,8 +39,9 @@ static_assert(sizeof(Preamble) == 24 && sizeof(KindEntry) == 8);
 
 template <class T>
 void append(std::vector<std::byte>& bytes, const T& value) {
-  const auto more = std::as_bytes(std::span(&value, 1));
-  bytes.insert(bytes.end(), more.begin(), more.end());
+  const std::size_t begin = bytes.size();
+  bytes.resize(begin + sizeof value);
+  std::memcpy(bytes.data() + begin, &value, sizeof value);
 }
 
 void append(std::vector<std::byte>& bytes, const std::string& text) {
@@ -75,6 +76,10 @@ error::Expected<void> check_kinds(std::span<const std::byte> entries, const std:
 }
 
 }  // namespace
+
+std::string_view file_magic() {
+  return {kFileMagic.data(), kFileMagic.size()};
+}
 
 std::vector<std::byte> bytes_of(const RecordingHeader& header) {
   std::vector<std::byte> bytes;

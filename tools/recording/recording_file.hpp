@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <istream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lib/error/error.hpp"
@@ -20,6 +21,9 @@ struct RecordingHeader {
 };
 
 inline constexpr std::size_t kMaxHeaderText = std::size_t{1} << 16;  // [bytes] maximum length of a path
+
+// The first bytes of a recording.
+std::string_view file_magic();
 
 // Header as stored: magic, version, kinds with versions and sizes, the paths, checksum.
 std::vector<std::byte> bytes_of(const RecordingHeader& header);

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstring>
 #include <fstream>
+#include <span>
 #include <utility>
 
 #include "tools/recording/block.hpp"
@@ -31,18 +33,31 @@ error::Expected<RecordingReader> RecordingReader::read(std::unique_ptr<std::istr
   return reader;
 }
 
-std::optional<BlockItems> RecordingReader::block_at(std::uint64_t offset) {
+std::vector<std::byte> RecordingReader::bytes_at(std::uint64_t offset) {
   BlockHead head{};
   file_->clear();
   file_->seekg(static_cast<std::streamoff>(offset));
   if (!file_->read(reinterpret_cast<char*>(&head), sizeof head) || !is_sound(head) ||
       head.content != BlockContent::items)
-    return std::nullopt;
-  std::vector<std::byte> body(head.body_bytes);
-  if (!file_->read(reinterpret_cast<char*>(body.data()), static_cast<std::streamsize>(body.size())))
-    return std::nullopt;
-  if (!body_matches(head, body)) return std::nullopt;
-  return BlockItems::decode(head, body);
+    return {};
+  std::vector<std::byte> bytes(sizeof head + head.body_bytes);
+  std::memcpy(bytes.data(), &head, sizeof head);
+  const std::span body = std::span(bytes).subspan(sizeof head);
+  if (!file_->read(reinterpret_cast<char*>(body.data()), static_cast<std::streamsize>(body.size()))) return {};
+  if (!body_matches(head, body)) return {};
+  return bytes;
+}
+
+std::optional<BlockItems> RecordingReader::block_at(std::uint64_t offset) {
+  const auto bytes = bytes_at(offset);
+  if (bytes.empty()) return std::nullopt;
+  BlockHead head{};
+  std::memcpy(&head, bytes.data(), sizeof head);
+  return BlockItems::decode(head, std::span(bytes).subspan(sizeof head));
+}
+
+std::vector<std::byte> RecordingReader::bytes_of_block(std::size_t block) {
+  return block < index_.blocks.size() ? bytes_at(index_.blocks[block].offset) : std::vector<std::byte>();
 }
 
 std::optional<BlockItems> RecordingReader::undamaged_block(std::size_t block) {

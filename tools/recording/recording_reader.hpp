@@ -3,6 +3,7 @@
 // that was cut short can be read up to its last complete block.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <istream>
@@ -41,6 +42,8 @@ class RecordingReader {
   std::size_t block_of(std::int64_t tick) const;
   // Items of one block; nullopt if the block is damaged. Does not change the position of next().
   std::optional<BlockItems> items_of(std::size_t block);
+  // The block as stored in the file, head and body; empty if it is damaged. Does not change the position of next().
+  std::vector<std::byte> bytes_of_block(std::size_t block);
   // Last item of type T in the undamaged blocks before the current block, such as the radar state that is in force
   // when the current block begins. The current block is the block that next() reads, or will read after a seek. nullopt
   // if there is no such item.
@@ -61,6 +64,7 @@ class RecordingReader {
   std::optional<RecordingItem> last_before(std::uint8_t kind);
   std::optional<BlockItems> undamaged_block(std::size_t block);  // nullopt if damaged; adds a damaged block to missing_
   std::optional<BlockItems> block_at(std::uint64_t offset);      // nullopt if damaged
+  std::vector<std::byte> bytes_at(std::uint64_t offset);         // head and body; empty if damaged
 
   std::unique_ptr<std::istream> file_;
   RecordingHeader header_;

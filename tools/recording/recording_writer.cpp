@@ -29,6 +29,14 @@ error::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Fol
   return created;
 }
 
+// Lock of the whole file that its writer holds until it closes the file.
+struct flock writer_lock() {
+  struct flock lock {};
+  lock.l_type = F_WRLCK;
+  lock.l_whence = SEEK_SET;
+  return lock;
+}
+
 constexpr off_t kMinFree_bytes = 1 << 20;  // free space required to resume, so that the next blocks are not lost
 
 // Checks for kMinFree_bytes of free space after offset `at`, which must be the end of the file. Returns 0, or the errno
@@ -61,6 +69,15 @@ int append_whole(int descriptor, std::uint64_t at, const std::vector<std::byte>&
 
 }  // namespace
 
+bool is_being_written(const std::filesystem::path& path) {
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (descriptor < 0) return false;
+  struct flock lock = writer_lock();
+  const bool is_known = fcntl(descriptor, F_OFD_GETLK, &lock) == 0;
+  ::close(descriptor);
+  return is_known && lock.l_type != F_UNLCK;
+}
+
 error::Expected<RecordingWriter> RecordingWriter::create(const std::filesystem::path& path,
                                                          const RecordingHeader& header, Existing existing) {
   if (header.configuration.size() > kMaxHeaderText || header.terrain.size() > kMaxHeaderText)
@@ -84,6 +101,9 @@ error::Expected<void> RecordingWriter::begin_file(Existing existing) {
   auto file = create_file(folder_, name_, existing);
   if (!file) return tl::unexpected(*(error_ = file.error()));
   file_ = std::move(*file);
+  // Without the lock the file is written all the same; `yars recordings` then does not report that it is.
+  struct flock lock = writer_lock();
+  fcntl(descriptor(), F_OFD_SETLK, &lock);
   blocks_.clear();
   bytes_ = 0;
   ++files_;
@@ -128,6 +148,14 @@ error::Expected<void> RecordingWriter::flush() {
   const IndexEntry entry{bytes_, block_.first_tick(), block_.last_tick(), block_.kinds()};
   auto written = write(block_.take(compressor_));
   if (written) blocks_.push_back(entry);
+  return written;
+}
+
+error::Expected<void> RecordingWriter::append_block(const std::vector<std::byte>& block, const IndexEntry& entry) {
+  if (auto written = flush(); !written) return written;
+  const IndexEntry here{bytes_, entry.first_tick, entry.last_tick, entry.kinds};
+  auto written = write(block);
+  if (written) blocks_.push_back(here);
   return written;
 }
 

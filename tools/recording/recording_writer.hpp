@@ -24,6 +24,9 @@ namespace yars::tools::recording {
 
 using file::Existing;  // what to do with an existing regular file at the path of the recording
 
+// True if a RecordingWriter of any process has the file open. It holds a lock of its open file description.
+bool is_being_written(const std::filesystem::path& path);
+
 class RecordingWriter {
  public:
   // Creates the file with mode 0600 and writes the header. Errors: the file exists (`Existing::refused`), is a symbolic
@@ -38,6 +41,8 @@ class RecordingWriter {
   error::Expected<void> append(const T& record) {
     return append(*recorded_kind(kKindOf<T>.number), parts_of(record), tick_of(record));
   }
+  // Writes the collected items, then a block of another recording as stored there. `entry`: its index entry there.
+  error::Expected<void> append_block(const std::vector<std::byte>& block, const IndexEntry& entry);
   // Writes the collected items as a block.
   error::Expected<void> flush();
   // After an error: drops the collected items and continues after the last complete block. Begins a new file if the

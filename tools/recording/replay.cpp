@@ -202,8 +202,12 @@ Played Player::play_to(std::int64_t tick) {
 }
 
 Played Player::seek(std::int64_t tick) {
+  return seek(tick, kPictureSweeps);
+}
+
+Played Player::seek(std::int64_t tick, std::uint32_t least_sweeps) {
   const std::size_t block = reader_->block_of(tick);
-  const std::size_t begin = picture_begin(block, tick);
+  const std::size_t begin = picture_begin(block, tick, least_sweeps);
   reader_->seek_block(begin);
   ahead_.reset();
   started_ = cut_reported_ = false;
@@ -231,6 +235,19 @@ Played Player::seek(std::int64_t tick) {
   find_maps(block, played);
   played.ended = !ahead_;
   return played;
+}
+
+Played Player::picture(const BranchPoint& point) {
+  Played played = seek(point.tick, 0);
+  Played picture;
+  picture.sweeps = std::move(played.sweeps);
+  std::erase_if(picture.sweeps, [&](const databuffer::Sweep& sweep) {
+    return sweep.epoch != point.epoch || sweep.tick > point.tick || sweep.scan + 1 < point.status.scan;
+  });
+  picture.state = point.state;
+  find_maps(reader_->block_of(point.tick), picture);
+  picture.state.reset();
+  return picture;
 }
 
 void Player::take(Played& played) {
@@ -361,14 +378,14 @@ std::optional<ModelStatus> Player::status_at(std::size_t block, std::int64_t tic
 }
 
 // Number of the block from which to play, so that the picture is complete at the tick. `block`: the tick's block.
-std::size_t Player::picture_begin(std::size_t block, std::int64_t tick) {
+std::size_t Player::picture_begin(std::size_t block, std::int64_t tick, std::uint32_t least_sweeps) {
   const auto at = status_at(block, tick);
   const auto& blocks = reader_->blocks();
   const auto begins_enough_before = [&](std::size_t candidate) {
     reader_->seek_block(candidate);
     const auto before = reader_->last_before<StatusReport>();
     if (!at || !before || before->status.epoch != at->epoch) return true;
-    return before->status.scan + 2 <= at->scan && before->status.sweep + kPictureSweeps <= at->sweep;
+    return before->status.scan + 2 <= at->scan && before->status.sweep + least_sweeps <= at->sweep;
   };
   std::size_t early_enough = block;
   while (early_enough > 0 && !has<StartingPoint>(blocks[early_enough])) --early_enough;

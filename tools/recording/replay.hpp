@@ -18,6 +18,7 @@
 #include "model/kernel/tick_inputs.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
+#include "tools/recording/branch.hpp"
 #include "tools/recording/recorded_kinds.hpp"
 #include "tools/recording/recording_reader.hpp"
 
@@ -110,6 +111,7 @@ struct Played {
   std::optional<databuffer::ModelStatus> status;  // newest status, with the ownship of the newest tick
   std::optional<databuffer::Outputs> outputs;
   std::optional<databuffer::WorldState> world;  // newest world in effect, if it changed
+  std::optional<databuffer::Traffic> traffic;  // never from Player: a live set goes on with it
   std::deque<databuffer::Sweep> sweeps;
   std::vector<Patch> maps;
   std::optional<std::int64_t> cut_to_tick;  // tick at which the recording continues after a cut (see Player)
@@ -137,6 +139,8 @@ class Player {
   static bool has_ticks(const RecordingReader& reader);
 
   Played seek(std::int64_t tick);
+  // Picture of a branch point: its maps, and the sweeps of the current scan and the one before up to its tick.
+  Played picture(const BranchPoint& point);
   // Records after those that seek() and play_to() have returned so far, up to and including this tick.
   Played play_to(std::int64_t tick);
 
@@ -158,7 +162,8 @@ class Player {
   void use(const databuffer::Traffic& traffic);
   void use(const databuffer::WorldState& world);
   void use_targets(const RecordingItem& item);
-  std::size_t picture_begin(std::size_t block, std::int64_t tick);
+  Played seek(std::int64_t tick, std::uint32_t least_sweeps);
+  std::size_t picture_begin(std::size_t block, std::int64_t tick, std::uint32_t least_sweeps);
   std::optional<databuffer::ModelStatus> status_at(std::size_t block, std::int64_t tick);
   void find_maps(std::size_t block, Played& played);
 

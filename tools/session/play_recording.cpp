@@ -14,51 +14,13 @@
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
+#include "lib/geo/quantity.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/modes.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/recording/replay.hpp"
 
 namespace yars::tools {
-
-// The session of a replay. This process takes the roles state-machine and radar-model and sets the clock to the
-// recording's time. Each jump begins a new epoch, so that no picture mixes records from before and after the jump.
-// Published records have the session's epoch instead of the recorded epoch, except patch maps. Input events of the
-// session have no effect.
-
-class ReplaySession {
- public:
-  // Errors: another process has one of the two roles, or the session runs in lockstep.
-  static error::Expected<ReplaySession> create(const std::string& name);
-
-  // jump_to() and start() set the clock to `tick` in a new epoch. start() also sets the rate and runs the clock.
-  error::Expected<void> jump_to(std::int64_t tick);
-  error::Expected<void> start(std::int64_t tick, double rate);
-  std::int64_t tick() const;
-  // Returns true once after another process has begun an epoch (`yars sim reset`).
-  bool was_reset();
-
-  // Publishes a key frame (result of recording::Player::seek()). Clears the session's radar state, outputs or model
-  // status if the key frame has none.
-  void publish_key_frame(const recording::Played& played);
-  void publish(const recording::Played& played);
-  void heartbeat();
-  void drop_events();
-
- private:
-  ReplaySession(databuffer::Session machine, databuffer::Session model);
-  error::Expected<void> set_clock(std::int64_t tick, const double* rate);
-  void publish_maps(const recording::Played& played);
-  void publish_sweeps(const recording::Played& played);
-  void publish_status(databuffer::ModelStatus status);
-
-  // Each role has a Session object of its own, because each role needs an entry in the process table. A display treats
-  // a role without an entry as dead.
-  databuffer::Session machine_, model_;
-  databuffer::Claim machine_role_, model_role_, lane_;
-  std::uint32_t epoch_ = 0;
-  std::array<std::uint64_t, 4> maps_named_{};  // ids of the newest state's maps, which are not overwritten
-};
 
 namespace {
 
@@ -69,6 +31,8 @@ using databuffer::Session;
 // times per second loses no sweep.
 constexpr std::size_t kSweepsPerBurst = 400;
 constexpr long kReaderPause_ns = 30'000'000;  // 30 ms, almost two polls of a display
+
+constexpr double kLeastSpeed_mps = 1.0;  // a slower aircraft has no course
 
 void pause_for_readers() {
   const timespec pause{0, kReaderPause_ns};
@@ -126,6 +90,42 @@ error::Expected<void> ReplaySession::start(std::int64_t tick, double rate) {
   return set_clock(tick, &rate);
 }
 
+error::Expected<void> ReplaySession::hold(std::int64_t tick, std::uint32_t epoch, const databuffer::Ownship& ownship) {
+  epoch_ = epoch;
+  const double north_mps = ownship.velocity_north_mps, east_mps = ownship.velocity_east_mps;
+  const bool moves = std::hypot(north_mps, east_mps) > kLeastSpeed_mps;
+  return machine_.change_clock([&](const ClockState& clock) {
+    ClockState next = clock;
+    next.base_monotonic_ns = databuffer::monotonic_ns();
+    next.base_sim_ns = tick * radar::kTickNanoseconds;
+    next.rate = 1.0;
+    next.running = 0;
+    next.epoch = epoch;
+    next.reposition_latitude_deg = ownship.latitude_deg;
+    next.reposition_longitude_deg = ownship.longitude_deg;
+    next.reposition_altitude_m = ownship.altitude_msl_m;
+    next.reposition_heading_deg =
+        moves ? geo::Bearing::radians(std::atan2(east_mps, north_mps)).degrees() : ownship.heading_deg;
+    next.followed = 1;
+    return next;
+  });
+}
+
+error::Expected<void> ReplaySession::release_clock() {
+  return machine_.change_clock([](const ClockState& clock) {
+    ClockState next = clock;
+    next.base_monotonic_ns = databuffer::monotonic_ns();
+    next.running = 1;
+    return next;
+  });
+}
+
+void ReplaySession::release_roles() {
+  lane_ = {};
+  model_role_ = {};
+  machine_role_ = {};
+}
+
 std::int64_t ReplaySession::tick() const {
   return machine_.sim_time_ns() / radar::kTickNanoseconds;
 }
@@ -155,11 +155,17 @@ void ReplaySession::publish(const recording::Played& played) {
     outputs.epoch = epoch_;
     machine_.layout().outputs.publish(outputs);
   }
+  if (played.traffic) model_.layout().traffic.publish(*played.traffic);
   if (played.state) {
     databuffer::RadarState state = *played.state;
     state.epoch = epoch_;
     machine_.layout().radar_state.publish(state);
   }
+}
+
+void ReplaySession::want_world(databuffer::WorldState world) {
+  world.tick = 0;
+  machine_.layout().world.publish(world);
 }
 
 void ReplaySession::publish_maps(const recording::Played& played) {
@@ -173,10 +179,12 @@ void ReplaySession::publish_maps(const recording::Played& played) {
 
 void ReplaySession::publish_sweeps(const recording::Played& played) {
   std::size_t published = 0;
+  auto& ring = model_.layout().sweeps;
   for (databuffer::Sweep sweep : played.sweeps) {
     sweep.epoch = epoch_;
-    model_.layout().sweeps.publish(sweep);
-    if (++published % kSweepsPerBurst == 0) pause_for_readers();
+    ring.publish(sweep);
+    // A ring that is not full yet loses nothing.
+    if (++published % kSweepsPerBurst == 0 && ring.oldest() > 0) pause_for_readers();
   }
 }
 
@@ -219,15 +227,8 @@ std::string text_of_seconds(std::int64_t tick) {
 // Tick at which the replay begins: the time of --seek, else the tick that was recorded first. Error: the time of --seek
 // is outside the recording.
 error::Expected<std::int64_t> first_tick(const recording::RecordingReader& reader, const PlayOptions& options) {
-  const auto blocks = reader.blocks();
-  if (!options.seek_s) return blocks.front().first_tick;
-  const auto first = std::ranges::min_element(blocks, {}, &recording::IndexEntry::first_tick)->first_tick;
-  const auto last = std::ranges::max_element(blocks, {}, &recording::IndexEntry::last_tick)->last_tick;
-  const double tick = std::round(*options.seek_s / radar::kTickSeconds);  // NaN fails both comparisons
-  if (tick >= static_cast<double>(first) && tick <= static_cast<double>(last)) return static_cast<std::int64_t>(tick);
-  return tl::unexpected(error::usage_error(
-      "--seek", "a time within " + options.file + ", " + text_of_seconds(first) + " to " + text_of_seconds(last) + " s",
-      std::to_string(*options.seek_s)));
+  if (!options.seek_s) return reader.blocks().front().first_tick;
+  return recording::tick_at(reader, *options.seek_s, options.file, "--seek");
 }
 
 error::Expected<void> seek(ReplaySession& session, recording::Player& player, std::int64_t tick) {

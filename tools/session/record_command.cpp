@@ -12,10 +12,12 @@
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/session.hpp"
+#include "lib/file/file_search.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
+#include "tools/recording/branch.hpp"
 #include "tools/recording/recording_writer.hpp"
 #include "tools/session/recorder.hpp"
 
@@ -23,6 +25,7 @@ namespace yars::tools {
 
 namespace {
 
+using databuffer::Option;
 using databuffer::Session;
 
 constexpr std::int64_t kRecordInterval_ns = 50'000'000;  // [ns] 50 ms; the ring of ticks holds 5 s of sim time
@@ -38,6 +41,9 @@ struct RecordOptions {
   bool overwrite = false;
   bool json = false;
   std::optional<double> keep_mb;  // nullopt: no limit
+  std::string source;             // --source of flight-model
+  std::string from;               // recording of which this one is a branch; empty: none
+  std::optional<double> until_s;  // the branch begins with its items up to this time
   RecordedExtras extras;
 };
 
@@ -107,6 +113,48 @@ void print_summary(const Recorder& recorder, std::uint64_t bytes, const RecordOp
               options.file.c_str());
 }
 
+// Text of a source with the path of its file made absolute.
+std::string absolute_source(const std::string& source) {
+  for (const std::string prefix : {"route:", "csv:"})
+    if (source.starts_with(prefix)) return prefix + absolute(file::installed_file(source.substr(prefix.size())));
+  return source;
+}
+
+// The recording of which a new one is a branch.
+struct Trunk {
+  recording::RecordingReader reader;
+  recording::BranchPoint point;
+};
+
+Trunk open_trunk(const RecordOptions& options, const Session& session) {
+  if (!options.until_s)
+    throw_failure(error::usage_error("--from", "--until S with it", "none", "give the time of the branch"));
+  std::error_code code;
+  if (std::filesystem::equivalent(options.from, options.file, code))
+    throw_failure(error::usage_error("--from", "another recording than FILE", options.from, "name a new FILE"));
+  auto reader = recording::RecordingReader::open(options.from);
+  if (!reader) throw_failure(reader.error());
+  const auto tick = recording::tick_at(*reader, *options.until_s, options.from, "--until");
+  if (!tick) throw_failure(tick.error());
+  auto point = recording::find_branch_point(*reader, *tick, options.from);
+  if (!point) throw_failure(point.error());
+  if (Recorder::holds_branch(session) && !Recorder::is_branch(session, *point))
+    throw_failure({"--from", "a session that goes on from that recording, at that time", "another session",
+                   "start both by scripts/start --fly-out", false});
+  return {std::move(*reader), std::move(*point)};
+}
+
+// Begins the recording with the items of its trunk. Returns false, with a line in the log, if the session has run on
+// too far: a recorder that was started again begins in the middle of the session.
+bool begin_branch(const Session& session, Trunk& trunk, recording::RecordingWriter& writer) {
+  if (!Recorder::holds_branch(session)) {
+    log::warning("the session has run on since the branch began; the recording begins here, without what was before");
+    return false;
+  }
+  if (auto copied = recording::copy_until(trunk.reader, trunk.point, writer); !copied) throw_failure(copied.error());
+  return true;
+}
+
 void record(const CommonOptions& common, const RecordOptions& options) {
   databuffer::set_private_umask();
   if (!options.log_dir.empty()) log::start_file("recorder", options.log_dir);
@@ -114,6 +162,8 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   if (!session) throw_failure(session.error());
   auto role = session->claim(databuffer::Role::recorder);
   if (!role) throw_failure(error::usage_error(role.error()));
+  std::optional<Trunk> trunk;
+  if (!options.from.empty()) trunk = open_trunk(options, *session);
   auto writer = recording::RecordingWriter::create(
       options.file, {absolute(common.config), absolute(options.terrain)},
       options.overwrite ? recording::Existing::overwritten : recording::Existing::refused);
@@ -123,7 +173,10 @@ void record(const CommonOptions& common, const RecordOptions& options) {
   const bool from_oldest = !options.lockstep.empty() && session->layout().lockstep.done_tick[recorder_index].load() < 0;
   RecordedExtras extras = options.extras;
   extras.keep_bytes = static_cast<std::uint64_t>(options.keep_mb.value_or(0.0) * 1e6);
-  Recorder recorder(*session, *writer, extras, from_oldest);
+  extras.flight_source = absolute_source(options.source);
+  const bool is_branch = trunk && begin_branch(*session, *trunk, *writer);
+  Recorder recorder(*session, *writer, extras, from_oldest || is_branch);
+  if (is_branch) recorder.continue_branch(trunk->point);
   log::info("records session " + common.session + " to " + options.file);
   if (options.lockstep.empty())
     record_live(*session, common.session, recorder, *writer);
@@ -153,6 +206,16 @@ void add_record_command(databuffer::Command app, const CommonOptions& common) {
   command.flag("--sweeps", options->extras.sweeps, "also record the video of the sweeps (up to 0.8 MB per second)");
   command.flag("--patches", options->extras.patches, "also record the patch maps (up to 1 MB each)");
   add_terrain_option(command, options->terrain).otherwise("the configuration's; as for radar-model");
+  command
+      .option("--source", options->source,
+              "the value of flight-model's --source; a set that flies out of the recording continues this flight")
+      .value_name("SOURCE")
+      .otherwise("not recorded");
+  Option from =
+      command.option("--from", options->from, "begin with the items of this recording up to --until S: a branch of it");
+  from.value_name("FILE").otherwise("a recording of its own");
+  Option until = command.option("--until", options->until_s, "[s] sim time at which the branch leaves --from FILE");
+  until.range(0.0, databuffer::kLatestSimTime_s).needs(from).otherwise("none");
   command
       .option("--lockstep", options->lockstep,
               "roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them")

@@ -46,7 +46,44 @@ Recorder::Recorder(databuffer::Session& session, recording::RecordingWriter& wri
       status_(session.layout().model_status),
       outputs_(session.layout().outputs) {
   if (const auto state = databuffer::read_valid(session.layout().radar_state)) vtr_request_ = state->vtr_request;
-  if (!from_oldest) begin_here();
+  if (from_oldest)
+    append_flight_source();
+  else
+    begin_here();
+}
+
+bool Recorder::holds_branch(const databuffer::Session& session) {
+  const auto& layout = session.layout();
+  return layout.model_ticks.oldest() == 0 && layout.applied_events.oldest() == 0;
+}
+
+bool Recorder::is_branch(const databuffer::Session& session, const recording::BranchPoint& point) {
+  const auto& ring = session.layout().model_ticks;
+  std::uint64_t cursor = 0;
+  databuffer::ModelTick first{};
+  first.tick = session.sim_time_ns() / radar::kTickNanoseconds;
+  first.epoch = session.clock().epoch;
+  ring.read(cursor, first);  // while there is none, the hand-over holds the clock at the first tick
+  return first.tick == point.tick + 1 && first.epoch == point.epoch;
+}
+
+void Recorder::continue_branch(const recording::BranchPoint& point) {
+  tick_cursor_ = event_cursor_ = sweep_cursor_ = traffic_cursor_ = 0;
+  branch_tick_ = point.tick;
+  branch_epoch_ = point.epoch;
+  from_tick_.reset();
+  vtr_request_ = point.state.vtr_request;
+}
+
+void Recorder::append_flight_source() {
+  file_number_ = writer_->files();
+  if (!extras_.flight_source.empty()) append(recording::flight_source(extras_.flight_source));
+}
+
+// True if the record is one of those that the set has gone on from.
+template <class T>
+bool Recorder::is_in_branch(const T& record) const {
+  return branch_tick_ && record.epoch == branch_epoch_ && record.tick <= *branch_tick_;
 }
 
 void Recorder::begin_here() {
@@ -54,7 +91,11 @@ void Recorder::begin_here() {
   // Resets the rate limits, so that each start writes the radar state even if it has not changed.
   state_pace_ = {};
   status_pace_ = outputs_pace_ = {};
-  if (std::exchange(file_number_, writer_->files()) != writer_->files()) patches_seen_.clear();
+  branch_tick_.reset();
+  if (file_number_ != writer_->files()) {
+    patches_seen_.clear();
+    append_flight_source();
+  }
   tick_cursor_ = layout.model_ticks.next();
   event_cursor_ = layout.applied_events.next();
   sweep_cursor_ = layout.sweeps.next();
@@ -238,21 +279,22 @@ void Recorder::take_world_before(const databuffer::ModelTick& tick) {
 // Appends radar state, model status and outputs at a limited rate. The segment keeps only the latest value of each: in
 // a live session, a state that lasted less than one poll is missed.
 void Recorder::take_latest(std::int64_t tick) {
-  if (state_.has_value() && state_pace_.takes(state_.value(), tick) && is_valid(state_.value()))
+  if (state_.has_value() && !is_in_branch(state_.value()) && state_pace_.takes(state_.value(), tick) &&
+      is_valid(state_.value()))
     append(recording::StateChange{state_.value()});
   if (status_pace_.is_due(tick) && status_.refresh()) {
     status_pace_.taken(tick);
-    if (is_valid(status_.value())) append(recording::StatusReport{status_.value()});
+    if (!is_in_branch(status_.value()) && is_valid(status_.value())) append(recording::StatusReport{status_.value()});
   }
   if (outputs_pace_.is_due(tick) && outputs_.refresh()) {
     outputs_pace_.taken(tick);
-    if (is_valid(outputs_.value())) append(outputs_.value());
+    if (!is_in_branch(outputs_.value()) && is_valid(outputs_.value())) append(outputs_.value());
   }
 }
 
 void Recorder::take_sweeps(std::uint64_t& lost) {
   while (take(session_->layout().sweeps, sweep_cursor_, sweep_, lost)) {
-    if (!is_valid(sweep_)) continue;
+    if (is_in_branch(sweep_) || !is_valid(sweep_)) continue;
     if (extras_.sweeps)
       append(sweep_);
     else
@@ -273,6 +315,7 @@ void Recorder::take_patches() {
         !databuffer::read_patch(layout, id, patch_.map, patch_.pixels))
       continue;
     patches_seen_.push_back(id);
+    if (branch_tick_ && patch_.map.epoch == branch_epoch_ && patch_.map.end_tick <= *branch_tick_) continue;
     if (is_valid(patch_.map)) append(patch_);
   }
 }

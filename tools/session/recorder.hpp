@@ -9,9 +9,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "databuffer/session/session.hpp"
+#include "tools/recording/branch.hpp"
 #include "tools/recording/recorded_kinds.hpp"
 #include "tools/recording/recording_writer.hpp"
 
@@ -20,6 +22,7 @@ namespace yars::tools {
 struct RecordedExtras {
   bool sweeps = false;           // true: sweeps with video; false: only their hashes
   bool patches = false;          // true: patch maps with pixels; false: no patch maps
+  std::string flight_source;     // --source of flight-model, recorded in each file; empty: unknown
   std::uint64_t keep_bytes = 0;  // [bytes] limit of the recording and its predecessor FILE.before together; 0: none
 };
 
@@ -28,6 +31,14 @@ class Recorder {
   // `from_oldest`: if true, the records that are already in the rings are recorded too. If false, the recording begins
   // at this call. Its starting point is then the model's present status, if there is one.
   Recorder(databuffer::Session& session, recording::RecordingWriter& writer, RecordedExtras extras, bool from_oldest);
+
+  // Continues a branch: records what the session has after the point, and no starting point. The items up to the point
+  // are in the file already. The session must still hold all ticks since the point (holds_branch()).
+  void continue_branch(const recording::BranchPoint& point);
+  // True if the rings of the session have lost no record since the session began.
+  static bool holds_branch(const databuffer::Session& session);
+  // True if the session's first tick is, or will be, the one behind the point.
+  static bool is_branch(const databuffer::Session& session, const recording::BranchPoint& point);
 
   // One poll: appends the new records of the rings, and the latest values at a limited rate. Also tries to write again
   // after a write error, begins the next file, applies presses of push button 12, and publishes RecorderStatus.
@@ -45,6 +56,7 @@ class Recorder {
 
  private:
   void begin_here();
+  void append_flight_source();
   void apply_vtr_request(std::uint32_t vtr_request);
   void take_all(std::int64_t tick);
   void handle_result(error::Expected<void> written);
@@ -53,6 +65,8 @@ class Recorder {
   void check_place();
   template <class T>
   bool is_valid(const T& record);
+  template <class T>
+  bool is_in_branch(const T& record) const;
   void publish(std::int64_t tick);
   bool is_before_start(const databuffer::ModelTick& tick) const;
   void take_ticks(std::uint64_t& lost);
@@ -71,6 +85,8 @@ class Recorder {
   std::optional<std::uint64_t> world_cursor_;  // nullopt: no tick was written since writing began
   std::optional<std::int64_t> from_tick_;      // earlier ticks of from_epoch_ are not written; nullopt: all are written
   std::uint32_t from_epoch_ = 0;
+  std::optional<std::int64_t> branch_tick_;  // records up to this tick of branch_epoch_ are in the file already
+  std::uint32_t branch_epoch_ = 0;
   std::uint64_t begin_cursor_ = 0;  // ticks before it were published before the starting point was read
   shm::LatestReader<databuffer::RadarState> state_;
   shm::LatestReader<databuffer::ModelStatus> status_;

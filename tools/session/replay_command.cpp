@@ -21,8 +21,10 @@
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
+#include "tools/recording/branch.hpp"
 #include "tools/recording/recording_reader.hpp"
 #include "tools/recording/replay.hpp"
+#include "tools/session/hand_over.hpp"
 #include "tools/session/play_recording.hpp"
 
 namespace yars::tools {
@@ -36,6 +38,8 @@ struct ReplayOptions {
   std::string terrain;
   bool events = false;
   bool print = false;
+  bool hand_over = false;
+  std::string awaited = HandOverOptions().roles;
   bool json = false;          // the result of playing; --events and --print always print JSON
   bool has_own_file = false;  // --config names the configuration, in place of the recording
   double rate = 1.0;
@@ -114,21 +118,43 @@ error::Error no_ticks(const std::string& file) {
   return {file, "at least one tick", "none", "record while radar-model runs", false};
 }
 
+// World of a player that computes the sweeps. Empty for a recording with video. `world` keeps what the result refers
+// to.
+std::optional<recording::PlayerWorld> player_world(const CommonOptions& common,
+                                                   const recording::RecordingReader& reader,
+                                                   const ReplayOptions& options, std::optional<World>& world) {
+  if (recording::Player::has_video(reader)) return std::nullopt;
+  world = open_world(common, reader.header(), options);
+  return recording::PlayerWorld{std::make_shared<radar::RadarConfiguration>(world->configuration), world->store.get(),
+                                world->scenes.get()};
+}
+
 void play(const CommonOptions& common, recording::RecordingReader& reader, const ReplayOptions& options,
           const std::string& session) {
   if (!recording::Player::has_ticks(reader)) throw_failure(no_ticks(options.file));
   std::optional<World> world;
-  std::optional<recording::PlayerWorld> player_world;
-  if (!recording::Player::has_video(reader)) {
-    world = open_world(common, reader.header(), options);
-    player_world = recording::PlayerWorld{std::make_shared<radar::RadarConfiguration>(world->configuration),
-                                          world->store.get(), world->scenes.get()};
-  }
-  if (auto played = play_recording(reader, std::move(player_world),
+  if (auto played = play_recording(reader, player_world(common, reader, options, world),
                                    {options.file, session, options.rate, options.seek_s, options.json});
       !played)
     throw_failure(played.error());
   report_missing(reader, options.file);
+}
+
+void hand_over_to_live_roles(const CommonOptions& common, recording::RecordingReader& reader,
+                             const ReplayOptions& options) {
+  const auto tick = recording::tick_at(reader, *options.seek_s, options.file, "--seek");
+  if (!tick) throw_failure(tick.error());
+  const auto point = recording::find_branch_point(reader, *tick, options.file);
+  if (!point) throw_failure(point.error());
+  std::optional<World> world;
+  const auto open = [&] { return player_world(common, reader, options, world); };
+  if (auto done = hand_over(reader, *point, open, {common.session, options.awaited, !options.json}); !done)
+    throw_failure(done.error());
+  if (options.json)
+    print_json({{"file", options.file},
+                {"session", common.session},
+                {"tick", point->tick},
+                {"at_s", static_cast<double>(point->tick) * radar::kTickSeconds}});
 }
 
 // Runs the kernel again over the items of a recording. After a damaged block it buffers the items until the next model
@@ -276,6 +302,13 @@ void add_replay_command(databuffer::Command app, const CommonOptions& common) {
       .excludes(events)
       .excludes(print)
       .otherwise("the begin of the recording");
+  databuffer::Option hand_over = command.flag(
+      "--hand-over", options->hand_over,
+      "hand the second of --seek over to a live set, which goes on from there; scripts/start --fly-out does it all");
+  hand_over.needs(seek).excludes(events).excludes(print);
+  command.option("--await", options->awaited, "roles that --hand-over awaits before it runs the clock")
+      .value_name("ROLES")
+      .needs(hand_over);
   // The user's file does not set this one: a recording is replayed over its own terrain.
   command.option("--terrain", options->terrain, "folder of elevation cells")
       .value_name("DIR")
@@ -288,6 +321,7 @@ void add_replay_command(databuffer::Command app, const CommonOptions& common) {
     auto reader = recording::RecordingReader::open(options->file);
     if (!reader) throw_failure(reader.error());
     if (options->events) return compare(common, *reader, *options);
+    if (options->hand_over) return hand_over_to_live_roles(common, *reader, *options);
     // Ignores YARS_SESSION, because the session that it names may be live.
     if (!options->print) return play(common, *reader, *options, named ? common.session : "replay");
     print_entries(*reader);

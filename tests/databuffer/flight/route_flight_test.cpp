@@ -207,6 +207,37 @@ TEST(RouteFlight, AfterRepositioningFliesToTheEndOfTheNearestLeg) {
   EXPECT_LT(nearest_m, 500.0);
 }
 
+// The looped route that comes with YARS, with a descent, changes of speed and turns.
+TEST(RouteFlight, AFlightThatIsResumedGoesOnAsIfItHadNotEnded) {
+  const auto text = file::read_text_file(std::string(YARS_SOURCE_DIR) + "/config/routes/default.route");
+  for (const Route& route : {corner_of(90.0, 480.0), corner_of(-150.0, 480.0), route_of(*text)}) {
+    RouteFlight flight(route);
+    for (int part = 0; part < 12; ++part) {
+      const Ownship last = flight.step(geo::Duration::seconds(47.0)).ownship;
+      RouteFlight resumed(route);
+      ASSERT_TRUE(resumed.resume(last, geo::Duration()));
+      const Ownship first = resumed.step({}).ownship;
+      EXPECT_LT(distance_m(point_of(first), point_of(last)), 1e-3);
+      EXPECT_NEAR(first.roll_deg, last.roll_deg, 1e-9);
+      EXPECT_NEAR(first.velocity_north_mps, last.velocity_north_mps, 1e-6);
+      EXPECT_NEAR(first.velocity_down_mps, last.velocity_down_mps, 1e-9);
+      RouteFlight uninterrupted = flight;
+      for (int second = 0; second < 40; ++second) {
+        const Ownship expected = uninterrupted.step(geo::Duration::seconds(1.0)).ownship;
+        const Ownship found = resumed.step(geo::Duration::seconds(1.0)).ownship;
+        ASSERT_LT(distance_m(point_of(found), point_of(expected)), 1.0) << "part " << part << ", " << second << " s";
+      }
+      // The gap is flown.
+      RouteFlight later(route);
+      later.resume(last, geo::Duration::seconds(10.0));
+      RouteFlight after = flight;
+      EXPECT_LT(
+          distance_m(point_of(later.step({}).ownship), point_of(after.step(geo::Duration::seconds(10.0)).ownship)),
+          1.0);
+    }
+  }
+}
+
 TEST(RouteFlight, AfterResetRepeatsTheSameFlight) {
   RouteFlight flight(corner_of(60.0, 480.0));
   std::vector<FlightSample> first;
