@@ -72,7 +72,7 @@ class SocketOfPage:
     def texts(self):
         """Text messages, until the connection closes."""
         while True:
-            while len(self.data) < 10 or len(self.data) < self.end()[1]:
+            while len(self.data) < 2 or len(self.data) < self.end()[1]:
                 part = self.socket.recv(65536)
                 if not part:
                     return
@@ -86,11 +86,11 @@ class SocketOfPage:
                 yield json.loads(content)
 
     def end(self):
+        """Begin and end of the content of the first message, as far as its size is known."""
         size, begin = self.data[1] & 127, 2
-        if size == 126:
-            size, begin = int.from_bytes(self.data[2:4], "big"), 4
-        elif size == 127:
-            size, begin = int.from_bytes(self.data[2:10], "big"), 10
+        if size >= 126:
+            wide = 2 if size == 126 else 8
+            size, begin = int.from_bytes(self.data[2:2 + wide].ljust(wide, b"\0"), "big"), 2 + wide
         return begin, begin + size
 
     def answer(self, identity):
@@ -115,6 +115,13 @@ def get(port, path, cookie="", host="127.0.0.1", context=None):
     content = response.read()
     connection.close()
     return response.status, dict(response.getheaders()), content
+
+
+def status_of(port, path, cookie=""):
+    """Status with which a WebSocket is answered."""
+    page = SocketOfPage(port, path, cookie)
+    page.close()
+    return page.status
 
 
 class Options(unittest.TestCase):
@@ -168,7 +175,7 @@ class Tokens(unittest.TestCase):
         for path in ("/display.html", "/instructor.html", "/theatre.json", "/map/0/0/0.png", "/patch/x/1.png", "/nothing"):
             self.assertEqual(get(self.port, path)[0], 401, path)
             self.assertEqual(get(self.port, path, cookie=f"yars_station_{self.port}=wrong")[0], 401, path)
-        self.assertEqual(SocketOfPage(self.port).status, 401)
+        self.assertEqual(status_of(self.port, "/socket"), 401)
         self.assertEqual(get(self.port, "/display.html?token=wrong")[0], 401)
 
     def test_an_address_with_a_token_gives_a_cookie_and_leaves_the_token_out(self):
@@ -208,8 +215,8 @@ class Tokens(unittest.TestCase):
             self.assertEqual(get(self.port, "/display.html", self.cookies[0], host=host)[0], status, host)
 
     def test_only_sessions_of_the_station_are_shown(self):
-        self.assertEqual(SocketOfPage(self.port, path="/socket?session=other", cookie=self.cookies[1]).status, 404)
-        self.assertEqual(SocketOfPage(self.port, path="/other", cookie=self.cookies[1]).status, 404)
+        self.assertEqual(status_of(self.port, "/socket?session=other", self.cookies[1]), 404)
+        self.assertEqual(status_of(self.port, "/other", self.cookies[1]), 404)
         self.assertFalse(any(path.name.endswith(".other") for path in pathlib.Path("/dev/shm").iterdir()), "no session comes into being")
 
 
@@ -234,6 +241,8 @@ class Limits(unittest.TestCase):
         self.assertLessEqual(len(answers), 200)
         good.send({"do": "run", "id": 9})
         self.assertIsNone(good.answer(9))
+        good.close()
+        bad.close()
 
     @staticmethod
     def until_closed(page):
@@ -263,7 +272,7 @@ class Limits(unittest.TestCase):
         pages.pop().close()
         for _ in range(100):
             try:
-                self.assertEqual(SocketOfPage(self.port).status, 101)
+                self.assertEqual(status_of(self.port, "/socket"), 101)
                 break
             except (OSError, IndexError):
                 continue
