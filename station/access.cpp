@@ -39,8 +39,7 @@ bool is_allowed_host(std::string_view host, const AccessRules& rules) {
   const std::string_view name = host.substr(0, host.size() - ending.size());
   constexpr std::array<std::string_view, 3> kLoopback{"127.0.0.1", "localhost", "[::1]"};
   if (std::ranges::find(kLoopback, name) != kLoopback.end()) return true;
-  return !rules.loopback &&
-         (is_numeric_address(name) || std::ranges::find(rules.names, name) != rules.names.end());
+  return !rules.loopback && (is_numeric_address(name) || std::ranges::find(rules.names, name) != rules.names.end());
 }
 
 bool is_own_origin(std::string_view origin, std::string_view host, const AccessRules& rules) {

@@ -55,9 +55,12 @@ class Arguments {
  private:
   void refuse(const char* name, const std::string& expected, json::const_iterator found) {
     if (problem_) return;
-    problem_ = error::Error{
-        command_ + ": " + name, expected,
-        found == object_.end() ? "nothing" : found->dump(-1, ' ', true, json::error_handler_t::replace), {}, false};
+    problem_ =
+        error::Error{command_ + ": " + name,
+                     expected,
+                     found == object_.end() ? "nothing" : found->dump(-1, ' ', true, json::error_handler_t::replace),
+                     {},
+                     false};
   }
 
   const json& object_;
@@ -70,12 +73,18 @@ using Make = InstructorCommand (*)(Arguments& arguments);
 constexpr std::array<std::pair<std::string_view, Make>, 14> kCommands{{
     {"run", [](Arguments&) -> InstructorCommand { return SetRunning{true}; }},
     {"freeze", [](Arguments&) -> InstructorCommand { return SetRunning{false}; }},
-    {"rate", [](Arguments& of) -> InstructorCommand { return SetRate{of.number("rate", {0.0, kMaxRate})}; }},
+    {"rate",
+     [](Arguments& of) -> InstructorCommand {
+       return SetRate{of.number("rate", {0.0, kMaxRate})};
+     }},
     {"step",
      [](Arguments& of) -> InstructorCommand {
        return Step{static_cast<std::int64_t>(of.number("ticks", {1.0, kMaxTicks}))};
      }},
-    {"reset", [](Arguments& of) -> InstructorCommand { return Reset{of.number("time", {0.0, kMaxTime_s})}; }},
+    {"reset",
+     [](Arguments& of) -> InstructorCommand {
+       return Reset{of.number("time", {0.0, kMaxTime_s})};
+     }},
     {"reposition",
      [](Arguments& of) -> InstructorCommand {
        return Reposition{{of.number("lat", {-90.0, 90.0}), of.number("lon", {-180.0, 180.0})},

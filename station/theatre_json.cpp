@@ -56,9 +56,10 @@ ordered_json scan_json(const databuffer::ModelStatus& model) {
           {"centre_deg", geo::Bearing::degrees(model.scan_centre_deg).degrees()},
           {"width_deg", model.scan_width_deg},
           {"range_nm", model.scan_range_m / geo::kMetresPerNauticalMile},
-          {"beam_deg", std::isfinite(model.antenna_azimuth_deg)
-                           ? ordered_json(geo::Bearing::degrees(model.ownship.heading_deg + model.antenna_azimuth_deg).degrees())
-                           : ordered_json(nullptr)}};
+          {"beam_deg",
+           std::isfinite(model.antenna_azimuth_deg)
+               ? ordered_json(geo::Bearing::degrees(model.ownship.heading_deg + model.antenna_azimuth_deg).degrees())
+               : ordered_json(nullptr)}};
 }
 
 ordered_json patch_json(const databuffer::PatchMap& map) {
@@ -93,10 +94,12 @@ ordered_json theatre_json(const radar::RadarConfiguration& configuration, const 
   ordered_json theatre{{"radar", configuration.name}, {"fidelity", configuration.fidelity.name}};
   auto& places = theatre["scenes"] = ordered_json::array();
   for (const Place& place : scenes)
-    places.push_back({{"name", place.name}, {"lat", place.position.latitude_deg}, {"lon", place.position.longitude_deg}});
+    places.push_back(
+        {{"name", place.name}, {"lat", place.position.latitude_deg}, {"lon", place.position.longitude_deg}});
   auto& points = theatre["points"] = ordered_json::array();
   for (const radar::RoutePoint& point : configuration.route)
-    points.push_back({{"name", point.name}, {"lat", point.position.latitude_deg}, {"lon", point.position.longitude_deg}});
+    points.push_back(
+        {{"name", point.name}, {"lat", point.position.latitude_deg}, {"lon", point.position.longitude_deg}});
   auto& beacons = theatre["beacons"] = ordered_json::array();
   for (const radar::Beacon& beacon : configuration.world.beacons.beacons)
     beacons.push_back({{"name", beacon.name},

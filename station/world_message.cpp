@@ -63,7 +63,8 @@ Expected<WorldEdit> refused(const char* subject, const char* expected) {
 Expected<WorldEdit> add_edit(WorldList list, geo::GeoPoint position) {
   switch (list) {
     case WorldList::rain:
-      return edit_by([=](WorldState& world, std::int64_t) { return add(world, databuffer::default_rain_cell(position)); });
+      return edit_by(
+          [=](WorldState& world, std::int64_t) { return add(world, databuffer::default_rain_cell(position)); });
     case WorldList::jammers:
       return edit_by([=](WorldState& world, std::int64_t) { return add(world, databuffer::default_jammer(position)); });
     case WorldList::movers:
@@ -85,7 +86,8 @@ Expected<WorldEdit> change_edit(WorldList list, std::uint32_t id, const json& ob
   };
   switch (list) {
     case WorldList::rain: {
-      const double radius_nm = number(object, "radius_nm"), rate_mmh = number(object, "rate_mmh"), top_ft = number(object, "top_ft");
+      const double radius_nm = number(object, "radius_nm"), rate_mmh = number(object, "rate_mmh"),
+                   top_ft = number(object, "top_ft");
       return edit_by([=](WorldState& world, std::int64_t) {
         auto cell = changed(databuffer::used(std::as_const(world.rain), world.rain_count), id);
         cell.radius_m = radius_nm * geo::kMetresPerNauticalMile;

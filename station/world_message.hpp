@@ -1,6 +1,7 @@
 // Commands of the instructor's page that change the world: sea, wind, rain cells, jammers, movers, fidelity.
 // Inputs: the name of a command and its object of JSON. Outputs: the change, as a function for change_world().
-// Errors: an argument that is absent or no number of the right kind, when the command is read; a value out of range or an
+// Errors: an argument that is absent or no number of the right kind, when the command is read; a value out of range or
+// an
 //   unknown id, when the change is made. Each says what was expected.
 // Threads: any; functions without state.
 // Source: docs/station.md#commands; limits: databuffer/messages/world_edit.hpp.

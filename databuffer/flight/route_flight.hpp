@@ -51,8 +51,8 @@ inline constexpr double kAcceleration_mps2 = 2.0;  // limit of the rate of chang
 // commanded angle between track and leg is proportional to the distance from the leg.
 // The commanded turn rate is proportional to the difference of commanded and actual track, within kBankLimit.
 // A flight that is resumed keeps position, altitude, track, speed, climb and roll, and goes on along the nearest leg.
-// After a repositioning the aircraft flies directly to the end of the nearest leg; straight and level if it has a speed.
-// After the last waypoint of an open route the aircraft continues straight ahead.
+// After a repositioning the aircraft flies directly to the end of the nearest leg; straight and level if it has a
+// speed. After the last waypoint of an open route the aircraft continues straight ahead.
 class RouteFlight final : public FlightModel {
  public:
   explicit RouteFlight(Route route);

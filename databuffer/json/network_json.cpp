@@ -47,8 +47,7 @@ ordered_json host_json(const HostStatus& host, std::int64_t now_ns) {
   for (const Role role : kRoles)
     if ((host.held_roles >> static_cast<unsigned>(role) & 1U) != 0) roles.push_back(name_of(role));
   for (unsigned i = 0; i < kLockstepRoles; ++i)
-    if ((host.held_roles >> (kFirstProcessBit + i) & 1U) != 0)
-      roles.push_back(kLockstepRoleNames[i]);
+    if ((host.held_roles >> (kFirstProcessBit + i) & 1U) != 0) roles.push_back(kLockstepRoleNames[i]);
   for (const Difference& difference : kDifferences)
     if (has(difference.flag)) differences.push_back(difference.text);
   const bool measured = has(kHostOffsetKnown);

@@ -22,8 +22,7 @@ nlohmann::ordered_json network_json(const Session& session);
 // Adds "host" to each entry of roles_json(): the host where the role runs; null: nowhere, or no gateway runs. An entry
 // that the gateway keeps for another host, after that host has gone, becomes one that does not run. Further entries of
 // the gateway itself are removed.
-void add_hosts(nlohmann::ordered_json& roles, const nlohmann::ordered_json& network,
-               const Session& session);
+void add_hosts(nlohmann::ordered_json& roles, const nlohmann::ordered_json& network, const Session& session);
 
 // Adds reasons why the session is not OK: hosts that are silent or differ, no session clock. `network`: of
 // network_json().

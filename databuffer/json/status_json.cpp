@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "databuffer/json/network_json.hpp"
 #include "databuffer/json/session_json.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/receivers.hpp"
@@ -17,11 +18,11 @@
 #include "databuffer/session/validated.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
-#include "databuffer/json/network_json.hpp"
 
 namespace yars::databuffer {
 
-// All entries of the process table, and the needed roles that do not run. The roles come first, in the order of kSetRoles.
+// All entries of the process table, and the needed roles that do not run. The roles come first, in the order of
+// kSetRoles.
 // [{name, pid (0: not running here), heartbeat_ms (age of the last heartbeat; null: not running), hangs, host (where it
 // runs; null: nowhere, or unknown), restarts, restarts_last_minute}]. pid of a role of another host: the gateway's.
 // A role of kSetRoles hangs if its heartbeat is older than 2 s. Only restarts by the supervisor count.
@@ -55,17 +56,18 @@ struct SetRole {
   bool needed;  // the radar does not work without this role
 };
 constexpr std::array<SetRole, 7> kSetRoles{{{"state-machine", true},
-                                       {"radar-model", true},
-                                       {"flight-model", false},
-                                       {"input-monitor", false},
-                                       {"radar-display", false},
-                                       {"recorder", false},
-                                       {"gateway", false}}};
+                                            {"radar-model", true},
+                                            {"flight-model", false},
+                                            {"input-monitor", false},
+                                            {"radar-display", false},
+                                            {"recorder", false},
+                                            {"gateway", false}}};
 
 // Index in kSetRoles; kSetRoles.size() for another process.
 std::size_t set_index(std::string_view name) {
   return static_cast<std::size_t>(
-      std::ranges::find(kSetRoles, name, [](const SetRole& role) { return std::string_view(role.name); }) - kSetRoles.begin());
+      std::ranges::find(kSetRoles, name, [](const SetRole& role) { return std::string_view(role.name); }) -
+      kSetRoles.begin());
 }
 
 ordered_json role_json(const ProcessInfo& process, std::int64_t now_ns) {
@@ -181,8 +183,8 @@ ordered_json roles_json(const Session& session, const ordered_json& network) {
       roles.push_back(role_json(process, now_ns));
       found = true;
     }
-    const bool is_needed =
-        index < kSetRoles.size() && (kSetRoles[index].needed || (set_index("gateway") == index && misses_gateway(session)));
+    const bool is_needed = index < kSetRoles.size() &&
+                           (kSetRoles[index].needed || (set_index("gateway") == index && misses_gateway(session)));
     if (!found && is_needed)
       roles.push_back({{"name", kSetRoles[index].name}, {"pid", 0}, {"heartbeat_ms", nullptr}, {"hangs", false}});
   }
@@ -203,10 +205,9 @@ ordered_json lag_json(const Session& session) {
     const bool is_display = role == static_cast<std::size_t>(LockstepRole::radar_display);
     const double due = static_cast<double>(kLag_s) * 1e9 / static_cast<double>(radar::kTickNanoseconds) *
                        (is_display ? 1.0 : clock.rate);
-    lags[std::string(kLockstepRoleNames[role])] = {
-        {"skipped", lag.ticks},
-        {"share", std::min(1.0, static_cast<double>(lag.ticks) / due)},
-        {"seconds", lag.seconds}};
+    lags[std::string(kLockstepRoleNames[role])] = {{"skipped", lag.ticks},
+                                                   {"share", std::min(1.0, static_cast<double>(lag.ticks) / due)},
+                                                   {"seconds", lag.seconds}};
   }
   return lags;
 }
@@ -235,8 +236,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::array<const char*, kNoteKinds> kNoteNames{"restart", "refusal", "loss", "late tick",
-                                                                     "supervision"};
+constexpr std::array<const char*, kNoteKinds> kNoteNames{"restart", "refusal", "loss", "late tick", "supervision"};
 
 std::vector<Note> notes_of(const SessionLayout& layout) {
   std::vector<Note> notes;
@@ -318,8 +318,8 @@ ordered_json input_json(const Session& session) {
 
 ordered_json refusals_json(const Session& session, const std::vector<Note>& notes) {
   constexpr std::int64_t kRecently_ns = 10'000'000'000;
-  const auto newest = std::ranges::find(
-      notes.rbegin(), notes.rend(), static_cast<std::uint32_t>(NoteKind::refusal), &Note::kind);
+  const auto newest =
+      std::ranges::find(notes.rbegin(), notes.rend(), static_cast<std::uint32_t>(NoteKind::refusal), &Note::kind);
   const auto& refusals = session.layout().counters.refusals;
   return {{"last_10_s", refusals.within(kRecently_ns, monotonic_ns())},
           {"newest", newest == notes.rend() ? ordered_json(nullptr) : ordered_json(text::text_of(newest->text))}};

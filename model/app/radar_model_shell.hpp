@@ -86,8 +86,8 @@ class RadarModelShell {
   std::uint64_t previous_late_ticks_ = 0;           // ticks that previous processes skipped
   double load_ = 0.0;                               // processor time per tick / 5 ms, smoothed
   kernel::FidelityGovernor governor_;
-  radar::Fidelity fidelity_;         // selected by the instructor or the governor, or configured
-  bool selected_fidelity_ = false;  // by the instructor
+  radar::Fidelity fidelity_;                          // selected by the instructor or the governor, or configured
+  bool selected_fidelity_ = false;                    // by the instructor
   double scan_time_s_ = 0.0;                          // processor time of the current scan, multiplied by clock rate
   std::uint32_t scan_ticks_ = 0, governed_scan_ = 0;  // ticks and number of the current scan
   bool first_tick_ = true;

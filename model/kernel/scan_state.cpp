@@ -149,7 +149,8 @@ void ScanState::use_samples(std::uint32_t samples) {
 void ScanState::use_fidelity(const ModelTick& input) {
   const std::string_view name = text::text_of(input.fidelity);
   if (name == configuration.fidelity.name) return;
-  const auto preset = name == configured_fidelity.name ? std::optional(configured_fidelity) : radar::fidelity_preset(name);
+  const auto preset =
+      name == configured_fidelity.name ? std::optional(configured_fidelity) : radar::fidelity_preset(name);
   if (!preset) return;
   configuration.fidelity = *preset;
   configuration.fidelity.automatic = configured_fidelity.automatic;

@@ -83,7 +83,7 @@ struct ScanState {
   void write_status(ModelStatus& status) const;
 
   radar::RadarConfiguration configuration;
-  radar::Fidelity configured_fidelity;  // that of `configuration` changes with the ticks
+  radar::Fidelity configured_fidelity;     // that of `configuration` changes with the ticks
   radar::RadarConfiguration dbs_settings;  // from dbs_configuration()
   antenna::Antenna antenna;
   SweepChain beam_chain;

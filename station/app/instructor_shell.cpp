@@ -100,9 +100,8 @@ void InstructorShell::refresh_status() {
                       {"process", notes[i]["process"]},
                       {"kind", notes[i]["kind"]},
                       {"text", notes[i]["text"]}});
-  status_ = {{"roles", all["roles"]},     {"health", all["health"]},
-             {"recorder", all["recorder"]}, {"model", all["model"]},
-             {"lag", all["lag"]},         {"notes", std::move(newest)}};
+  status_ = {{"roles", all["roles"]}, {"health", all["health"]}, {"recorder", all["recorder"]},
+             {"model", all["model"]}, {"lag", all["lag"]},       {"notes", std::move(newest)}};
 }
 
 std::string InstructorShell::state_message() const {
@@ -110,18 +109,19 @@ std::string InstructorShell::state_message() const {
   const auto radar = databuffer::read_valid(layout.radar_state);
   const auto model = databuffer::read_valid(layout.model_status).value_or(databuffer::ModelStatus{});
   const auto world = databuffer::newest_world(layout);
-  ordered_json state{{"session", name_},
-                     {"clock", clock_json(*session_)},
-                     {"aircraft", aircraft_json(model)},
-                     {"scan", scan_json(model)},
-                     {"patches", patches_json(layout)},
-                     {"forming", forming_json(model)},
-                     {"navigators", radar ? navigators_json(*radar) : ordered_json(nullptr)},
-                     {"world", world ? databuffer::world_json(*world, session_->reached_sim_time_ns()) : ordered_json(nullptr)},
-                     {"fidelity",
-                      {{"wanted", world ? std::string(text::text_of(world->fidelity)) : std::string()},
-                       {"used", std::string(text::text_of(model.fidelity))}}},
-                     {"status", status_}};
+  ordered_json state{
+      {"session", name_},
+      {"clock", clock_json(*session_)},
+      {"aircraft", aircraft_json(model)},
+      {"scan", scan_json(model)},
+      {"patches", patches_json(layout)},
+      {"forming", forming_json(model)},
+      {"navigators", radar ? navigators_json(*radar) : ordered_json(nullptr)},
+      {"world", world ? databuffer::world_json(*world, session_->reached_sim_time_ns()) : ordered_json(nullptr)},
+      {"fidelity",
+       {{"wanted", world ? std::string(text::text_of(world->fidelity)) : std::string()},
+        {"used", std::string(text::text_of(model.fidelity))}}},
+      {"status", status_}};
   return ordered_json{{"instructor", std::move(state)}}.dump(-1, ' ', true, ordered_json::error_handler_t::replace);
 }
 
@@ -155,8 +155,8 @@ void InstructorShell::go_on_with_clock(std::int64_t now_ns) {
       steps_left_ = 0;
       return;
     }
-    static_cast<void>(session_->change_clock(
-        [&](const ClockState& before) { return databuffer::stepped(before, steps_left_); }));
+    static_cast<void>(
+        session_->change_clock([&](const ClockState& before) { return databuffer::stepped(before, steps_left_); }));
     steps_left_ -= std::min(steps_left_, databuffer::kStepPortion_ticks);
     clock_due_ns_ = now_ns + kPortionTime_ns;
   }
@@ -214,7 +214,8 @@ std::string InstructorShell::patch_png(std::uint64_t id) const {
   if (!databuffer::read_patch(std::as_const(*session_).layout(), id, map, pixels) || databuffer::validate(map))
     return {};
   std::vector<std::uint8_t> rgbx(4 * pixels.size()), png;
-  for (std::size_t i = 0; i < pixels.size(); ++i) std::fill_n(rgbx.begin() + static_cast<std::ptrdiff_t>(4 * i), 3, pixels[i]);
+  for (std::size_t i = 0; i < pixels.size(); ++i)
+    std::fill_n(rgbx.begin() + static_cast<std::ptrdiff_t>(4 * i), 3, pixels[i]);
   const auto edge = static_cast<int>(map.size);
   imageio::encode_png({rgbx.data(), edge, edge, 4U * map.size}, png);
   return {png.begin(), png.end()};

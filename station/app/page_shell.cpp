@@ -51,13 +51,15 @@ void carry_out(Site& site, SessionFeed& feed, const std::shared_ptr<OpenPage>& p
 
 bool take_message(Site& site, SessionFeed& feed, PagePilot& pilot, const std::shared_ptr<OpenPage>& page, Right right,
                   const std::string& message) {
-  const auto object = message.size() > kMaxMessageBytes ? nlohmann::json() : nlohmann::json::parse(message, nullptr, false);
+  const auto object =
+      message.size() > kMaxMessageBytes ? nlohmann::json() : nlohmann::json::parse(message, nullptr, false);
   const bool commands = object.is_object() && object.contains("do");
   const auto command = commands ? instructor_message(object) : error::Expected<InstructorMessage>();
   const auto events = commands ? error::Expected<std::vector<databuffer::InputEvent>>() : pilot.events_of(message);
   if (commands && !command) {
     const auto id = object.find("id");
-    answer(*page, id != object.end() && id->is_number_integer() ? id->get<std::int64_t>() : 0, command.error().message());
+    answer(*page, id != object.end() && id->is_number_integer() ? id->get<std::int64_t>() : 0,
+           command.error().message());
     return true;
   }
   if (!events) {

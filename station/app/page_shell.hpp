@@ -20,7 +20,6 @@
 #include <utility>
 
 #include "lib/log/log.hpp"
-#include "station/app/server_shell.hpp"
 #include "station/app/site_shell.hpp"
 #include "station/page_message.hpp"
 
@@ -112,8 +111,7 @@ class Page final : public OpenPage, public std::enable_shared_from_this<Page<Str
     socket_.async_read(buffer_, [self = this->shared_from_this()](Problem problem, std::size_t) {
       if (!problem && self->take()) return self->read();
       self->open_ = false;
-      if (!problem)
-        self->socket_.async_close(boost::beast::websocket::close_code::policy_error, [self](Problem) {});
+      if (!problem) self->socket_.async_close(boost::beast::websocket::close_code::policy_error, [self](Problem) {});
     });
   }
 

@@ -48,7 +48,8 @@ error::Expected<void> use_certificate(asio::ssl::context& tls, const ServerSetti
     return error::fail("--certificate", "a certificate in PEM", settings.certificate + " (" + problem.message() + ")");
   tls.use_private_key_file(settings.key, asio::ssl::context::pem, problem);
   if (problem)
-    return error::fail("--key", "the private key of the certificate, in PEM", settings.key + " (" + problem.message() + ")");
+    return error::fail("--key", "the private key of the certificate, in PEM",
+                       settings.key + " (" + problem.message() + ")");
   return {};
 }
 

@@ -25,16 +25,13 @@ class TerrainStore;
 
 namespace yars::station {
 
-inline constexpr int kMaxConnections = 64;
-inline constexpr int kMaxMessagesPerSecond = 200;
-
 struct ServerSettings {
   std::filesystem::path pages;
   std::string address = "127.0.0.1";  // to listen at; a port in `access`, 0: any free one
   AccessRules access;                 // `port` and `loopback` are filled in by the server
   std::string certificate, key;       // files in PEM; empty: without TLS
   SetSettings sets;
-  std::string theatre;                // text of theatre_json()
+  std::string theatre;  // text of theatre_json()
 };
 
 class Server {

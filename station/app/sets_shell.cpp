@@ -1,7 +1,9 @@
 #include "station/app/sets_shell.hpp"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/prctl.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -19,7 +21,7 @@
 #include <memory>
 #include <utility>
 
-#include "lib/file/text_file.hpp"
+#include "lib/file/folder.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -58,10 +60,14 @@ std::string text_of_seconds(double seconds) {
 }
 
 // The last line that a process has written, for the page.
-std::string last_line(const std::filesystem::path& log) {
-  const auto text = file::read_text_file(log);
-  if (!text) return {};
-  std::string_view rest = *text;
+std::string last_line(const file::Descriptor& log) {
+  constexpr off_t kMostBytes = 1000;
+  struct stat status {};
+  if (::fstat(log.number(), &status) != 0) return {};
+  const off_t begin = std::max<off_t>(0, status.st_size - kMostBytes);
+  std::string text(static_cast<std::size_t>(status.st_size - begin), '\0');
+  if (::pread(log.number(), text.data(), text.size(), begin) < 0) return {};
+  std::string_view rest = text;
   while (rest.ends_with('\n')) rest.remove_suffix(1);
   return std::string(rest.substr(rest.rfind('\n') + 1).substr(0, 300));
 }
@@ -79,29 +85,21 @@ std::string text_of_now() {
 }  // namespace
 
 SetsShell::SetsShell(boost::asio::io_context& context, SetSettings settings)
-    : context_(context),
-      settings_(std::move(settings)),
-      folder_(std::filesystem::temp_directory_path() / ("yars_station." + std::to_string(::getpid()))) {}
+    : context_(context), settings_(std::move(settings)) {}
 
 SetsShell::~SetsShell() {
   for (const StartedSet& set : sets_) signal(set, SIGTERM);
   for (const StartedSet& set : sets_)
     for (const Process& process : set.processes) ::waitpid(process.pid, nullptr, 0);
-  std::error_code ignored;
-  std::filesystem::remove_all(folder_, ignored);
 }
 
-Expected<SetsShell::Process> SetsShell::start(const std::vector<std::string>& command, const std::string& name) {
-  std::error_code problem;
-  std::filesystem::create_directories(folder_, problem);
-  const std::filesystem::path log = folder_ / (name + ".log");
-  const int output = ::open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (output < 0) return error::fail(log.string(), "to write", std::strerror(errno));
-  const int pid = spawn(command, output);
-  ::close(output);
+Expected<SetsShell::Process> SetsShell::start(const std::vector<std::string>& command) {
+  file::Descriptor output(::memfd_create("output", MFD_CLOEXEC));
+  if (!output) return error::fail(command.front(), "to start it", std::strerror(errno));
+  const int pid = spawn(command, output.number());
   if (pid < 0) return error::fail(command.front(), "to start it", std::strerror(errno));
   log::info("started for the instructor: " + command.front() + ", pid " + std::to_string(pid));
-  return Process{pid, log};
+  return Process{pid, std::move(output)};
 }
 
 Expected<void> SetsShell::check_file(const std::string& file) const {
@@ -123,15 +121,20 @@ std::filesystem::path SetsShell::start_script() const {
 Expected<std::string> SetsShell::play(const std::string& file, double at_s) {
   if (auto good = check_file(file); !good) return tl::unexpected(good.error());
   StartedSet set{new_session("replay"), "replay", file, at_s, {}, {}};
-  std::vector<std::string> replay{(settings_.programs / "yars").string(), "--session", set.session, "replay", file,
-                                  "--seek", text_of_seconds(at_s)};
-  auto player = start(replay, set.session + "-replay");
+  std::vector<std::string> replay{(settings_.programs / "yars").string(),
+                                  "--session",
+                                  set.session,
+                                  "replay",
+                                  file,
+                                  "--seek",
+                                  text_of_seconds(at_s)};
+  auto player = start(replay);
   if (!player) return tl::unexpected(player.error());
-  set.processes.push_back(*player);
-  std::vector<std::string> display{(settings_.programs / "radar-display").string(), "--session", set.session, "--headless",
-                                   "--publish"};
+  set.processes.push_back(std::move(*player));
+  std::vector<std::string> display{(settings_.programs / "radar-display").string(), "--session", set.session,
+                                   "--headless", "--publish"};
   if (!settings_.config.empty()) display.insert(display.end(), {"--config", settings_.config});
-  if (auto shown = start(display, set.session + "-display")) set.processes.push_back(*shown);
+  if (auto shown = start(display)) set.processes.push_back(std::move(*shown));
   sets_.push_back(std::move(set));
   changed_ = true;
   return sets_.back().session;
@@ -142,12 +145,13 @@ Expected<std::string> SetsShell::fly_out(const std::string& file, double at_s) {
   constexpr const char* kLonger = "86400";  // [s] than anybody flies
   StartedSet set{new_session("branch"), "branch", file, at_s, {}, {}};
   const std::filesystem::path branch = settings_.recordings / (set.session + '-' + text_of_now() + ".yars");
-  auto process = start({start_script().string(), "--bin", settings_.programs.string(), "--session", set.session, "--fly-out",
-                        file, "--at", text_of_seconds(at_s), "--headless", kLonger, "--frames", (folder_ / set.session).string(),
-                        "--every", "100000", "--publish", "--no-input", "--log-dir", "", "--record", branch.string()},
-                       set.session);
+  // clang-format off: an option and its value on a line
+  auto process = start({start_script().string(), "--bin", settings_.programs.string(), "--session", set.session,
+                        "--fly-out", file, "--at", text_of_seconds(at_s), "--record", branch.string(), "--pictures",
+                        "--headless", kLonger, "--no-frames", "--publish", "--no-input", "--log-dir", ""});
+  // clang-format on
   if (!process) return tl::unexpected(process.error());
-  set.processes.push_back(*process);
+  set.processes.push_back(std::move(*process));
   sets_.push_back(std::move(set));
   changed_ = true;
   return sets_.back().session;
@@ -156,16 +160,17 @@ Expected<std::string> SetsShell::fly_out(const std::string& file, double at_s) {
 Expected<void> SetsShell::record() {
   if (std::ranges::any_of(sets_, [](const StartedSet& set) { return set.kind == "recorder" && set.ended.empty(); }))
     return error::fail("recorder", "none that runs", "one", "PB 12 stops and starts it");
-  std::error_code problem;
-  std::filesystem::create_directories(settings_.recordings, problem);
+  if (auto folder = file::Folder::make(settings_.recordings); !folder) return tl::unexpected(folder.error());
   const std::filesystem::path file = settings_.recordings / (settings_.session + '-' + text_of_now() + ".yars");
   std::vector<std::string> command{(settings_.programs / "yars").string(), "--session", settings_.session};
   if (!settings_.config.empty()) command.insert(command.end(), {"--config", settings_.config});
   command.insert(command.end(), {"record", file.string(), "--patches"});
   if (!settings_.terrain.empty()) command.insert(command.end(), {"--terrain", settings_.terrain});
-  auto process = start(command, "recorder-" + std::to_string(next_++));
+  auto process = start(command);
   if (!process) return tl::unexpected(process.error());
-  sets_.push_back({settings_.session, "recorder", file.string(), 0.0, {*process}, {}});
+  StartedSet set{settings_.session, "recorder", file.string(), 0.0, {}, {}};
+  set.processes.push_back(std::move(*process));
+  sets_.push_back(std::move(set));
   changed_ = true;
   return {};
 }
@@ -179,8 +184,10 @@ Expected<void> SetsShell::end(const std::string& session) {
       sets_, [&](const StartedSet& entry) { return entry.session == session && entry.kind != "recorder"; });
   if (set == sets_.end()) return error::fail("end", "a set that the station has started", session.substr(0, 40));
   signal(*set, SIGTERM);
-  if (set->processes.empty()) sets_.erase(set);
-  else set->ended = "ended by the instructor";
+  if (set->processes.empty())
+    sets_.erase(set);
+  else
+    set->ended = "ended by the instructor";
   changed_ = true;
   return {};
 }
@@ -190,7 +197,8 @@ bool SetsShell::look() {
     std::erase_if(set.processes, [&](const Process& process) {
       int status = 0;
       if (::waitpid(process.pid, &status, WNOHANG) == 0) return false;
-      if (set.ended.empty()) set.ended = "ended" + (last_line(process.log).empty() ? "" : ": " + last_line(process.log));
+      if (set.ended.empty())
+        set.ended = "ended" + (last_line(process.log).empty() ? "" : ": " + last_line(process.log));
       changed_ = true;
       return true;
     });
@@ -231,14 +239,17 @@ void SetsShell::list_recordings(std::function<void(ordered_json)> then) {
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return then({{"problem", std::strerror(errno)}});
   auto errand = std::make_shared<Errand>(context_, ends[0]);
-  errand->pid = spawn({(settings_.programs / "yars").string(), "recordings", settings_.recordings.string(), "--json"}, ends[1]);
+  errand->pid =
+      spawn({(settings_.programs / "yars").string(), "recordings", settings_.recordings.string(), "--json"}, ends[1]);
   ::close(ends[1]);
   boost::asio::async_read(
       errand->output, errand->text, [this, errand, then = std::move(then)](boost::system::error_code, std::size_t) {
         ::waitpid(errand->pid, nullptr, 0);
         const auto data = errand->text.data();
-        auto list = ordered_json::parse(boost::asio::buffers_begin(data), boost::asio::buffers_end(data), nullptr, false);
-        if (!list.is_object() || !list.contains("recordings")) return then({{"problem", "the recordings cannot be listed"}});
+        auto list =
+            ordered_json::parse(boost::asio::buffers_begin(data), boost::asio::buffers_end(data), nullptr, false);
+        if (!list.is_object() || !list.contains("recordings"))
+          return then({{"problem", "the recordings cannot be listed"}});
         listed_.clear();
         for (const auto& entry : list["recordings"]) listed_.insert(entry["file"].get<std::string>());
         then(std::move(list));

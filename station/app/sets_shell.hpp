@@ -8,7 +8,6 @@
 // Source: docs/station.md#time-machine.
 #pragma once
 
-#include <boost/asio/io_context.hpp>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -18,14 +17,19 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "lib/file/folder.hpp"
+
+namespace boost::asio {
+class io_context;
+}  // namespace boost::asio
 
 namespace yars::station {
 
 struct SetSettings {
-  std::string session;                // of the station
-  std::filesystem::path programs;     // folder of yars and radar-display
-  std::filesystem::path recordings;   // folder of the recordings
-  std::string config, terrain;        // of the station; empty: the programs' defaults
+  std::string session;               // of the station
+  std::filesystem::path programs;    // folder of yars and radar-display
+  std::filesystem::path recordings;  // folder of the recordings
+  std::string config, terrain;       // of the station; empty: the programs' defaults
 };
 
 class SetsShell {
@@ -45,7 +49,8 @@ class SetsShell {
   error::Expected<void> record();
   error::Expected<void> end(const std::string& session);
 
-  // Reads the recordings of the folder: `then` gets the object of `yars recordings --json`, or an object with "problem".
+  // Reads the recordings of the folder: `then` gets the object of `yars recordings --json`, or an object with
+  // "problem".
   void list_recordings(std::function<void(nlohmann::ordered_json)> then);
 
   // Collects processes that have ended. True if the list of sets has changed.
@@ -58,7 +63,7 @@ class SetsShell {
  private:
   struct Process {
     int pid = 0;
-    std::filesystem::path log;  // its output
+    file::Descriptor log;  // its output, in memory
   };
   struct StartedSet {
     std::string session, kind, file;
@@ -66,7 +71,7 @@ class SetsShell {
     std::vector<Process> processes;
     std::string ended;
   };
-  error::Expected<Process> start(const std::vector<std::string>& command, const std::string& name);
+  static error::Expected<Process> start(const std::vector<std::string>& command);
   error::Expected<void> check_file(const std::string& file) const;
   std::string new_session(const std::string& kind);
   std::filesystem::path start_script() const;
@@ -74,8 +79,7 @@ class SetsShell {
 
   boost::asio::io_context& context_;
   SetSettings settings_;
-  std::filesystem::path folder_;    // logs and frames of the sets; removed at the end
-  std::set<std::string> listed_;    // files of the last list
+  std::set<std::string> listed_;  // files of the last list
   std::vector<StartedSet> sets_;
   int next_ = 1;
   bool changed_ = false;

@@ -4,7 +4,6 @@
 // Threads: one; answers of the map come to it by way of the context.
 #pragma once
 
-#include <boost/asio/io_context.hpp>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -19,11 +18,19 @@
 #include "station/app/map_shell.hpp"
 #include "station/app/sets_shell.hpp"
 
+namespace boost::asio {
+class io_context;
+}  // namespace boost::asio
+
 namespace yars::station {
+
+inline constexpr int kMaxConnections = 64;
+inline constexpr int kMaxMessagesPerSecond = 200;
 
 // One session: its display and its instructor.
 struct SessionFeed {
-  SessionFeed(databuffer::Session opened, const std::string& name) : session(std::move(opened)), instructor(session, name) {}
+  SessionFeed(databuffer::Session opened, const std::string& name)
+      : session(std::move(opened)), instructor(session, name) {}
   databuffer::Session session;
   std::unique_ptr<StationFeed> display;
   InstructorShell instructor;

@@ -81,8 +81,8 @@ error::Expected<void> check_access(const StationOptions& options) {
     return tl::unexpected(error::usage_error("--certificate", "--key with it", "one of both"));
   if (is_loopback(options.listen)) return {};
   if (options.tokens.empty())
-    return tl::unexpected(error::usage_error(
-        "--listen " + options.listen, "--tokens FILE with it, because others can reach the station", "none"));
+    return tl::unexpected(error::usage_error("--listen " + options.listen,
+                                             "--tokens FILE with it, because others can reach the station", "none"));
   if (options.certificate.empty() && !options.without_tls)
     return tl::unexpected(error::usage_error(
         "--listen " + options.listen,
@@ -145,7 +145,8 @@ error::Expected<station::ServerSettings> settings_of(const databuffer::ProgramOp
 
 void print_addresses(const station::ServerSettings& settings, std::uint16_t port) {
   const bool everywhere = settings.address == "0.0.0.0" || settings.address == "::";
-  const std::string host = settings.address.find(':') == std::string::npos ? settings.address : '[' + settings.address + ']';
+  const std::string host =
+      settings.address.find(':') == std::string::npos ? settings.address : '[' + settings.address + ']';
   const std::string begin = (settings.certificate.empty() ? "http://" : "https://") +
                             (everywhere ? std::string("127.0.0.1") : host) + ':' + std::to_string(port);
   const auto with = [](const std::string& token) { return token.empty() ? token : "?token=" + token; };
@@ -178,15 +179,22 @@ int main(int argc, char** argv) {
   databuffer::add_common_options(app, options, databuffer::ProgramKind::service);
   StationOptions station_options;
   app.option("--port", station_options.port, "port to listen at; 0: any free one").range(0, 65535);
-  app.option("--listen", station_options.listen, "address to listen at; 0.0.0.0: all, which needs --tokens").value_name("ADDRESS");
-  app.option("--names", station_options.names, "names of this computer in the addresses of the pages, with commas between")
+  app.option("--listen", station_options.listen, "address to listen at; 0.0.0.0: all, which needs --tokens")
+      .value_name("ADDRESS");
+  app.option("--names", station_options.names,
+             "names of this computer in the addresses of the pages, with commas between")
       .value_name("NAMES")
       .otherwise("none");
-  app.option("--tokens", station_options.tokens, "file with the tokens of instructors and viewers; made if it is not there")
+  app.option("--tokens", station_options.tokens,
+             "file with the tokens of instructors and viewers; made if it is not there")
       .value_name("FILE")
       .otherwise("none are needed");
-  app.option("--certificate", station_options.certificate, "TLS certificate in PEM").value_name("FILE").otherwise("no TLS");
-  app.option("--key", station_options.key, "private key of the certificate, in PEM").value_name("FILE").otherwise("no TLS");
+  app.option("--certificate", station_options.certificate, "TLS certificate in PEM")
+      .value_name("FILE")
+      .otherwise("no TLS");
+  app.option("--key", station_options.key, "private key of the certificate, in PEM")
+      .value_name("FILE")
+      .otherwise("no TLS");
   app.flag("--without-tls", station_options.without_tls, "listen beyond this computer without a certificate");
   app.option("--pages", station_options.pages, "folder of the pages").value_name("DIR").otherwise("the installed ones");
   app.option("--terrain", station_options.terrain, "folder of elevation cells, for the map")

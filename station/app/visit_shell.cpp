@@ -19,7 +19,8 @@ Answer refusal(http::status status, std::string body) {
 // What is wrong with where a request comes from.
 std::optional<Answer> foreign(const Site& site, const Request& request) {
   const std::string_view host = view_of(request[http::field::host]), origin = view_of(request[http::field::origin]);
-  if (!is_allowed_host(host, site.access)) return refusal(http::status::bad_request, "expected a Host of this computer");
+  if (!is_allowed_host(host, site.access))
+    return refusal(http::status::bad_request, "expected a Host of this computer");
   const bool must_tell = boost::beast::websocket::is_upgrade(request);
   if ((must_tell || !origin.empty()) && !is_own_origin(origin, host, site.access))
     return refusal(http::status::forbidden, "expected a page of this server");

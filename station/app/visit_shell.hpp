@@ -84,8 +84,8 @@ class Visit : public std::enable_shared_from_this<Visit<Stream>> {
     if (boost::beast::websocket::is_upgrade(request)) {
       Upgrade upgrade = upgrade_of(site_, request);
       if (upgrade.refusal) return send(*upgrade.refusal, version, keep, head);
-      const auto page =
-          std::make_shared<Page<Stream>>(site_, std::move(upgrade.feed), upgrade.wish, std::move(stream_), std::move(counted_));
+      const auto page = std::make_shared<Page<Stream>>(site_, std::move(upgrade.feed), upgrade.wish, std::move(stream_),
+                                                       std::move(counted_));
       site_.pages.push_back(page);
       return page->begin(std::move(request));
     }
@@ -113,7 +113,9 @@ class Visit : public std::enable_shared_from_this<Visit<Stream>> {
     http::async_write(stream_, *answer, [self = this->shared_from_this(), answer](Problem problem, std::size_t) {
       if (!problem && answer->keep_alive()) return self->read();
       Problem ignored;
-      boost::beast::get_lowest_layer(self->stream_).socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+      boost::beast::get_lowest_layer(self->stream_)
+          .socket()
+          .shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
     });
   }
 

@@ -42,7 +42,8 @@ databuffer::WorldState small_world() {
 void take_message(std::string_view text) {
   station::PagePilot pilot;
   if (const auto events = pilot.events_of(text))
-    for (const databuffer::InputEvent& event : *events) YARS_REQUIRE(databuffer::validate(event).has_value(), ==, false);
+    for (const databuffer::InputEvent& event : *events)
+      YARS_REQUIRE(databuffer::validate(event).has_value(), ==, false);
   pilot.release_all();
   const auto object = nlohmann::json::parse(text, nullptr, false);
   if (!object.is_object()) return;

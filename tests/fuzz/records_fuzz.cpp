@@ -9,6 +9,7 @@
 #include "config/schema/load.hpp"
 #include "databuffer/app/flight_shell.hpp"
 #include "databuffer/flight/source_reader.hpp"
+#include "databuffer/json/status_json.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/receivers.hpp"
 #include "display/host/session_link_shell.hpp"
@@ -20,7 +21,6 @@
 #include "tests/fuzz/overlaid_session.hpp"
 #include "tools/session/recorder.hpp"
 #include "tools/session/status_text.hpp"
-#include "databuffer/json/status_json.hpp"
 
 namespace {
 

@@ -72,14 +72,15 @@ TEST(Access, CookiesCarryTheTokenOfThisPort) {
   AccessRules other = rules;
   other.port = 8097;
   EXPECT_EQ(right_of_cookies(pair, other), Right::none);
-  for (const char* cookies : {"", ";", "yars_station_8096=", "x" , "; ;=;"})
+  for (const char* cookies : {"", ";", "yars_station_8096=", "x", "; ;=;"})
     EXPECT_EQ(right_of_cookies(cookies, rules), Right::none) << cookies;
 }
 
 TEST(Access, ParametersAreWordsOfTheQuery) {
   EXPECT_EQ(parameter_of("/socket?page=instructor&session=a-b_1", "session"), "a-b_1");
   EXPECT_EQ(parameter_of("/socket?page=instructor&session=a-b_1", "page"), "instructor");
-  for (const char* path : {"/socket", "/socket?", "/socket?session=", "/socket?session=../x", "/socket?xsession=a", "/session=a"})
+  for (const char* path :
+       {"/socket", "/socket?", "/socket?session=", "/socket?session=../x", "/socket?xsession=a", "/session=a"})
     EXPECT_EQ(parameter_of(path, "session"), std::nullopt) << path;
 }
 

@@ -69,14 +69,16 @@ TEST(InstructorMessage, WhatIsNoCommandIsRefusedWithWhatIsExpected) {
   EXPECT_THAT(refusal(R"({"do": "dance", "id": 1})"), HasSubstr("found dance"));
   EXPECT_THAT(refusal(R"({"do": "run"})"), HasSubstr("id: expected a whole number"));
   EXPECT_THAT(refusal(R"({"do": "run", "id": "x"})"), HasSubstr("id: expected a whole number"));
-  EXPECT_THAT(refusal(R"({"do": "rate", "id": 1})"), HasSubstr("rate: rate: expected a number from 0 to 10, found nothing"));
+  EXPECT_THAT(refusal(R"({"do": "rate", "id": 1})"),
+              HasSubstr("rate: rate: expected a number from 0 to 10, found nothing"));
   EXPECT_THAT(refusal(R"({"do": "rate", "id": 1, "rate": 11})"), HasSubstr("found 11"));
   EXPECT_THAT(refusal(R"({"do": "rate", "id": 1, "rate": "fast"})"), HasSubstr("found \"fast\""));
   EXPECT_THAT(refusal(R"({"do": "step", "id": 1, "ticks": 0})"), HasSubstr("from 1 to 2000"));
   EXPECT_THAT(refusal(R"({"do": "reposition", "id": 1, "lat": 91, "lon": 0, "alt_ft": 0, "heading": 0})"),
               HasSubstr("lat: expected a number from -90 to 90"));
   EXPECT_THAT(refusal(R"({"do": "play", "id": 1, "file": "", "at": 0})"), HasSubstr("file: expected a text"));
-  EXPECT_THAT(refusal(R"({"do": "add", "id": 1, "list": "trees", "lat": 1, "lon": 1})"), HasSubstr("rain, jammers or movers"));
+  EXPECT_THAT(refusal(R"({"do": "add", "id": 1, "list": "trees", "lat": 1, "lon": 1})"),
+              HasSubstr("rain, jammers or movers"));
   EXPECT_THAT(refusal(R"({"do": "add", "id": 1, "list": "rain", "lat": 1})"), HasSubstr("two numbers"));
   EXPECT_THAT(refusal(R"({"do": "sea", "id": 1})"), HasSubstr("null: from the wind"));
 }
@@ -86,11 +88,13 @@ TEST(InstructorMessage, EntriesOfTheWorldAreAddedMovedChangedAndRemoved) {
   ASSERT_EQ(world.rain_count, 1U);
   EXPECT_EQ(world.rain[0].latitude_deg, 37.0);
   const std::string item = std::to_string(world.rain[0].id);
-  world = after(world, (R"({"do": "move", "id": 1, "list": "rain", "item": )" + item + R"(, "lat": 38, "lon": -121})").c_str());
+  world = after(
+      world, (R"({"do": "move", "id": 1, "list": "rain", "item": )" + item + R"(, "lat": 38, "lon": -121})").c_str());
   EXPECT_EQ(world.rain[0].latitude_deg, 38.0);
   EXPECT_EQ(world.rain[0].longitude_deg, -121.0);
   world = after(world, (R"({"do": "change", "id": 1, "list": "rain", "item": )" + item +
-                        R"(, "radius_nm": 2, "rate_mmh": 50, "top_ft": 20000})").c_str());
+                        R"(, "radius_nm": 2, "rate_mmh": 50, "top_ft": 20000})")
+                           .c_str());
   EXPECT_DOUBLE_EQ(world.rain[0].radius_m, 3704.0);
   EXPECT_EQ(world.rain[0].rate_mmh, 50.0);
   EXPECT_EQ(world.rain[0].latitude_deg, 38.0) << "what is not named stays";
@@ -102,7 +106,8 @@ TEST(InstructorMessage, EntriesOfTheWorldAreAddedMovedChangedAndRemoved) {
   ASSERT_EQ(world.jammer_count + world.mover_count, 2U);
   const std::string mover = std::to_string(world.movers[0].id);
   world = after(world, (R"({"do": "change", "id": 1, "list": "movers", "item": )" + mover +
-                        R"(, "speed_kt": 20, "heading_deg": 45})").c_str());
+                        R"(, "speed_kt": 20, "heading_deg": 45})")
+                           .c_str());
   EXPECT_NEAR(world.movers[0].speed_mps, 10.2889, 1e-3);
   EXPECT_EQ(world.movers[0].heading_deg, 45.0);
   EXPECT_EQ(world.movers[0].since_ns, 10'000'000'000) << "it turns where it is at the time of the command";

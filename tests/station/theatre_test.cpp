@@ -23,9 +23,10 @@ TEST(MapTile, APathNamesASquareInDegrees) {
 }
 
 TEST(MapTile, OtherPathsNameNone) {
-  for (const char* path : {"", "/map", "/map/", "/map/3/127.png", "/map/3/127/58", "/map/3/127/58.jpg", "/map/3/127/58.png?x",
-                           "/map/-1/0/0.png", "/map/13/0/0.png", "/map/0/23/0.png", "/map/0/0/45.png", "/map/3/-1/0.png",
-                           "/map/3/1e3/0.png", "/map/99999999999/0/0.png", "/map/3/127/58.png/"})
+  for (const char* path :
+       {"", "/map", "/map/", "/map/3/127.png", "/map/3/127/58", "/map/3/127/58.jpg", "/map/3/127/58.png?x",
+        "/map/-1/0/0.png", "/map/13/0/0.png", "/map/0/23/0.png", "/map/0/0/45.png", "/map/3/-1/0.png",
+        "/map/3/1e3/0.png", "/map/99999999999/0/0.png", "/map/3/127/58.png/"})
     EXPECT_FALSE(tile_of_path(path)) << path;
 }
 

@@ -42,7 +42,7 @@ struct BranchPoint {
   std::optional<databuffer::Outputs> outputs;
   std::optional<databuffer::Traffic> traffic;
   std::optional<databuffer::WorldState> world;  // in effect; nullopt: that of the configuration
-  std::string flight_source;  // source of flight-model (FlightSource); empty: not recorded
+  std::string flight_source;                    // source of flight-model (FlightSource); empty: not recorded
 };
 
 // Newest point at or before the tick; the first one after it if there is none. A point is preferred at which the radar

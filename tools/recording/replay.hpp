@@ -111,7 +111,7 @@ struct Played {
   std::optional<databuffer::ModelStatus> status;  // newest status, with the ownship of the newest tick
   std::optional<databuffer::Outputs> outputs;
   std::optional<databuffer::WorldState> world;  // newest world in effect, if it changed
-  std::optional<databuffer::Traffic> traffic;  // never from Player: a live set goes on with it
+  std::optional<databuffer::Traffic> traffic;   // never from Player: a live set goes on with it
   std::deque<databuffer::Sweep> sweeps;
   std::vector<Patch> maps;
   std::optional<std::int64_t> cut_to_tick;  // tick at which the recording continues after a cut (see Player)

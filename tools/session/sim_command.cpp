@@ -87,9 +87,8 @@ void step(const SimOptions& options, std::int64_t ticks) {
   auto session = open_live_session(options.common);
   const std::uint32_t epoch = session.clock().epoch;
   while (ticks > 0 && !databuffer::stop_requested()) {
-    change_clock(session, [&](const ClockState& clock) {
-      return databuffer::stepped(clock, clock.epoch == epoch ? ticks : 0);
-    });
+    change_clock(session,
+                 [&](const ClockState& clock) { return databuffer::stepped(clock, clock.epoch == epoch ? ticks : 0); });
     if (session.clock().epoch != epoch)
       throw_failure(
           {"step", "no new epoch while stepping", "a reset or repositioning by another program", "step again", false});
@@ -144,9 +143,10 @@ void add_sim_command(databuffer::Command app, const CommonOptions& common) {
     change_and_report(*options, [](const ClockState& clock) { return databuffer::with_running(clock, true); });
   });
   const auto rate = std::make_shared<double>(1.0);
-  add("rate", "set the rate of sim time", [options, rate] {
-    change_and_report(*options, [&](const ClockState& clock) { return databuffer::with_rate(clock, *rate); });
-  })
+  add("rate", "set the rate of sim time",
+      [options, rate] {
+        change_and_report(*options, [&](const ClockState& clock) { return databuffer::with_rate(clock, *rate); });
+      })
       .option("RATE", *rate, "sim time over real time")
       .range(0.0, databuffer::kMaxClockRate)
       .required();
@@ -162,13 +162,11 @@ void add_sim_command(databuffer::Command app, const CommonOptions& common) {
       .option("TIME_S", *time_s, "[s] sim time")
       .range(0.0, databuffer::kLatestSimTime_s);
   const auto position = std::make_shared<Position>();
-  databuffer::Command move = add("reposition", "move the aircraft to a position and begin a new epoch",
-                                 [options, position] {
-                                   const databuffer::Repositioning to = repositioning_of(*position);
-                                   begin_epoch(*options, [&](const ClockState& clock) {
-                                     return databuffer::repositioned(clock, to);
-                                   });
-                                 });
+  databuffer::Command move =
+      add("reposition", "move the aircraft to a position and begin a new epoch", [options, position] {
+        const databuffer::Repositioning to = repositioning_of(*position);
+        begin_epoch(*options, [&](const ClockState& clock) { return databuffer::repositioned(clock, to); });
+      });
   move.option("LAT", position->latitude_deg, "[deg] north positive").range(-90.0, 90.0).required();
   move.option("LON", position->longitude_deg, "[deg] east positive").range(-180.0, 180.0).required();
   move.option("ALT_FT", position->altitude_ft, "[ft] above mean sea level").range(-3000.0, 600000.0).required();

@@ -1,3 +1,5 @@
+#include "tools/session/status_text.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,6 @@
 
 #include "databuffer/messages/derived_values.hpp"
 #include "lib/text/plain_text.hpp"
-#include "tools/session/status_text.hpp"
 
 namespace yars::tools {
 

@@ -105,7 +105,8 @@ Colour colour_at(const Ground& ground, double north_deg, double east_deg, PixelS
                          interpolate(cell, from_north, from_east).elevation_m);
   };
   const std::uint8_t material = ground.culture != nullptr ? ground.culture->nearest(north_deg, east_deg) : 0;
-  return lit_cover(material, here.elevation_m, rise(north_deg, west, north_deg, east) / ((east - west) * east_m_per_deg),
+  return lit_cover(material, here.elevation_m,
+                   rise(north_deg, west, north_deg, east) / ((east - west) * east_m_per_deg),
                    rise(south, east_deg, north, east_deg) / ((north - south) * geo::kMetresPerDegree));
 }
 

@@ -10,7 +10,7 @@ function __yars_path
             continue
         end
         switch $word
-            case --airfields --alt-ft --altitude-ft --band --base --cells-lat --cells-lon --channel --color --config --cross-section --csv --dask --east --edge --elevation --fidelity --gain --heading --height-ft --in --keep --kind --knob --lat --level --lockstep --log-dir --log-level --lon --looks --map --markdown --name --north --origin --out --pixels --power --presets --radius-nm --range-nm --rate --reduction --repeat --restarted --ruler --ruler-samples --ruler-size --samples --scan-width --scene --scene-without --seed --seek --session --shadow --shard --size --south --speed-kt --step --target-lat --target-lon --terrain --threads --time-s --to --top-ft --triangles --view --west --width --window-nm --without --workers
+            case --airfields --alt-ft --altitude-ft --at --await --band --base --cells-lat --cells-lon --channel --color --config --cross-section --csv --dask --east --edge --elevation --fidelity --from --gain --heading --height-ft --in --keep --kind --knob --lat --level --lockstep --log-dir --log-level --lon --looks --map --markdown --name --north --origin --out --pixels --power --presets --radius-nm --range-nm --rate --reduction --repeat --restarted --ruler --ruler-samples --ruler-size --samples --scan-width --scene --scene-without --seed --seek --session --shadow --shard --size --source --south --speed --speed-kt --step --target-lat --target-lon --terrain --threads --time-s --to --top-ft --triangles --until --view --west --width --window-nm --without --workers
                 set left 1
             case --from --to
                 set left 2
@@ -19,7 +19,7 @@ function __yars_path
             case '-*'
             case '*'
                 set -l longer (string join ' ' $path $word)
-                contains -- $longer 'scan' 'patch' 'trade' 'trade maps' 'terrain' 'terrain generate' 'terrain info' 'terrain image' 'terrain profile' 'terrain dump' 'terrain reduce' 'terrain convert' 'terrain pack' 'scene' 'scene generate' 'scene info' 'scene image' 'dataset' 'config' 'config check' 'config print' 'config convert' 'config user' 'sim' 'sim state' 'sim freeze' 'sim run' 'sim rate' 'sim step' 'sim reset' 'sim reposition' 'world' 'world sea' 'world wind' 'world rain' 'world rain add' 'world rain move' 'world rain remove' 'world jammer' 'world jammer add' 'world jammer move' 'world jammer remove' 'world mover' 'world mover add' 'world mover move' 'world mover remove' 'world mover steer' 'world reset' 'inject' 'note' 'status' 'watch' 'record' 'replay' 'help'; and set -a path $word
+                contains -- $longer 'scan' 'patch' 'trade' 'trade maps' 'terrain' 'terrain generate' 'terrain info' 'terrain image' 'terrain profile' 'terrain dump' 'terrain reduce' 'terrain convert' 'terrain pack' 'scene' 'scene generate' 'scene info' 'scene image' 'dataset' 'config' 'config check' 'config print' 'config convert' 'config user' 'sim' 'sim state' 'sim freeze' 'sim run' 'sim rate' 'sim step' 'sim reset' 'sim reposition' 'world' 'world sea' 'world wind' 'world rain' 'world rain add' 'world rain move' 'world rain remove' 'world jammer' 'world jammer add' 'world jammer move' 'world jammer remove' 'world mover' 'world mover add' 'world mover move' 'world mover remove' 'world mover steer' 'world reset' 'inject' 'note' 'status' 'watch' 'record' 'recordings' 'replay' 'help'; and set -a path $word
         end
     end
     string join ' ' $path
@@ -59,6 +59,7 @@ complete -c yars -n "__yars_at ''" -a note -d 'write a note into the session\'s 
 complete -c yars -n "__yars_at ''" -a status -d 'health of a session and of the hosts that share it'
 complete -c yars -n "__yars_at ''" -a watch -d 'print the session\'s state: one line per change, at least one per second'
 complete -c yars -n "__yars_at ''" -a record -d 'record the session\'s ticks and events until Ctrl-C'
+complete -c yars -n "__yars_at ''" -a recordings -d 'list recordings: time, size, terrain, what they hold'
 complete -c yars -n "__yars_at ''" -a replay -d 'play a recording into its own session (--session, else \'replay\'), for a radar-display in that session'
 complete -c yars -n "__yars_at ''" -a help -d 'print the help of a command'
 complete -c yars -n "__yars_at ''" -s h -l help -d 'print this help'
@@ -375,6 +376,7 @@ complete -c yars -n "__yars_at 'sim reposition'"
 complete -c yars -n "__yars_at 'sim reposition'"
 complete -c yars -n "__yars_at 'sim reposition'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'sim reposition'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'sim reposition'" -l speed -x -d '[kt] over ground: the aircraft then flies straight and level'
 complete -c yars -n "__yars_at 'sim reposition'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'sim reposition'" -l config -r -F -d 'GUF configuration file'
 complete -c yars -n "__yars_at 'sim reposition'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
@@ -544,24 +546,37 @@ complete -c yars -n "__yars_at 'record'" -l keep -x -d '[MB] disk space for the 
 complete -c yars -n "__yars_at 'record'" -l sweeps -d 'also record the video of the sweeps'
 complete -c yars -n "__yars_at 'record'" -l patches -d 'also record the patch maps'
 complete -c yars -n "__yars_at 'record'" -l terrain -x -a '(__fish_complete_directories)' -d 'folder of elevation cells: DTED, HGT, DED, packs, rasters'
+complete -c yars -n "__yars_at 'record'" -l source -x -a '' -d 'the value of flight-model\'s --source; a set that flies out of the recording continues this flight'
+complete -c yars -n "__yars_at 'record'" -l from -r -F -d 'begin with the items of this recording up to --until S: a branch of it'
+complete -c yars -n "__yars_at 'record'" -l until -x -d '[s] sim time at which the branch leaves --from FILE'
 complete -c yars -n "__yars_at 'record'" -l lockstep -x -d 'roles that step together on sim time, ROLE,ROLE,...[@END_TICK]; the same for all of them'
 complete -c yars -n "__yars_at 'record'" -l log-dir -x -a '(__fish_complete_directories)' -d 'folder for a rotated log file'
 complete -c yars -n "__yars_at 'record'" -l json -d 'print one JSON object in place of text'
 complete -c yars -n "__yars_at 'record'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'record'" -l config -r -F -d 'GUF configuration file'
 complete -c yars -n "__yars_at 'record'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'recordings'" -F
+complete -c yars -n "__yars_at 'recordings'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'recordings'" -l at -x -d '[s] sim time: say where a live set goes on from there, and by which flight (scripts/start --fly-out)'
+complete -c yars -n "__yars_at 'recordings'" -l lines -d 'print the facts of --at as lines NAME = VALUE, for scripts'
+complete -c yars -n "__yars_at 'recordings'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'recordings'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'recordings'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'recordings'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
 complete -c yars -n "__yars_at 'replay'" -F
 complete -c yars -n "__yars_at 'replay'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'replay'" -l events -d 'compute the sweeps from the recorded ticks, offline, and compare them with the recorded sweeps'
 complete -c yars -n "__yars_at 'replay'" -l print -d 'print events, radar states, worlds and patch maps, one JSON object per line'
 complete -c yars -n "__yars_at 'replay'" -l rate -x -d 'rate relative to real time; 0 freezes the picture'
 complete -c yars -n "__yars_at 'replay'" -l seek -x -d '[s] sim time at which to begin'
+complete -c yars -n "__yars_at 'replay'" -l hand-over -d 'hand the second of --seek over to a live set, which goes on from there; scripts/start --fly-out does it all'
+complete -c yars -n "__yars_at 'replay'" -l await -x -d 'roles that --hand-over awaits before it runs the clock'
 complete -c yars -n "__yars_at 'replay'" -l terrain -x -a '(__fish_complete_directories)' -d 'folder of elevation cells'
 complete -c yars -n "__yars_at 'replay'" -l json -d 'print one JSON object in place of text'
 complete -c yars -n "__yars_at 'replay'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'replay'" -l config -r -F -d 'GUF configuration file'
 complete -c yars -n "__yars_at 'replay'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
-complete -c yars -n "__yars_at 'help'" -a 'scan patch trade terrain scene dataset config sim world inject note status watch record replay help'
+complete -c yars -n "__yars_at 'help'" -a 'scan patch trade terrain scene dataset config sim world inject note status watch record recordings replay help'
 complete -c yars -n "__yars_at 'help'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'help'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'help'" -l config -r -F -d 'GUF configuration file'
