@@ -164,7 +164,7 @@ Expected<void> SetsShell::record() {
   const std::filesystem::path file = settings_.recordings / (settings_.session + '-' + text_of_now() + ".yars");
   std::vector<std::string> command{(settings_.programs / "yars").string(), "--session", settings_.session};
   if (!settings_.config.empty()) command.insert(command.end(), {"--config", settings_.config});
-  command.insert(command.end(), {"record", file.string(), "--patches"});
+  command.insert(command.end(), {"record", file.string(), "--sweeps", "--patches"});
   if (!settings_.terrain.empty()) command.insert(command.end(), {"--terrain", settings_.terrain});
   auto process = start(command);
   if (!process) return tl::unexpected(process.error());
