@@ -71,6 +71,7 @@ class SocketOfPage:
 
     def texts(self):
         """Text messages, until the connection closes."""
+        kind, content = 0, b""  # a message may come in parts
         while True:
             while len(self.data) < 2 or len(self.data) < self.end()[1]:
                 part = self.socket.recv(65536)
@@ -78,11 +79,12 @@ class SocketOfPage:
                     return
                 self.data += part
             begin, end = self.end()
-            opcode, content = self.data[0] & 15, self.data[begin:end]
+            opcode, last = self.data[0] & 15, self.data[0] & 128
+            kind, content = opcode or kind, (b"" if opcode else content) + self.data[begin:end]
             self.data = self.data[end:]
-            if opcode == 8:
+            if kind == 8:
                 return
-            if opcode == 1:
+            if kind == 1 and last:
                 yield json.loads(content)
 
     def end(self):
