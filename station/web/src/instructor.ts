@@ -257,7 +257,9 @@ class InstructorPage {
     if (document.activeElement !== dial) dial.value = fidelity.wanted || configured;
     say("fidelity_error", `in use: ${fidelity.used}. Error: ${PRESETS[fidelity.used] ?? "not measured"}`);
     if (!status) return;
-    say("health", status.health.state === "OK" ? "OK" : `${status.health.state}: ${status.health.reasons.join("; ")}`);
+    const { reasons } = status.health;
+    say("health", status.health.state === "OK" ? "OK" : `${status.health.state}: ${reasons[0] ?? ""}${reasons.length > 1 ? ` (and ${reasons.length - 1} more)` : ""}`);
+    element("health").title = reasons.join("\n");
     element("health").classList.toggle("bad", status.health.state !== "OK");
     fill("roles", JSON.stringify(status.roles.map(({ name, pid, load, restarts, hangs, can_kill }) => [name, pid, load?.toFixed(2), restarts, hangs, can_kill])), () => status.roles.map((role) => {
       const row = document.createElement("tr");

@@ -50,6 +50,7 @@ export class TheatreMap {
   private drag: { x: number; y: number; thing: Thing | undefined; at: Position | undefined; far: boolean } | undefined;
   private readonly pointers = new Map<number, { x: number; y: number }>();
   private due = false;
+  private labels: [number, number, number, number][] = []; // room that the labels of a drawing take
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly user: MapUser) {
     const context = canvas.getContext("2d", { alpha: false });
@@ -221,10 +222,11 @@ export class TheatreMap {
     context.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
     context.fillStyle = "#18223a";
     context.fillRect(0, 0, this.width(), this.height());
+    this.labels = [];
     this.drawTiles();
     this.drawPatches();
-    this.drawTheatre();
     this.drawWorld();
+    this.drawTheatre();
     this.drawAircraft();
     this.drawScale();
   }
@@ -240,15 +242,28 @@ export class TheatreMap {
     const top = Math.min(180 / edge - 1, Math.floor((this.centre.lat + halfLat + 90) / edge));
     for (let row = bottom; row <= top; ++row)
       for (let column = first; column <= last; ++column) {
-        const tile = this.tile(`map/${level}/${row}/${((column % columns) + columns) % columns}.png`);
-        if (!tile.complete || tile.naturalWidth === 0) continue;
         const left = this.width() / 2 + (column * edge - 180 - this.centre.lon) * this.pixelsPerDeg * this.eastScale();
         const up = this.height() / 2 - ((row + 1) * edge - 90 - this.centre.lat) * this.pixelsPerDeg;
-        this.context.drawImage(tile, left, up, edge * this.pixelsPerDeg * this.eastScale() + 0.5, edge * this.pixelsPerDeg + 0.5);
+        this.tile(level, row, ((column % columns) + columns) % columns);
+        this.drawTile(level, row, ((column % columns) + columns) % columns, left, up, edge * this.pixelsPerDeg);
       }
   }
 
-  private tile(path: string): HTMLImageElement {
+  // Draws a tile, or the part of a coarser one while it is awaited.
+  private drawTile(level: number, row: number, column: number, left: number, up: number, edge: number): void {
+    for (let coarser = 0; coarser <= Math.min(level, 4); ++coarser) {
+      const parts = 2 ** coarser;
+      const tile = this.tiles.get(`map/${level - coarser}/${Math.floor(row / parts)}/${Math.floor(column / parts)}.png`);
+      if (!tile?.complete || tile.naturalWidth === 0) continue;
+      const part = TILE_PIXELS / parts;
+      this.context.drawImage(tile, (column % parts) * part, (parts - 1 - (row % parts)) * part, part, part,
+        left, up, edge * this.eastScale() + 0.5, edge + 0.5);
+      return;
+    }
+  }
+
+  private tile(level: number, row: number, column: number): HTMLImageElement {
+    const path = `map/${level}/${row}/${column}.png`;
     let image = this.tiles.get(path);
     if (image) return image;
     image = new Image();
@@ -310,11 +325,16 @@ export class TheatreMap {
     context.setLineDash([]);
   }
 
+  // A label has no room over another one; that of the aircraft's neighbourhood comes with a nearer view.
   private label(position: Position, text: string, colour: string, down = 16): void {
     const { context } = this;
     const [x, y] = this.xy(position);
     context.font = "12px system-ui, sans-serif";
     context.textAlign = "center";
+    const half = context.measureText(text).width / 2 + 2;
+    const box: [number, number, number, number] = [x - half, y + down - 12, x + half, y + down + 3];
+    if (this.labels.some((other) => other[0] < box[2] && box[0] < other[2] && other[1] < box[3] && box[1] < other[3])) return;
+    this.labels.push(box);
     context.lineWidth = 3;
     context.strokeStyle = "#000c";
     context.strokeText(text, x, y + down);
