@@ -236,7 +236,10 @@ typedef struct {
   /* [0, 1] 1: the epoch began because the aircraft's source jumped to this position; no user requested it */
   uint32_t followed;
   uint32_t reserved0;
-  uint64_t reserved[3];
+  /* [m/s] [0, 10000] over ground, with which the aircraft flies straight and level from the repositioning on; 0: the
+   * source chooses */
+  double reposition_speed_mps;
+  uint64_t reserved[2];
 } yars_clock;
 
 /* True position, attitude and velocity of the aircraft. Video is computed from Ownship; symbols are placed by Nav.

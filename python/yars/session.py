@@ -41,7 +41,8 @@ SWEEP_VIDEO_AT = 144
 # Records: (name, struct code) in order; names that begin with an underscore are reserved.
 CLOCK = [("base_sim_ns", "q"), ("base_monotonic_ns", "q"), ("rate", "d"), ("running", "I"), ("epoch", "I"),
          ("reposition_latitude_deg", "d"), ("reposition_longitude_deg", "d"), ("reposition_altitude_m", "d"),
-         ("reposition_heading_deg", "d"), ("followed", "I"), ("_reserved", "28s")]
+         ("reposition_heading_deg", "d"), ("followed", "I"), ("_reserved", "4s"), ("reposition_speed_mps", "d"),
+         ("_reserved", "16s")]
 OWNSHIP = [("source_time_ns", "q"), ("latitude_deg", "d"), ("longitude_deg", "d"), ("altitude_msl_m", "d"),
            ("heading_deg", "d"), ("pitch_deg", "d"), ("roll_deg", "d"), ("velocity_north_mps", "d"),
            ("velocity_east_mps", "d"), ("velocity_down_mps", "d"), ("radar_altitude_m", "d"), ("epoch", "I"),
