@@ -101,6 +101,15 @@ TEST(FixedFlight, RepositioningContinuesFromTheNewPosition) {
   EXPECT_NEAR(ground_speed_of(ownship), 480.0 * 1852.0 / 3600.0, 1e-9);
 }
 
+TEST(FixedFlight, ARepositioningMayHaveASpeedUntilAReset) {
+  auto flight = fixed_flight_of("38,-123.1,15000,160,480");
+  flight.reposition(
+      {{37.0, -122.0}, geo::AltitudeMsl::feet(10'000), geo::Bearing::degrees(90), geo::Speed::knots(200)});
+  EXPECT_NEAR(ground_speed_of(flight.step({}).ownship), geo::Speed::knots(200).metres_per_second(), 1e-9);
+  flight.reset();
+  EXPECT_NEAR(ground_speed_of(flight.step({}).ownship), geo::Speed::knots(480).metres_per_second(), 1e-9);
+}
+
 TEST(FixedFlight, ABadSettingNamesTheField) {
   EXPECT_THAT(fixed_refusal("38,-123,15000,160"), HasSubstr("LAT,LON,ALT_FT,HDG,KT"));
   EXPECT_THAT(fixed_refusal("91,-123,15000,160,480"), HasSubstr("LAT in [-90, 90]"));

@@ -207,6 +207,28 @@ TEST(RouteFlight, AfterRepositioningFliesToTheEndOfTheNearestLeg) {
   EXPECT_LT(nearest_m, 500.0);
 }
 
+TEST(RouteFlight, AfterRepositioningWithASpeedFliesStraightAndLevelUntilTheNextOne) {
+  const Route route = route_of("38 -123 15000 480\n39 -123 15000 480\n39 -120 15000 480\n");
+  RouteFlight flight(route);
+  const geo::GeoPoint start{39.3, -121.5};
+  flight.reposition({start, geo::AltitudeMsl::feet(10'000), geo::Bearing::degrees(270), geo::Speed::knots(300)});
+  Ownship last{};
+  for (int second = 0; second < 600; ++second) last = flight.step(geo::Duration::seconds(1.0)).ownship;
+  const auto there = geo::geodesic_direct(start, geo::Bearing::degrees(270),
+                                          geo::Length::metres(geo::Speed::knots(300).metres_per_second() * 600.0));
+  EXPECT_LT(distance_m(point_of(last), there), 60.0) << "30 m less on the ellipsoid than at the altitude";
+  EXPECT_NEAR(ground_speed_of(last), geo::Speed::knots(300).metres_per_second(), 1e-9);
+  EXPECT_NEAR(last.altitude_msl_m, 3048.0, 1e-6);
+  EXPECT_EQ(last.roll_deg, 0.0);
+  flight.reposition({start, geo::AltitudeMsl::feet(10'000), geo::Bearing::degrees(270)});
+  for (int second = 0; second < 60; ++second) last = flight.step(geo::Duration::seconds(1.0)).ownship;
+  EXPECT_LT(last.heading_deg, 200.0) << "it has turned to the route";
+  flight.reposition({start, geo::AltitudeMsl::feet(10'000), geo::Bearing::degrees(270), geo::Speed::knots(300)});
+  flight.reset();
+  EXPECT_EQ(flight.step({}).ownship.latitude_deg, 38.0);
+  EXPECT_GT(flight.step(geo::Duration::seconds(60.0)).ownship.latitude_deg, 38.1);
+}
+
 // The looped route that comes with YARS, with a descent, changes of speed and turns.
 TEST(RouteFlight, AFlightThatIsResumedGoesOnAsIfItHadNotEnded) {
   const auto text = file::read_text_file(std::string(YARS_SOURCE_DIR) + "/config/routes/default.route");
