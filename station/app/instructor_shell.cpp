@@ -93,13 +93,15 @@ void InstructorShell::refresh_status() {
     role["load"] = load == loads.end() ? ordered_json(nullptr) : ordered_json(load->second);
     role["can_kill"] = role["pid"] != 0 && std::ranges::find(kRoles, role["name"].get<std::string>()) != kRoles.end();
   }
-  const auto& notes = all["notes"];
+  // Late ticks would leave no room for others; the health names them.
   ordered_json newest = ordered_json::array();
-  for (std::size_t i = notes.size() - std::min(notes.size(), kNotesShown); i < notes.size(); ++i)
-    newest.push_back({{"sim_time", notes[i]["sim_time"]},
-                      {"process", notes[i]["process"]},
-                      {"kind", notes[i]["kind"]},
-                      {"text", notes[i]["text"]}});
+  const auto& notes = all["notes"];
+  for (std::size_t i = notes.size(); i > 0 && newest.size() < kNotesShown; --i) {
+    const auto& note = notes[i - 1];
+    if (note["kind"] == "late tick") continue;
+    newest.push_back(
+        {{"sim_time", note["sim_time"]}, {"process", note["process"]}, {"kind", note["kind"]}, {"text", note["text"]}});
+  }
   status_ = {{"roles", all["roles"]}, {"health", all["health"]}, {"recorder", all["recorder"]},
              {"model", all["model"]}, {"lag", all["lag"]},       {"notes", std::move(newest)}};
 }

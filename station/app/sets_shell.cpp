@@ -180,8 +180,8 @@ void SetsShell::signal(const StartedSet& set, int number) const {
 }
 
 Expected<void> SetsShell::end(const std::string& session) {
-  const auto set = std::ranges::find_if(
-      sets_, [&](const StartedSet& entry) { return entry.session == session && entry.kind != "recorder"; });
+  // The recorder bears the station's own session.
+  const auto set = std::ranges::find(sets_, session, &StartedSet::session);
   if (set == sets_.end()) return error::fail("end", "a set that the station has started", session.substr(0, 40));
   signal(*set, SIGTERM);
   if (set->processes.empty())

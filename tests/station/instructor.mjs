@@ -225,8 +225,26 @@ const tests = {
     await beside.close();
     await page.click(`button[aria-label='End ${branch}']`);
     await until("the branch has ended", async () => await page.$(`button[aria-label='End ${branch}']`) === null);
+    await page.click("button[aria-label='End the recorder']");
+    await until("no recorder", () => status().recorder === null);
     faults.length = 0; // a page that waits for a session logs refused connections
     await noProblem(page);
+  },
+  async "the form of the aircraft shows present values until others are typed"(page) {
+    const latitude = () => page.$eval("#lat", (field) => field.value);
+    await page.click("h1");
+    const before = await latitude();
+    await page.click("#run"); // if it stood
+    await page.click("#run");
+    await page.fill("#lat", "");
+    await new Promise((resolve) => setTimeout(resolve, 500));
+    assert.equal(await latitude(), "", "an empty field stays empty");
+    const { epoch } = watch();
+    await page.click("#aircraft_form button:not([type])");
+    await new Promise((resolve) => setTimeout(resolve, 300));
+    assert.equal(watch().epoch, epoch, "and moves nothing");
+    await page.click("#copy");
+    assert.ok(near(Number(await latitude()), Number(before), 1));
   },
   async "no serious fault of accessibility"(page) {
     await page.evaluate(axe);

@@ -20,6 +20,7 @@ class DisplayPage {
   private readonly words = element("words");
   private readonly connection: Connection;
   private pointing = false;
+  private explained = 0; // push button whose words are shown; 0: none
   private waiting: { x: number; y: number } | undefined;
   private lastFrame_ms = 0;
   private display_ms: number | undefined; // when radar-display last was alive
@@ -34,6 +35,8 @@ class DisplayPage {
       },
       connected: (open) => this.showConnection(open),
     }, "display", sessionOfPage());
+    for (const control of document.querySelectorAll<HTMLButtonElement>("button[data-event]"))
+      control.addEventListener("click", () => this.connection.event(control.dataset.event ?? ""));
     this.listenToKeys();
     this.listenToPointer();
     setInterval(() => this.showAge(), 200);
@@ -72,6 +75,7 @@ class DisplayPage {
       if (button.title !== words) {
         button.title = words;
         button.setAttribute("aria-label", `PB ${number} ${legend}${boxed ? ", on" : ""}: ${does}`);
+        if (this.explained === number) this.showWords(number);
       }
     }
     const roles = ["state-machine", "radar-model", "radar-display"].filter((role) => !(role in watch.processes));
@@ -85,6 +89,7 @@ class DisplayPage {
   }
 
   private showWords(number: number): void {
+    this.explained = number;
     this.words.textContent = this.buttons[number - 1].title;
   }
 

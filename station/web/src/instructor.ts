@@ -29,6 +29,7 @@ class InstructorPage {
   private theatre: Theatre | undefined;
   private adding: Kind | undefined;
   private chosen: Thing | undefined;
+  private typed = false; // values of the aircraft that are not sent yet
 
   constructor() {
     this.map = new TheatreMap(element<HTMLCanvasElement>("map"), {
@@ -42,6 +43,7 @@ class InstructorPage {
       frame: (frame) => this.picture.show(frame),
       connected: (open) => {
         document.body.dataset.connection = open ? "open" : "lost";
+        if (!open) say("health", "");
         say("status", open ? "connected" : "no connection: the station does not answer; trying again");
       },
     }, "instructor", sessionOfPage());
@@ -51,7 +53,11 @@ class InstructorPage {
     this.listenToAircraft();
     this.listenToWorld();
     this.listenToSet();
-    if (sessionOfPage()) element<HTMLAnchorElement>("display_link").href = `display.html?session=${sessionOfPage()}`;
+    if (sessionOfPage()) {
+      element<HTMLAnchorElement>("display_link").href = `display.html?session=${sessionOfPage()}`;
+      document.title = `Radar instructor: ${sessionOfPage()}`;
+      say("title", `Instructor of ${sessionOfPage()}`);
+    }
     void this.readTheatre();
   }
 
@@ -73,6 +79,7 @@ class InstructorPage {
 
   // Sends a command and says why it was not done.
   private async order(name: string, values: object = {}): Promise<Answer> {
+    say("problem", "");
     const answer = await this.connection.command(name, values);
     this.tell(answer);
     return answer;
@@ -113,18 +120,24 @@ class InstructorPage {
   }
 
   private listenToAircraft(): void {
-    const copy = () => {
-      const aircraft = this.state?.aircraft;
-      if (!aircraft) return;
-      input("lat").value = aircraft.lat.toFixed(DIGITS);
-      input("lon").value = aircraft.lon.toFixed(DIGITS);
-      input("alt").value = aircraft.alt_ft.toFixed(0);
-      input("heading").value = (aircraft.heading_deg % 360).toFixed(1);
-    };
-    this.onClick("copy", copy);
-    this.onSubmit("aircraft_form", () => void this.reposition({ lat: number("lat"), lon: number("lon") }, number("alt"), number("heading")));
+    element("aircraft_form").addEventListener("input", () => { this.typed = true; });
+    this.onClick("copy", () => {
+      this.typed = false;
+      this.showAircraftForm();
+    });
+    this.onSubmit("aircraft_form", () => void this.reposition({ lat: number("lat"), lon: number("lon") }, number("alt"), number("heading"))
+      .then(({ problem }) => { if (problem === null) this.typed = false; }));
     this.onSubmit("steer_form", () => this.connection.event(`sp ${element<HTMLSelectElement>("points").value}`));
     this.onSubmit("nav_form", () => this.connection.event(`nav error ${element<HTMLSelectElement>("navigator").value} ${number("north")} ${number("east")}`));
+  }
+  // The present values, until the instructor types others.
+  private showAircraftForm(): void {
+    const aircraft = this.state?.aircraft;
+    if (!aircraft || this.typed) return;
+    input("lat").value = aircraft.lat.toFixed(DIGITS);
+    input("lon").value = aircraft.lon.toFixed(DIGITS);
+    input("alt").value = aircraft.alt_ft.toFixed(0);
+    input("heading").value = (aircraft.heading_deg % 360).toFixed(1);
   }
   private reposition(to: Position, alt_ft: number, heading: number): Promise<Answer> {
     const speed = number("speed");
@@ -188,6 +201,7 @@ class InstructorPage {
     const submit = document.createElement("button");
     submit.textContent = `Change ${thing.name}`;
     form.replaceChildren(...rows, submit);
+    form.scrollIntoView({ block: "nearest" });
   }
 
   private listenToSet(): void {
@@ -209,12 +223,13 @@ class InstructorPage {
     const { clock, aircraft } = state;
     say("clock", `${clock.sim_time.toFixed(1)} s, ${clock.running ? "runs" : "frozen"}${clock.rate === 1 ? "" : `, rate ${clock.rate}`}`);
     say("run", clock.running ? "Freeze" : "Run");
+    say("step", clock.running ? "Freeze and step" : "Step");
     const rate = element<HTMLSelectElement>("rate");
     if (document.activeElement !== rate) rate.value = String(clock.rate);
     say("flight", aircraft
       ? `${aircraft.lat.toFixed(4)}, ${aircraft.lon.toFixed(4)} · ${Math.round(aircraft.alt_ft)} ft · heading ${Math.round(aircraft.heading_deg) % 360} · ${Math.round(aircraft.speed_kt)} kt`
       : "no position: no flight model runs");
-    if (aircraft && input("lat").value === "") element("copy").click();
+    if (!element("aircraft_form").contains(document.activeElement)) this.showAircraftForm();
     const errors = state.navigators;
     say("errors", errors ? `MN ${errors.mission.north_ft.toFixed(0)} ft north, ${errors.mission.east_ft.toFixed(0)} ft east · INS ${errors.ins.north_ft.toFixed(0)} ft north, ${errors.ins.east_ft.toFixed(0)} ft east` : "unknown");
     this.showWorld(state);
@@ -258,7 +273,8 @@ class InstructorPage {
     say("fidelity_error", `in use: ${fidelity.used}. Error: ${PRESETS[fidelity.used] ?? "not measured"}`);
     if (!status) return;
     const { reasons } = status.health;
-    say("health", status.health.state === "OK" ? "OK" : `${status.health.state}: ${reasons[0] ?? ""}${reasons.length > 1 ? ` (and ${reasons.length - 1} more)` : ""}`);
+    const [first] = (reasons[0] ?? "").split(";");
+    say("health", status.health.state === "OK" ? "OK" : `${status.health.state}: ${first}${reasons.length > 1 ? ` (and ${reasons.length - 1} more)` : ""}`);
     element("health").title = reasons.join("\n");
     element("health").classList.toggle("bad", status.health.state !== "OK");
     fill("roles", JSON.stringify(status.roles.map(({ name, pid, load, restarts, hangs, can_kill }) => [name, pid, load?.toFixed(2), restarts, hangs, can_kill])), () => status.roles.map((role) => {
@@ -268,7 +284,8 @@ class InstructorPage {
       const last = row.insertCell();
       if (role.can_kill) {
         const kill = button("Kill", () => void this.order("kill", { role: role.name }));
-        kill.setAttribute("aria-label", `Kill ${role.name}: it is started again`);
+        kill.setAttribute("aria-label", `Kill ${role.name}`);
+        kill.title = "The supervisor of the set starts it again";
         last.append(kill);
       }
       return row;
@@ -276,7 +293,7 @@ class InstructorPage {
     const { recorder } = status;
     say("record", recorder ? (recorder.writing ? "Stop recording" : "Go on recording") : "Record");
     say("recorder", recorder ? recorder.problem ?? `${recorder.writing ? "writes" : "stands"}, ${(recorder.bytes / 1e6).toFixed(1)} MB` : "no recorder runs");
-    const notes = [...status.notes].reverse();
+    const { notes } = status;
     fill("notes", JSON.stringify(notes), () => notes.map(({ sim_time, process, text }) => {
       const row = document.createElement("li");
       row.textContent = `${sim_time.toFixed(1)} s ${process}: ${text}`;

@@ -10,6 +10,7 @@ const M_PER_DEG = 111319.49;
 export const M_PER_NM = 1852;
 const DEG = Math.PI / 180;
 const TRAIL_POINTS = 2000;
+const PATCHES_SHOWN = 2; // the newest: the radar repeats a map as the aircraft moves
 const TOUCH_PX = 18; // distance at which a symbol is under the pointer
 
 export interface Position { lat: number; lon: number }
@@ -232,6 +233,7 @@ export class TheatreMap {
   }
 
   private drawTiles(): void {
+    if (!this.state) return; // the map does not know yet where it is
     const wanted = Math.log2((TILE_DEG * this.pixelsPerDeg) / TILE_PIXELS);
     const level = Math.min(MAX_LEVEL, Math.max(0, Math.round(wanted)));
     const edge = TILE_DEG / 2 ** level, columns = 360 / edge;
@@ -279,7 +281,7 @@ export class TheatreMap {
   private drawPatches(): void {
     const { context, state } = this;
     if (!state) return;
-    for (const patch of [...state.patches].reverse()) {
+    for (const patch of state.patches.slice(0, PATCHES_SHOWN).reverse()) {
       const key = `/patch/${state.session}/${patch.id}.png`;
       let image = this.patches.get(key);
       if (!image) {
@@ -401,7 +403,7 @@ export class TheatreMap {
       context.strokeStyle = "#9ccbff";
       context.stroke();
       this.dot(at, "#5aa8ff", "circle");
-      this.label(at, `rain ${rain.rate_mmh} mm/h`, "#cfe6ff");
+      this.label(at, `rain ${rain.id}: ${Math.round(rain.rate_mmh * 10) / 10} mm/h`, "#cfe6ff");
       this.ring(at, "rain", rain.id);
     }
     for (const jammer of state?.world?.jammers ?? []) {

@@ -103,8 +103,8 @@ export class TimeMachine {
   showSets(sets: SetEntry[]): void {
     fill("sets", JSON.stringify(sets), () => sets.map((set) => {
       const row = document.createElement("li");
-      row.append(`${set.kind} ${fileName(set.file)} from ${set.at.toFixed(1)} s${set.ended ? `: ${set.ended}` : ""} `);
-      if (set.kind === "recorder") return row;
+      const from = set.kind === "recorder" ? "" : ` from ${set.at.toFixed(1)} s`;
+      row.append(`${set.kind} ${fileName(set.file)}${from}${set.ended ? `: ${set.ended}` : ""} `);
       const link = (text: string, address: string) => {
         const anchor = document.createElement("a");
         anchor.href = address;
@@ -112,7 +112,7 @@ export class TimeMachine {
         anchor.textContent = text;
         row.append(anchor, " ");
       };
-      if (!set.ended) {
+      if (!set.ended && set.kind !== "recorder") {
         link("display", `display.html?session=${set.session}`);
         if (set.kind === "branch") link("instructor", `instructor.html?session=${set.session}`);
         link("beside this set", `beside.html?right=${set.session}`);
@@ -120,7 +120,7 @@ export class TimeMachine {
           if (other.kind === "branch" && set.kind === "branch" && !other.ended && other.session > set.session) link(`beside ${other.session}`, `beside.html?left=${set.session}&right=${other.session}`);
       }
       const end = button("End", () => void this.connection.command("end", { session: set.session }).then(this.tell));
-      end.setAttribute("aria-label", `End ${set.session}`);
+      end.setAttribute("aria-label", set.kind === "recorder" ? "End the recorder" : `End ${set.session}`);
       row.append(end);
       return row;
     }));
