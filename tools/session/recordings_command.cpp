@@ -240,7 +240,7 @@ void add_recordings_command(databuffer::Command app) {
       .otherwise("the current folder");
   databuffer::Option at = command.option(
       "--at", options->at_s,
-      "[s] sim time: say where a live set goes on from there, and by which flight (scripts/start --fly-out)");
+      "[s] sim time: say where a live set goes on from there, and by which flight (--fly-out of the start script)");
   at.range(0.0, databuffer::kLatestSimTime_s).otherwise("none");
   command.flag("--lines", options->lines, "print the facts of --at as lines NAME = VALUE, for scripts").needs(at);
   add_json_flag(command, options->json);

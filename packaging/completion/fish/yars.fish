@@ -557,7 +557,7 @@ complete -c yars -n "__yars_at 'record'" -l config -r -F -d 'GUF configuration f
 complete -c yars -n "__yars_at 'record'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
 complete -c yars -n "__yars_at 'recordings'" -F
 complete -c yars -n "__yars_at 'recordings'" -s h -l help -d 'print this help'
-complete -c yars -n "__yars_at 'recordings'" -l at -x -d '[s] sim time: say where a live set goes on from there, and by which flight (scripts/start --fly-out)'
+complete -c yars -n "__yars_at 'recordings'" -l at -x -d '[s] sim time: say where a live set goes on from there, and by which flight (--fly-out of the start script)'
 complete -c yars -n "__yars_at 'recordings'" -l lines -d 'print the facts of --at as lines NAME = VALUE, for scripts'
 complete -c yars -n "__yars_at 'recordings'" -l json -d 'print one JSON object in place of text'
 complete -c yars -n "__yars_at 'recordings'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
@@ -569,7 +569,7 @@ complete -c yars -n "__yars_at 'replay'" -l events -d 'compute the sweeps from t
 complete -c yars -n "__yars_at 'replay'" -l print -d 'print events, radar states, worlds and patch maps, one JSON object per line'
 complete -c yars -n "__yars_at 'replay'" -l rate -x -d 'rate relative to real time; 0 freezes the picture'
 complete -c yars -n "__yars_at 'replay'" -l seek -x -d '[s] sim time at which to begin'
-complete -c yars -n "__yars_at 'replay'" -l hand-over -d 'hand the second of --seek over to a live set, which goes on from there; scripts/start --fly-out does it all'
+complete -c yars -n "__yars_at 'replay'" -l hand-over -d 'hand the second of --seek over to a live set, which goes on from there; --fly-out of the start script does it all'
 complete -c yars -n "__yars_at 'replay'" -l await -x -d 'roles that --hand-over awaits before it runs the clock'
 complete -c yars -n "__yars_at 'replay'" -l terrain -x -a '(__fish_complete_directories)' -d 'folder of elevation cells'
 complete -c yars -n "__yars_at 'replay'" -l json -d 'print one JSON object in place of text'
