@@ -72,7 +72,7 @@ std::shared_ptr<const std::string> MapShell::drawn(const MapTile& tile) {
   const double edge_m = (frame.north_deg - frame.south_deg) * geo::kMetresPerDegree;
   const terrain::TerrainRegion region{centre, 0.75 * edge_m, terrain::detail_for(edge_m / kTilePixels)};
   const terrain::TerrainViewPointer view = store_->prepare(region);
-  for (const std::string& problem : store_->take_problems()) log::warning("map: " + problem);
+  for (const std::string& problem : store_->take_problems()) log::debug("map: " + problem);
   const imageio::Image image = terrain::map_of(*view, frame);
   std::vector<std::uint8_t> rgbx, png;
   rgbx.reserve(image.pixels.size() / 3 * 4);

@@ -12,13 +12,13 @@
 namespace yars::databuffer {
 namespace {
 
-constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kWhole_ns = 1'000'000'000;
 
 // A clock that has run since a second, at this rate.
 ClockState run_for_a_second(double rate) {
   ClockState clock = first_clock();
-  clock.base_monotonic_ns = monotonic_ns() - kSecond_ns;
-  clock.base_sim_ns = 100 * kSecond_ns;
+  clock.base_monotonic_ns = monotonic_ns() - kWhole_ns;
+  clock.base_sim_ns = 100 * kWhole_ns;
   clock.rate = rate;
   clock.running = 1;
   return clock;
@@ -27,7 +27,7 @@ ClockState run_for_a_second(double rate) {
 TEST(ClockChanges, SimTimeDoesNotJumpWhenTheClockIsFrozenOrItsRateChanges) {
   const ClockState clock = run_for_a_second(2.0);
   for (const ClockState& changed : {with_running(clock, false), with_rate(clock, 0.5)}) {
-    EXPECT_GE(changed.base_sim_ns, 102 * kSecond_ns);
+    EXPECT_GE(changed.base_sim_ns, 102 * kWhole_ns);
     EXPECT_LE(changed.base_sim_ns, sim_time_at(clock, monotonic_ns()));
     EXPECT_EQ(changed.epoch, clock.epoch);
     EXPECT_FALSE(validate(changed));
