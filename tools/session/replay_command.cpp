@@ -302,9 +302,9 @@ void add_replay_command(databuffer::Command app, const CommonOptions& common) {
       .excludes(events)
       .excludes(print)
       .otherwise("the begin of the recording");
-  databuffer::Option hand_over = command.flag(
-      "--hand-over", options->hand_over,
-      "hand the second of --seek over to a live set, which goes on from there; --fly-out of the start script does it all");
+  databuffer::Option hand_over = command.flag("--hand-over", options->hand_over,
+                                              "hand the second of --seek over to a live set, which goes on from there; "
+                                              "--fly-out of the start script does it all");
   hand_over.needs(seek).excludes(events).excludes(print);
   command.option("--await", options->awaited, "roles that --hand-over awaits before it runs the clock")
       .value_name("ROLES")
