@@ -10,7 +10,9 @@
 namespace yars::model::kernel {
 namespace {
 
+// As radar-model names it: with its samples, those of the configuration for the configured one.
 void name_preset(test::Cockpit& cockpit, std::string_view preset) {
+  cockpit.tick.samples = preset == "draft" ? static_cast<std::uint32_t>(radar::fidelity_preset(preset)->samples) : 200U;
   std::fill(std::begin(cockpit.tick.fidelity), std::end(cockpit.tick.fidelity), '\0');
   preset.copy(cockpit.tick.fidelity, sizeof cockpit.tick.fidelity - 1);
 }
@@ -27,7 +29,6 @@ radar::RadarConfiguration with_200_samples() {
 
 TEST(PresetChange, ComesIntoUseWithAScanAndGoesWithTheConfiguredName) {
   test::Cockpit cockpit(with_200_samples());
-  cockpit.tick.samples = 200;
   name_preset(cockpit, "standard");
   cockpit.run(100);
   ASSERT_EQ(cockpit.sweep.samples, 200U);
@@ -48,7 +49,6 @@ TEST(PresetChange, ComesIntoUseWithAScanAndGoesWithTheConfiguredName) {
 
 TEST(PresetChange, WithinAScanThePresetStays) {
   test::Cockpit cockpit(with_200_samples());
-  cockpit.tick.samples = 200;
   name_preset(cockpit, "standard");
   cockpit.run(60);
   name_preset(cockpit, "draft");
