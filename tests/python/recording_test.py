@@ -134,7 +134,7 @@ class Whole(unittest.TestCase):
             self.assertFalse(array.flags.writeable)
 
     def test_faults(self):
-        for call, pattern in ((lambda: self.recording.records("Ownships"), "kind: expected one of ModelTick, .*Traffic, WorldState, found 'Ownships'"),
+        for call, pattern in ((lambda: self.recording.records("Ownships"), "kind: expected one of ModelTick, .*Traffic, WorldState, FlightSource, found 'Ownships'"),
                               (lambda: yars.Recording.units(""), "kind: expected one of"),
                               (lambda: self.recording.records("Nav", 1.5), "first_tick: expected a whole number"),
                               (lambda: self.recording.sweeps(None, 2 ** 70), "last_tick: expected a whole number"),

@@ -24,7 +24,9 @@ FOREIGN = re.compile(r"is required|not convert|not in range|were not expected|wa
 # Commands that print facts; docs/spec/commands.md#json has their fields.
 WITH_JSON = ["scan", "patch", "trade", "trade maps", "terrain generate", "terrain info", "terrain reduce", "terrain convert",
              "terrain pack", "scene generate", "scene info", "config check", "config user", "sim state", "sim freeze",
-             "sim run", "sim rate", "sim step", "sim reset", "sim reposition", "inject", "status", "watch", "record",
+             "sim run", "sim rate", "sim step", "sim reset", "sim reposition", "world", "world sea", "world wind", "world rain add",
+             "world rain move", "world rain remove", "world jammer add", "world jammer move", "world jammer remove", "world mover add",
+             "world mover move", "world mover remove", "world mover steer", "world reset", "inject", "status", "watch", "record",
              "recordings", "replay"]
 SESSION = f"commands-{os.getpid()}"
 faults = []

@@ -292,7 +292,7 @@ void add_jammer(databuffer::Command parent, const Shared& options) {
     });
   });
   add_position(command, values->place);
-  command.option("--name", values->name, "name, at most 15 characters");
+  command.option("--name", values->name, "name, at most 15 characters").otherwise("none");
   command.option("--altitude-ft", values->altitude_ft, "[ft] above mean sea level")
       .range(-1500.0, 100'000.0)
       .otherwise("a mast of 10 m on the ground");
@@ -348,7 +348,7 @@ void add_mover(databuffer::Command parent, const Shared& options) {
     });
   });
   add_position(command, values->place);
-  command.option("--name", values->name, "name, at most 15 characters");
+  command.option("--name", values->name, "name, at most 15 characters").otherwise("none");
   command.option("--speed-kt", values->speed_kt, "[kt] over ground").range(0.0, 1000.0);
   command.option("--heading", values->heading_deg, "[deg] true").range(0.0, 360.0);
   command.option("--cross-section", values->cross_section_m2, "[m2] radar cross section").range(0.0, 1e7);
