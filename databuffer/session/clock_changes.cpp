@@ -62,6 +62,15 @@ ClockState repositioned(const ClockState& clock, const Repositioning& to) {
   return next;
 }
 
+void begin_at_aircraft(ClockState& clock, const Ownship& ownship, geo::Bearing heading) {
+  clock.reposition_latitude_deg = ownship.latitude_deg;
+  clock.reposition_longitude_deg = ownship.longitude_deg;
+  clock.reposition_altitude_m = ownship.altitude_msl_m;
+  clock.reposition_heading_deg = heading.degrees();
+  clock.reposition_speed_mps = 0.0;
+  clock.followed = 1;
+}
+
 ClockState after_first_tick(const ClockState& clock) {
   ClockState next = clock;
   next.base_sim_ns = std::min(next.base_sim_ns + radar::kTickNanoseconds, kLatestClockBase_ns);

@@ -38,6 +38,10 @@ struct Repositioning {
 // Begins an epoch with the aircraft at another position.
 ClockState repositioned(const ClockState& clock, const Repositioning& to);
 
+// Notes in a clock whose epoch begins at the position of the aircraft, which no user asked for. A speed of an earlier
+// repositioning ends.
+void begin_at_aircraft(ClockState& clock, const Ownship& ownship, geo::Bearing heading);
+
 // A frozen clock advanced by one tick, kPortionTime_ms after a new epoch has begun. The programs run the first tick of
 // an epoch in no defined order. From the second tick on, each reads the other programs' records of the new epoch.
 ClockState after_first_tick(const ClockState& clock);

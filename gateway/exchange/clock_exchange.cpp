@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "databuffer/messages/validation.hpp"
+#include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/modes.hpp"
@@ -130,11 +131,7 @@ void ClockExchange::raise_epoch(Context& context, std::uint32_t above) {
     next.epoch = later(clock.epoch, above) + 1;
     next.reposition_latitude_deg = std::numeric_limits<double>::quiet_NaN();
     if (!has_ownship || model->epoch != clock.epoch) return next;
-    next.reposition_latitude_deg = model->ownship.latitude_deg;
-    next.reposition_longitude_deg = model->ownship.longitude_deg;
-    next.reposition_altitude_m = model->ownship.altitude_msl_m;
-    next.reposition_heading_deg = model->ownship.heading_deg;
-    next.followed = 1;
+    databuffer::begin_at_aircraft(next, model->ownship, geo::Bearing::degrees(model->ownship.heading_deg));
     return next;
   });
   if (!raised) log::warning(raised.error().message());

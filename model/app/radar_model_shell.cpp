@@ -10,6 +10,7 @@
 #include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/messages/world_values.hpp"
+#include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/configuration.hpp"
@@ -145,11 +146,7 @@ void RadarModelShell::announce_jump(const databuffer::Ownship& ownship, std::uin
         next.base_monotonic_ns = databuffer::monotonic_ns();
         next.base_sim_ns = databuffer::sim_time_at(clock, next.base_monotonic_ns);
         ++next.epoch;
-        next.reposition_latitude_deg = ownship.latitude_deg;
-        next.reposition_longitude_deg = ownship.longitude_deg;
-        next.reposition_altitude_m = ownship.altitude_msl_m;
-        next.reposition_heading_deg = ownship.heading_deg;
-        next.followed = 1;
+        databuffer::begin_at_aircraft(next, ownship, geo::Bearing::degrees(ownship.heading_deg));
         return next;
       },
       databuffer::WaitPolicy::none);

@@ -11,10 +11,11 @@
 #include <string>
 #include <utility>
 
+#include "databuffer/messages/derived_values.hpp"
 #include "databuffer/runtime/process.hpp"
+#include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
-#include "lib/geo/quantity.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/modes.hpp"
 #include "tools/command/json_output.hpp"
@@ -31,8 +32,6 @@ using databuffer::Session;
 // times per second loses no sweep.
 constexpr std::size_t kSweepsPerBurst = 400;
 constexpr long kReaderPause_ns = 30'000'000;  // 30 ms, almost two polls of a display
-
-constexpr double kLeastSpeed_mps = 1.0;  // a slower aircraft has no course
 
 void pause_for_readers() {
   const timespec pause{0, kReaderPause_ns};
@@ -92,8 +91,6 @@ error::Expected<void> ReplaySession::start(std::int64_t tick, double rate) {
 
 error::Expected<void> ReplaySession::hold(std::int64_t tick, std::uint32_t epoch, const databuffer::Ownship& ownship) {
   epoch_ = epoch;
-  const double north_mps = ownship.velocity_north_mps, east_mps = ownship.velocity_east_mps;
-  const bool moves = std::hypot(north_mps, east_mps) > kLeastSpeed_mps;
   return machine_.change_clock([&](const ClockState& clock) {
     ClockState next = clock;
     next.base_monotonic_ns = databuffer::monotonic_ns();
@@ -101,12 +98,7 @@ error::Expected<void> ReplaySession::hold(std::int64_t tick, std::uint32_t epoch
     next.rate = 1.0;
     next.running = 0;
     next.epoch = epoch;
-    next.reposition_latitude_deg = ownship.latitude_deg;
-    next.reposition_longitude_deg = ownship.longitude_deg;
-    next.reposition_altitude_m = ownship.altitude_msl_m;
-    next.reposition_heading_deg =
-        moves ? geo::Bearing::radians(std::atan2(east_mps, north_mps)).degrees() : ownship.heading_deg;
-    next.followed = 1;
+    databuffer::begin_at_aircraft(next, ownship, databuffer::ground_track_of(ownship));
     return next;
   });
 }

@@ -70,5 +70,18 @@ TEST(ClockChanges, ARepositioningHasASpeedIfOneIsAskedFor) {
   EXPECT_FALSE(validate(repositioned(clock, to)));
 }
 
+TEST(ClockChanges, AnEpochThatBeginsAtTheAircraftEndsTheSpeedOfARepositioning) {
+  ClockState clock = repositioned(
+      run_for_a_second(1.0),
+      {{37.0, -122.0}, geo::AltitudeMsl::feet(10'000.0), geo::Bearing::degrees(90.0), geo::Speed::knots(300.0)});
+  Ownship ownship{};
+  ownship.latitude_deg = 40.0;
+  begin_at_aircraft(clock, ownship, geo::Bearing::degrees(45.0));
+  EXPECT_EQ(clock.reposition_latitude_deg, 40.0);
+  EXPECT_EQ(clock.reposition_heading_deg, 45.0);
+  EXPECT_EQ(clock.reposition_speed_mps, 0.0);
+  EXPECT_EQ(clock.followed, 1U);
+}
+
 }  // namespace
 }  // namespace yars::databuffer
