@@ -96,9 +96,9 @@ inline auto fields(const radar::Jammer& jammer) {
 }
 
 inline auto fields(const radar::Mover& mover) {
-  const auto& [name, position, speed, heading, section, height] = mover;
+  const auto& [name, position, speed, heading, section, height, since] = mover;
   const auto& [latitude, longitude] = position;
-  return std::tuple(name, latitude, longitude, speed, heading, section, height);
+  return std::tuple(name, latitude, longitude, speed, heading, section, height, since / geo::Duration::seconds(1.0));
 }
 
 inline auto fields(const radar::Scene& scene) {

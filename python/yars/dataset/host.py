@@ -168,8 +168,8 @@ class Host:
             write_all(output, line.decode() + "\n")
         if not end:
             return
-        reason = worker.end()
         self._workers.remove(worker)
+        reason = worker.end()
         if worker.batch:
             self._deaths[worker.batch[0]] += 1
             if self._deaths[worker.batch[0]] >= MOST_DEATHS:

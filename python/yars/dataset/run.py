@@ -22,6 +22,7 @@ from .store import absent_blocks
 MOST_BATCH = 8      # blocks that a worker gets at once
 MOST_RESTARTS = 5   # of the host process without a block in between
 LINE_EVERY_S, DRAW_EVERY_S = 10.0, 0.5
+END_S = 10.0        # that a host may take to end
 MOST_ERROR_LINES = 20
 
 
@@ -58,10 +59,13 @@ class HostProcess:
             pass  # it died: seen at its other pipe
 
     def close(self):
-        """Ends the host and its workers at once."""
-        if self.process.poll() is None:
+        """Ends the host and its workers at once; returns when none of them runs."""
+        self.process.terminate()  # it kills its workers and waits for them
+        try:
+            code = self.process.wait(END_S)
+        except subprocess.TimeoutExpired:
             self.process.kill()  # workers die with it: PR_SET_PDEATHSIG
-        code = self.process.wait()
+            code = self.process.wait()
         self.process.stdin.close()
         self.process.stdout.close()
         return code
