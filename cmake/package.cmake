@@ -22,7 +22,10 @@ if(has_python)
   list(APPEND CPACK_COMPONENTS_ALL python_core)
 endif()
 
-# What the programs are linked with, and what they open when the display draws.
+# What the programs are linked with, and what they open when the display draws, or when a raster is read.
+get_property(raster_libraries GLOBAL PROPERTY YARS_GDAL_PACKAGES)
+list(TRANSFORM raster_libraries PREPEND ", " OUTPUT_VARIABLE also_rasters)
+string(CONCAT also_rasters ${also_rasters})
 set(CPACK_DEBIAN_YARS_PACKAGE_NAME yars)
 set(CPACK_DEBIAN_YARS_DESCRIPTION "air-to-ground radar simulation after the APG-70
 YARS shows the ground map of an airborne radar as a pilot sees it: a real
@@ -32,7 +35,7 @@ set of separate programs over lock-free shared memory: attach a flight model
 or a panel, or read the sweeps, from C, Python or by UDP.")
 set(CPACK_DEBIAN_YARS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_YARS_PACKAGE_DEPENDS "libegl1, libgl1, python3:any")
-set(CPACK_DEBIAN_YARS_PACKAGE_RECOMMENDS "libgl1-mesa-dri")
+set(CPACK_DEBIAN_YARS_PACKAGE_RECOMMENDS "libgl1-mesa-dri${also_rasters}")
 set(CPACK_DEBIAN_YARS_PACKAGE_SUGGESTS "python3-yars")
 # For libyars-display: what a package that is linked with it depends on, and a run of ldconfig.
 file(WRITE ${PROJECT_BINARY_DIR}/install/shlibs
@@ -49,7 +52,7 @@ from digital terrain and scenes as NumPy arrays, with labels for training data.
 yars.plot draws them by matplotlib. yars.session is the client of a running
 session: ownship and events in, sweeps and pictures out.")
 set(recommended "python3-matplotlib, python3-xarray, python3-zarr, python3-numcodecs, python3-yaml, python3-dask, python3-distributed")
-set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_RECOMMENDS "yars (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), ${recommended}")
+set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_RECOMMENDS "yars (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), ${recommended}${also_rasters}")
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_SUGGESTS "python3-rasterio, python3-pil")
 # Compiles the module's sources when it is installed, as Debian's own packages do.
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_CONTROL_EXTRA

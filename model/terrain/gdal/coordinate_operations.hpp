@@ -5,13 +5,13 @@
 // Errors: a null operation, see ChosenOperation. Threads: one thread per PJ_CONTEXT.
 #pragma once
 
-#include <proj.h>
-
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "model/terrain/gdal/gdal_library.hpp"
 
 namespace yars::model::terrain::gdal {
 

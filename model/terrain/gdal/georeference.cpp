@@ -1,8 +1,5 @@
 #include "model/terrain/gdal/georeference.hpp"
 
-#include <cpl_conv.h>
-#include <ogr_srs_api.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>

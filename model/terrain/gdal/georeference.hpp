@@ -10,8 +10,6 @@
 // Threads: one thread per object.
 #pragma once
 
-#include <gdal.h>
-
 #include <array>
 #include <optional>
 #include <span>
@@ -20,6 +18,7 @@
 
 #include "lib/error/error.hpp"
 #include "model/terrain/gdal/coordinate_operations.hpp"
+#include "model/terrain/gdal/gdal_library.hpp"
 
 namespace yars::model::terrain::gdal {
 

@@ -1,8 +1,5 @@
 #include "model/terrain/gdal/map_writer.hpp"
 
-#include <cpl_vsi.h>
-#include <ogr_srs_api.h>
-
 #include <array>
 #include <atomic>
 #include <cstdio>
@@ -13,6 +10,7 @@
 #include <type_traits>
 
 #include "lib/file/output_file.hpp"
+#include "model/terrain/gdal/gdal_library.hpp"
 #include "model/terrain/gdal/open_raster.hpp"
 
 namespace yars::model::terrain::gdal {
@@ -80,6 +78,7 @@ bool write_dataset(GDALDatasetH dataset, const MapPicture& picture) {
 }  // namespace
 
 error::Expected<void> write_map(const std::filesystem::path& path, const MapPicture& picture) {
+  if (const auto loaded = load_gdal(path.string()); !loaded) return tl::unexpected(loaded.error());
   const MessageCapture messages;
   GDALDriverH const driver = GDALGetDriverByName("GTiff");
   const bool bytes = std::holds_alternative<std::vector<std::uint8_t>>(picture.pixels);

@@ -1,8 +1,5 @@
 #include "model/terrain/gdal/open_raster.hpp"
 
-#include <cpl_conv.h>
-#include <cpl_error.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,15 +18,6 @@ namespace {
 // may name any path or address, which GDAL would open.
 constexpr std::array<const char*, 12> kDrivers = {"GTiff",   "JP2OpenJPEG",    "HFA", "AAIGrid", "EHdr",    "ENVI",
                                                   "USGSDEM", "GRASSASCIIGrid", "BT",  "DTED",    "SRTMHGT", nullptr};
-
-void register_once() {
-  static const bool done = [] {
-    CPLSetConfigOption("GDAL_PAM_ENABLED", "NO");  // GDAL writes no .aux.xml beside the user's files
-    GDALAllRegister();
-    return true;
-  }();
-  (void)done;
-}
 
 bool has_heights(GDALDatasetH dataset) {
   if (GDALGetRasterCount(dataset) != 1) return false;
@@ -91,7 +79,6 @@ void keep_first(CPLErr severity, CPLErrorNum /*number*/, const char* text) {
 }  // namespace
 
 MessageCapture::MessageCapture() {
-  register_once();
   CPLPushErrorHandlerEx(keep_first, &first_);
 }
 MessageCapture::~MessageCapture() {
@@ -104,6 +91,7 @@ error::Expected<Raster> open_raster(const std::filesystem::path& path) {
   if (!std::filesystem::is_regular_file(path, code))
     return error::fail(subject, "a raster of heights in a regular file",
                        code ? error::reason_of(code.value()) : "not a regular file");
+  if (const auto loaded = load_gdal(subject); !loaded) return tl::unexpected(loaded.error());
   const MessageCapture messages;
   // An absolute path cannot begin with a prefix of a GDAL driver. The check above refuses virtual folders
   // (/vsizip/...).

@@ -7,8 +7,6 @@
 // Threads: one thread per Raster.
 #pragma once
 
-#include <gdal.h>
-
 #include <cstddef>
 #include <filesystem>
 #include <limits>
@@ -18,6 +16,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "model/terrain/gdal/gdal_library.hpp"
 #include "model/terrain/gdal/georeference.hpp"
 
 namespace yars::model::terrain::gdal {
@@ -29,7 +28,7 @@ struct CloseDataset {
 };
 using Dataset = std::unique_ptr<void, CloseDataset>;
 
-// Captures the first error message of GDAL on this thread during the object's lifetime.
+// Captures the first error message of GDAL on this thread during the object's lifetime. load_gdal() comes first.
 class MessageCapture {
  public:
   MessageCapture();
