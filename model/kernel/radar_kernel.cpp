@@ -41,6 +41,7 @@ void RadarKernel::resume(const ModelStatus& status) {
   state.antenna.resume({status.antenna_azimuth_deg, status.antenna_elevation_deg, status.scan_centre_deg,
                         status.scan_width_deg, static_cast<int>(std::min<std::uint32_t>(status.scan_tick, 1U << 20U)),
                         status.scan_direction, phase, status.scan_offset_deg, status.scan_rate_dps});
+  state.use_fidelity(text::text_of(status.fidelity));
   state.clear_chains();
   state.maps.resume(status);
   state.velocity.resume(status);

@@ -144,10 +144,7 @@ void ScanState::use_samples(std::uint32_t samples) {
   beam_chain = SweepChain(configuration);
 }
 
-// Applies the preset that the tick names. Called only at the start of a scan, so that the preset does not change within
-// a scan.
-void ScanState::use_fidelity(const ModelTick& input) {
-  const std::string_view name = text::text_of(input.fidelity);
+void ScanState::use_fidelity(std::string_view name) {
   if (name == configuration.fidelity.name) return;
   const auto preset =
       name == configured_fidelity.name ? std::optional(configured_fidelity) : radar::fidelity_preset(name);
@@ -188,7 +185,7 @@ void ScanState::start_scan(const databuffer::RadarCommand& request) {
 bool ScanState::sweep_tick(const ModelTick& input, const antenna::AntennaStep& step,
                            const physics::Environment& environment, databuffer::Sweep& sweep) {
   if (step.scan_start || scan_range_m <= 0.0) {
-    use_fidelity(input);
+    use_fidelity(text::text_of(input.fidelity));
     start_scan(input.command);
   }
   SweepHeader header{pose->position,

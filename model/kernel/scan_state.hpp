@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
@@ -68,7 +69,8 @@ struct ScanState {
   // Uses another world from the next sweep on. The scan goes on; a sweep that is not finished keeps its power.
   void use_world(const radar::WorldConfiguration& world);
   void use_samples(std::uint32_t samples);
-  void use_fidelity(const ModelTick& tick);
+  // Applies the preset of that name: at the start of a scan, and to resume one. An unknown name changes nothing.
+  void use_fidelity(std::string_view name);
   double commanded_width_deg(const databuffer::RadarCommand& command) const;
   void restart(const databuffer::RadarCommand& command);
   void step_maps(const ModelTick& tick, const terrain::TerrainView& terrain);

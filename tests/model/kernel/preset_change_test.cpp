@@ -56,6 +56,40 @@ TEST(PresetChange, WithinAScanThePresetStays) {
   for (const databuffer::Sweep& sweep : cockpit.run(40)) EXPECT_TRUE(sweep.scan != scan || sweep.samples == 200U);
 }
 
+// As after a restart of radar-model, or in a recording that begins within the scan.
+TEST(PresetChange, AKernelThatResumesWithinAScanHasThePresetOfTheScan) {
+  test::Cockpit cockpit(with_200_samples());
+  name_preset(cockpit, "draft");
+  cockpit.run_until([&](const databuffer::Sweep& sweep) { return sweep.scan > 1; });
+  cockpit.run(20);
+  ASSERT_EQ(used(cockpit.status()), "draft");
+  test::Cockpit successor(with_200_samples());
+  successor.kernel.resume(cockpit.status());
+  successor.tick = cockpit.tick;
+  const auto expected = cockpit.run(40), sweeps = successor.run(40);
+  ASSERT_EQ(sweeps.back().number, expected.back().number);
+  ASSERT_EQ(sweeps.back().scan, cockpit.status().scan) << "all in one scan";
+  EXPECT_EQ(sweeps.back().samples, static_cast<std::uint32_t>(radar::fidelity_preset("draft")->samples));
+  EXPECT_EQ(sweeps.back().hash, expected.back().hash);
+}
+
+// The instructor has named another preset within the scan that the status is of.
+TEST(PresetChange, AKernelThatResumesBeforeANewPresetIsUsedKeepsTheOldOne) {
+  test::Cockpit cockpit(with_200_samples());
+  name_preset(cockpit, "standard");
+  cockpit.run(60);
+  name_preset(cockpit, "draft");
+  cockpit.run(10);
+  ASSERT_EQ(used(cockpit.status()), "standard");
+  test::Cockpit successor(with_200_samples());
+  successor.kernel.resume(cockpit.status());
+  successor.tick = cockpit.tick;
+  const auto expected = cockpit.run(400), sweeps = successor.run(400);
+  ASSERT_EQ(sweeps.size(), expected.size());
+  EXPECT_EQ(used(successor.status()), "draft") << "the scan behind";
+  EXPECT_EQ(sweeps.back().hash, expected.back().hash);
+}
+
 TEST(PresetChange, AnUnknownNameChangesNothing) {
   test::Cockpit cockpit(with_200_samples()), other(with_200_samples());
   name_preset(other, "finest");
