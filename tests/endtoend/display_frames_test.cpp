@@ -266,8 +266,9 @@ TEST(DisplayFrames, TheDisplayInAHostsViewportIsThePublishedPicture) {
         return frame && rgb_of(frame->pixels) == inside;
       },
       30.0);
-  if (const char* keep = std::getenv("YARS_PICTURES"))
+  if (const char* keep = std::getenv("YARS_PICTURES")) {
     EXPECT_TRUE(imageio::write_png(std::filesystem::path(keep) / "host_display.png", {1280, 800, 3, scene}));
+  }
   EXPECT_TRUE(same) << "the viewport equals the newest published frame";
   EXPECT_GT(lit(inside), 5000U);
   EXPECT_EQ(outside, (Bytes{18, 18, 20})) << "the host's panel beside the viewport";

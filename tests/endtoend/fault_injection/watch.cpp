@@ -16,6 +16,13 @@
 
 namespace yars::endtoend::fault_injection {
 
+// The value read last. A second read of the same version must give the same bytes.
+template <class Record>
+struct Seen {
+  Record record{};
+  std::uint64_t version = 0;
+};
+
 namespace {
 
 using databuffer::SessionLayout;
@@ -23,13 +30,6 @@ using databuffer::SessionLayout;
 constexpr std::size_t kMaxFaultsReported = 20;
 constexpr auto kPause = std::chrono::microseconds(500);
 constexpr std::string_view kMark = "mark";
-
-// The value read last. A second read of the same version must give the same bytes.
-template <class Record>
-struct Seen {
-  Record record{};
-  std::uint64_t version = 0;
-};
 
 // The number after `prefix`, if the text consists of prefix and number.
 std::optional<std::uint32_t> number_behind(std::string_view text, std::string_view prefix) {
