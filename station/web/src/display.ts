@@ -1,16 +1,20 @@
 // The page of the display: the MPD with its twenty buttons, keys, touch, and the state of the connection.
 import { Connection, sessionOfPage } from "./connection";
-import { State } from "./messages";
-import { element } from "./page";
+import { State, Theatre } from "./messages";
+import { element, onClick, say } from "./page";
 import { Picture } from "./picture";
 
 const BUTTONS = 20;
 const STALE_MS = 2000; // a display that is silent for longer is dead
+// The remedy of NO RECORDER for who has a shell; here a button does it.
+const RECORD_COMMAND = "yars record FILE";
 const SIDES = ["left", "bottom", "right", "top"] as const; // of PB 1-5, 6-10, 11-15, 16-20
 
 // Keys that the browser would act on itself. Others with Ctrl, Alt or Meta stay the browser's.
 const SENT = new Set(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Enter", "Tab", "PageUp", "PageDown", " ", "F4", "F5", "F6", "F7",
   "[", "]"]);
+
+const inBrowser = (words: string): string => words.replace(RECORD_COMMAND, "the button Start a recorder");
 
 class DisplayPage {
   private readonly picture = new Picture(element<HTMLCanvasElement>("picture"));
@@ -37,8 +41,10 @@ class DisplayPage {
     }, "display", sessionOfPage());
     for (const control of document.querySelectorAll<HTMLButtonElement>("button[data-event]"))
       control.addEventListener("click", () => this.connection.event(control.dataset.event ?? ""));
+    onClick("record", () => void this.record());
     this.listenToKeys();
     this.listenToPointer();
+    void this.showKeys();
     setInterval(() => this.showAge(), 200);
   }
 
@@ -60,8 +66,23 @@ class DisplayPage {
     else side.append(button);
   }
 
+  private async showKeys(): Promise<void> {
+    const { keys } = await (await fetch("/theatre.json")).json() as Theatre;
+    for (const { keys: names, does } of keys) {
+      const row = element<HTMLTableSectionElement>("keys").insertRow();
+      row.insertCell().textContent = names;
+      row.insertCell().textContent = does;
+    }
+  }
+
+  private async record(): Promise<void> {
+    const { problem } = await this.connection.command("record");
+    say("words", problem ?? "The recorder starts. PB 12 stops it and starts it again.");
+  }
+
   private showState(state: State): void {
     const { watch } = state;
+    element("record").hidden = state.recorder;
     for (let number = 1; number <= BUTTONS; ++number) {
       const button = this.buttons[number - 1];
       const legend = watch.legends[String(number)] ?? "";
@@ -71,17 +92,17 @@ class DisplayPage {
       if (shown.textContent !== legend) shown.textContent = legend;
       button.classList.toggle("boxed", boxed);
       button.classList.toggle("dead", legend === "");
-      const words = `PB ${number}${key ? `, key ${key}` : ""}: ${does}`;
+      const words = `PB ${number}${key ? `, key ${key}` : ""}: ${inBrowser(does)}`;
       if (button.title !== words) {
         button.title = words;
-        button.setAttribute("aria-label", `PB ${number} ${legend}${boxed ? ", on" : ""}: ${does}`);
+        button.setAttribute("aria-label", `PB ${number} ${legend}${boxed ? ", on" : ""}: ${inBrowser(does)}`);
         if (this.explained === number) this.showWords(number);
       }
     }
     const roles = ["state-machine", "radar-model", "radar-display"].filter((role) => !(role in watch.processes));
     element("set").textContent = [
       `power ${watch.power}`, watch.mode, watch.running ? (watch.rate === 1 ? "" : `rate ${watch.rate}`) : "time stands",
-      roles.length > 0 ? `not running: ${roles.join(", ")}` : "", watch.message, watch.remedy,
+      roles.length > 0 ? `not running: ${roles.join(", ")}` : "", watch.message, inBrowser(watch.remedy),
     ].filter((text) => text !== "").join(" · ");
     const heartbeat_ms = watch.processes["radar-display"]?.heartbeat_ms;
     if (heartbeat_ms !== undefined) this.display_ms = performance.now() - heartbeat_ms;
