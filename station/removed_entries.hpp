@@ -24,8 +24,9 @@ class RemovedEntries {
   error::Expected<void> restore(databuffer::WorldState& world, databuffer::WorldList list, std::uint32_t id) const;
 
  private:
-  using Entry = std::variant<databuffer::WorldRainCell, databuffer::WorldJammer, databuffer::WorldMover>;  // as WorldList
-  std::deque<Entry> entries_;  // the newest last
+  using Entry =
+      std::variant<databuffer::WorldRainCell, databuffer::WorldJammer, databuffer::WorldMover>;  // as WorldList
+  std::deque<Entry> entries_;                                                                    // the newest last
 };
 
 }  // namespace yars::station

@@ -110,7 +110,8 @@ ordered_json theatre_json(const radar::RadarConfiguration& configuration, const 
   auto& waypoints = theatre["route"] = ordered_json::array();
   for (const geo::GeoPoint& point : route) waypoints.push_back(position_json(point));
   auto& keys = theatre["keys"] = ordered_json::array();
-  for (const databuffer::KeyHelp& row : databuffer::key_help()) keys.push_back({{"keys", row.keys}, {"does", row.does}});
+  for (const databuffer::KeyHelp& row : databuffer::key_help())
+    keys.push_back({{"keys", row.keys}, {"does", row.does}});
   return theatre;
 }
 

@@ -193,8 +193,8 @@ Expected<void> InstructorShell::reset_world() {
 
 Expected<void> InstructorShell::undo_reset() {
   if (!reset_) return error::fail("undo reset", "a reset of the world by a page", "none");
-  const auto after =
-      databuffer::change_world(*session_, [this](const databuffer::WorldState& world) -> Expected<databuffer::WorldState> {
+  const auto after = databuffer::change_world(
+      *session_, [this](const databuffer::WorldState& world) -> Expected<databuffer::WorldState> {
         if (world.edit == reset_->edit) return reset_->before;
         return error::fail("undo reset", "no change of the world since the reset", "one");
       });

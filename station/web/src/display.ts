@@ -6,15 +6,11 @@ import { Picture } from "./picture";
 
 const BUTTONS = 20;
 const STALE_MS = 2000; // a display that is silent for longer is dead
-// The remedy of NO RECORDER for who has a shell; here a button does it.
-const RECORD_COMMAND = "yars record FILE";
 const SIDES = ["left", "bottom", "right", "top"] as const; // of PB 1-5, 6-10, 11-15, 16-20
 
 // Keys that the browser would act on itself. Others with Ctrl, Alt or Meta stay the browser's.
 const SENT = new Set(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Enter", "Tab", "PageUp", "PageDown", " ", "F4", "F5", "F6", "F7",
   "[", "]"]);
-
-const inBrowser = (words: string): string => words.replace(RECORD_COMMAND, "the button Start a recorder");
 
 class DisplayPage {
   private readonly picture = new Picture(element<HTMLCanvasElement>("picture"));
@@ -92,17 +88,17 @@ class DisplayPage {
       if (shown.textContent !== legend) shown.textContent = legend;
       button.classList.toggle("boxed", boxed);
       button.classList.toggle("dead", legend === "");
-      const words = `PB ${number}${key ? `, key ${key}` : ""}: ${inBrowser(does)}`;
+      const words = `PB ${number}${key ? `, key ${key}` : ""}: ${does}`;
       if (button.title !== words) {
         button.title = words;
-        button.setAttribute("aria-label", `PB ${number} ${legend}${boxed ? ", on" : ""}: ${inBrowser(does)}`);
+        button.setAttribute("aria-label", `PB ${number} ${legend}${boxed ? ", on" : ""}: ${does}`);
         if (this.explained === number) this.showWords(number);
       }
     }
     const roles = ["state-machine", "radar-model", "radar-display"].filter((role) => !(role in watch.processes));
     element("set").textContent = [
       `power ${watch.power}`, watch.mode, watch.running ? (watch.rate === 1 ? "" : `rate ${watch.rate}`) : "time stands",
-      roles.length > 0 ? `not running: ${roles.join(", ")}` : "", watch.message, inBrowser(watch.remedy),
+      roles.length > 0 ? `not running: ${roles.join(", ")}` : "", watch.message, watch.remedy,
     ].filter((text) => text !== "").join(" · ");
     const heartbeat_ms = watch.processes["radar-display"]?.heartbeat_ms;
     if (heartbeat_ms !== undefined) this.display_ms = performance.now() - heartbeat_ms;

@@ -2,7 +2,8 @@
 import { Answer } from "./messages";
 import { element, say } from "./page";
 
-const MAX_OFFERS = 20; // the station remembers as many
+const MAX_OFFERS = 20;
+const DONE_MS = 8000; // what is done is said for so long
 
 interface Offer {
   text: string; // what was done: "Removed rain 3"
@@ -12,6 +13,7 @@ interface Offer {
 
 export class UndoLine {
   private readonly offers: Offer[] = [];
+  private clearing: ReturnType<typeof setTimeout> | undefined;
   private readonly button = element<HTMLButtonElement>("undo_button");
 
   constructor() {
@@ -46,6 +48,8 @@ export class UndoLine {
   }
 
   private show(text: string): void {
+    clearTimeout(this.clearing);
+    if (this.offers.length === 0) this.clearing = setTimeout(() => { if (text !== "") this.show(""); }, DONE_MS);
     const offers = this.offers.length > 0;
     say("undo_text", text);
     this.button.hidden = !offers;
