@@ -50,7 +50,7 @@ const tests = {
     await until("power is on", () => watch().power === "OPR");
     await page.click("#pb12");
     const set = () => page.textContent("#set");
-    await until("the message and its remedy", async () => /NO RECORDER · start one: Record on the station's page/.test(await set()));
+    await until("the message and its remedy", async () => /NO RECORDER · start one: Record in the browser/.test(await set()));
     await page.click("button:text-is('Record')");
     await until("VTR is boxed", () => watch().boxed.includes(12));
     await until("no button that starts another", async () => !await page.isVisible("#record"));

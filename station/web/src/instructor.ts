@@ -195,6 +195,7 @@ class InstructorPage {
       return row;
     }));
     const { recorder } = status;
+    this.machine.showRecorder(recorder ? (recorder.writing ? "writes" : "stands") : "none");
     say("record", recorder ? (recorder.writing ? "Stop recording" : "Go on recording") : "Record");
     say("recorder", recorder ? recorder.problem ?? `${recorder.writing ? "writes" : "stands"}, ${(recorder.bytes / 1e6).toFixed(1)} MB` : "no recorder runs");
     const { notes } = status;

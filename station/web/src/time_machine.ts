@@ -18,6 +18,7 @@ export class TimeMachine {
   private playing: { session: string; connection: Connection } | undefined;
   private running: boolean | undefined; // undefined: the replay has not said yet
   private held_until_ms = 0;
+  private recorder = ""; // what it did last
   private readonly at = element<HTMLInputElement>("at");
   private readonly picture = new Picture(element<HTMLCanvasElement>("replay_picture"));
 
@@ -144,10 +145,15 @@ export class TimeMachine {
     if (this.chosen) this.tell(await this.connection.command("fly out", { file: this.chosen.file, at: this.at.valueAsNumber }));
   }
 
+  // The list is read again when the recorder of the set begins, stops or ends, however it ended.
+  showRecorder(recorder: string): void {
+    if (this.recorder !== recorder && this.isOpen()) void this.list();
+    this.recorder = recorder;
+  }
+
   showSets(sets: SetEntry[]): void {
     fill("sets", JSON.stringify(sets), () => sets.map((set) => this.rowOfSet(set, sets)));
     if (this.playing && !sets.some(({ session, ended }) => session === this.playing?.session && !ended)) this.stop();
-    if (this.isOpen()) void this.list(); // a recorder may have begun or ended
   }
 
   private rowOfSet(set: SetEntry, sets: SetEntry[]): HTMLLIElement {
