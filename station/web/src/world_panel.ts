@@ -67,7 +67,7 @@ export class WorldPanel {
   }
   private async reset(): Promise<void> {
     const { problem } = await this.order("reset world");
-    if (problem === null) this.undo.offer({ text: "Reset the world to its configuration", restored: "The changed world is back", undo: () => this.order("undo reset") });
+    if (problem === null) this.undo.offer({ text: "Reset the world", restored: "The changed world is back", undo: () => this.order("undo reset") });
   }
 
   choose(thing: Thing | undefined): void {
