@@ -46,17 +46,28 @@ export class TimeMachine {
     this.recordings = answer.recordings ?? [];
     const known = this.recordings.find(({ file }) => file === this.chosen?.file);
     if (known) this.use(known);
-    fill("recordings", JSON.stringify([this.recordings, this.chosen?.file]), () => this.recordings.length === 0 ? [document.createTextNode("No recordings yet: press Record in Set.")]
-      : this.recordings.map((recording) => {
-        const row = document.createElement("li");
-        const length = recording.begin_s === null || recording.end_s === null ? "no ticks" : `${minutes(recording.end_s - recording.begin_s)} min`;
-        const choice = button(`${fileName(recording.file)}, ${length}`, () => this.choose(recording));
-        choice.setAttribute("aria-pressed", String(recording.file === this.chosen?.file));
-        row.append(choice);
-        if (recording.writing) row.append(" being written");
-        else if (recording.cut_short) row.append(" cut short: its recorder was killed; it plays to where it broke off");
-        return row;
-      }));
+    const focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset.file : undefined;
+    fill("recordings", JSON.stringify(this.recordings), () => this.recordings.length === 0 ? [document.createTextNode("No recordings yet: press Record in Set.")]
+      : this.recordings.map((recording) => this.rowOfRecording(recording)));
+    this.markChosen();
+    if (focused !== undefined) this.choices().find(({ dataset }) => dataset.file === focused)?.focus({ preventScroll: true });
+  }
+
+  private rowOfRecording(recording: Recording): HTMLLIElement {
+    const row = document.createElement("li");
+    const length = recording.begin_s === null || recording.end_s === null ? "no ticks" : `${minutes(recording.end_s - recording.begin_s)} min`;
+    const choice = button(`${fileName(recording.file)}, ${length}`, () => this.choose(recording));
+    choice.dataset.file = recording.file;
+    row.append(choice);
+    if (recording.writing) row.append(" being written");
+    else if (recording.cut_short) row.append(" cut short: its recorder was killed; it plays to where it broke off");
+    return row;
+  }
+  private choices(): HTMLButtonElement[] {
+    return [...document.querySelectorAll<HTMLButtonElement>("#recordings button")];
+  }
+  private markChosen(): void {
+    for (const choice of this.choices()) choice.setAttribute("aria-pressed", String(choice.dataset.file === this.chosen?.file));
   }
 
   private choose(recording: Recording): void {
@@ -66,7 +77,7 @@ export class TimeMachine {
     say("recording", fileName(recording.file));
     if (!this.playing) this.at.value = this.at.min;
     this.showMoment();
-    for (const other of document.querySelectorAll("#recordings button")) other.setAttribute("aria-pressed", String(other.textContent?.startsWith(fileName(recording.file)) ?? false));
+    this.markChosen();
   }
   // Takes what is known of the chosen recording: one that is being written grows.
   private use(recording: Recording): void {
