@@ -59,7 +59,7 @@ class Arguments {
   const std::optional<error::Error>& problem() const { return problem_; }
 
  private:
-  void refuse(const char* name, const std::string& expected, json::const_iterator found) {
+  void refuse(const char* name, const std::string& expected, const json::const_iterator& found) {
     if (problem_) return;
     problem_ =
         error::Error{command_ + ": " + name,

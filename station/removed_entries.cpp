@@ -1,7 +1,6 @@
 #include "station/removed_entries.hpp"
 
 #include <algorithm>
-#include <ranges>
 #include <string>
 
 #include "databuffer/messages/inspection.hpp"
@@ -24,8 +23,8 @@ void for_each_missing(const Before& before, const After& after, const Use& use) 
 
 void RemovedEntries::note(const WorldState& before, const WorldState& after) {
   const auto remember = [this](const auto& entry) {
-    entries_.emplace_back(entry);
-    if (entries_.size() > kMaxEntries) entries_.pop_front();
+    entries_.emplace_front(entry);
+    if (entries_.size() > kMaxEntries) entries_.pop_back();
   };
   for_each_missing(databuffer::used(before.rain, before.rain_count), databuffer::used(after.rain, after.rain_count),
                    remember);
@@ -36,7 +35,7 @@ void RemovedEntries::note(const WorldState& before, const WorldState& after) {
 }
 
 error::Expected<void> RemovedEntries::restore(WorldState& world, databuffer::WorldList list, std::uint32_t id) const {
-  for (const Entry& entry : std::views::reverse(entries_)) {
+  for (const Entry& entry : entries_) {
     if (entry.index() != static_cast<std::size_t>(list)) continue;
     if (std::visit([](const auto& removed) { return removed.id; }, entry) != id) continue;
     return std::visit([&world](const auto& removed) { return databuffer::restore(world, removed); }, entry);

@@ -26,7 +26,7 @@ class RemovedEntries {
  private:
   using Entry =
       std::variant<databuffer::WorldRainCell, databuffer::WorldJammer, databuffer::WorldMover>;  // as WorldList
-  std::deque<Entry> entries_;                                                                    // the newest last
+  std::deque<Entry> entries_;                                                                    // the newest first
 };
 
 }  // namespace yars::station
