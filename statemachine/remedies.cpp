@@ -236,7 +236,7 @@ constexpr std::array kFixed{
     FixedRemedy{"NO OWNSHIP", databuffer::kRemedyNoOwnship},
     FixedRemedy{"NO MAP", "command it again: tdc release (Enter)"},
     FixedRemedy{"NO FREE NUMBER", "select another point, then designate: pb 17 (H)"},
-    FixedRemedy{"NO RECORDER", "start one: yars record FILE"},
+    FixedRemedy{"NO RECORDER", "start one: Record in the browser, or yars record FILE"},
     FixedRemedy{"VTR FULL", "make room on the disk; it tries again every 5 s"},
 };
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "databuffer/messages/clock_limits.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::station {
@@ -17,7 +18,7 @@ using error::Expected;
 using nlohmann::json;
 
 constexpr std::size_t kMaxPathLetters = 1000, kMaxNoteLetters = 100;
-constexpr double kMaxRate = 10.0, kMaxTime_s = 1e8, kMaxTicks = 2000.0;
+constexpr double kMaxTime_s = 1e8, kMaxTicks = 2000.0;
 
 struct Limits {
   double min, max;
@@ -50,10 +51,15 @@ class Arguments {
     refuse(name, "a text of 1 to " + std::to_string(letters) + " bytes", found);
     return {};
   }
+  databuffer::WorldList list(const char* name) {
+    if (const auto list = world_list(object_, name)) return *list;
+    refuse(name, kWorldLists, object_.find(name));
+    return {};
+  }
   const std::optional<error::Error>& problem() const { return problem_; }
 
  private:
-  void refuse(const char* name, const std::string& expected, json::const_iterator found) {
+  void refuse(const char* name, const std::string& expected, const json::const_iterator& found) {
     if (problem_) return;
     problem_ =
         error::Error{command_ + ": " + name,
@@ -70,12 +76,12 @@ class Arguments {
 
 using Make = InstructorCommand (*)(Arguments& arguments);
 
-constexpr std::array<std::pair<std::string_view, Make>, 14> kCommands{{
+constexpr std::array<std::pair<std::string_view, Make>, 16> kCommands{{
     {"run", [](Arguments&) -> InstructorCommand { return SetRunning{true}; }},
     {"freeze", [](Arguments&) -> InstructorCommand { return SetRunning{false}; }},
     {"rate",
      [](Arguments& of) -> InstructorCommand {
-       return SetRate{of.number("rate", {0.0, kMaxRate})};
+       return SetRate{of.number("rate", {0.0, databuffer::kMaxClockRate})};
      }},
     {"step",
      [](Arguments& of) -> InstructorCommand {
@@ -92,7 +98,13 @@ constexpr std::array<std::pair<std::string_view, Make>, 14> kCommands{{
                          of.number("heading", {0.0, 360.0}),
                          of.optional_number("speed_kt", {30.0, 5000.0})};
      }},
+    {"restore",
+     [](Arguments& of) -> InstructorCommand {
+       const databuffer::WorldList list = of.list("list");
+       return RestoreEntry{list, static_cast<std::uint32_t>(of.number("item", {1.0, 4294967295.0}))};
+     }},
     {"reset world", [](Arguments&) -> InstructorCommand { return ResetWorld{}; }},
+    {"undo reset", [](Arguments&) -> InstructorCommand { return UndoReset{}; }},
     {"kill", [](Arguments& of) -> InstructorCommand { return KillRole{of.text("role", 30)}; }},
     {"note", [](Arguments& of) -> InstructorCommand { return WriteNote{of.text("text", kMaxNoteLetters)}; }},
     {"record", [](Arguments&) -> InstructorCommand { return StartRecorder{}; }},

@@ -12,6 +12,7 @@
 #include <string>
 #include <variant>
 
+#include "databuffer/messages/world_edit.hpp"
 #include "lib/error/error.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "station/world_message.hpp"
@@ -57,9 +58,15 @@ struct EndSet {
 struct EditWorld {
   WorldEdit edit;
 };
+struct RestoreEntry {  // that a page removed
+  databuffer::WorldList list;
+  std::uint32_t item;
+};
 struct ResetWorld {};  // to that of the configuration
-using InstructorCommand = std::variant<SetRunning, SetRate, Step, Reset, Reposition, EditWorld, ResetWorld, KillRole,
-                                       WriteNote, StartRecorder, ListRecordings, PlayRecording, FlyOut, EndSet>;
+struct UndoReset {};   // back to the world before the last reset
+using InstructorCommand =
+    std::variant<SetRunning, SetRate, Step, Reset, Reposition, EditWorld, RestoreEntry, ResetWorld, UndoReset, KillRole,
+                 WriteNote, StartRecorder, ListRecordings, PlayRecording, FlyOut, EndSet>;
 
 struct InstructorMessage {
   std::int64_t id = 0;  // of the page; the answer bears it

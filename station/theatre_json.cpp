@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "databuffer/messages/derived_values.hpp"
+#include "databuffer/messages/key_map.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/configuration.hpp"
 
@@ -108,6 +109,9 @@ ordered_json theatre_json(const radar::RadarConfiguration& configuration, const 
                        {"code", beacon.code}});
   auto& waypoints = theatre["route"] = ordered_json::array();
   for (const geo::GeoPoint& point : route) waypoints.push_back(position_json(point));
+  auto& keys = theatre["keys"] = ordered_json::array();
+  for (const databuffer::KeyHelp& row : databuffer::key_help())
+    keys.push_back({{"keys", row.keys}, {"does", row.does}});
   return theatre;
 }
 

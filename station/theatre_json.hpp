@@ -39,7 +39,7 @@ struct Place {
   geo::GeoPoint position;
 };
 
-// What does not change while the station runs: sequence points, beacons, scenes, waypoints of the route.
+// What does not change while the station runs: sequence points, beacons, scenes, waypoints of the route, keys.
 nlohmann::ordered_json theatre_json(const radar::RadarConfiguration& configuration, const std::vector<Place>& scenes,
                                     const std::vector<geo::GeoPoint>& route);
 

@@ -32,14 +32,6 @@ std::string text(const json& object, const char* name) {
   return found != object.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-std::optional<WorldList> list_of(const json& object) {
-  const std::string name = text(object, "list");
-  if (name == "rain") return WorldList::rain;
-  if (name == "jammers") return WorldList::jammers;
-  if (name == "movers") return WorldList::movers;
-  return std::nullopt;
-}
-
 // Ids of entries are whole numbers from 1; 0 for anything else, which no entry has.
 std::uint32_t item_of(const json& object) {
   const double id = number(object, "item");
@@ -72,7 +64,7 @@ Expected<WorldEdit> add_edit(WorldList list, geo::GeoPoint position) {
         return add(world, databuffer::default_mover(position, sim_time_ns));
       });
   }
-  return refused("list", "rain, jammers or movers");
+  return refused("list", kWorldLists);
 }
 
 // Replaces the values of an entry that the object has.
@@ -111,12 +103,12 @@ Expected<WorldEdit> change_edit(WorldList list, std::uint32_t id, const json& ob
       });
     }
   }
-  return refused("list", "rain, jammers or movers");
+  return refused("list", kWorldLists);
 }
 
 Expected<WorldEdit> entry_edit(std::string_view command, const json& object) {
-  const auto list = list_of(object);
-  if (!list) return refused("list", "rain, jammers or movers");
+  const auto list = world_list(object, "list");
+  if (!list) return refused("list", kWorldLists);
   const std::uint32_t id = item_of(object);
   const geo::GeoPoint position{number(object, "lat"), number(object, "lon")};
   const bool has_position = std::isfinite(position.latitude_deg) && std::isfinite(position.longitude_deg);
@@ -131,6 +123,14 @@ Expected<WorldEdit> entry_edit(std::string_view command, const json& object) {
 }
 
 }  // namespace
+
+std::optional<WorldList> world_list(const json& object, const char* name) {
+  const std::string list = text(object, name);
+  if (list == "rain") return WorldList::rain;
+  if (list == "jammers") return WorldList::jammers;
+  if (list == "movers") return WorldList::movers;
+  return std::nullopt;
+}
 
 std::string_view world_commands() {
   return "add, move, change, remove, sea, wind, fidelity";

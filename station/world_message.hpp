@@ -1,8 +1,7 @@
 // Commands of the instructor's page that change the world: sea, wind, rain cells, jammers, movers, fidelity.
 // Inputs: the name of a command and its object of JSON. Outputs: the change, as a function for change_world().
 // Errors: an argument that is absent or no number of the right kind, when the command is read; a value out of range or
-// an
-//   unknown id, when the change is made. Each says what was expected.
+//   an unknown id, when the change is made. Each says what was expected.
 // Threads: any; functions without state.
 // Source: docs/station.md#commands; limits: databuffer/messages/world_edit.hpp.
 #pragma once
@@ -13,6 +12,7 @@
 #include <optional>
 #include <string_view>
 
+#include "databuffer/messages/world_edit.hpp"
 #include "databuffer/messages/world_state.hpp"
 #include "lib/error/error.hpp"
 
@@ -24,6 +24,10 @@ using WorldEdit =
 
 // nullopt: the name is not that of a command of the world.
 std::optional<error::Expected<WorldEdit>> world_edit(std::string_view command, const nlohmann::json& object);
+
+// List that an object names; nullopt: none of kWorldLists.
+std::optional<databuffer::WorldList> world_list(const nlohmann::json& object, const char* name);
+inline constexpr const char* kWorldLists = "rain, jammers or movers";
 
 // Names of the commands, for messages.
 std::string_view world_commands();

@@ -142,16 +142,35 @@ std::uint32_t new_id(WorldState& world, std::span<Entry> in_use) {
 }
 
 template <class Entry>
-Expected<std::uint32_t> add_entry(WorldState& world, Entry entry) {
-  if (auto valid = check(entry); !valid) return tl::unexpected(valid.error());
+Expected<void> append_entry(WorldState& world, const Entry& entry) {
   const List<Entry> list = list_in<Entry>(world);
   if (list.count >= list.entries.size())
     return fail(std::string(list.subject), "at most " + std::to_string(list.entries.size()) + " in the world",
                 "one more", "remove another one first");
-  entry.id = new_id(world, list.in_use());
   list.entries[list.count++] = entry;
   mark_changed(world);
+  return {};
+}
+
+template <class Entry>
+Expected<std::uint32_t> add_entry(WorldState& world, Entry entry) {
+  if (auto valid = check(entry); !valid) return tl::unexpected(valid.error());
+  const std::uint32_t last_id = world.last_id;
+  entry.id = new_id(world, list_in<Entry>(world).in_use());
+  if (auto added = append_entry(world, entry); !added) {
+    world.last_id = last_id;
+    return tl::unexpected(added.error());
+  }
   return entry.id;
+}
+
+template <class Entry>
+Expected<void> restore_entry(WorldState& world, const Entry& entry) {
+  if (auto valid = check(entry); !valid) return valid;
+  const List<Entry> list = list_in<Entry>(world);
+  if (std::ranges::find(list.in_use(), entry.id, &Entry::id) != list.in_use().end())
+    return fail(std::string(list.subject), "one that was removed", "id " + std::to_string(entry.id) + " in the world");
+  return append_entry(world, entry);
 }
 
 template <class Entry>
@@ -271,6 +290,16 @@ Expected<void> remove(WorldState& world, WorldList list, std::uint32_t id) {
       break;
   }
   return remove_entry<WorldMover>(world, id);
+}
+
+Expected<void> restore(WorldState& world, const WorldRainCell& cell) {
+  return restore_entry(world, cell);
+}
+Expected<void> restore(WorldState& world, const WorldJammer& jammer) {
+  return restore_entry(world, jammer);
+}
+Expected<void> restore(WorldState& world, const WorldMover& mover) {
+  return restore_entry(world, mover);
 }
 
 Expected<void> set_sea_state(WorldState& world, double state) {

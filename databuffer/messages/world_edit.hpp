@@ -44,6 +44,10 @@ error::Expected<void> move(WorldState& world, WorldList list, std::uint32_t id, 
 error::Expected<void> steer(WorldState& world, std::uint32_t id, double speed_mps, double heading_deg,
                             std::int64_t sim_time_ns);
 error::Expected<void> remove(WorldState& world, WorldList list, std::uint32_t id);
+// Add an entry that was removed again, with the id that it had. Errors: the list is full, or has an entry with this id.
+error::Expected<void> restore(WorldState& world, const WorldRainCell& cell);
+error::Expected<void> restore(WorldState& world, const WorldJammer& jammer);
+error::Expected<void> restore(WorldState& world, const WorldMover& mover);
 
 // Sea state, WMO code 3700, 0 to 6; NaN: from the wind.
 error::Expected<void> set_sea_state(WorldState& world, double state);

@@ -8,13 +8,13 @@
 #include <cstdint>
 #include <optional>
 
+#include "databuffer/messages/clock_limits.hpp"
 #include "databuffer/messages/world_state.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
 
 namespace yars::databuffer {
 
-inline constexpr double kMaxClockRate = 10.0;  // sim time / real time; at higher rates programs skip late ticks
 // Ticks by which a step advances the clock at once. At most kMaxTicksBehind (20): programs skip ticks that are further
 // behind the clock.
 inline constexpr std::int64_t kStepPortion_ticks = 10;

@@ -18,7 +18,6 @@ namespace {
 
 // Interval between readings of the process table: 0.2 s, because a reading takes many system calls.
 constexpr std::int64_t kHealthInterval_ns = 200'000'000;
-constexpr std::int64_t kSilentAfter_ns = 1'000'000'000;  // 1 s; a process with an older heartbeat is not alive
 
 bool takes_part(const databuffer::SessionLayout& layout, databuffer::LockstepRole role) {
   return (layout.lockstep.roles.load(std::memory_order_relaxed) >> static_cast<unsigned>(role) & 1U) != 0;
@@ -54,13 +53,8 @@ void SessionFeed::take_health() {
   if (now_ns < next_health_ns_) return;
   next_health_ns_ = now_ns + kHealthInterval_ns;
   const auto processes = session_->processes();
-  const auto is_alive = [&](databuffer::Role role) {
-    return std::ranges::any_of(processes, [&](const databuffer::ProcessInfo& process) {
-      return process.name == databuffer::name_of(role) && now_ns - process.heartbeat_ns < kSilentAfter_ns;
-    });
-  };
-  input_.state_machine_alive = is_alive(databuffer::Role::state_machine);
-  input_.model_alive = is_alive(databuffer::Role::radar_model);
+  input_.state_machine_alive = databuffer::is_alive(processes, databuffer::Role::state_machine, now_ns);
+  input_.model_alive = databuffer::is_alive(processes, databuffer::Role::radar_model, now_ns);
   tour_runs_ = session_->role_is_held(databuffer::Role::tour);
 }
 
@@ -131,9 +125,9 @@ void SessionFeed::take_sweeps() {
 }
 
 error::Expected<PilotInput> PilotInput::create(databuffer::Session& session, std::string_view source) {
-  auto claim = session.claim_input_lane(source);
-  if (!claim) return tl::unexpected(claim.error());
-  return PilotInput(session, std::move(*claim));
+  auto lane = databuffer::InputLane::claim(session, source);
+  if (!lane) return tl::unexpected(lane.error());
+  return PilotInput(std::move(*lane));
 }
 
 void PilotInput::press(int button) {
@@ -155,15 +149,6 @@ void PilotInput::send_key(const gl::KeyEdge& edge) {
 
 void PilotInput::release_all() {
   for (const databuffer::InputEvent& event : keyboard_.release_all()) send(event);
-}
-
-void PilotInput::send(databuffer::InputEvent event) {
-  event.session_time_ns = session_->sim_time_ns();
-  event.monotonic_ns = databuffer::monotonic_ns();
-  event.number = ++number_;
-  if (session_->layout().input.push(static_cast<std::size_t>(claim_.lane()), event)) return;
-  log::warning("the display's input lane is full, is state-machine running? '" + databuffer::text_of(event) +
-               "' is dropped");
 }
 
 }  // namespace yars::display

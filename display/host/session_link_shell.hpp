@@ -10,9 +10,11 @@
 #include <functional>
 #include <span>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "databuffer/messages/key_map.hpp"
+#include "databuffer/runtime/pilot_link.hpp"
 #include "databuffer/runtime/receivers.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
@@ -75,17 +77,15 @@ class PilotInput {
   void press(int button);  // 1..20
   // Presses the button whose click zone contains `at`. Returns false if `at` is in no click zone.
   bool click(Point at);
-  void send(databuffer::InputEvent event);  // stamps the event with time and number
+  void send(const databuffer::InputEvent& event) { lane_.send(event); }  // stamps the event with time and number
   void send_key(const gl::KeyEdge& edge);
   void release_all();  // releases all held keys; called when the window loses focus or closes
 
  private:
-  PilotInput(databuffer::Session& session, databuffer::Claim claim) : session_(&session), claim_(std::move(claim)) {}
+  explicit PilotInput(databuffer::InputLane lane) : lane_(std::move(lane)) {}
 
-  databuffer::Session* session_;
-  databuffer::Claim claim_;
+  databuffer::InputLane lane_;
   databuffer::KeyboardState keyboard_;
-  std::uint32_t number_ = 0;
 };
 
 }  // namespace yars::display

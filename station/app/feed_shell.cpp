@@ -1,6 +1,5 @@
 #include "station/app/feed_shell.hpp"
 
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -10,7 +9,6 @@
 #include "databuffer/runtime/receivers.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "display/symbology/help.hpp"
-#include "lib/log/log.hpp"
 #include "lib/radar/modes.hpp"
 
 namespace yars::station {
@@ -20,18 +18,11 @@ namespace {
 constexpr std::int64_t kNsPerMs = 1'000'000;
 constexpr std::int64_t kFrameInterval_ns = 25 * kNsPerMs;   // most frames a second: 40
 constexpr std::int64_t kStateInterval_ns = 250 * kNsPerMs;  // of states without a change of the radar state
-constexpr std::int64_t kSilentAfter_ns = 1000 * kNsPerMs;   // a program with an older heartbeat counts as dead
-
-bool is_alive(const databuffer::Session& session, databuffer::Role role, std::int64_t now_ns) {
-  return std::ranges::any_of(session.processes(), [&](const databuffer::ProcessInfo& process) {
-    return process.name == databuffer::name_of(role) && now_ns - process.heartbeat_ns < kSilentAfter_ns;
-  });
-}
 
 }  // namespace
 
 error::Expected<StationFeed> StationFeed::create(databuffer::Session& session) {
-  auto lane = session.claim_input_lane("station");
+  auto lane = databuffer::InputLane::claim(session, "station");
   if (!lane) return tl::unexpected(lane.error());
   return StationFeed(session, std::move(*lane));
 }
@@ -68,8 +59,9 @@ bool StationFeed::refresh_state(std::int64_t now_ns) {
   input_.state = state_.value();
   input_.model = model_.value();
   input_.advice = advice_.value();
-  input_.state_machine_alive = is_alive(*session_, databuffer::Role::state_machine, now_ns);
-  input_.model_alive = is_alive(*session_, databuffer::Role::radar_model, now_ns);
+  const auto processes = session_->processes();
+  input_.state_machine_alive = databuffer::is_alive(processes, databuffer::Role::state_machine, now_ns);
+  input_.model_alive = databuffer::is_alive(processes, databuffer::Role::radar_model, now_ns);
   state_text_ = std::make_shared<const std::string>(state_message());
   ++state_number_;
   return true;
@@ -82,16 +74,8 @@ std::string StationFeed::state_message() const {
   for (int button = 1; button <= radar::kBezelButtons; ++button)
     buttons.push_back(nlohmann::ordered_json{{"key", std::string(databuffer::key_of_button(button))},
                                              {"does", display::words_of_button(input_, button)}});
+  message["recorder"] = session_->role_is_held(databuffer::Role::recorder);
   return message.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace);
-}
-
-void StationFeed::send(databuffer::InputEvent event) {
-  event.session_time_ns = session_->sim_time_ns();
-  event.monotonic_ns = databuffer::monotonic_ns();
-  event.number = ++number_;
-  if (session_->layout().input.push(static_cast<std::size_t>(lane_.lane()), event)) return;
-  log::warning("the station's input lane is full, is state-machine running? '" + databuffer::text_of(event) +
-               "' is dropped");
 }
 
 }  // namespace yars::station

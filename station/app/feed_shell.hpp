@@ -11,8 +11,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "databuffer/runtime/pilot_link.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "display/symbology/plan_view.hpp"
@@ -33,17 +35,16 @@ class StationFeed {
   // The newest state as a message; its number counts up with each new text.
   const Text& state() const { return state_text_; }
   std::uint64_t state_number() const { return state_number_; }
-  void send(databuffer::InputEvent event);  // stamps the event with time and number
+  void send(const databuffer::InputEvent& event) { lane_.send(event); }
 
  private:
-  StationFeed(databuffer::Session& session, databuffer::Claim lane) : session_(&session), lane_(std::move(lane)) {}
+  StationFeed(databuffer::Session& session, databuffer::InputLane lane) : session_(&session), lane_(std::move(lane)) {}
   bool refresh_frame(std::int64_t now_ns);
   bool refresh_state(std::int64_t now_ns);
   std::string state_message() const;
 
   databuffer::Session* session_;
-  databuffer::Claim lane_;
-  std::uint32_t number_ = 0;
+  databuffer::InputLane lane_;
   FrameStream frames_;
   std::uint64_t frame_id_ = 0;  // of the last frame that was read, valid or not
   std::vector<std::uint8_t> pixels_;

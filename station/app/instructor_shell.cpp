@@ -60,11 +60,6 @@ ordered_json patches_json(const databuffer::SessionLayout& layout) {
   return list;
 }
 
-Expected<void> without_value(const Expected<databuffer::WorldState>& changed) {
-  if (!changed) return tl::unexpected(changed.error());
-  return {};
-}
-
 }  // namespace
 
 InstructorShell::InstructorShell(databuffer::Session& session, std::string name)
@@ -177,6 +172,37 @@ Expected<void> InstructorShell::kill_role(const std::string& role) {
   return error::fail("kill " + role, "a process of this computer", "none");
 }
 
+Expected<void> InstructorShell::edit_world(const WorldEdit& edit) {
+  databuffer::WorldState before{};
+  const auto after = databuffer::change_world(*session_, [&](const databuffer::WorldState& world) {
+    before = world;
+    return edit(world, session_->reached_sim_time_ns());
+  });
+  if (!after) return tl::unexpected(after.error());
+  removed_.note(before, *after);
+  return {};
+}
+
+Expected<void> InstructorShell::reset_world() {
+  const auto before = databuffer::newest_world(std::as_const(*session_).layout());
+  const auto after = databuffer::reset_world(*session_);
+  if (!after) return tl::unexpected(after.error());
+  if (before) reset_ = WorldReset{*before, after->edit};
+  return {};
+}
+
+Expected<void> InstructorShell::undo_reset() {
+  if (!reset_) return error::fail("undo reset", "a reset of the world by a page", "none");
+  const auto after = databuffer::change_world(
+      *session_, [this](const databuffer::WorldState& world) -> Expected<databuffer::WorldState> {
+        if (world.edit == reset_->edit) return reset_->before;
+        return error::fail("undo reset", "no change of the world since the reset", "one");
+      });
+  reset_.reset();
+  if (!after) return tl::unexpected(after.error());
+  return {};
+}
+
 Expected<void> InstructorShell::execute(const InstructorCommand& command) {
   if (const auto* run = std::get_if<SetRunning>(&command))
     return change_clock([&](const ClockState& clock) { return databuffer::with_running(clock, run->running); });
@@ -197,11 +223,14 @@ Expected<void> InstructorShell::execute(const InstructorCommand& command) {
     if (move->speed_kt) to.ground_speed = geo::Speed::knots(*move->speed_kt);
     return begin_epoch([&](const ClockState& clock) { return databuffer::repositioned(clock, to); });
   }
-  if (const auto* edit = std::get_if<EditWorld>(&command))
-    return without_value(databuffer::change_world(*session_, [&](const databuffer::WorldState& world) {
-      return edit->edit(world, session_->reached_sim_time_ns());
-    }));
-  if (std::holds_alternative<ResetWorld>(command)) return without_value(databuffer::reset_world(*session_));
+  if (const auto* edit = std::get_if<EditWorld>(&command)) return edit_world(edit->edit);
+  if (const auto* restore = std::get_if<RestoreEntry>(&command))
+    return edit_world([&](databuffer::WorldState world, std::int64_t) -> Expected<databuffer::WorldState> {
+      if (auto done = removed_.restore(world, restore->list, restore->item); !done) return tl::unexpected(done.error());
+      return world;
+    });
+  if (std::holds_alternative<ResetWorld>(command)) return reset_world();
+  if (std::holds_alternative<UndoReset>(command)) return undo_reset();
   if (const auto* kill = std::get_if<KillRole>(&command)) return kill_role(kill->role);
   if (const auto* note = std::get_if<WriteNote>(&command)) {
     session_->note(databuffer::NoteKind::supervision, "instructor: " + note->text);

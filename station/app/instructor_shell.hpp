@@ -17,6 +17,7 @@
 #include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/session.hpp"
 #include "station/instructor_message.hpp"
+#include "station/removed_entries.hpp"
 
 namespace yars::station {
 
@@ -42,6 +43,9 @@ class InstructorShell {
   error::Expected<void> change_clock(const Change& change);
   template <class Change>
   error::Expected<void> begin_epoch(const Change& change);
+  error::Expected<void> edit_world(const WorldEdit& edit);
+  error::Expected<void> reset_world();
+  error::Expected<void> undo_reset();
   error::Expected<void> kill_role(const std::string& role);
   void go_on_with_clock(std::int64_t now_ns);
   void refresh_status();
@@ -58,6 +62,12 @@ class InstructorShell {
   std::uint32_t steps_epoch_ = 0;
   bool enters_epoch_ = false;  // the frozen clock is to advance by one tick
   std::int64_t clock_due_ns_ = 0;
+  RemovedEntries removed_;
+  struct WorldReset {
+    databuffer::WorldState before;
+    std::uint64_t edit;  // of the world after it
+  };
+  std::optional<WorldReset> reset_;  // the last one, until it is undone
 };
 
 }  // namespace yars::station

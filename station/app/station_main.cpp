@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "config/schema/load.hpp"
@@ -104,7 +105,7 @@ error::Expected<std::vector<geo::GeoPoint>> waypoints_of(const std::string& sour
   return points;
 }
 
-// Names of the files of scenes, with their positions.
+// Names of the files of scenes, with blanks, and their positions.
 error::Expected<std::vector<station::Place>> places_of(const radar::RadarConfiguration& configuration) {
   std::vector<station::Place> places;
   std::vector<std::string> problems;
@@ -112,8 +113,11 @@ error::Expected<std::vector<station::Place>> places_of(const radar::RadarConfigu
   const auto index = model::scene::index_scenes(scenes, problems);
   if (!index) return tl::unexpected(index.error());
   for (const std::string& problem : problems) log::warning(problem);
-  for (const model::scene::IndexedScene& scene : *index)
-    places.push_back({scene.file.stem().string(), scene.placement.position});
+  for (const model::scene::IndexedScene& scene : *index) {
+    std::string name = scene.file.stem().string();
+    std::ranges::replace(name, '_', ' ');
+    places.push_back({std::move(name), scene.placement.position});
+  }
   return places;
 }
 

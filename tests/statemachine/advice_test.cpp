@@ -48,7 +48,7 @@ TEST(Advice, ADeadButtonSaysWhyAndWhatToDo) {
   pilot.press("power opr");
   EXPECT_EQ(words(pilot, 1), "dead in every mode");
   EXPECT_EQ(words(pilot, 8), "dead in RBM; live in patch map");
-  EXPECT_EQ(words(pilot, 12), "NO RECORDER; start one: yars record FILE");
+  EXPECT_EQ(words(pilot, 12), "NO RECORDER; start one: Record in the browser, or yars record FILE");
   pilot.press("freeze");
   EXPECT_EQ(words(pilot, 6), "dead while frozen; end the freeze: freeze (Space)");
   pilot.press("freeze");

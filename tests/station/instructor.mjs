@@ -1,14 +1,8 @@
-// The instructor's page as an instructor uses it. usage: node instructor.mjs ADDRESS YARS SESSION
+// The instructor's page as an instructor uses it.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { chromium } from "playwright-core";
+import { address, browser, call, faults, fitsSmallScreens, hasNoSeriousFault, open, run, until, watch } from "./browser.mjs";
 
-const [address, yars, session] = process.argv.slice(2);
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-const call = (...words) => execFileSync(yars, ["--session", session, ...words], { encoding: "utf8" });
-const watch = () => JSON.parse(call("watch", "--json", "--once"));
+const path = "/instructor.html";
 const world = () => JSON.parse(call("world", "--json"));
 const status = () => { // exit code 3: degraded
   try {
@@ -17,25 +11,6 @@ const status = () => { // exit code 3: degraded
     return JSON.parse(error.stdout);
   }
 };
-
-async function until(what, check, turns = 100) {
-  for (let turn = 0; turn < turns; ++turn) {
-    if (await check()) return;
-    await new Promise((resolve) => setTimeout(resolve, 100));
-  }
-  assert.fail(`expected within ${turns / 10} s: ${what}`);
-}
-
-const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
-const faults = [];
-async function open(width, height, path = "/instructor.html") {
-  const page = await browser.newPage({ viewport: { width, height } });
-  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
-  page.on("pageerror", (error) => faults.push(String(error)));
-  await page.goto(address + path);
-  await page.waitForFunction(() => document.body.dataset.state === "shown");
-  return page;
-}
 const near = (value, expected, tolerance) => Math.abs(value - expected) <= tolerance;
 const noProblem = async (page) => assert.equal(await page.textContent("#problem"), "");
 
@@ -158,6 +133,63 @@ const tests = {
     await until("the configured world", () => world().jammers.length + world().movers.length === 0);
     await noProblem(page);
   },
+  async "what was removed comes back as it was"(page) {
+    await page.click("#add_jammers");
+    await page.click("#add_jammers"); // in the middle of the map
+    await until("a jammer", () => world().jammers.length === 1);
+    await page.click("#things li:has-text('jammer') button");
+    await page.fill("#thing_power_w", "33");
+    await page.click("#thing_form button");
+    await until("33 W", () => world().jammers[0].power_w === 33);
+    const before = world().jammers;
+    await page.focus("#things button[aria-label^='Remove jammer']");
+    await page.keyboard.press("Enter");
+    await until("no jammer", () => world().jammers.length === 0);
+    await until("it is said", async () => /Removed jammer/.test(await page.textContent("#undo_text[role=status]")));
+    assert.equal(await page.evaluate(() => document.activeElement.id), "undo_button");
+    await page.keyboard.press("Enter");
+    await until("the same jammer", () => JSON.stringify(world().jammers) === JSON.stringify(before));
+    await until("it is said", async () => /jammer .* is back/.test(await page.textContent("#undo_text")));
+    // The last removal is taken back first; a key does it too.
+    await page.click("#things button[aria-label^='Remove jammer']");
+    await until("no jammer", () => world().jammers.length === 0);
+    await page.click("#add_movers");
+    await page.click("#add_movers");
+    await until("a mover", () => world().movers.length === 1);
+    await page.click("#things button[aria-label^='Remove mover']");
+    await until("no mover", () => world().movers.length === 0);
+    await page.keyboard.press("Control+z");
+    await until("the mover", () => world().movers.length === 1);
+    assert.equal(world().jammers.length, 0);
+    await page.keyboard.press("Control+z");
+    await until("the jammer", () => JSON.stringify(world().jammers) === JSON.stringify(before));
+    await noProblem(page);
+  },
+  async "a removal is undone after a reset of the world, and so is the reset"(page) {
+    const before = world();
+    await page.click("#things button[aria-label^='Remove jammer']");
+    await until("no jammer", () => world().jammers.length === 0);
+    await page.click("#reset_world");
+    await until("no mover", () => world().movers.length === 0);
+    await page.click("#undo_button");
+    await until("the world before the reset", () => world().movers.length === 1 && world().jammers.length === 0);
+    await page.click("#undo_button");
+    await until("the jammer", () => JSON.stringify(world().jammers) === JSON.stringify(before.jammers));
+    await page.click("#things button[aria-label^='Remove jammer']");
+    await until("no jammer", () => world().jammers.length === 0);
+    call("world", "reset");
+    await page.click("#undo_button");
+    await until("the jammer, after a reset from elsewhere", () => JSON.stringify(world().jammers) === JSON.stringify(before.jammers));
+    await noProblem(page);
+    await page.click("#reset_world");
+    await until("the configured world", () => world().jammers.length === 0);
+    call("world", "sea", "4");
+    await page.click("#undo_button");
+    await until("a reset that others have built upon stays", async () => /no change of the world since/.test(await page.textContent("#problem")));
+    await page.click("#reset_world");
+    await page.click("#undo_close");
+    await until("no line", async () => !await page.isVisible("#undo"));
+  },
   async "a killed role is started again, and the world stays"(page) {
     await page.selectOption("#sea", "3");
     await until("sea state 3", () => world().sea_state === 3);
@@ -196,18 +228,23 @@ const tests = {
     await page.click("#recordings li button");
     await page.click("#play");
     await page.waitForFunction(() => document.getElementById("replay_picture").dataset.frame, undefined, { timeout: 20000 });
-    await page.click("#replay_run");
-    await until("the replay stands", async () => await page.textContent("#replay_run") === "Run");
+    await until("it plays", async () => await page.textContent("#play") === "Pause");
+    await page.click("#play");
+    await until("the replay stands", async () => await page.textContent("#play") === "Go on");
     const at = Math.round((end - 3) * 10) / 10;
     const frame = await page.getAttribute("#replay_picture", "data-frame");
-    await page.$eval("#scrub", (scrub, value) => {
+    assert.equal(await page.locator("#machine input[type=range]").count(), 1, "one slider");
+    await page.$eval("#at", (scrub, value) => {
       scrub.value = String(value);
       scrub.dispatchEvent(new Event("input"));
       scrub.dispatchEvent(new Event("change"));
     }, at);
     await until("another picture of that time", async () => await page.getAttribute("#replay_picture", "data-frame") !== frame &&
       near(Number(await page.getAttribute("#replay_picture", "data-sim-time")), at, 0.3));
-    await page.click("#replay_fly");
+    await page.click("button[data-step='-1']");
+    await until("a second before", async () => near(Number(await page.getAttribute("#replay_picture", "data-sim-time")), at - 1, 0.3));
+    await page.click("button[data-step='1']");
+    await page.click("#fly_out");
     await until("a branch", async () => await page.$("#sets li:has-text('branch') a") !== null);
     const branch = /session=([\w-]+)/.exec(await page.getAttribute("#sets li:has-text('branch') a", "href"))[1];
     const beside = await browser.newPage();
@@ -225,9 +262,22 @@ const tests = {
     await beside.close();
     await page.click(`button[aria-label='End ${branch}']`);
     await until("the branch has ended", async () => await page.$(`button[aria-label='End ${branch}']`) === null);
+    await page.click("#stop");
+    await until("no replay", async () => !await page.isVisible("#replay_picture"));
     await page.click("button[aria-label='End the recorder']");
     await until("no recorder", () => status().recorder === null);
+    await until("nothing is being written", async () => !/being written/.test(await page.textContent("#recordings")));
     faults.length = 0; // a page that waits for a session logs refused connections
+    await noProblem(page);
+  },
+  async "a recording whose recorder was killed is no longer being written"(page) {
+    await page.click("#record");
+    await until("the recorder writes", () => status().recorder?.writing);
+    await until("being written", async () => /being written/.test(await page.textContent("#recordings")));
+    await until("a part of it is on the disk", () => status().recorder.bytes > 2000);
+    await page.click("button[aria-label='Kill recorder']");
+    await until("cut short", async () => /cut short: its recorder was killed/.test(await page.textContent("#recordings")));
+    assert.doesNotMatch(await page.textContent("#recordings"), /being written/);
     await noProblem(page);
   },
   async "the form of the aircraft shows present values until others are typed"(page) {
@@ -247,17 +297,32 @@ const tests = {
     assert.ok(near(Number(await latitude()), Number(before), 1));
   },
   async "no serious fault of accessibility"(page) {
-    await page.evaluate(axe);
-    const { violations } = await page.evaluate(() => globalThis.axe.run());
-    const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
-    assert.deepEqual(serious.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]), []);
+    await hasNoSeriousFault(page);
   },
   async "phone and tablet show it without scrolling sideways"() {
-    for (const [width, height] of [[390, 844], [820, 1180], [844, 390]]) {
-      const page = await open(width, height);
-      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width} x ${height}`);
-      await page.close();
+    await fitsSmallScreens(path, async (page) => {
+      const links = await page.$$eval("#sections a", (list) => list.map((link) => {
+        const { width, height } = link.getBoundingClientRect();
+        return Math.min(width, height);
+      }));
+      assert.ok(links.length >= 6 && Math.min(...links) >= 44, `expected links of 44 pixels or more, found ${links}`);
+    });
+  },
+  async "links lead to the sections of the page on a phone, and stay in view"() {
+    const page = await open(390, 844, path);
+    for (const [name, id] of [["Replay", "machine"], ["World", "world_section"], ["Map", "theatre"]]) {
+      await page.click(`#sections a:text-is("${name}")`);
+      const [section, links] = await page.evaluate((id) => [document.getElementById(id), document.getElementById("sections")]
+        .map((found) => found.getBoundingClientRect()).map(({ top, bottom }) => ({ top, bottom })), id);
+      assert.ok(section.top >= links.bottom - 2 && section.top < 844 - 60, `${name}: ${JSON.stringify([section, links])}`);
+      assert.ok(links.top >= 0, `the links are in view: ${links.top}`);
+      assert.ok(await page.evaluate((id) => document.getElementById(id).contains(document.activeElement), id), `the focus is in ${name}`);
     }
+    assert.ok(await page.evaluate(() => document.getElementById("machine").open), "Replay opened its section");
+    await page.close();
+    const desktop = await open(1400, 1000, path);
+    assert.equal(await desktop.isVisible("#sections"), false, "a desktop shows all sections without links");
+    await desktop.close();
   },
 };
 
@@ -266,17 +331,4 @@ async function middle(page, right, down) {
   return [box.x + box.width / 2 + right, box.y + box.height / 2 + down];
 }
 
-const page = await open(1400, 1000);
-let failed = 0;
-for (const [name, test] of Object.entries(tests)) {
-  try {
-    await test(page);
-    console.log(`passed: ${name}`);
-  } catch (error) {
-    ++failed;
-    console.log(`FAILED: ${name}: ${error.stack}`);
-  }
-}
-if (faults.length > 0) console.log(`FAILED: errors in the browser's console: ${faults.join("; ")}`);
-await browser.close();
-process.exit(failed + faults.length > 0 ? 1 : 0);
+await run(tests, await open(1400, 1000, path));

@@ -113,6 +113,16 @@ TEST(InstructorMessage, EntriesOfTheWorldAreAddedMovedChangedAndRemoved) {
   EXPECT_EQ(world.movers[0].since_ns, 10'000'000'000) << "it turns where it is at the time of the command";
 }
 
+TEST(InstructorMessage, AnEntryThatIsRestoredIsNamedByListAndId) {
+  const auto restored = taken<RestoreEntry>(R"({"do": "restore", "id": 1, "list": "movers", "item": 7})");
+  EXPECT_EQ(restored.list, databuffer::WorldList::movers);
+  EXPECT_EQ(restored.item, 7U);
+  EXPECT_THAT(refusal(R"({"do": "restore", "id": 1, "list": "trees", "item": 7})"),
+              HasSubstr("restore: list: expected rain, jammers or movers, found \"trees\""));
+  EXPECT_THAT(refusal(R"({"do": "restore", "id": 1, "list": "rain"})"), HasSubstr("item: expected a number"));
+  EXPECT_TRUE(read(R"({"do": "undo reset", "id": 1})"));
+}
+
 TEST(InstructorMessage, SeaWindAndFidelityAreSet) {
   auto world = after(configured(), R"({"do": "sea", "id": 1, "state": 5})");
   EXPECT_EQ(world.sea_state, 5.0);

@@ -1,32 +1,8 @@
-// The display page as a pilot uses it. usage: node pages.mjs ADDRESS YARS SESSION
+// The display page as a pilot uses it.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { readFileSync } from "node:fs";
-import { createRequire } from "node:module";
-import { chromium } from "playwright-core";
+import { fitsSmallScreens, faults, hasNoSeriousFault, open, run, until, watch } from "./browser.mjs";
 
-const [address, yars, session] = process.argv.slice(2);
-const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
-const watch = () => JSON.parse(execFileSync(yars, ["--session", session, "watch", "--json", "--once"], { encoding: "utf8" }));
-
-async function until(what, check) {
-  for (let turn = 0; turn < 100; ++turn) {
-    if (await check()) return;
-    await new Promise((resolve) => setTimeout(resolve, 100));
-  }
-  assert.fail(`expected within 10 s: ${what}`);
-}
-
-const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
-const faults = [];
-async function open(width, height) {
-  const page = await browser.newPage({ viewport: { width, height } });
-  page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
-  page.on("pageerror", (error) => faults.push(String(error)));
-  await page.goto(address);
-  await page.waitForFunction(() => document.body.dataset.state === "shown" && document.getElementById("picture").dataset.frame);
-  return page;
-}
+const path = "/display.html";
 
 const legendsOf = (page) => page.evaluate(() => Object.fromEntries(Array.from({ length: 20 }, (_, at) => at + 1)
   .map((number) => [number, document.getElementById(`pb${number}`).innerText]).filter(([, legend]) => legend !== "")));
@@ -44,6 +20,11 @@ const tests = {
     await until("a greater range", () => watch().range_nm !== range);
     await page.keyboard.press("e");
     await until("the range from before", () => watch().range_nm === range);
+  },
+  async "the table of keys is that of the help over the display"(page) {
+    const rows = await page.$$eval("#keys tr", (list) => list.map((row) => [...row.cells].map(({ textContent }) => textContent)));
+    assert.deepEqual(rows.find(([keys]) => keys === "Space"), ["Space", "freeze"]);
+    assert.ok(rows.length >= 10, JSON.stringify(rows));
   },
   async "a click on the picture puts the cursor there"(page) {
     const before = watch().events_applied;
@@ -63,10 +44,16 @@ const tests = {
     assert.ok(green > 2000, `expected a picture, found ${green} green pixels`);
   },
   async "no serious fault of accessibility"(page) {
-    await page.evaluate(axe);
-    const { violations } = await page.evaluate(() => globalThis.axe.run());
-    const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
-    assert.deepEqual(serious.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]), []);
+    await hasNoSeriousFault(page);
+  },
+  async "without a recorder the remedy names the button of the page that starts one"(page) {
+    await until("power is on", () => watch().power === "OPR");
+    await page.click("#pb12");
+    const set = () => page.textContent("#set");
+    await until("the message and its remedy", async () => /NO RECORDER · start one: Record in the browser/.test(await set()));
+    await page.click("button:text-is('Record')");
+    await until("VTR is boxed", () => watch().boxed.includes(12));
+    await until("no button that starts another", async () => !await page.isVisible("#record"));
   },
   async "every button does what its event does, and legends follow"(page) {
     await until("power is on", () => watch().power === "OPR");
@@ -91,27 +78,13 @@ const tests = {
     faults.length = 0; // the browser logs refused connections
   },
   async "phone and tablet show it without scrolling sideways"() {
-    for (const [width, height] of [[390, 844], [820, 1180], [844, 390]]) {
-      const page = await open(width, height);
-      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width} x ${height}`);
+    await fitsSmallScreens(path, async (page) => {
       const smallest = await page.evaluate(() => Math.min(...[...document.querySelectorAll(".pb")].map((button) => button.getBoundingClientRect().width)));
       assert.ok(smallest >= 24, `expected buttons of 24 pixels or more, found ${smallest}`); // WCAG 2.2, 2.5.8
-      await page.close();
-    }
+    });
   },
 };
 
-const page = await open(1280, 900);
-let failed = 0;
-for (const [name, test] of Object.entries(tests)) {
-  try {
-    await test(page);
-    console.log(`passed: ${name}`);
-  } catch (error) {
-    ++failed;
-    console.log(`FAILED: ${name}: ${error.stack}`);
-  }
-}
-if (faults.length > 0) console.log(`FAILED: errors in the browser's console: ${faults.join("; ")}`);
-await browser.close();
-process.exit(failed + faults.length > 0 ? 1 : 0);
+const page = await open(1280, 900, path);
+await page.waitForFunction(() => document.getElementById("picture").dataset.frame);
+await run(tests, page);

@@ -72,7 +72,8 @@ def main():
     folder = binaries.parent / f"station_web_{pathlib.Path(script).stem}"  # tests may run beside each other
     install(folder)
     check_build(folder)
-    shutil.copy(TOP / "tests/station" / script, folder)
+    for name in ("browser.mjs", script):
+        shutil.copy(TOP / "tests/station" / name, folder)
     session = f"pages{os.getpid()}"
     with socket.socket() as free:  # a fixed port, at which a restarted station is found again
         free.bind(("127.0.0.1", 0))

@@ -3,7 +3,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "databuffer/messages/key_map.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "lib/radar/configuration.hpp"
 #include "station/map_tile.hpp"
 #include "station/theatre_json.hpp"
 
@@ -61,6 +63,13 @@ TEST(TheatreJson, WithoutAFreshAircraftThereIsNeitherAircraftNorScan) {
   model.ownship.velocity_east_mps = 100.0;
   EXPECT_NEAR(aircraft_json(model)["speed_kt"].get<double>(), 194.38, 0.01);
   EXPECT_NEAR(aircraft_json(model)["track_deg"].get<double>(), 90.0, 1e-9);
+}
+
+TEST(TheatreJson, TheKeysAreThoseOfTheHelpOverTheDisplay) {
+  const auto keys = theatre_json(radar::RadarConfiguration(), {}, {})["keys"];
+  ASSERT_EQ(keys.size(), databuffer::key_help().size());
+  EXPECT_EQ(keys[0]["keys"], databuffer::key_help()[0].keys);
+  EXPECT_EQ(keys[0]["does"], databuffer::key_help()[0].does);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // The page of the display: the MPD with its twenty buttons, keys, touch, and the state of the connection.
 import { Connection, sessionOfPage } from "./connection";
-import { State } from "./messages";
-import { element } from "./page";
+import { State, Theatre } from "./messages";
+import { element, onClick, say } from "./page";
 import { Picture } from "./picture";
 
 const BUTTONS = 20;
@@ -37,8 +37,10 @@ class DisplayPage {
     }, "display", sessionOfPage());
     for (const control of document.querySelectorAll<HTMLButtonElement>("button[data-event]"))
       control.addEventListener("click", () => this.connection.event(control.dataset.event ?? ""));
+    onClick("record", () => void this.record());
     this.listenToKeys();
     this.listenToPointer();
+    void this.showKeys();
     setInterval(() => this.showAge(), 200);
   }
 
@@ -60,8 +62,23 @@ class DisplayPage {
     else side.append(button);
   }
 
+  private async showKeys(): Promise<void> {
+    const { keys } = await (await fetch("/theatre.json")).json() as Theatre;
+    for (const { keys: names, does } of keys) {
+      const row = element<HTMLTableSectionElement>("keys").insertRow();
+      row.insertCell().textContent = names;
+      row.insertCell().textContent = does;
+    }
+  }
+
+  private async record(): Promise<void> {
+    const { problem } = await this.connection.command("record");
+    say("words", problem ?? "The recorder starts. PB 12 stops it and starts it again.");
+  }
+
   private showState(state: State): void {
     const { watch } = state;
+    element("record").hidden = state.recorder;
     for (let number = 1; number <= BUTTONS; ++number) {
       const button = this.buttons[number - 1];
       const legend = watch.legends[String(number)] ?? "";

@@ -1,22 +1,15 @@
 // The instructor's page: map, time, aircraft, world, set, time machine.
 import { Connection, sessionOfPage } from "./connection";
-import { Kind, Position, TheatreMap, Thing } from "./map";
+import { Position, TheatreMap, Thing } from "./map";
 import { Answer, InstructorState, Theatre } from "./messages";
-import { button, element, fill, say } from "./page";
+import { button, element, fill, onClick, onSubmit, say } from "./page";
 import { Picture } from "./picture";
-import { PRESETS } from "./presets";
+import { PRESETS, wordsOfPreset } from "./presets";
+import { listenToSections } from "./sections";
 import { TimeMachine } from "./time_machine";
+import { WorldPanel } from "./world_panel";
 
 const DIGITS = 5; // of positions in degrees: 1 m
-const KINDS: Record<string, string> = { rain: "rain", jammers: "jammer", movers: "mover" };
-
-// Fields of a thing that the page edits: [name in the state and in commands, label, minimum, maximum].
-const FIELDS: Record<string, [string, string, number, number][]> = {
-  rain: [["radius_nm", "Radius [NM]", 0.1, 100], ["rate_mmh", "Rain [mm/h]", 0.1, 200], ["top_ft", "Top [ft]", 100, 60000]],
-  jammers: [["power_w", "Power [W]", 0.001, 1e6]],
-  movers: [["speed_kt", "Speed [kt]", 0, 1000], ["heading_deg", "Heading [deg true]", 0, 360]],
-};
-
 const input = (id: string): HTMLInputElement => element<HTMLInputElement>(id);
 const number = (id: string): number => input(id).valueAsNumber;
 
@@ -25,17 +18,16 @@ class InstructorPage {
   private readonly map: TheatreMap;
   private readonly picture = new Picture(element<HTMLCanvasElement>("picture"));
   private readonly machine: TimeMachine;
+  private readonly world: WorldPanel;
   private state: InstructorState | undefined;
   private theatre: Theatre | undefined;
-  private adding: Kind | undefined;
-  private chosen: Thing | undefined;
   private typed = false; // values of the aircraft that are not sent yet
 
   constructor() {
     this.map = new TheatreMap(element<HTMLCanvasElement>("map"), {
       moved: (thing, to) => this.move(thing, to),
-      chosen: (thing) => this.choose(thing),
-      placed: (at) => this.add(at),
+      chosen: (thing) => this.world.choose(thing),
+      placed: (at) => this.world.add(at),
     });
     this.connection = new Connection({
       instructor: (state) => this.show(state),
@@ -47,12 +39,13 @@ class InstructorPage {
         say("status", open ? "connected" : "no connection: the station does not answer; trying again");
       },
     }, "instructor", sessionOfPage());
+    this.world = new WorldPanel(this.map, (name, values) => this.order(name, values), () => this.showFollow());
     this.machine = new TimeMachine(this.connection, (answer) => this.tell(answer));
     this.listenToMap();
     this.listenToTime();
     this.listenToAircraft();
-    this.listenToWorld();
     this.listenToSet();
+    listenToSections();
     if (sessionOfPage()) {
       element<HTMLAnchorElement>("display_link").href = `display.html?session=${sessionOfPage()}`;
       document.title = `Radar instructor: ${sessionOfPage()}`;
@@ -88,20 +81,10 @@ class InstructorPage {
     say("problem", answer.problem ?? "");
   }
 
-  private onSubmit(id: string, act: () => void): void {
-    element<HTMLFormElement>(id).addEventListener("submit", (event) => {
-      event.preventDefault();
-      act();
-    });
-  }
-  private onClick(id: string, act: () => void): void {
-    element(id).addEventListener("click", act);
-  }
-
   private listenToMap(): void {
-    this.onClick("zoom_in", () => this.map.zoom(1.6));
-    this.onClick("zoom_out", () => this.map.zoom(1 / 1.6));
-    this.onClick("follow", () => {
+    onClick("zoom_in", () => this.map.zoom(1.6));
+    onClick("zoom_out", () => this.map.zoom(1 / 1.6));
+    onClick("follow", () => {
       this.map.follow = !this.map.follow;
       this.showFollow();
     });
@@ -113,22 +96,22 @@ class InstructorPage {
   }
 
   private listenToTime(): void {
-    this.onClick("run", () => void this.order(this.state?.clock.running ? "freeze" : "run"));
+    onClick("run", () => void this.order(this.state?.clock.running ? "freeze" : "run"));
     element("rate").addEventListener("change", () => void this.order("rate", { rate: Number(element<HTMLSelectElement>("rate").value) }));
-    this.onSubmit("step_form", () => void this.order("step", { ticks: number("ticks") }));
-    this.onSubmit("reset_form", () => void this.order("reset", { time: number("time") }));
+    onSubmit("step_form", () => void this.order("step", { ticks: number("ticks") }));
+    onSubmit("reset_form", () => void this.order("reset", { time: number("time") }));
   }
 
   private listenToAircraft(): void {
     element("aircraft_form").addEventListener("input", () => { this.typed = true; });
-    this.onClick("copy", () => {
+    onClick("copy", () => {
       this.typed = false;
       this.showAircraftForm();
     });
-    this.onSubmit("aircraft_form", () => void this.reposition({ lat: number("lat"), lon: number("lon") }, number("alt"), number("heading"))
+    onSubmit("aircraft_form", () => void this.reposition({ lat: number("lat"), lon: number("lon") }, number("alt"), number("heading"))
       .then(({ problem }) => { if (problem === null) this.typed = false; }));
-    this.onSubmit("steer_form", () => this.connection.event(`sp ${element<HTMLSelectElement>("points").value}`));
-    this.onSubmit("nav_form", () => this.connection.event(`nav error ${element<HTMLSelectElement>("navigator").value} ${number("north")} ${number("east")}`));
+    onSubmit("steer_form", () => this.connection.event(`sp ${element<HTMLSelectElement>("points").value}`));
+    onSubmit("nav_form", () => this.connection.event(`nav error ${element<HTMLSelectElement>("navigator").value} ${number("north")} ${number("east")}`));
   }
   // The present values, until the instructor types others.
   private showAircraftForm(): void {
@@ -150,68 +133,14 @@ class InstructorPage {
     else if (aircraft) void this.reposition(to, aircraft.alt_ft, aircraft.heading_deg % 360);
   }
 
-  private listenToWorld(): void {
-    for (const kind of ["rain", "jammers", "movers"] as const)
-      this.onClick(`add_${kind}`, () => {
-        if (this.adding === kind) return this.add(this.map.middle()); // a second press: where the map's middle is
-        this.adding = kind;
-        this.map.placing = true;
-        say("adding", `Click on the map where the ${KINDS[kind]} is to be, or press again for the middle of the map. Escape ends.`);
-      });
-    window.addEventListener("keydown", (event) => {
-      if (event.key === "Escape") this.stopAdding();
-    });
-    this.onClick("reset_world", () => void this.order("reset world"));
-    element("sea").addEventListener("change", () => {
-      const state = element<HTMLSelectElement>("sea").value;
-      void this.order("sea", { state: state === "" ? null : Number(state) });
-    });
-    this.onSubmit("wind_form", () => void this.order("wind", { speed_kt: number("wind"), from: number("wind_from") }));
-    this.onSubmit("thing_form", () => {
-      if (!this.chosen) return;
-      const values = Object.fromEntries(FIELDS[this.chosen.kind].map(([name]) => [name, number(`thing_${name}`)]));
-      void this.order("change", { list: this.chosen.kind, item: this.chosen.id, ...values });
-    });
-  }
-  private stopAdding(): void {
-    this.adding = undefined;
-    this.map.placing = false;
-    say("adding", "");
-  }
-  private add(at: Position): void {
-    if (this.adding) void this.order("add", { list: this.adding, ...at });
-    this.stopAdding();
-  }
-
-  private choose(thing: Thing | undefined): void {
-    this.chosen = thing;
-    this.map.chosen = thing;
-    const form = element<HTMLFormElement>("thing_form");
-    form.hidden = thing === undefined || !(thing.kind in FIELDS);
-    if (form.hidden || !thing || thing.kind === "aircraft") return;
-    const entry = this.state?.world?.[thing.kind].find(({ id }) => id === thing.id) as unknown as Record<string, number> | undefined;
-    const rows = FIELDS[thing.kind].map(([name, text, min, max]) => {
-      const label = document.createElement("label");
-      const field = document.createElement("input");
-      Object.assign(field, { id: `thing_${name}`, type: "number", step: "any", min: String(min), max: String(max), required: true });
-      field.value = String(Math.round((entry?.[name] ?? 0) * 100) / 100);
-      label.append(`${text} `, field);
-      return label;
-    });
-    const submit = document.createElement("button");
-    submit.textContent = `Change ${thing.name}`;
-    form.replaceChildren(...rows, submit);
-    form.scrollIntoView({ block: "nearest" });
-  }
-
   private listenToSet(): void {
     const fidelity = element<HTMLSelectElement>("fidelity");
     fidelity.addEventListener("change", () => void this.order("fidelity", { preset: fidelity.value === this.theatre?.fidelity ? "" : fidelity.value }));
-    this.onClick("record", () => {
+    onClick("record", () => {
       if (this.state?.status?.recorder) this.connection.event("pb 12");
       else void this.order("record");
     });
-    this.onSubmit("note_form", () => {
+    onSubmit("note_form", () => {
       void this.order("note", { text: input("note").value });
       input("note").value = "";
     });
@@ -232,45 +161,20 @@ class InstructorPage {
     if (!element("aircraft_form").contains(document.activeElement)) this.showAircraftForm();
     const errors = state.navigators;
     say("errors", errors ? `MN ${errors.mission.north_ft.toFixed(0)} ft north, ${errors.mission.east_ft.toFixed(0)} ft east · INS ${errors.ins.north_ft.toFixed(0)} ft north, ${errors.ins.east_ft.toFixed(0)} ft east` : "unknown");
-    this.showWorld(state);
+    this.world.show(state);
     this.showSet(state);
     document.body.dataset.state = "shown";
-  }
-
-  private showWorld(state: InstructorState): void {
-    const { world } = state;
-    if (!world) return;
-    const sea = element<HTMLSelectElement>("sea");
-    if (document.activeElement !== sea) sea.value = world.sea_state === null ? "" : String(Math.round(world.sea_state));
-    for (const [id, value] of [["wind", world.wind_kt], ["wind_from", world.wind_from_deg]] as const)
-      if (!element("wind_form").contains(document.activeElement)) input(id).value = String(Math.round(value * 10) / 10);
-    const things = this.map.things();
-    if (this.chosen && !things.some(({ kind, id }) => kind === this.chosen?.kind && id === this.chosen.id)) this.choose(undefined);
-    fill("things", things.map(({ kind, id, name }) => `${kind} ${id} ${name}`).join(), () => things.map((thing) => {
-      const row = document.createElement("li");
-      row.append(button(thing.name, () => {
-        this.choose(thing);
-        this.map.goTo(thing);
-        this.showFollow();
-      }));
-      if (thing.kind !== "aircraft") {
-        const remove = button("Remove", () => void this.order("remove", { list: thing.kind, item: thing.id }));
-        remove.setAttribute("aria-label", `Remove ${thing.name}`);
-        row.append(remove);
-      }
-      return row;
-    }));
   }
 
   private showSet(state: InstructorState): void {
     const { status } = state;
     const { fidelity } = state;
     const configured = this.theatre?.fidelity ?? fidelity.used;
-    const choices = [...new Set([configured, ...Object.keys(PRESETS)])];
+    const choices = [...new Set([configured, ...PRESETS])];
     fill("fidelity", choices.join(), () => choices.map((name) => new Option(name === configured ? `${name} (configured)` : name, name)));
     const dial = element<HTMLSelectElement>("fidelity");
     if (document.activeElement !== dial) dial.value = fidelity.wanted || configured;
-    say("fidelity_error", `in use: ${fidelity.used}. Error: ${PRESETS[fidelity.used] ?? "not measured"}`);
+    say("fidelity_error", `in use: ${fidelity.used}. Error: ${wordsOfPreset(fidelity.used)}`);
     if (!status) return;
     const { reasons } = status.health;
     const [first] = (reasons[0] ?? "").split(";");
@@ -291,6 +195,7 @@ class InstructorPage {
       return row;
     }));
     const { recorder } = status;
+    this.machine.showRecorder(recorder ? (recorder.writing ? "writes" : "stands") : "none");
     say("record", recorder ? (recorder.writing ? "Stop recording" : "Go on recording") : "Record");
     say("recorder", recorder ? recorder.problem ?? `${recorder.writing ? "writes" : "stands"}, ${(recorder.bytes / 1e6).toFixed(1)} MB` : "no recorder runs");
     const { notes } = status;

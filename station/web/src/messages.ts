@@ -17,6 +17,7 @@ export interface Watch {
 export interface State {
   watch: Watch;
   buttons: { key: string; does: string }[]; // of PB 1 to 20
+  recorder: boolean; // one runs
 }
 
 // A change of the picture: a PNG at (x, y) of a frame.
@@ -81,7 +82,8 @@ export interface InstructorState {
 export interface NavigatorError { north_ft: number; east_ft: number }
 export interface SetEntry { session: string; kind: "replay" | "branch" | "recorder"; file: string; at: number; ended: string | null }
 export interface Recording {
-  file: string; begin_s: number | null; end_s: number | null; bytes: number; sweeps: boolean; maps: boolean; can_fly_out: boolean; writing: boolean;
+  file: string; begin_s: number | null; end_s: number | null; bytes: number; sweeps: boolean; maps: boolean; can_fly_out: boolean;
+  writing: boolean; cut_short: boolean; // cut short: nobody writes it, and no recorder closed it
 }
 export interface Answer { answer: number; problem: string | null; session?: string; recordings?: Recording[] }
 export interface Theatre {
@@ -90,4 +92,5 @@ export interface Theatre {
   beacons: { name: string; lat: number; lon: number; code: number }[];
   scenes: { name: string; lat: number; lon: number }[];
   route: [number, number][];
+  keys: { keys: string; does: string }[]; // of the window of radar-display, other than those of the push buttons
 }

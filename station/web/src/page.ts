@@ -26,3 +26,14 @@ export function fill(id: string, mark: string, children: () => Node[]): void {
   list.dataset.mark = mark;
   list.replaceChildren(...children());
 }
+
+export function onClick(id: string, act: () => void): void {
+  element(id).addEventListener("click", act);
+}
+
+export function onSubmit(id: string, act: () => void): void {
+  element<HTMLFormElement>(id).addEventListener("submit", (event) => {
+    event.preventDefault();
+    act();
+  });
+}

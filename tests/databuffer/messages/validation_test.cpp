@@ -9,6 +9,8 @@
 #include <limits>
 #include <string>
 
+#include "databuffer/messages/clock_limits.hpp"
+
 namespace yars::databuffer {
 namespace {
 
@@ -318,7 +320,7 @@ TEST(Validation, ASequencePointNeedsAName) {
 }
 
 TEST(Validation, ClockRangesAreChecked) {
-  expect_range_without_nan(last_valid_clock(), &ClockState::rate, 0.0, 10.0);
+  expect_range_without_nan(last_valid_clock(), &ClockState::rate, 0.0, kMaxClockRate);
   ClockState clock = last_valid_clock();
   clock.running = 2;
   EXPECT_TRUE(validate(clock));

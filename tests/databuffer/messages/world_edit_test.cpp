@@ -119,6 +119,31 @@ TEST(WorldEdit, AFullListRefusesOneMore) {
   EXPECT_TRUE(equal_but_flags(world, full));
 }
 
+TEST(WorldEdit, ARemovedEntryComesBackWithItsIdAndAllItsValues) {
+  WorldState world = a_world();
+  const WorldJammer jammer = world.jammers[0];
+  const WorldMover mover = world.movers[0];
+  EXPECT_FALSE(restore(world, jammer)) << "it is there";
+  ASSERT_TRUE(remove(world, WorldList::jammers, jammer.id));
+  ASSERT_TRUE(remove(world, WorldList::movers, mover.id));
+  ASSERT_TRUE(add(world, default_jammer({0.0, 0.0})));
+  ASSERT_TRUE(restore(world, jammer));
+  ASSERT_TRUE(restore(world, mover));
+  EXPECT_EQ(std::memcmp(&world.jammers[1], &jammer, sizeof jammer), 0);
+  EXPECT_EQ(std::memcmp(&world.movers[0], &mover, sizeof mover), 0);
+  EXPECT_EQ(validate(world), std::nullopt);
+  EXPECT_EQ(world.flags & kWorldConfigured, 0U);
+}
+
+TEST(WorldEdit, AFullListTakesNoRemovedEntryBack) {
+  WorldState world = a_world();
+  const WorldJammer jammer = world.jammers[0];
+  ASSERT_TRUE(remove(world, WorldList::jammers, jammer.id));
+  while (world.jammer_count < kMaxJammers) ASSERT_TRUE(add(world, default_jammer({0.0, 0.0})));
+  EXPECT_FALSE(restore(world, jammer));
+  EXPECT_EQ(world.jammer_count, kMaxJammers);
+}
+
 TEST(WorldEdit, MovesAMoverFromTheGivenTimeOn) {
   WorldState world = a_world();
   ASSERT_TRUE(move(world, WorldList::movers, 1, {36.0, -121.0}, 60 * kSecond_ns));

@@ -184,7 +184,7 @@ TEST(Text, NumberAndUnitEventAndKeyStayTogetherAndNoLineIsOneShortWord) {
       "move the cursor in to 20.0 NM or less, or take window 1.3: acq fwd (PgUp) 2 times",
       "descend 12300 ft or more, or move the cursor out to 6.3 NM or more",
       "by the cursor's range, here 3.3 NM; back to 0.67 NM: acq fwd (PgUp)",
-      "start one: yars record FILE",
+      "start one: Record in the browser, or yars record FILE",
   };
   for (const std::string remedy : remedies) {
     for (float width = 20.0F; width <= 45.0F; width += 0.5F) {

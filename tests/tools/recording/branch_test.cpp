@@ -2,10 +2,13 @@
 #include "tools/recording/branch.hpp"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
+#include "tests/shm/child_process.hpp"
 #include "tests/tools/recording/made_recording.hpp"
 
 namespace yars::tools::recording {
@@ -188,6 +191,22 @@ TEST(RecordingWriter, LocksItsFileWhileItWrites) {
   EXPECT_TRUE(is_being_written(file.path()));
   ASSERT_TRUE(writer->close());
   EXPECT_FALSE(is_being_written(file.path()));
+}
+
+TEST(RecordingWriter, AKilledWriterLeavesNoLockAndAFileThatIsCutShort) {
+  const test::TemporaryFile file;
+  shm::testing::ChildProcess writer([&file] {
+    auto written = RecordingWriter::create(file.path(), {}, Existing::overwritten);
+    if (written && written->append(test::tick_at(1)) && written->flush()) pause();
+    return 1;
+  });
+  ASSERT_TRUE(shm::testing::wait_until(
+      [&file] { return is_being_written(file.path()) && std::filesystem::file_size(file.path()) > 200; }));
+  writer.kill_now();
+  EXPECT_FALSE(is_being_written(file.path()));
+  const auto reader = RecordingReader::open(file.path());
+  ASSERT_TRUE(reader);
+  EXPECT_TRUE(reader->cut_short());
 }
 
 }  // namespace

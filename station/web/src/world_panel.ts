@@ -1,0 +1,120 @@
+// The world on the instructor's page: sea, wind, and the things on the map, which are added, changed, removed and
+// brought back.
+import { Kind, Position, TheatreMap, Thing } from "./map";
+import { Answer, InstructorState } from "./messages";
+import { button, element, fill, onClick, onSubmit, say } from "./page";
+import { UndoLine } from "./undo";
+
+const KINDS: Record<string, string> = { rain: "rain", jammers: "jammer", movers: "mover" };
+
+// Fields of a thing that the page edits: [name in the state and in commands, label, minimum, maximum].
+const FIELDS: Record<string, [string, string, number, number][]> = {
+  rain: [["radius_nm", "Radius [NM]", 0.1, 100], ["rate_mmh", "Rain [mm/h]", 0.1, 300], ["top_ft", "Top [ft]", 500, 60000]],
+  jammers: [["power_w", "Power [W]", 0.001, 1e6]],
+  movers: [["speed_kt", "Speed [kt]", 0, 1000], ["heading_deg", "Heading [deg true]", 0, 360]],
+};
+
+const input = (id: string): HTMLInputElement => element<HTMLInputElement>(id);
+const number = (id: string): number => input(id).valueAsNumber;
+
+export class WorldPanel {
+  private readonly undo = new UndoLine();
+  private state: InstructorState | undefined;
+  private adding: Kind | undefined;
+  private chosen: Thing | undefined;
+
+  // `order` sends a command; `moved`: the map shows another place.
+  constructor(private readonly map: TheatreMap, private readonly order: (name: string, values?: object) => Promise<Answer>,
+    private readonly moved: () => void) {
+    for (const kind of ["rain", "jammers", "movers"] as const) onClick(`add_${kind}`, () => this.beginAdding(kind));
+    window.addEventListener("keydown", (event) => {
+      if (event.key === "Escape") this.stopAdding();
+    });
+    onClick("reset_world", () => void this.reset());
+    element("sea").addEventListener("change", () => {
+      const state = element<HTMLSelectElement>("sea").value;
+      void this.order("sea", { state: state === "" ? null : Number(state) });
+    });
+    onSubmit("wind_form", () => void this.order("wind", { speed_kt: number("wind"), from: number("wind_from") }));
+    onSubmit("thing_form", () => {
+      if (!this.chosen) return;
+      const values = Object.fromEntries(FIELDS[this.chosen.kind].map(([name]) => [name, number(`thing_${name}`)]));
+      void this.order("change", { list: this.chosen.kind, item: this.chosen.id, ...values });
+    });
+  }
+
+  // A second press adds where the middle of the map is.
+  private beginAdding(kind: Kind): void {
+    if (this.adding === kind) return this.add(this.map.middle());
+    this.adding = kind;
+    this.map.placing = true;
+    say("adding", `Click on the map where the ${KINDS[kind]} is to be, or press again for the middle of the map. Escape ends.`);
+  }
+  private stopAdding(): void {
+    this.adding = undefined;
+    this.map.placing = false;
+    say("adding", "");
+  }
+  add(at: Position): void {
+    if (this.adding) void this.order("add", { list: this.adding, ...at });
+    this.stopAdding();
+  }
+
+  private async remove(thing: Thing): Promise<void> {
+    const item = { list: thing.kind, item: thing.id };
+    const { problem } = await this.order("remove", item);
+    if (problem === null) this.undo.offer({ text: `Removed ${thing.name}`, restored: `${thing.name} is back`, undo: () => this.order("restore", item) });
+  }
+  private async reset(): Promise<void> {
+    const { problem } = await this.order("reset world");
+    if (problem === null) this.undo.offer({ text: "Reset the world", restored: "The changed world is back", undo: () => this.order("undo reset") });
+  }
+
+  choose(thing: Thing | undefined): void {
+    this.chosen = thing;
+    this.map.chosen = thing;
+    const form = element<HTMLFormElement>("thing_form");
+    form.hidden = thing === undefined || !(thing.kind in FIELDS);
+    if (form.hidden || !thing || thing.kind === "aircraft") return;
+    const entry = this.state?.world?.[thing.kind].find(({ id }) => id === thing.id) as unknown as Record<string, number> | undefined;
+    const rows = FIELDS[thing.kind].map(([name, text, min, max]) => {
+      const label = document.createElement("label");
+      const field = document.createElement("input");
+      Object.assign(field, { id: `thing_${name}`, type: "number", step: "any", min: String(min), max: String(max), required: true });
+      field.value = String(Math.round((entry?.[name] ?? 0) * 100) / 100);
+      label.append(`${text} `, field);
+      return label;
+    });
+    const submit = document.createElement("button");
+    submit.textContent = `Change ${thing.name}`;
+    form.replaceChildren(...rows, submit);
+    form.scrollIntoView({ block: "nearest" });
+  }
+
+  show(state: InstructorState): void {
+    this.state = state;
+    const { world } = state;
+    if (!world) return;
+    const sea = element<HTMLSelectElement>("sea");
+    if (document.activeElement !== sea) sea.value = world.sea_state === null ? "" : String(Math.round(world.sea_state));
+    for (const [id, value] of [["wind", world.wind_kt], ["wind_from", world.wind_from_deg]] as const)
+      if (!element("wind_form").contains(document.activeElement)) input(id).value = String(Math.round(value * 10) / 10);
+    const things = this.map.things();
+    if (this.chosen && !things.some(({ kind, id }) => kind === this.chosen?.kind && id === this.chosen.id)) this.choose(undefined);
+    fill("things", things.map(({ kind, id, name }) => `${kind} ${id} ${name}`).join(), () => things.map((thing) => this.row(thing)));
+  }
+
+  private row(thing: Thing): HTMLLIElement {
+    const row = document.createElement("li");
+    row.append(button(thing.name, () => {
+      this.choose(thing);
+      this.map.goTo(thing);
+      this.moved();
+    }));
+    if (thing.kind === "aircraft") return row;
+    const remove = button("Remove", () => void this.remove(thing));
+    remove.setAttribute("aria-label", `Remove ${thing.name}`);
+    row.append(remove);
+    return row;
+  }
+}
