@@ -76,7 +76,8 @@ class HistoryExchangeTest : public testing::TwoHosts {
   }
   std::vector<std::uint8_t> video_ = std::vector<std::uint8_t>(512, 100);
   LaneNames lanes_;
-  HistoryExchange exchange_{lanes_};
+  WorldNumbers worlds_;
+  HistoryExchange exchange_{lanes_, worlds_};
 };
 
 TEST_F(HistoryExchangeTest, ASweepWaitsForItsTick) {
@@ -153,7 +154,7 @@ TEST_F(HistoryExchangeTest, RepeatedSamplesAreLeftOutAlsoByANewGateway) {
   EXPECT_EQ(sweeps(), 1u);
   EXPECT_EQ(layout().traffic_latched.next(), 1u);
   Hosts hosts(session_, nullptr, {"alpha", 0, 9009, kSegment, 0, 0});
-  HistoryExchange next(lanes_);
+  HistoryExchange next(lanes_, worlds_);
   Context context{session_, nullptr, hosts, roles_};
   context.now_ns = context_.now_ns;
   next.receive(context, first);
