@@ -16,7 +16,7 @@ using error::fail;
 
 namespace {
 
-constexpr int kAttempts = 200;  // to get the role, 1 ms apart; a change takes much less
+constexpr int kAttempts = 200;            // to get the role, 1 ms apart; a change takes much less
 constexpr int kAttemptsOverHosts = 2500;  // an editor before this one may wait for its answer
 // [ns] Time within which a change may be requested again, on the world that an edit of another host has made.
 constexpr std::int64_t kRetryTime_ns = 1'000'000'000;

@@ -1,10 +1,10 @@
 // Any samples from the network, into a segment with any bytes: the exchanges of a gateway take or refuse each, and
 // publish no record out of range. DDS itself, which reads the packets, is not part of this target.
 // The input consists of two parts. The first two bytes are the length of the first part, the third its mode: bit 0:
-// this host has the state machine; bit 1: lockstep; bit 2: this host has the radar model. The first part consists of pieces of (topic and host, offset in two
-// bytes, length, bytes): a well-formed sample that the bytes overwrite. An even offset makes the sample's hash or
-// number right again. The second part changes the segment (tests/fuzz/overlaid_session.hpp); each beat takes some
-// samples.
+// this host has the state machine; bit 1: lockstep; bit 2: this host has the radar model. The first part consists of
+// pieces of (topic and host, offset in two bytes, length, bytes): a well-formed sample that the bytes overwrite. An
+// even offset makes the sample's hash or number right again. The second part changes the segment
+// (tests/fuzz/overlaid_session.hpp); each beat takes some samples.
 #include <unistd.h>
 
 #include <cmath>
