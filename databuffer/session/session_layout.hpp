@@ -170,6 +170,7 @@ struct alignas(shm::kCacheLine) WorldRequests {
   std::atomic<std::uint64_t> asked;  // number of the last request; written by the holder of the byte instructor
   // Number of the last answered request. Low 8 bits: WorldAnswer. Written by the gateway.
   std::atomic<std::uint64_t> answered;
+  RemoteProgress latched;  // of the ring world_latched, for the host whose records it has
 };
 
 // Slot of a patch map. The writer clears the id, writes, and stores the new id last. A reader copies between two loads

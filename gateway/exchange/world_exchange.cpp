@@ -10,6 +10,7 @@
 #include "databuffer/session/session_world.hpp"
 #include "databuffer/session/validated.hpp"
 #include "gateway/exchange/history_progress.hpp"
+#include "gateway/exchange/progress.hpp"
 #include "lib/log/log.hpp"
 
 namespace yars::gateway {
@@ -179,17 +180,36 @@ void WorldExchange::write_answer(Context& context, const yars_net_WorldSample& s
       requests.answered.store(answer.request << 8 | (answer.answer & 0xFFU), std::memory_order_release);
 }
 
-// A world that is here, because an earlier gateway wrote it, is not written again.
 void WorldExchange::write_latched(Context& context, const yars_net_LatchedWorldSample& sample) {
   auto& ring = context.session.layout().world_latched;
+  auto& progress = context.session.layout().world_requests.latched;
   const std::uint64_t next = ring.next();
+  if (!numbers_->continues(sample.host, sample.segment, next)) resume_latched(context, sample);
   if (numbers_->has(sample.host, sample.segment, sample.ring_number, next)) return;
   WorldState world{};
   copy_record(world, sample.world);
-  WorldState last{};
-  std::uint64_t cursor = std::max<std::uint64_t>(next, 1) - 1;
-  const bool is_here = next > 0 && ring.read(cursor, last).delivered && is_same(last, world);
-  numbers_->add(sample.host, sample.segment, sample.ring_number, is_here ? next - 1 : ring.publish(world));
+  progress.source.store(0);
+  progress.progress.store(progress_of(sample.ring_number + 1, next));
+  progress.source.store(source_id({sample.host, sample.segment}));
+  numbers_->add(sample.host, sample.segment, sample.ring_number, ring.publish(world));
+}
+
+// Where this gateway goes on: after what an earlier one has written here, or after an equal record, which the new host
+// of the radar model has had from the one before.
+void WorldExchange::resume_latched(Context& context, const yars_net_LatchedWorldSample& sample) {
+  const auto& layout = std::as_const(context.session).layout();
+  const auto& progress = layout.world_requests.latched;
+  const std::uint64_t next = layout.world_latched.next();
+  if (next == 0) return;
+  if (progress.source.load() == source_id({sample.host, sample.segment}) && ends_with(progress.progress.load(), next)) {
+    const std::uint64_t theirs = next_of(progress.progress.load(), next, sample.ring_number);
+    if (theirs > 0) return numbers_->add(sample.host, sample.segment, theirs - 1, next - 1);
+  }
+  WorldState world{}, last{};
+  copy_record(world, sample.world);
+  std::uint64_t cursor = next - 1;
+  if (layout.world_latched.read(cursor, last).delivered && is_same(last, world))
+    numbers_->add(sample.host, sample.segment, sample.ring_number, next - 1);
 }
 
 // ---- Requests of the others

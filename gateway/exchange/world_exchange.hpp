@@ -56,6 +56,7 @@ class WorldExchange {
   void write_state(Context& context, const yars_net_WorldSample& sample);
   void write_answer(Context& context, const yars_net_WorldSample& sample) const;
   void write_latched(Context& context, const yars_net_LatchedWorldSample& sample);
+  void resume_latched(Context& context, const yars_net_LatchedWorldSample& sample);
   bool answer(Context& context, const Request& request);
   databuffer::WorldAnswer apply(Context& context, const Request& request, const databuffer::Claim& instructor) const;
 

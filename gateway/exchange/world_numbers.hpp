@@ -15,11 +15,13 @@ namespace yars::gateway {
 
 class WorldNumbers {
  public:
-  // True if `number` of that host's segment is here already, and is the last one of the ring or before it. `next`:
-  // number of records in the ring here. When another process has written there since, nothing counts as here.
+  // True if the last record of the ring here is one that came from that segment. `next`: number of records in the ring.
+  bool continues(std::uint64_t host, std::uint64_t segment, std::uint64_t next) const {
+    return host == host_ && segment == segment_ && !pairs_.empty() && pairs_.back().ours + 1 == next;
+  }
+  // True if, in addition, that segment's record `number` has been written here.
   bool has(std::uint64_t host, std::uint64_t segment, std::uint64_t number, std::uint64_t next) const {
-    return host == host_ && segment == segment_ && !pairs_.empty() && pairs_.back().ours + 1 == next &&
-           number <= pairs_.back().theirs;
+    return continues(host, segment, next) && number <= pairs_.back().theirs;
   }
   // `ours`: number of the record in the ring here.
   void add(std::uint64_t host, std::uint64_t segment, std::uint64_t number, std::uint64_t ours) {

@@ -9,6 +9,7 @@
 #include "databuffer/messages/world_edit.hpp"
 #include "databuffer/messages/world_values.hpp"
 #include "databuffer/session/session_world.hpp"
+#include "gateway/exchange/progress.hpp"
 #include "tests/gateway/exchange/two_hosts.hpp"
 
 namespace yars::gateway {
@@ -88,17 +89,44 @@ TEST_F(WorldOfBeta, HasTheNumberThatItHasInTheRingHere) {
 }
 
 TEST_F(WorldOfBeta, IsWrittenOnceAlsoByANewGateway) {
-  const WorldState world = world_with(3, 5.0);
-  const auto sample = latched(4, world);
+  const WorldState first = world_with(3, 5.0), second = world_with(4, 6.0);
+  const auto sample = latched(4, first);
   receive(sample);
   receive(sample);
-  receive(latched(4, world));
-  EXPECT_EQ(latched_here(), 1U);
+  receive(latched(4, first));
+  receive(latched(5, second));
+  EXPECT_EQ(latched_here(), 2U);
   WorldNumbers numbers;
   WorldExchange next(numbers);
-  next.receive(context_, latched(4, world));
+  next.receive(context_, latched(4, first));  // DDS delivers all that beta has sent
+  EXPECT_EQ(sea_in_effect(), 6.0);
+  next.receive(context_, latched(5, second));
+  EXPECT_EQ(latched_here(), 2U);
+  EXPECT_EQ(numbers.local(host_id("beta"), 6), 2U);
+  next.receive(context_, latched(6, first));
+  EXPECT_EQ(latched_here(), 3U);
+  EXPECT_EQ(numbers.local(host_id("beta"), 7), 3U);
+}
+
+TEST_F(WorldOfBeta, ComesAfterTheDeathOfAGatewayThatWasAboutToWriteIt) {
+  receive(latched(4, world_with(3, 5.0)));
+  auto& progress = session_.layout().world_requests.latched.progress;
+  progress = progress_of(6, 1);  // of record 5, which is not in the ring yet
+  WorldNumbers numbers;
+  WorldExchange next(numbers);
+  next.receive(context_, latched(5, world_with(4, 6.0)));
+  EXPECT_EQ(latched_here(), 2U);
+  EXPECT_EQ(sea_in_effect(), 6.0);
+}
+
+TEST_F(WorldOfBeta, IsWhatGammaHasHadFromBetaAndSaysAgain) {
+  const WorldState world = world_with(3, 5.0);
+  receive(latched(4, world));
+  announce("beta", 0);
+  announce("gamma", bit(Role::radar_model));
+  receive(latched(9, world, "gamma"));
   EXPECT_EQ(latched_here(), 1U);
-  EXPECT_EQ(numbers.local(host_id("beta"), 5), 1U);
+  EXPECT_EQ(numbers_.local(host_id("gamma"), 10), 1U);
 }
 
 TEST_F(WorldOfBeta, ComesAgainWhenAnotherProcessHasWrittenTheRing) {
