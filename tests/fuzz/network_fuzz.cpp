@@ -9,6 +9,8 @@
 
 #include <cmath>
 #include <deque>
+#include <optional>
+#include <utility>
 
 #include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
@@ -170,16 +172,12 @@ class Gateway {
   }
 
  private:
-  struct Holder {
-    databuffer::Session session;
-    std::optional<databuffer::Claim> role;
-  };
   // A local process has the role.
   void hold(Role role, const std::string& name) {
     auto session = databuffer::Session::open(name, databuffer::name_of(role));
     if (!session) return;
-    Holder& holder = holders_.emplace_back(std::move(*session), std::nullopt);
-    if (auto claim = holder.session.claim(role)) holder.role.emplace(std::move(*claim));
+    auto& holder = holders_.emplace_back(std::move(*session), std::nullopt);
+    if (auto claim = holder.first.claim(role)) holder.second.emplace(std::move(*claim));
   }
   template <class Exchange>
   auto to(Exchange& exchange) {
@@ -283,7 +281,7 @@ class Gateway {
   }
 
   databuffer::Session session_;
-  std::deque<Holder> holders_;
+  std::deque<std::pair<databuffer::Session, std::optional<databuffer::Claim>>> holders_;
   Hosts hosts_;
   Roles roles_;
   Context context_;
