@@ -45,7 +45,6 @@ Expected<WorldState> next_world(const Session& session, const WorldChange& chang
   next->edit = before->edit + 1;
   next->last_id = std::max(next->last_id, before->last_id);
   next->tick = 0;
-  next->source_time_ns = monotonic_ns();
   if (const auto refusal = validate(*next))
     return fail("world", "values within their limits", *refusal, "give a value within these limits");
   return next;
@@ -132,7 +131,12 @@ Expected<WorldState> change_world(Session& session, const WorldChange& change) {
   const bool is_elsewhere = session.is_mirrored(Role::radar_model);
   const auto claim = claim_instructor(session, is_elsewhere ? kAttemptsOverHosts : kAttempts);
   if (!claim) return tl::unexpected(claim.error());
-  return is_elsewhere ? request_world(session, change) : replace_world(session, *claim, change);
+  const WorldChange timed = [&change](const WorldState& before) {
+    auto next = change(before);
+    if (next) next->source_time_ns = monotonic_ns();
+    return next;
+  };
+  return is_elsewhere ? request_world(session, timed) : replace_world(session, *claim, timed);
 }
 
 Expected<WorldState> reset_world(Session& session) {

@@ -32,7 +32,8 @@ using WorldChange = std::function<error::Expected<WorldState>(const WorldState&)
 // greater. Waits at most 2.2 s for another host.
 error::Expected<WorldState> change_world(Session& session, const WorldChange& change);
 
-// The same for a caller that holds the role instructor, in a session whose radar-model is on this host. No waiting.
+// The same for a caller that holds the role instructor, in a session whose radar-model is on this host. No waiting. The
+// change gives source_time_ns, which tells an edit from an equal one of another host.
 error::Expected<WorldState> replace_world(Session& session, const Claim& instructor, const WorldChange& change);
 
 // [ns] A request to another host that is older than this has no effect. It may have been under way during a cut.

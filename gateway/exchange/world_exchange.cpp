@@ -30,10 +30,10 @@ bool is_same(const WorldState& first, const WorldState& second) {
   return std::memcmp(&first, &second, sizeof first) == 0;
 }
 
-// True if both are one edit: what is asked for, and what has become of it.
+// True if both are one edit: what is asked for, and what has become of it. An equal edit of another host has another
+// source_time_ns.
 bool is_same_edit(WorldState asked, const WorldState& found) {
   asked.tick = found.tick;
-  asked.source_time_ns = found.source_time_ns;
   return is_same(asked, found);
 }
 
