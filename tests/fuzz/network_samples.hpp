@@ -161,6 +161,7 @@ inline void fill(yars_net_LatchedWorldSample& sample, std::size_t /*host*/) {
 }
 inline void fill(yars_net_WorldRequestSample& sample, std::size_t /*host*/) {
   copy_record(sample.world, good_world(1));
+  sample.world.source_time_ns += 5'000'000'000;  // by the clock that the probes above tell
   sample.owner = host_id("alpha");
   sample.segment = kOtherSegment;
   sample.request = sample.number + 1;
