@@ -131,6 +131,7 @@ std::string containers() {
   parts.add("world", latest_value<shm::LatestValue<WorldState>>("WorldState"));
   parts.add("world_configured", latest_value<shm::LatestValue<WorldState>>("WorldState"));
   parts.add("world_latched", ring<decltype(SessionLayout::world_latched)>("WorldState"));
+  parts.add("world_request", latest_value<shm::LatestValue<WorldState>>("WorldState"));
   parts.add("patches", pool<PatchSlot>("PatchMap", kPatchSlots, offsetof(PatchSlot, map)));
   parts.add("frames", pool<FrameSlot>("GlassFrame", kFrameSlots, offsetof(FrameSlot, frame)));
   return parts.text();
@@ -165,7 +166,9 @@ std::string offsets() {
                     {"network", offsetof(SessionLayout, network)},
                     {"world", offsetof(SessionLayout, world)},
                     {"world_configured", offsetof(SessionLayout, world_configured)},
-                    {"world_latched", offsetof(SessionLayout, world_latched)}});
+                    {"world_latched", offsetof(SessionLayout, world_latched)},
+                    {"world_request", offsetof(SessionLayout, world_request)},
+                    {"world_requests", offsetof(SessionLayout, world_requests)}});
 }
 
 std::string lock_bytes() {

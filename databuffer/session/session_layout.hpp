@@ -154,6 +154,25 @@ struct Network {
   std::array<std::atomic<std::uint64_t>, kHistories> last_remote;
 };
 
+// Answer of radar-model's host to a requested change of the world.
+enum class WorldAnswer : std::uint8_t {
+  none,
+  applied,
+  outdated,   // based on an older edit than the newest one there
+  refused,    // invalid there, or the session there is the replay of a recording
+  late,       // it took longer than 1 s
+  forbidden,  // this host may not write the topic world_requests
+};
+
+// Requests of this host to radar-model's host, while that is another one. The requested world lies in world_request.
+struct alignas(shm::kCacheLine) WorldRequests {
+  static constexpr std::uint64_t kLastNumber = ~std::uint64_t{0} >> 8;
+  std::atomic<std::uint64_t> asked;  // number of the last request; written by the holder of the byte instructor
+  // Number of the last answered request. Low 8 bits: WorldAnswer. Written by the gateway.
+  std::atomic<std::uint64_t> answered;
+  RemoteProgress latched;  // of the ring world_latched, for the host whose records it has
+};
+
 // Slot of a patch map. The writer clears the id, writes, and stores the new id last. A reader copies between two loads
 // of the same id. progress_permille of a written slot is always 1000.
 struct PatchSlot {
@@ -172,12 +191,13 @@ struct FrameSlot {
 };
 
 // [bytes] Part of the reserve that containers occupy: Counters with padding to a cache line, Caption, PilotAdvice,
-// SkippedTicks, NetworkStatus, Network with padding to a cache line, WorldState. The assertions below SessionLayout
-// hold the value.
+// SkippedTicks, NetworkStatus, Network with padding to a cache line, WorldState, WorldRequests. The assertions below
+// SessionLayout hold the value.
 inline constexpr std::size_t kUsedSpareBytes =
     688 + sizeof(shm::LatestValue<Caption>) + sizeof(shm::LatestValue<PilotAdvice>) +
     kLockstepRoles * sizeof(SkippedTicks) + sizeof(shm::LatestValue<NetworkStatus>) + sizeof(Network) +
-    2 * sizeof(shm::LatestValue<WorldState>) + sizeof(shm::BroadcastRing<WorldState, kLatchedWorlds>);
+    3 * sizeof(shm::LatestValue<WorldState>) + sizeof(shm::BroadcastRing<WorldState, kLatchedWorlds>) +
+    sizeof(WorldRequests);
 
 // NOLINTNEXTLINE(clang-analyzer-optin.performance.Padding): the order is the layout, and cache lines need the padding
 struct SessionLayout {
@@ -208,9 +228,11 @@ struct SessionLayout {
   std::array<SkippedTicks, kLockstepRoles> skipped_ticks;  // in the order of kLockstepRoleNames
   shm::LatestValue<NetworkStatus> network_status;          // written by the gateway
   Network network;
-  shm::LatestValue<WorldState> world;                            // wanted; written by Session::change_world()
+  shm::LatestValue<WorldState> world;                            // wanted; written by change_world(), or the gateway
   shm::LatestValue<WorldState> world_configured;                 // of radar-model's configuration
   shm::BroadcastRing<WorldState, kLatchedWorlds> world_latched;  // as latched by radar-model; the last one is in effect
+  shm::LatestValue<WorldState> world_request;                    // to radar-model's host, while that is another one
+  WorldRequests world_requests;
   std::array<std::atomic<std::uint64_t>, (kSpareBytes - kUsedSpareBytes) / 8> spare;
 };
 // New containers leave the end of the reserve, and thus the size of the layout, where it was.

@@ -98,6 +98,8 @@ void GatewayShell::receive() {
   states_.receive(context_);
   states_.keep_lane(context_);
   events_.receive(context_);
+  world_.receive(context_);
+  world_.publish(context_);
   history_.receive(context_);
   history_.publish(context_);
   maps_.receive(context_);
@@ -110,6 +112,7 @@ void GatewayShell::receive() {
 void GatewayShell::send() {
   states_.send(context_);
   events_.send(context_);
+  world_.send(context_);
   history_.send(context_);
   maps_.send(context_);
   if (context_.lockstep) lockstep_.send(context_);

@@ -23,6 +23,7 @@
 #include "gateway/exchange/map_exchange.hpp"
 #include "gateway/exchange/roles.hpp"
 #include "gateway/exchange/state_exchange.hpp"
+#include "gateway/exchange/world_exchange.hpp"
 
 namespace yars::gateway {
 
@@ -59,7 +60,9 @@ class GatewayShell {
   ClockExchange clock_;
   StateExchange states_{lanes_};
   EventExchange events_{lanes_};
-  HistoryExchange history_{lanes_};
+  WorldNumbers world_numbers_;
+  WorldExchange world_{world_numbers_};
+  HistoryExchange history_{lanes_, world_numbers_};
   MapExchange maps_;
   LockstepExchange lockstep_;
   std::vector<std::string> asked_;

@@ -21,8 +21,7 @@ namespace yars::gateway::dds {
 
 namespace {
 
-constexpr std::uint32_t kMaxLanes = 16;         // ownship lanes with writers of their own
-constexpr std::size_t kMaxSample_bytes = 8192;  // the greatest structure of a topic
+constexpr std::uint32_t kMaxLanes = 16;  // ownship lanes with writers of their own
 // Samples, or ends of instances, that one call of take() passes on: 30 ms. Without a limit the end of a writer of
 // 70,000 instances kept a gateway from its announcements for longer than the lease of 0.5 s.
 constexpr int kMaxTaken = 4096;

@@ -26,6 +26,8 @@ struct TopicCounts {
   std::uint64_t sent = 0, sent_bytes = 0, received = 0, received_bytes = 0, failed = 0, posed = 0;
 };
 
+inline constexpr std::size_t kMaxSample_bytes = 32768;  // of the structure of a topic
+
 class Link {
  public:
   // `session`: name of the session, which is the DDS partition.
@@ -60,6 +62,7 @@ class Link {
   template <class Sample, class Take>
   void take(const Take& take) {
     static_assert(!std::is_same_v<Sample, yars_net_HostSample>, "hosts also end; see take_hosts()");
+    static_assert(sizeof(Sample) <= kMaxSample_bytes);
     begin_take(kTopicOf<Sample>);
     while (const void* sample = take_next(kTopicOf<Sample>)) {
       const Sample& taken = *static_cast<const Sample*>(sample);

@@ -43,6 +43,9 @@ constexpr std::array<TopicSettings, kTopicCount> kSettings{{
     topic("captions", &yars_net_CaptionSample_desc, true, true, 1, false, kOne),
     topic("recorder_status", &yars_net_RecorderStatusSample_desc, true, true, 1, false, kOne),
     topic("lockstep", &yars_net_LockstepSample_desc, true, true, 1, false, kPairs),
+    topic("world", &yars_net_WorldSample_desc, true, true, 1, false, kOne),
+    topic("world_latched", &yars_net_LatchedWorldSample_desc, true, true, 16, false, kOne),
+    topic("world_requests", &yars_net_WorldRequestSample_desc, true, true, 1, false, kOne),
 }};
 
 }  // namespace

@@ -34,9 +34,12 @@ enum class Topic : std::uint8_t {
   patch_rows,
   captions,
   recorder_status,
-  lockstep
+  lockstep,
+  world,
+  world_latched,
+  world_requests
 };
-inline constexpr std::size_t kTopicCount = 21;
+inline constexpr std::size_t kTopicCount = 24;
 static_assert(kTopicCount == yars_net_kTopics);
 
 constexpr std::size_t index_of(Topic topic) {
@@ -105,6 +108,15 @@ constexpr Topic topic_of(const yars_net_RecorderStatusSample*) {
 }
 constexpr Topic topic_of(const yars_net_LockstepSample*) {
   return Topic::lockstep;
+}
+constexpr Topic topic_of(const yars_net_WorldSample*) {
+  return Topic::world;
+}
+constexpr Topic topic_of(const yars_net_LatchedWorldSample*) {
+  return Topic::world_latched;
+}
+constexpr Topic topic_of(const yars_net_WorldRequestSample*) {
+  return Topic::world_requests;
 }
 
 template <class Sample>

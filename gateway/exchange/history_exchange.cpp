@@ -80,14 +80,13 @@ void HistoryExchange::send(Context& context) {
 // age can be judged. At the end of a lockstep run they are taken also without a holder: a last done tick waits for
 // them.
 void HistoryExchange::receive(Context& context) {
-  const auto holder = context.roles.holder(Role::radar_model);
-  const bool is_known =
-      holder && (*holder == context.hosts.self().id || context.roles.source(Role::radar_model).has_value());
+  const bool is_known = knows_model(context);
   if (!is_known && !is_last_tick(context)) return;
   const auto newest = [&context] {
     const auto status = databuffer::read_valid(std::as_const(context.session).layout().model_status);
     return status ? std::optional(status->tick) : std::nullopt;
   };
+  const auto holder = context.roles.holder(Role::radar_model);
   if (is_known && !may_begin(context, dds::Topic::model_ticks, *holder, newest)) return;
   const auto take = [&](const auto& sample) { receive(context, sample); };
   context.link->take<yars_net_LatchedTrafficSample>(take);
@@ -189,6 +188,7 @@ void HistoryExchange::publish(Context& context) {
     ticks_.clear();
     sweeps_.clear();
     last_tick_ = {};
+    missing_world_ = 0;
     tick_order_ = sweep_order_ = {};
     return;
   }
@@ -197,9 +197,12 @@ void HistoryExchange::publish(Context& context) {
     auto& waiting = ticks_.front();
     databuffer::ModelTick& tick = waiting.record;
     const auto traffic = local_traffic(tick.traffic);
-    if (!traffic && !is_late(waiting.arrived_ns)) break;
+    const auto world = worlds_->local(waiting.host, tick.world);
+    const bool waits = !traffic || (!world && tick.world != missing_world_);
+    if (waits && !is_late(waiting.arrived_ns)) break;
+    if (!world) missing_world_ = tick.world;
     tick.traffic = traffic.value_or(layout.traffic_latched.next());
-    tick.world = 0;  // latched worlds are not copied; the number would name a record of this host's ring
+    tick.world = world.value_or(layout.world_latched.next());
     keep_progress<yars_net_ModelTickSample>(context, waiting, layout.model_ticks.next());
     layout.model_ticks.publish(tick);
     last_tick_ = {tick.epoch, tick.tick};

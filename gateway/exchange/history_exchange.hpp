@@ -1,9 +1,8 @@
 // Histories of the radar model on every host: latched traffic, ticks and sweeps, in the order in which a replay needs
-// them.
+// them. WorldExchange has the latched worlds.
 // Inputs: rings of the local segment while the radar model runs here; samples of the host where it runs.
-// Outputs: a sample for each record; the records in the local rings: traffic before the tick that names it, a tick
-// before
-//   its sweep.
+// Outputs: a sample for each record; the records in the local rings: traffic and world before the tick that names them,
+//   a tick before its sweep.
 // Errors: an invalid record, a sweep whose hash is wrong, a sim time that is not that of the tick, and a tick that goes
 //   back are refused, counted and noted. Records of an earlier epoch are left out. Lost samples are counted by their
 //   numbers.
@@ -19,12 +18,13 @@
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/history_progress.hpp"
 #include "gateway/exchange/lane_names.hpp"
+#include "gateway/exchange/world_numbers.hpp"
 
 namespace yars::gateway {
 
 class HistoryExchange {
  public:
-  explicit HistoryExchange(LaneNames& lanes) : lanes_(&lanes) {}
+  HistoryExchange(LaneNames& lanes, const WorldNumbers& worlds) : lanes_(&lanes), worlds_(&worlds) {}
   void send(Context& context);
   void receive(Context& context);
   // Publishes what has arrived and is in order.
@@ -60,6 +60,9 @@ class HistoryExchange {
   std::optional<std::uint64_t> local_traffic(std::uint64_t theirs) const;
 
   LaneNames* lanes_;
+  const WorldNumbers* worlds_;
+  // ModelTick::world of the host with the role whose record did not come in time. Later ticks do not wait for it.
+  std::uint64_t missing_world_ = 0;
   // Next record of each local ring to send; nullopt: this gateway has not sent any.
   std::optional<std::uint64_t> traffic_cursor_, tick_cursor_, sweep_cursor_;
   std::deque<Waiting<databuffer::ModelTick>> ticks_;

@@ -94,6 +94,14 @@ class TickOrder {
   int run_ = 0;
 };
 
+// True once it is known which host has the radar model and, if that is another one, this gateway mirrors it. Samples of
+// a history wait in DDS until then.
+inline bool knows_model(const Context& context) {
+  const auto holder = context.roles.holder(databuffer::Role::radar_model);
+  return holder &&
+         (*holder == context.hosts.self().id || context.roles.source(databuffer::Role::radar_model).has_value());
+}
+
 // True in the last tick of a lockstep run. A role whose process has ended by then has been heard by all roles.
 inline bool is_last_tick(const Context& context) {
   const auto& lockstep = std::as_const(context.session).layout().lockstep;

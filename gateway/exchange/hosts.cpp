@@ -404,7 +404,7 @@ void Hosts::refuse(std::uint64_t id, dds::Topic topic, const std::string& reason
 void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) const {
   // Losses count where each sample matters. In the other topics a newer state replaces an older one.
   constexpr std::array kHistories{dds::Topic::applied_events, dds::Topic::model_ticks, dds::Topic::sweeps,
-                                  dds::Topic::traffic_latched};
+                                  dds::Topic::traffic_latched, dds::Topic::world_latched};
   auto& own = status.hosts[0];
   text::put_text(own.name, identity_.name);
   text::put_text(own.version, YARS_VERSION);

@@ -11,11 +11,11 @@
 namespace yars::radar {
 
 // Topics, in the order of gateway/yars_network.idl. A topic in DDS is `yars/` and this name.
-inline constexpr std::array<std::string_view, 21> kTopicNames{
-    "hosts",          "probes",          "clock",       "clock_requests",  "ownship",    "input_events",
-    "event_receipts", "applied_events",  "radar_state", "outputs",         "advice",     "model_status",
-    "model_ticks",    "sweeps",          "traffic",     "traffic_latched", "patch_maps", "patch_rows",
-    "captions",       "recorder_status", "lockstep"};
+inline constexpr std::array<std::string_view, 24> kTopicNames{
+    "hosts",          "probes",          "clock",       "clock_requests",  "ownship",       "input_events",
+    "event_receipts", "applied_events",  "radar_state", "outputs",         "advice",        "model_status",
+    "model_ticks",    "sweeps",          "traffic",     "traffic_latched", "patch_maps",    "patch_rows",
+    "captions",       "recorder_status", "lockstep",    "world",           "world_latched", "world_requests"};
 
 inline constexpr std::size_t kMaxHostName = 31;   // [bytes] maximum length of NetworkSettings::name
 inline constexpr std::size_t kMaxInterfaces = 8;  // maximum number of network interfaces

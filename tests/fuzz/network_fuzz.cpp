@@ -1,13 +1,16 @@
 // Any samples from the network, into a segment with any bytes: the exchanges of a gateway take or refuse each, and
 // publish no record out of range. DDS itself, which reads the packets, is not part of this target.
 // The input consists of two parts. The first two bytes are the length of the first part, the third its mode: bit 0:
-// this host has the state machine; bit 1: lockstep. The first part consists of pieces of (topic and host, offset in two
-// bytes, length, bytes): a well-formed sample that the bytes overwrite. An even offset makes the sample's hash or
-// number right again. The second part changes the segment (tests/fuzz/overlaid_session.hpp); each beat takes some
-// samples.
+// this host has the state machine; bit 1: lockstep; bit 2: this host has the radar model. The first part consists of
+// pieces of (topic and host, offset in two bytes, length, bytes): a well-formed sample that the bytes overwrite. An
+// even offset makes the sample's hash or number right again. The second part changes the segment
+// (tests/fuzz/overlaid_session.hpp); each beat takes some samples.
 #include <unistd.h>
 
 #include <cmath>
+#include <deque>
+#include <optional>
+#include <utility>
 
 #include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
@@ -17,6 +20,7 @@
 #include "gateway/exchange/lockstep_exchange.hpp"
 #include "gateway/exchange/map_exchange.hpp"
 #include "gateway/exchange/state_exchange.hpp"
+#include "gateway/exchange/world_exchange.hpp"
 #include "lib/error/error.hpp"
 #include "lib/log/log.hpp"
 #include "tests/fuzz/network_samples.hpp"
@@ -59,6 +63,8 @@ class Published {
     slot(layout_->recorder_status, databuffer::RecorderStatus{});
     for (const auto& lane : layout_->ownship) slot(lane, databuffer::Ownship{});
     for (const auto& lane : layout_->nav) slot(lane, databuffer::Nav{});
+    slot(layout_->world, databuffer::WorldState{});
+    slot(layout_->world_configured, databuffer::WorldState{});
     const auto ring = [&](const auto& from, auto record, const auto& validate) {
       for (std::uint64_t cursor = before_[index]; cursor != after[index];) {
         const std::uint64_t number = cursor;
@@ -76,12 +82,13 @@ class Published {
     ring(layout_->sweeps, databuffer::Sweep{}, timed);
     ring(layout_->traffic_latched, databuffer::Traffic{}, any);
     ring(layout_->applied_events, databuffer::AppliedEvent{}, any);
+    ring(layout_->world_latched, databuffer::WorldState{}, any);
     check_lanes();
     check_maps();
   }
 
  private:
-  static constexpr std::size_t kContainers = 7 + 2 * databuffer::kOwnshipLanes + 4;
+  static constexpr std::size_t kContainers = 7 + 2 * databuffer::kOwnshipLanes + 2 + 5;
   std::array<std::uint64_t, kContainers> numbers() const {
     std::array<std::uint64_t, kContainers> all{layout_->radar_state.version(),    layout_->outputs.version(),
                                                layout_->advice.version(),         layout_->model_status.version(),
@@ -90,8 +97,11 @@ class Published {
     std::size_t index = 7;
     for (const auto& lane : layout_->ownship) all[index++] = lane.version();
     for (const auto& lane : layout_->nav) all[index++] = lane.version();
-    for (const std::uint64_t next : {layout_->model_ticks.next(), layout_->sweeps.next(),
-                                     layout_->traffic_latched.next(), layout_->applied_events.next()})
+    all[index++] = layout_->world.version();
+    all[index++] = layout_->world_configured.version();
+    for (const std::uint64_t next :
+         {layout_->model_ticks.next(), layout_->sweeps.next(), layout_->traffic_latched.next(),
+          layout_->applied_events.next(), layout_->world_latched.next()})
       all[index++] = next;
     return all;
   }
@@ -138,10 +148,11 @@ class Gateway {
         context_{session_, nullptr, hosts_, roles_} {
     context_.now_ns = databuffer::monotonic_ns();
     context_.lockstep = (mode & 2U) != 0;
-    if ((mode & 1U) == 0) return;
-    if (auto machine = databuffer::Session::open(name, "state-machine")) machine_.emplace(std::move(*machine));
-    if (!machine_) return;
-    if (auto claim = machine_->claim(Role::state_machine)) machine_role_.emplace(std::move(*claim));
+    if ((mode & 1U) != 0) hold(Role::state_machine, name);
+    if ((mode & 4U) == 0) return;
+    hold(Role::radar_model, name);
+    session_.layout().world_configured.publish(fuzz::good_world(0));
+    session_.layout().world_latched.publish(fuzz::good_world(0));
   }
 
   void beat(std::span<const std::uint8_t>& input) {
@@ -161,6 +172,13 @@ class Gateway {
   }
 
  private:
+  // A local process has the role.
+  void hold(Role role, const std::string& name) {
+    auto session = databuffer::Session::open(name, databuffer::name_of(role));
+    if (!session) return;
+    auto& holder = holders_.emplace_back(std::move(*session), std::nullopt);
+    if (auto claim = holder.first.claim(role)) holder.second.emplace(std::move(*claim));
+  }
   template <class Exchange>
   auto to(Exchange& exchange) {
     return [this, &exchange](const auto& sample) { exchange.receive(context_, sample); };
@@ -234,6 +252,12 @@ class Gateway {
         return take<yars_net_RecorderStatusSample>(host, offset, bytes, to(states_));
       case dds::Topic::lockstep:
         return take<yars_net_LockstepSample>(host, offset, bytes, to(lockstep_));
+      case dds::Topic::world:
+        return take<yars_net_WorldSample>(host, offset, bytes, to(world_));
+      case dds::Topic::world_latched:
+        return take<yars_net_LatchedWorldSample>(host, offset, bytes, to(world_));
+      case dds::Topic::world_requests:
+        return take<yars_net_WorldRequestSample>(host, offset, bytes, to(world_));
     }
   }
   // As GatewayShell::pass(), without the link.
@@ -247,16 +271,17 @@ class Gateway {
     clock_.exchange(context_);
     lockstep_.begin_pass(context_);
     states_.keep_lane(context_);
+    world_.publish(context_);
     history_.publish(context_);
     maps_.publish(context_);
     lockstep_.apply(context_, history_.is_empty());
     events_.send(context_);
+    world_.send(context_);
     lockstep_.send(context_);
   }
 
   databuffer::Session session_;
-  std::optional<databuffer::Session> machine_;
-  std::optional<databuffer::Claim> machine_role_;
+  std::deque<std::pair<databuffer::Session, std::optional<databuffer::Claim>>> holders_;
   Hosts hosts_;
   Roles roles_;
   Context context_;
@@ -264,7 +289,9 @@ class Gateway {
   ClockExchange clock_;
   StateExchange states_{lanes_};
   EventExchange events_{lanes_};
-  HistoryExchange history_{lanes_};
+  WorldNumbers world_numbers_;
+  WorldExchange world_{world_numbers_};
+  HistoryExchange history_{lanes_, world_numbers_};
   MapExchange maps_{500};
   LockstepExchange lockstep_;
   std::array<std::array<std::uint64_t, dds::kTopicCount>, kHostNames.size()> numbers_{};

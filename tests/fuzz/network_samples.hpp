@@ -142,6 +142,30 @@ inline void fill(yars_net_PatchRowSample& sample, std::size_t /*host*/) {
 inline void fill(yars_net_CaptionSample& sample, std::size_t /*host*/) {
   sample.caption.step = sample.caption.steps = 1;
 }
+inline databuffer::WorldState good_world(std::uint64_t edit) {
+  databuffer::WorldState world{};
+  world.edit = edit;
+  world.source_time_ns = databuffer::monotonic_ns();
+  return world;
+}
+inline void fill(yars_net_WorldSample& sample, std::size_t /*host*/) {
+  copy_record(sample.newest, good_world(sample.number));
+  copy_record(sample.configured, good_world(0));
+  sample.has_configured = 1;
+  sample.answers[0] = {host_id("alpha"), kSegment, 1, 1, 0};
+}
+inline void fill(yars_net_LatchedWorldSample& sample, std::size_t /*host*/) {
+  copy_record(sample.world, good_world(sample.number));
+  sample.segment = kOtherSegment;
+  sample.ring_number = sample.number;
+}
+inline void fill(yars_net_WorldRequestSample& sample, std::size_t /*host*/) {
+  copy_record(sample.world, good_world(1));
+  sample.world.source_time_ns += 5'000'000'000;  // by the clock that the probes above tell
+  sample.owner = host_id("alpha");
+  sample.segment = kOtherSegment;
+  sample.request = sample.number + 1;
+}
 
 // Makes the numbers right that a random change makes wrong.
 template <class Sample>

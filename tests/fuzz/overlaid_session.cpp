@@ -158,7 +158,10 @@ std::vector<OverlaidSession::Part> OverlaidSession::parts() {
   add(whole.network_status);
   add(whole.network);
   add(whole.world);
+  add(whole.world_configured);
   add(whole.world_latched);
+  add(whole.world_request);
+  add(whole.world_requests);
   return parts;
 }
 

@@ -204,9 +204,10 @@ def a_member_that_may_only_read_holds_no_role_and_poses_as_nobody(programs, buil
         written = impostor.text().split()
         counts = dict(zip(written[::2], map(int, written[1::2])))
         assert min(counts["claims"], counts["events"], counts["answers"], counts["announcements"]) > 50, counts
-        assert counts["refused"] > 50 and "requests" not in counts, counts
+        assert counts["refused"] > 50 and "requests" not in counts and "worlds" not in counts, counts
         after = spread.wait_for(lambda seen: runs(seen) and all(seen[host]["sweeps"] > before[host]["sweeps"] + 50 for host in hosts),
                                 "sweeps on a to c", hosts=hosts)
+        assert all(after[host]["world"] == before[host]["world"] for host in hosts), (before, after)
         assert all(abs(after["a"]["network"]["hosts"][host]["error_ns"]) < 10**9 for host in hosts), after
         assert count_lines(spread.gateways["a"], "expected samples of the host that the writer's certificate names") > 0, spread.logs()
         assert count_lines(spread.gateways["a"], "host d claims roles or the clock, and may not write their topics") == 1, spread.logs()

@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""One session over four hosts in real time: a bad line, a partition, hosts that die, the clock, maps, ships.
+"""One session over four hosts in real time: a bad line, a partition, hosts that die, the clock, maps, ships,
+the world.
 
 usage: network_test.py BIN [TEST...]       BIN: folder of the programs; ends with 77 and a word where there is no lab
 The tests are functions with one set after another; each leaves the set whole. No time is asserted but the limits of waiting.
 """
+import json
 import signal
 import sys
+import threading
 import time
 
 sys.dont_write_bytecode = True
@@ -109,9 +112,7 @@ def a_bad_line_loses_no_sweep_and_no_event(flight):
     spread = flight.spread
     spread.lab.set_line(loss=1, delay=20, jitter=5, duplicate=1, reorder=5)
     before = flight.await_whole()
-    recording = spread.lab.folder / "line.yars"
-    recorder = spread.lab.start("d", str(spread.programs / "yars"), ["record", "--session", spread.session, recording])
-    recorder.wait_for(" ", WITHIN_S)  # its first line
+    recorder, recording = record(spread, "d", "line.yars")
     numbers = []
     begin = time.monotonic()
     while time.monotonic() - begin < 10.0:
@@ -129,6 +130,82 @@ def a_bad_line_loses_no_sweep_and_no_event(flight):
     spread.lab.set_line()
     replayed = spread.replayed("d", recording)
     assert replayed["different"] == 0 and replayed["ticks_lost"] == 0 and replayed["equal"] > 100, replayed
+
+
+def an_instructor_of_any_host_changes_the_world(flight):
+    """Recorded on two hosts, which both replay to the same sweeps."""
+    spread = flight.spread
+    model = flight.host_of("model", flight.await_whole())
+    recorders = {host: record(spread, host, f"world_{host}.yars") for host in ("d", model)}
+    rain = len(spread.ask("d", "state")["world"]["rain"])
+    add_rain(spread, "d", 1)
+    in_effect_everywhere(flight, rain + 1)
+    several = [threading.Thread(target=add_rain, args=(spread, host, 4)) for host in ("a", "d", model)]
+    for one in several:
+        one.start()
+    for one in several:
+        one.join()
+    in_effect_everywhere(flight, rain + 13)  # none is lost, though each host has edited the same list
+    spread.yars("a", "sim", "freeze")
+    spread.wait_for(lambda seen: not any(one["running"] for one in seen.values()), "a frozen clock")
+    for count, host in ((14, "a"), (15, "d")):
+        add_rain(spread, host, 1)
+        spread.wait_for(lambda seen: all(len(one["world_newest"]["rain"]) == rain + count for one in seen.values()), "the newest world")
+    assert all(len(one["world"]["rain"]) == rain + 13 for one in spread.states().values()), spread.states()
+    spread.yars("a", "sim", "run")
+    in_effect_everywhere(flight, rain + 15)
+    sweeps = spread.states()
+    spread.wait_for(lambda seen: all(seen[host]["sweeps"] > sweeps[host]["sweeps"] + 50 for host in LAYOUT), "sweeps in the new world")
+    for host, (recorder, recording) in recorders.items():
+        recorder.signal(signal.SIGINT)
+        assert recorder.wait(WITHIN_S) == 0, recorder.text()
+        replayed = spread.replayed(host, recording)
+        assert replayed["different"] == 0 and replayed["ticks_lost"] == 0 and replayed["equal"] > 100, (host, replayed)
+        items = spread.lab.run(host, str(spread.programs / "yars"), ["replay", "--print", recording], within_s=1800)
+        worlds = [json.loads(line)["world"]["edit"] for line in items.splitlines() if '"world": {' in line or '"world":{' in line]
+        assert len(worlds) >= 4 and worlds == sorted(set(worlds)), (host, worlds)
+
+
+def the_world_outlasts_hosts_and_is_seen_by_those_that_join(flight):
+    spread = flight.spread
+    states = flight.await_whole()
+    model = flight.host_of("model", states)
+    add_rain(spread, "d", 1)
+    world = in_effect_everywhere(flight, len(states["d"]["world"]["rain"]) + 1)["d"]["world"]
+    joins = next(host for host in ("d", "a") if states[host]["machine"] != "here" and states[host]["model"] != "here")
+    for killed in (joins, model):
+        flight.campaign.excuse(killed)
+        spread.lab.kill_host(killed)
+        others = [host for host in LAYOUT if host != killed]
+        spread.wait_for(lambda seen: runs(seen) and all(one["world"] == world == one["world_newest"] for one in seen.values()),
+                        "the same world", hosts=others)
+        flight.campaign.lives[killed] += 1
+        spread.start_host(killed)
+        states = spread.wait_for(lambda seen: runs(seen) and all(one.get("world") == world == one["world_newest"] for one in seen.values()),
+                                 "the same world on the host that has joined")
+        flight.campaign.machine = flight.host_of("machine", states)
+    spread.yars(joins, "world", "reset")
+    spread.wait_for(lambda seen: all(one["world"]["configured"] and one["world"]["edit"] == world["edit"] + 1 for one in seen.values()),
+                    "the configuration's world")
+
+
+def add_rain(spread, host, count):
+    for number in range(count):
+        added = json.loads(spread.yars(host, "world", "rain", "add", str(37.4 + 0.02 * number), "-122.8", "--rate", "40", "--json"))
+        assert added["rain"], added
+
+
+def in_effect_everywhere(flight, rain):
+    return flight.spread.wait_for(lambda seen: all(len(one["world"]["rain"]) == rain and one["world"] == one["world_newest"] and
+                                                   one["world"] == seen["d"]["world"] for one in seen.values()), f"{rain} showers")
+
+
+def record(spread, host, name):
+    """A recorder that writes, and its file."""
+    recording = spread.lab.folder / name
+    recorder = spread.lab.start(host, str(spread.programs / "yars"), ["record", "--session", spread.session, recording])
+    recorder.wait_for(" ", WITHIN_S)  # its first line
+    return recorder, recording
 
 
 def the_clock_obeys_any_host(flight):
@@ -305,7 +382,8 @@ def nothing_is_torn_or_out_of_range(flight):
 
 
 TESTS = (a_map_that_is_commanded_appears_on_all_hosts, ships_of_one_host_are_latched_by_the_model_of_another,
-         a_bad_line_loses_no_sweep_and_no_event, the_clock_obeys_any_host, nothing_is_torn_or_out_of_range,
+         a_bad_line_loses_no_sweep_and_no_event, an_instructor_of_any_host_changes_the_world,
+         the_world_outlasts_hosts_and_is_seen_by_those_that_join, the_clock_obeys_any_host, nothing_is_torn_or_out_of_range,
          a_host_without_roles_is_cut_off_and_nobody_notices, both_parts_of_a_partition_go_on_and_the_larger_one_stays,
          of_two_equal_parts_the_first_name_stays, a_standby_goes_on_where_the_killed_host_ended, nothing_is_torn_or_out_of_range)
 

@@ -20,6 +20,7 @@
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
+#include "databuffer/session/session_world.hpp"
 #include "databuffer/session/validated.hpp"
 #include "tests/endtoend/fault_injection/watch.hpp"
 
@@ -74,6 +75,8 @@ class Observer {
     if (const auto outputs = databuffer::read_valid(layout().outputs)) result["machine_tick"] = outputs->tick;
     if (const auto traffic = databuffer::read_valid(layout().traffic)) result["ships"] = traffic->count;
     result["ships_latched"] = layout().traffic_latched.next();
+    if (const auto world = databuffer::world_in_effect(layout())) result["world"] = describe(*world);
+    if (const auto world = databuffer::newest_world(layout())) result["world_newest"] = describe(*world);
     if (const auto network = databuffer::read_valid(layout().network_status)) result["network"] = describe(*network);
     return result;
   }
@@ -104,6 +107,12 @@ class Observer {
             {"hosts", hosts},
             {"takeovers", network.takeovers},
             {"conflicts", network.conflicts}};
+  }
+
+  static json describe(const databuffer::WorldState& world) {
+    json rain = json::array();
+    for (std::uint32_t i = 0; i < world.rain_count; ++i) rain.push_back(world.rain[i].id);
+    return {{"edit", world.edit}, {"rain", rain}, {"configured", (world.flags & databuffer::kWorldConfigured) != 0U}};
   }
 
   // The TDC's deflection says nothing; the number is what the driver looks for.

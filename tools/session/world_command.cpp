@@ -131,10 +131,10 @@ Session open_world_session(const CommonOptions& common) {
   return std::move(*session);
 }
 
-// radar-model latches a change within a tick if the clock runs.
+// radar-model latches a change within a tick if the clock runs. From another host that takes a transmission more.
 WorldState await_effect(const Session& session, const WorldState& world) {
-  constexpr int kAttempts = 40;
-  for (int attempt = 0; attempt < kAttempts && !is_in_effect(session, world); ++attempt)
+  const int attempts = session.is_mirrored(databuffer::Role::radar_model) ? 200 : 40;
+  for (int attempt = 0; attempt < attempts && !is_in_effect(session, world); ++attempt)
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   return is_in_effect(session, world) ? databuffer::world_in_effect(session.layout()).value_or(world) : world;
 }

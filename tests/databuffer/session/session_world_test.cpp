@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -108,12 +110,87 @@ TEST_F(SessionWorldTest, InTheSessionOfAReplayAChangeIsRefused) {
   EXPECT_NE(refused.error().message().find("replay"), std::string::npos) << refused.error().message();
 }
 
-TEST_F(SessionWorldTest, OfARadarModelOnAnotherHostAChangeIsRefused) {
-  start_model();
-  model_.layout().network.mirrored_roles = 1U << static_cast<unsigned>(Role::radar_model);
-  const auto refused = set_sea(model_, 3.0);
+// ---- radar-model on another host
+class WorldOfAnotherHost : public SessionWorldTest {
+ protected:
+  void SetUp() override {
+    ASSERT_NO_FATAL_FAILURE(start_model());
+    model_.layout().network.mirrored_roles = 1U << static_cast<unsigned>(Role::radar_model);
+  }
+  // Acts as the gateway: waits for a request and answers it. `newest`: world that the other host has then.
+  WorldState answer(WorldAnswer answer, std::optional<WorldState> newest = std::nullopt) {
+    SessionLayout& layout = model_.layout();
+    auto& requests = layout.world_requests;
+    while (requests.asked == requests.answered >> 8) std::this_thread::yield();
+    WorldState request{};
+    EXPECT_TRUE(layout.world_request.read(request));
+    if (newest) layout.world.publish(*newest);
+    requests.answered = requests.asked << 8 | static_cast<std::uint64_t>(answer);
+    return request;
+  }
+  // change(session), while gateway() acts as the gateway.
+  template <class Change, class Gateway>
+  error::Expected<WorldState> changed(const Change& change, const Gateway& gateway) {
+    std::optional<error::Expected<WorldState>> result;
+    std::thread editor([&] {
+      Session session = open("editor");
+      result = change(session);
+    });
+    gateway();
+    editor.join();
+    return *result;
+  }
+};
+
+TEST_F(WorldOfAnotherHost, IsChangedByARequest) {
+  const auto done = changed([](Session& session) { return set_sea(session, 3.0); },
+                            [this] {
+                              const WorldState request = answer(WorldAnswer::applied);
+                              EXPECT_EQ(request.edit, 1U);
+                              EXPECT_EQ(request.sea_state, 3.0);
+                            });
+  ASSERT_TRUE(done) << done.error().message();
+  EXPECT_EQ(done->edit, 1U);
+  EXPECT_FALSE(model_.layout().world.has_value()) << "only the gateway writes it";
+}
+
+TEST_F(WorldOfAnotherHost, KeepsTheEditThatCameFirstThere) {
+  WorldState theirs = *newest_world(model_.layout());
+  theirs.edit = 1;
+  theirs.flags = {};
+  theirs.sea_state = 6.0;
+  const auto done = changed([](Session& session) { return add_rain(session); },
+                            [&] {
+                              EXPECT_EQ(answer(WorldAnswer::outdated, theirs).edit, 1U);
+                              const WorldState again = answer(WorldAnswer::applied);
+                              EXPECT_EQ(again.edit, 2U);
+                              EXPECT_EQ(again.sea_state, 6.0);
+                              EXPECT_EQ(again.rain_count, 1U);
+                            });
+  ASSERT_TRUE(done) << done.error().message();
+  EXPECT_EQ(done->sea_state, 6.0);
+}
+
+TEST_F(WorldOfAnotherHost, IsNotChangedWithoutItsConsent) {
+  const auto message_of = [this](WorldAnswer word) {
+    const auto refused = changed([](Session& session) { return set_sea(session, 3.0); }, [&] { answer(word); });
+    return refused ? "changed" : refused.error().message();
+  };
+  EXPECT_NE(message_of(WorldAnswer::refused).find("refusals"), std::string::npos);
+  EXPECT_NE(message_of(WorldAnswer::forbidden).find("topicsOut"), std::string::npos);
+  EXPECT_NE(message_of(WorldAnswer::late).find("none in time"), std::string::npos);
+}
+
+TEST_F(WorldOfAnotherHost, IsNotAwaitedForEver) {
+  const auto refused = set_sea(model_, 3.0);  // nobody answers
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message().find("another host"), std::string::npos) << refused.error().message();
+  EXPECT_NE(refused.error().message().find("none in time"), std::string::npos) << refused.error().message();
+  EXPECT_FALSE(model_.role_is_held(Role::instructor));
+}
+
+TEST_F(WorldOfAnotherHost, IsNotAskedForWhatIsOutOfRange) {
+  EXPECT_FALSE(set_sea(model_, 9.0));
+  EXPECT_EQ(model_.layout().world_requests.asked, 0U);
 }
 
 TEST_F(SessionWorldTest, ADamagedWishIsNoWorld) {

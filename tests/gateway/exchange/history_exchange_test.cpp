@@ -1,4 +1,4 @@
-// Ticks, sweeps, latched traffic and patch maps of the host that has the radar model.
+// Ticks, sweeps and latched traffic of the host that has the radar model.
 #include "gateway/exchange/history_exchange.hpp"
 
 #include <gtest/gtest.h>
@@ -6,9 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/session/picture_pool.hpp"
 #include "gateway/exchange/history_progress.hpp"
-#include "gateway/exchange/map_exchange.hpp"
 #include "tests/gateway/exchange/two_hosts.hpp"
 
 namespace yars::gateway {
@@ -76,7 +74,8 @@ class HistoryExchangeTest : public testing::TwoHosts {
   }
   std::vector<std::uint8_t> video_ = std::vector<std::uint8_t>(512, 100);
   LaneNames lanes_;
-  HistoryExchange exchange_{lanes_};
+  WorldNumbers worlds_;
+  HistoryExchange exchange_{lanes_, worlds_};
 };
 
 TEST_F(HistoryExchangeTest, ASweepWaitsForItsTick) {
@@ -110,6 +109,36 @@ TEST_F(HistoryExchangeTest, ATickWhoseTrafficWasLostNamesTheNewestHere) {
   exchange_.publish(context_);
   ASSERT_EQ(ticks(), 1u);
   EXPECT_EQ(last_tick().traffic, 0u);
+}
+
+TEST_F(HistoryExchangeTest, ATickWaitsForTheWorldThatItNames) {
+  auto sample = tick(5);
+  sample.tick.world = 8;
+  receive(sample);
+  EXPECT_EQ(ticks(), 0u);
+  worlds_.add(host_id("beta"), kBetaSegment, 7, 0);
+  exchange_.publish(context_);
+  ASSERT_EQ(ticks(), 1u);
+  EXPECT_EQ(last_tick().world, 1u) << "the first record of the ring here";
+}
+
+// As of a host whose build does not send worlds: only the first tick waits.
+TEST_F(HistoryExchangeTest, ATickWhoseWorldWasLostNamesTheNewestHereAndLaterOnesDoNotWait) {
+  const auto next = [this](std::int64_t number) {
+    auto sample = tick(number);
+    sample.tick.world = 8;
+    receive(sample);
+  };
+  next(5);
+  pass(300'000'000);
+  exchange_.publish(context_);
+  ASSERT_EQ(ticks(), 1u);
+  EXPECT_EQ(last_tick().world, 0u);
+  next(6);
+  EXPECT_EQ(ticks(), 2u);
+  worlds_.add(host_id("beta"), kBetaSegment, 7, 3);
+  next(7);
+  EXPECT_EQ(last_tick().world, 4u) << "it has come after all";
 }
 
 TEST_F(HistoryExchangeTest, InANewEpochASweepWaitsForATickOfThatEpoch) {
@@ -153,7 +182,7 @@ TEST_F(HistoryExchangeTest, RepeatedSamplesAreLeftOutAlsoByANewGateway) {
   EXPECT_EQ(sweeps(), 1u);
   EXPECT_EQ(layout().traffic_latched.next(), 1u);
   Hosts hosts(session_, nullptr, {"alpha", 0, 9009, kSegment, 0, 0});
-  HistoryExchange next(lanes_);
+  HistoryExchange next(lanes_, worlds_);
   Context context{session_, nullptr, hosts, roles_};
   context.now_ns = context_.now_ns;
   next.receive(context, first);
@@ -289,95 +318,6 @@ TEST_F(HistoryExchangeTest, WhatWaitsIsLimited) {
   pass(kSecond_ns);
   exchange_.publish(context_);
   EXPECT_EQ(sweeps(), 1024u);
-}
-
-class MapExchangeTest : public testing::TwoHosts {
- protected:
-  databuffer::PatchMap map(std::uint64_t id) {
-    databuffer::PatchMap made{};
-    made.id = id;
-    made.latitude_deg = made.apex_latitude_deg = 36.6;
-    made.longitude_deg = made.apex_longitude_deg = -121.9;
-    made.window_nm = 4.7;
-    made.distance_m = 33'000.0;
-    made.resolution_m = 20.0;
-    made.size = 8;
-    made.hash = databuffer::map_hash(made, pixels_);
-    return made;
-  }
-  void receive(const std::string& host, const databuffer::PatchMap& record) {
-    auto sample = from<yars_net_PatchMapSample>(host);
-    sample.id = record.id;
-    copy_record(sample.map, record);
-    exchange_.receive(context_, sample);
-    for (std::uint32_t row = 0; row < record.size; ++row) {
-      auto line = from<yars_net_PatchRowSample>(host);
-      line.id = record.id;
-      line.row = row;
-      line.length = record.size;
-      std::copy_n(pixels_.begin() + row * record.size, record.size, line.pixels);
-      exchange_.receive(context_, line);
-    }
-    exchange_.publish(context_);
-  }
-  bool is_published(std::uint64_t id) {
-    databuffer::PatchMap found{};
-    return databuffer::read_patch(layout(), id, found);
-  }
-  std::vector<std::uint8_t> pixels_ = std::vector<std::uint8_t>(64, 7);
-  MapExchange exchange_{500};
-};
-
-TEST_F(MapExchangeTest, AMapIsPublishedWhenItIsWhole) {
-  announce("beta", bit(Role::radar_model));
-  receive("beta", map(3));
-  databuffer::PatchMap found{};
-  std::vector<std::uint8_t> pixels;
-  ASSERT_TRUE(databuffer::read_patch(layout(), 3, found, pixels));
-  EXPECT_EQ(pixels, pixels_);
-}
-
-TEST_F(MapExchangeTest, MapsOfAHostWithoutTheRoleAreNotPublished) {
-  announce("beta", bit(Role::radar_model));
-  announce("gamma", 0);
-  receive("gamma", map(3));
-  EXPECT_FALSE(is_published(3));
-}
-
-TEST_F(MapExchangeTest, InvalidMapsAreRefused) {
-  announce("beta", bit(Role::radar_model));
-  auto bad = map(3);
-  bad.size = databuffer::kMaxPatchPixels + 1;
-  auto sample = from<yars_net_PatchMapSample>("beta");
-  sample.id = 3;
-  copy_record(sample.map, bad);
-  exchange_.receive(context_, sample);
-  EXPECT_EQ(refusals(), 1u);
-  bad = map(3);
-  bad.hash ^= 1;
-  receive("beta", bad);
-  EXPECT_FALSE(is_published(3));
-  auto other = from<yars_net_PatchMapSample>("beta");
-  other.id = 4;
-  copy_record(other.map, map(3));
-  exchange_.receive(context_, other);
-  EXPECT_EQ(refusals(), 2u) << "the sample has another id than the map";
-  auto row = from<yars_net_PatchRowSample>("beta");
-  row.length = 1025;
-  exchange_.receive(context_, row);
-  EXPECT_EQ(refusals(), 3u);
-}
-
-TEST_F(MapExchangeTest, AMapOfThePartThatYieldedIsReplaced) {
-  std::vector<std::uint8_t> mine(64, 9);
-  auto own = map(3);
-  own.hash = databuffer::map_hash(own, mine);
-  ASSERT_TRUE(databuffer::publish_patch(session_.layout(), own, mine, {}));
-  announce("beta", bit(Role::radar_model));
-  receive("beta", map(3));
-  databuffer::PatchMap found{};
-  ASSERT_TRUE(databuffer::read_patch(layout(), 3, found));
-  EXPECT_EQ(found.hash, map(3).hash);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // A member of a network that says what is not true, with the certificate of its host: claims of roles and of the clock,
-// samples in the name of another host, requests to the owner of the clock.
+// samples in the name of another host, requests to the owner of the clock, worlds.
 // usage: impostor SESSION FILE TARGET SECONDS     FILE: form Network; TARGET: name of the host that it poses as
 // Outputs: one line: how many samples of each kind DDS accepted, and how many it refused.
 #include <chrono>
@@ -34,6 +34,7 @@ class Impostor {
     if (heard_.contains(target_)) pose_as(heard_[target_]);
     for (const auto& [id, host] : heard_)
       if (host.owns_clock != 0) stop_clock_of(host);
+    for (const auto& [id, host] : heard_) change_world_of(host);
   }
   void report() const {
     for (const auto& [what, count] : accepted_) std::printf("%s %d ", what.c_str(), count);
@@ -94,6 +95,27 @@ class Impostor {
     request.clock.base_monotonic_ns = owner.monotonic_ns;
     request.clock.epoch = owner.epoch;
     write("requests", request);
+  }
+  void change_world_of(const yars_net_HostSample& host) {
+    yars_net_WorldRequestSample request{};
+    request.host = gateway::host_id(name_);
+    request.start = start_;
+    request.number = request.request = number_;
+    request.owner = host.host;
+    request.world.edit = 1;
+    request.world.source_time_ns = host.monotonic_ns;
+    write("worlds", request);
+    yars_net_LatchedWorldSample latched{};
+    latched.host = host.host;
+    latched.start = host.start;
+    latched.segment = host.segment;
+    latched.number = latched.ring_number = kAhead + number_;
+    write("worlds", latched);
+    yars_net_WorldSample world{};
+    world.host = host.host;
+    world.start = host.start;
+    world.number = kAhead + number_;
+    write("worlds", world);
   }
 
   gateway::dds::Link link_;
