@@ -68,16 +68,16 @@ class Page final : public OpenPage, public std::enable_shared_from_this<Page<Str
     if (!texts_.empty()) {
       const Text text = texts_.front();
       texts_.pop_front();
-      return write(text, true);
+      return write(text, boost::asio::buffer(*text), true);
     }
     const std::uint64_t newest = wish_.instructor ? feed_->instructor.state_number() : feed_->display->state_number();
     const Text& state = wish_.instructor ? feed_->instructor.state() : feed_->display->state();
     if (state_sent_ != newest && state) {
       state_sent_ = newest;
-      write(state, true);
+      write(state, boost::asio::buffer(*state), true);
     } else if (const Bytes message = feed_->display->frames().message_after(frame_sent_)) {
       frame_sent_ = feed_->display->frames().id();
-      write(message, false);
+      write(message, boost::asio::buffer(*message), false);
     }
   }
 
@@ -93,18 +93,18 @@ class Page final : public OpenPage, public std::enable_shared_from_this<Page<Str
 
   int& shown() { return wish_.instructor ? feed_->instructors : feed_->displays; }
 
-  template <class Data>
-  void write(Data data, bool text) {
+  // `owner` keeps the bytes until they are sent.
+  void write(std::shared_ptr<const void> owner, boost::asio::const_buffer bytes, bool text) {
     writing_ = true;
     socket_.text(text);
-    const auto buffer = boost::asio::buffer(*data);
-    socket_.async_write(buffer, [self = this->shared_from_this(), data](Problem problem, std::size_t) {
-      self->writing_ = false;
-      if (problem)
-        self->open_ = false;
-      else
-        self->pump();
-    });
+    socket_.async_write(bytes,
+                        [self = this->shared_from_this(), owner = std::move(owner)](Problem problem, std::size_t) {
+                          self->writing_ = false;
+                          if (problem)
+                            self->open_ = false;
+                          else
+                            self->pump();
+                        });
   }
 
   void read() {
@@ -135,7 +135,7 @@ class Page final : public OpenPage, public std::enable_shared_from_this<Page<Str
   std::shared_ptr<SessionFeed> feed_;
   PageWish wish_;
   Counted counted_;
-  boost::beast::websocket::stream<Stream> socket_;
+  boost::beast::websocket::stream<Stream, false> socket_;  // without compression: pictures are PNG
   boost::beast::http::request<boost::beast::http::empty_body> request_;
   boost::beast::flat_buffer buffer_;
   PagePilot pilot_;
