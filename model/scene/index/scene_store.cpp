@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <future>
+#include <thread>
+#include <type_traits>
 #include <utility>
 
 #include "lib/radar/world.hpp"
-#include "model/scene/openflight/reader.hpp"
 #include "model/scene/placement/plan_geometry.hpp"
 #include "model/scene/placement/tile_builder.hpp"
 #include "model/terrain/store/directory_store.hpp"
@@ -18,6 +20,21 @@ namespace {
 
 // [degrees] Side of a square of the index that finds scenes by position. Typical scenes are some kilometres wide.
 constexpr double kSceneCell_deg = 0.25;
+
+// Threads that load scenes at once, at most: each has a whole file in memory.
+constexpr std::size_t kMaxThreads = 8;
+
+// job(0) to job(count - 1), each in a thread of its own; a system without threads runs them one after the other.
+template <class Job>
+auto at_once(std::size_t count, const Job& job) {
+  using Result = std::invoke_result_t<Job, std::size_t>;
+  std::vector<std::future<Result>> others;
+  for (std::size_t i = 1; i < count; ++i) others.push_back(std::async(job, i));
+  std::vector<Result> results;
+  if (count > 0) results.push_back(job(0));
+  for (std::future<Result>& other : others) results.push_back(other.get());
+  return results;
+}
 
 using Hits = std::vector<GridIndex::Hit>;
 
@@ -104,27 +121,55 @@ SceneViewPointer SceneStore::prepare(const terrain::TerrainRegion& region) {
   std::vector<GridIndex::Hit> hits;
   position_index_.find(region.centre, region.radius_m, hits);
   std::sort(hits.begin(), hits.end());
-  bool changed = false;
-  wanted_ = {hits.size() + without_position_, without_position_};
+  std::vector<std::size_t> absent;
   for (const GridIndex::Hit& hit : hits) {
     scenes_[hit.disc].last_use = prepares_;
-    if (!scenes_[hit.disc].placed && !scenes_[hit.disc].unreadable) changed |= load(hit.disc);
-    if (scenes_[hit.disc].unreadable) ++wanted_.unreadable;
+    if (!scenes_[hit.disc].placed && !scenes_[hit.disc].unreadable) absent.push_back(hit.disc);
   }
+  bool changed = false;
+  const std::size_t most = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMaxThreads);
+  for (std::span<const std::size_t> rest = absent; !rest.empty(); rest = rest.subspan(std::min(most, rest.size())))
+    changed |= load(rest.first(std::min(most, rest.size())));
+  wanted_ = {hits.size() + without_position_, without_position_};
+  for (const GridIndex::Hit& hit : hits)
+    if (scenes_[hit.disc].unreadable) ++wanted_.unreadable;
   while (resident_bytes_ > options_.resident_limit_bytes && drop_longest_unused()) changed = true;
   if (changed) make_view();
   return view_;
 }
 
-bool SceneStore::load(std::size_t number) {
+// Files are read at once, and models are placed at once. Between these steps the scenes get their numbers of objects
+// and kinds one after the other, so that equal calls give equal numbers.
+bool SceneStore::load(std::span<const std::size_t> numbers) {
+  auto models = at_once(numbers.size(), [&](std::size_t i) {
+    NameFilter filter(index_[numbers[i]].without);
+    return read_openflight(index_[numbers[i]].file, &filter);
+  });
+  std::vector<Loading> loads;
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    if (auto loading = begin_load(numbers[i], std::move(models[i]))) loads.push_back(std::move(*loading));
+  const auto placed = at_once(loads.size(), [&](std::size_t i) {
+    const Loading& one = loads[i];
+    const IndexedScene& scene = index_[one.number];
+    // Scatterers beyond this limit are left out. A region that overlaps the scene only beyond it does not load the
+    // file. Without the limit, such a region would show these scatterers only if another region had loaded the file
+    // before.
+    const double max_reach_m = scene.reach_m + kTileSide_m;
+    return std::make_shared<PlacedScene>(place_known_model(
+        one.model, scene.placement, *one.ground, scenes_[one.number].first_object, kinds_, options_.use, max_reach_m));
+  });
+  for (std::size_t i = 0; i < loads.size(); ++i) end_load(loads[i].number, placed[i]);
+  return !loads.empty();
+}
+
+// The numbers and the ground of a model. Nullopt: its file is unreadable.
+std::optional<SceneStore::Loading> SceneStore::begin_load(std::size_t number, error::Expected<Model> model) {
   Resident& resident = scenes_[number];
   const IndexedScene& scene = index_[number];
-  NameFilter filter(scene.without);
-  const auto model = read_openflight(scene.file, &filter);
   if (!model) {
     resident.unreadable = true;
     problems_.push_back(model.error().message() + "; the scene is left out");
-    return false;
+    return std::nullopt;
   }
   for (const std::string& warning : model->warnings) problems_.push_back(scene.file.string() + ": " + warning);
   const auto objects = static_cast<std::uint32_t>(model->objects.size());
@@ -135,27 +180,30 @@ bool SceneStore::load(std::size_t number) {
     resident.objects = objects;
     objects_.resize(objects_.size() + objects);
   }
-  std::fill_n(objects_.begin() + resident.first_object, resident.objects, SceneObject{});
-  double reach_m = 0.0;
-  for (const ModelVertex& vertex : model->vertices)
-    reach_m = std::max(reach_m, std::hypot(static_cast<double>(vertex.position_m[0]) + model->base.x,
-                                           static_cast<double>(vertex.position_m[1]) + model->base.y));
+  for (const SurfaceKind& kind : model->kinds) kinds_.number_of(kind);
+  double reach_m2 = 0.0;
+  for (const ModelVertex& vertex : model->vertices) {
+    const double x_m = static_cast<double>(vertex.position_m[0]) + model->base.x;
+    const double y_m = static_cast<double>(vertex.position_m[1]) + model->base.y;
+    reach_m2 = std::max(reach_m2, x_m * x_m + y_m * y_m);
+  }
+  const double reach_m = std::sqrt(reach_m2);
   if (reach_m > scene.reach_m + kTileSide_m)
     problems_.push_back(scene.file.string() + ": expected a scene within " +
                         std::to_string(static_cast<long>(scene.reach_m)) + " m of its origin, found one that reaches " +
                         std::to_string(static_cast<long>(reach_m)) +
                         " m; a map that overlaps the scene only beyond the expected radius does not show it");
-  const terrain::TerrainViewPointer ground = ground_->prepare({scene.placement.position, reach_m + kTileSide_m, 0});
-  // Scatterers beyond scene.reach_m + kTileSide_m are left out. A region that overlaps the scene only beyond this limit
-  // does not load the file. Without the limit, such a region would show these scatterers only if another region had
-  // loaded the file before.
-  auto placed = std::make_shared<PlacedScene>(place_model(*model, scene.placement, *ground, resident.first_object,
-                                                          kinds_, options_.use, scene.reach_m + kTileSide_m));
-  if (placed->objects.front().name.empty()) placed->objects.front().name = scene.file.stem().string();
+  auto ground = ground_->prepare({scene.placement.position, reach_m + kTileSide_m, 0});
+  return Loading{number, std::move(*model), std::move(ground)};
+}
+
+void SceneStore::end_load(std::size_t number, std::shared_ptr<PlacedScene> placed) {
+  Resident& resident = scenes_[number];
+  if (placed->objects.front().name.empty()) placed->objects.front().name = index_[number].file.stem().string();
+  std::fill_n(objects_.begin() + resident.first_object, resident.objects, SceneObject{});
   std::copy(placed->objects.begin(), placed->objects.end(), objects_.begin() + resident.first_object);
   resident_bytes_ += placed->bytes;
   resident.placed = std::move(placed);
-  return true;
 }
 
 bool SceneStore::drop_longest_unused() {

@@ -2,17 +2,21 @@
 // Inputs: scenes of a configuration; a terrain store that only this store uses; a region.
 // Outputs: SceneView; problems, one sentence each.
 // Errors: an unreadable file is reported once as a problem, and views omit it.
-// Threads: one thread at a time uses a store. Any number of threads may read its views.
+// Threads: one thread at a time uses a store; prepare() loads several scenes in threads of its own, which end with it.
+//   Any number of threads may read its views.
 // Determinism: equal files and calls give equal views.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "lib/error/error.hpp"
 #include "model/scene/index/scene_index.hpp"
+#include "model/scene/openflight/reader.hpp"
 #include "model/scene/placement/placed_scene.hpp"
 #include "model/scene/placement/scene_view.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
@@ -91,7 +95,14 @@ class SceneStore {
   };
 
   SceneStore(std::vector<IndexedScene> index, std::unique_ptr<terrain::TerrainStore> ground, SceneStoreOptions options);
-  bool load(std::size_t scene);
+  struct Loading {
+    std::size_t number;
+    Model model;
+    terrain::TerrainViewPointer ground;
+  };
+  bool load(std::span<const std::size_t> numbers);
+  std::optional<Loading> begin_load(std::size_t number, error::Expected<Model> model);
+  void end_load(std::size_t number, std::shared_ptr<PlacedScene> placed);
   bool drop_longest_unused();
   void make_view();
 

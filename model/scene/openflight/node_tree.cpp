@@ -25,19 +25,24 @@ std::vector<std::string> WarningList::take() {
   return std::move(texts_);
 }
 
+namespace {
+constexpr std::size_t kMaxKinds = 65'536;
+std::tuple<std::uint8_t, std::uint16_t, std::uint32_t> key_of(const SurfaceKind& kind) {
+  return {kind.material, kind.feature_id, kind.color_rgb};
+}
+}  // namespace
+
 std::uint16_t KindTable::number_of(const SurfaceKind& kind) {
-  constexpr std::size_t kMaxKinds = 65'536;
-  const auto key = std::tuple(kind.material, kind.feature_id, kind.color_rgb);
-  if (const auto known = numbers_.find(key); known != numbers_.end()) return known->second;
-  if (kinds_.size() >= kMaxKinds) {
-    const auto alike = std::find_if(kinds_.begin(), kinds_.end(),
-                                    [&](const SurfaceKind& other) { return other.material == kind.material; });
-    return alike == kinds_.end() ? std::uint16_t{0} : static_cast<std::uint16_t>(alike - kinds_.begin());
-  }
-  const auto number = static_cast<std::uint16_t>(kinds_.size());
-  kinds_.push_back(kind);
-  numbers_.emplace(key, number);
-  return number;
+  if (kinds_.size() < kMaxKinds && numbers_.emplace(key_of(kind), static_cast<std::uint16_t>(kinds_.size())).second)
+    kinds_.push_back(kind);
+  return known_number_of(kind);
+}
+
+std::uint16_t KindTable::known_number_of(const SurfaceKind& kind) const {
+  if (const auto known = numbers_.find(key_of(kind)); known != numbers_.end()) return known->second;
+  const auto alike = std::find_if(kinds_.begin(), kinds_.end(),
+                                  [&](const SurfaceKind& other) { return other.material == kind.material; });
+  return alike == kinds_.end() ? std::uint16_t{0} : static_cast<std::uint16_t>(alike - kinds_.begin());
 }
 
 namespace {

@@ -68,7 +68,10 @@ struct SurfaceKind {
 // the first kind with the same material, or 0 if there is none.
 class KindTable {
  public:
+  // The number of a kind, which is added if it is new. A full table gives the number of a kind of the same material.
   std::uint16_t number_of(const SurfaceKind& kind);
+  // The same for a kind that number_of() has been called with. Several threads may call it at once.
+  std::uint16_t known_number_of(const SurfaceKind& kind) const;
   const std::vector<SurfaceKind>& kinds() const { return kinds_; }
 
  private:

@@ -34,7 +34,7 @@ struct Outline {
 class ScenePlacer {
  public:
   ScenePlacer(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
-              std::uint32_t first_object, KindTable& kinds, SceneUse use, double max_reach_m)
+              std::uint32_t first_object, const KindTable& kinds, SceneUse use, double max_reach_m)
       : model_(model),
         placement_(placement),
         ground_(ground),
@@ -47,7 +47,7 @@ class ScenePlacer {
     const double heading_rad = placement.heading_deg * geo::kRadiansPerDegree;
     sine_ = std::sin(heading_rad);
     cosine_ = std::cos(heading_rad);
-    for (const SurfaceKind& kind : model.kinds) kind_numbers_.push_back(kinds.number_of(kind));
+    for (const SurfaceKind& kind : model.kinds) kind_numbers_.push_back(kinds.known_number_of(kind));
   }
 
   PlacedScene run() {
@@ -237,10 +237,10 @@ class ScenePlacer {
                   tag);
   }
 
-  void extend_reach(Vector3 at) { reach_m_ = std::max(reach_m_, std::hypot(at.x, at.y)); }
+  void extend_reach(Vector3 at) { reach_m2_ = std::max(reach_m2_, at.x * at.x + at.y * at.y); }
 
   void finish(PlacedScene& placed) const {
-    placed.reach_m = reach_m_;
+    placed.reach_m = std::sqrt(reach_m2_);
     std::vector<Disc> discs;
     for (const Tile& tile : placed.tiles) {
       const Bounds& b = tile.bounds;
@@ -261,7 +261,7 @@ class ScenePlacer {
   const terrain::TerrainView& ground_;
   geo::AzimuthalEquidistant plane_;
   std::uint32_t first_object_;
-  KindTable& kinds_;
+  const KindTable& kinds_;
   SceneUse use_;
   TileBuilders builders_;
   ScatterBuilder scatter_;
@@ -270,7 +270,7 @@ class ScenePlacer {
   // [m] Limits of the edges of pieces. edge_m_: pieces of draped triangles. piece_edge_m_: pieces of other faces.
   double edge_m_ = kDrapedEdge_m;
   double piece_edge_m_ = kScattererSides_m.front();
-  double reach_m_ = 0.0;
+  double reach_m2_ = 0.0;                    // [m^2] square of PlacedScene::reach_m
   std::vector<std::uint16_t> kind_numbers_;  // for each entry of Model::kinds: its number in kinds_
   // order_: triangle numbers, sorted by object. begin_[o] and begin_[o + 1] bound the entries of object o.
   std::vector<std::uint32_t> begin_, order_;
@@ -283,6 +283,12 @@ class ScenePlacer {
 
 PlacedScene place_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
                         std::uint32_t first_object, KindTable& kinds, SceneUse use, double max_reach_m) {
+  for (const SurfaceKind& kind : model.kinds) kinds.number_of(kind);
+  return place_known_model(model, placement, ground, first_object, kinds, use, max_reach_m);
+}
+
+PlacedScene place_known_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
+                              std::uint32_t first_object, const KindTable& kinds, SceneUse use, double max_reach_m) {
   return ScenePlacer(model, placement, ground, first_object, kinds, use, max_reach_m).run();
 }
 

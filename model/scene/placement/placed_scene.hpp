@@ -60,4 +60,8 @@ PlacedScene place_model(const Model& model, const Placement& placement, const te
                         std::uint32_t first_object, KindTable& kinds, SceneUse use = SceneUse::triangles,
                         double max_reach_m = std::numeric_limits<double>::infinity());
 
+// The same for a model whose surface kinds are in `kinds`: several models may be placed at once.
+PlacedScene place_known_model(const Model& model, const Placement& placement, const terrain::TerrainView& ground,
+                              std::uint32_t first_object, const KindTable& kinds, SceneUse use, double max_reach_m);
+
 }  // namespace yars::model::scene
