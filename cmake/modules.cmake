@@ -54,13 +54,14 @@ function(yars_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endfunction()
 
-# yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [COMPUTES] [OPENGL] [SEPARATE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from
+# yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [SETS] [COMPUTES] [OPENGL] [SEPARATE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from
 # tests/FOLDER/*_test.cpp, those of its subfolders named, and its support sources, found when ctest runs. ALONE: its tests
-# have the machine to themselves. COMPUTES: its own code takes long to run, so it is compiled without YARS_TEST_FLAGS.
+# have the machine to themselves. SETS: its tests run whole sets in real time:
+# one at a time, beside tests of another kind. COMPUTES: its own code takes long to run, so it is compiled without YARS_TEST_FLAGS.
 # SEPARATE: each source stays a unit of its own with YARS_UNITY, because names in its sources are the same.
 # OPENGL: it draws, so leaks are not looked for (the search crashes now and then beside the threads of llvmpipe).
 function(yars_test folder)
-  cmake_parse_arguments(ARG "ALONE;COMPUTES;OPENGL;SEPARATE" "TIMEOUT" "DEPENDS;LABELS;SUBFOLDERS;SUPPORT;PROGRAMS" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE;SETS;COMPUTES;OPENGL;SEPARATE" "TIMEOUT" "DEPENDS;LABELS;SUBFOLDERS;SUPPORT;PROGRAMS" ${ARGN})
   set(patterns ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cpp)
   foreach(subfolder IN LISTS ARG_SUBFOLDERS)
     list(APPEND patterns ${PROJECT_SOURCE_DIR}/tests/${folder}/${subfolder}/*_test.cpp)
@@ -98,6 +99,10 @@ function(yars_test folder)
   if(ARG_OPENGL)
     set(environment ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
   endif()
+  set(lock)
+  if(ARG_SETS)
+    set(lock RESOURCE_LOCK sets)
+  endif()
   gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${folder}." DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}" RUN_SERIAL ${ARG_ALONE} ${environment})
+    PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}" RUN_SERIAL ${ARG_ALONE} ${lock} ${environment})
 endfunction()

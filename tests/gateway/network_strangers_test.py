@@ -144,7 +144,8 @@ TEXT = "GAIN 3"  # a legend of the radar state
 def sweeping(spread, hosts="abc"):
     spread.start(list(hosts))
     spread.yars("a", "inject", "power opr")
-    states = spread.wait_for(lambda seen: runs(seen) and all(one["sweeps"] > 50 for one in seen.values()), "sweeps on all hosts",
+    states = spread.wait_for(lambda seen: runs(seen) and all(one["sweeps"] > 50 for one in seen.values()) and
+                             len({one["epoch"] for one in seen.values()}) == 1, "sweeps on all hosts, in one epoch",
                              hosts=list(hosts), within_s=WITHIN_S)
     return states
 

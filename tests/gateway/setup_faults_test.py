@@ -181,8 +181,9 @@ def security_on_one_side_is_named(programs, _):
             line = f"the gateway of {other} ({spread.lab.address(other)}) is heard, but exchanges nothing: {reason}"
             spread.gateways[host].wait_for(line, WITHIN_S)
         time.sleep(2.0)
-        for gateway in spread.gateways.values():
-            assert gateway.text().count("exchanges nothing") == 1, gateway.text()
+        for gateway in spread.gateways.values():  # once each time that it joins: on a busy machine it may join again
+            text = gateway.text()
+            assert 1 <= text.count("exchanges nothing") <= text.count("joins session"), text
         status = spread.yars("a", "status", code=None)
         note = next((line for line in status.splitlines() if "exchanges nothing" in line), "")
         assert " loss " in note and note.endswith("open UDP ports"), status
