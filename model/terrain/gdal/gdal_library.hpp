@@ -17,45 +17,32 @@
 #include "lib/error/error.hpp"
 
 // NOLINTBEGIN(cppcoreguidelines-macro-usage,bugprone-macro-parentheses)
-#define YARS_GDAL_FUNCTIONS(F)                                                                                   \
-  F(CPLGetErrorHandlerUserData)                                                                                  \
-  F(CPLPopErrorHandler)                                                                                          \
-  F(CPLPushErrorHandlerEx)                                                                                       \
-  F(CPLSetConfigOption)                                                                                          \
-  F(GDALAllRegister)                                                                                             \
-  F(GDALClose)                                                                                                   \
-  F(GDALCreate)                                                                                                  \
-  F(GDALGetDataTypeName)                                                                                         \
-  F(GDALGetDatasetDriver)                                                                                        \
-  F(GDALGetDriverByName)                                                                                         \
-  F(GDALGetDriverShortName) F(GDALGetGeoTransform) F(GDALGetMaskBand) F(GDALGetMaskFlags) F(GDALGetMetadataItem) \
-      F(GDALGetRasterBand) F(GDALGetRasterCount) F(GDALGetRasterDataType) F(GDALGetRasterNoDataValue)            \
-          F(GDALGetRasterOffset) F(GDALGetRasterScale) F(GDALGetRasterUnitType) F(GDALGetRasterXSize)            \
-              F(GDALGetRasterYSize) F(GDALGetSpatialRef) F(GDALInvGeoTransform) F(GDALOpenEx) F(GDALRasterIO)    \
-                  F(GDALSetDescription) F(GDALSetGeoTransform) F(GDALSetRasterNoDataValue) F(GDALSetSpatialRef)  \
-                      F(OSRDemoteTo2D) F(OSRDestroySpatialReference) F(OSRExportToWktEx)                         \
-                          F(OSRGetDataAxisToSRSAxisMapping) F(OSRImportFromProj4) F(OSRNewSpatialReference)      \
-                              F(OSRPromoteTo3D) F(VSIFree) F(VSIGetMemFileBuffer) F(VSIUnlink)
-#define YARS_PROJ_FUNCTIONS(F)                                                                                       \
-  F(proj_as_wkt)                                                                                                     \
-  F(proj_context_create)                                                                                             \
-  F(proj_context_destroy)                                                                                            \
-  F(proj_context_set_enable_network)                                                                                 \
-  F(proj_coordoperation_get_accuracy)                                                                                \
-  F(proj_coordoperation_get_grid_used)                                                                               \
-  F(proj_coordoperation_get_grid_used_count)                                                                         \
-  F(proj_coordoperation_has_ballpark_transformation)                                                                 \
-  F(proj_coordoperation_is_instantiable)                                                                             \
-  F(proj_create)                                                                                                     \
-  F(proj_create_operation_factory_context) F(proj_create_operations) F(proj_crs_get_coordinate_system)               \
-      F(proj_crs_get_sub_crs) F(proj_cs_get_axis_count) F(proj_cs_get_axis_info) F(proj_cs_get_type) F(proj_destroy) \
-          F(proj_get_name) F(proj_get_source_crs) F(proj_get_type) F(proj_is_equivalent_to_with_ctx)                 \
-              F(proj_list_destroy) F(proj_list_get) F(proj_list_get_count) F(proj_log_func)                          \
-                  F(proj_operation_factory_context_destroy)                                                          \
-                      F(proj_operation_factory_context_set_allow_ballpark_transformations)                           \
-                          F(proj_operation_factory_context_set_area_of_interest)                                     \
-                              F(proj_operation_factory_context_set_grid_availability_use)                            \
-                                  F(proj_operation_factory_context_set_spatial_criterion) F(proj_trans_generic)
+// clang-format off
+#define YARS_GDAL_FUNCTIONS(F) \
+  F(CPLGetErrorHandlerUserData) F(CPLPopErrorHandler) F(CPLPushErrorHandlerEx) F(CPLSetConfigOption) \
+  F(GDALAllRegister) F(GDALClose) F(GDALCreate) F(GDALGetDataTypeName) F(GDALGetDatasetDriver) \
+  F(GDALGetDriverByName) F(GDALGetDriverShortName) F(GDALGetGeoTransform) F(GDALGetMaskBand) F(GDALGetMaskFlags) \
+  F(GDALGetMetadataItem) F(GDALGetRasterBand) F(GDALGetRasterCount) F(GDALGetRasterDataType) \
+  F(GDALGetRasterNoDataValue) F(GDALGetRasterOffset) F(GDALGetRasterScale) F(GDALGetRasterUnitType) \
+  F(GDALGetRasterXSize) F(GDALGetRasterYSize) F(GDALGetSpatialRef) F(GDALInvGeoTransform) F(GDALOpenEx) \
+  F(GDALRasterIO) F(GDALSetDescription) F(GDALSetGeoTransform) F(GDALSetRasterNoDataValue) F(GDALSetSpatialRef) \
+  F(OSRDemoteTo2D) F(OSRDestroySpatialReference) F(OSRExportToWktEx) F(OSRGetDataAxisToSRSAxisMapping) \
+  F(OSRImportFromProj4) F(OSRNewSpatialReference) F(OSRPromoteTo3D) F(VSIFree) F(VSIGetMemFileBuffer) \
+  F(VSIUnlink)
+#define YARS_PROJ_FUNCTIONS(F) \
+  F(proj_as_wkt) F(proj_context_create) F(proj_context_destroy) F(proj_context_set_enable_network) \
+  F(proj_coordoperation_get_accuracy) F(proj_coordoperation_get_grid_used) \
+  F(proj_coordoperation_get_grid_used_count) F(proj_coordoperation_has_ballpark_transformation) \
+  F(proj_coordoperation_is_instantiable) F(proj_create) F(proj_create_operation_factory_context) \
+  F(proj_create_operations) F(proj_crs_get_coordinate_system) F(proj_crs_get_sub_crs) F(proj_cs_get_axis_count) \
+  F(proj_cs_get_axis_info) F(proj_cs_get_type) F(proj_destroy) F(proj_get_name) F(proj_get_source_crs) \
+  F(proj_get_type) F(proj_is_equivalent_to_with_ctx) F(proj_list_destroy) F(proj_list_get) \
+  F(proj_list_get_count) F(proj_log_func) F(proj_operation_factory_context_destroy) \
+  F(proj_operation_factory_context_set_allow_ballpark_transformations) \
+  F(proj_operation_factory_context_set_area_of_interest) \
+  F(proj_operation_factory_context_set_grid_availability_use) \
+  F(proj_operation_factory_context_set_spatial_criterion) F(proj_trans_generic)
+// clang-format on
 
 namespace yars::model::terrain::gdal {
 
