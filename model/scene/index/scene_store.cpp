@@ -21,7 +21,7 @@ namespace {
 // [degrees] Side of a square of the index that finds scenes by position. Typical scenes are some kilometres wide.
 constexpr double kSceneCell_deg = 0.25;
 
-// Threads that load scenes at once, at most: each has a whole file in memory.
+// Most threads that load scenes at once. Each has a whole file in memory.
 constexpr std::size_t kMaxThreads = 8;
 
 // job(0) to job(count - 1), each in a thread of its own; a system without threads runs them one after the other.

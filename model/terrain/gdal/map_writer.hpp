@@ -3,7 +3,9 @@
 // Frame: azimuthal equidistant plane on WGS84 about the origin, x east and y north [m]. Distances and bearings from the
 //   origin are exact; bearings count from true north. The affine transform states the upper left corner, the size of
 //   pixels and the directions of rows and columns.
-// Errors: GDAL fails, the file cannot be written, or the build has no GDAL (gdal_absent.cpp).
+// Errors: GDAL fails, the file cannot be written, the system lacks the library of GDAL or PROJ, or the build has no
+// GDAL
+//   (gdal_absent.cpp).
 #pragma once
 
 #include <array>

@@ -7,7 +7,8 @@
 // Accuracy: let r be the rms height difference of two points of the raster that are half a pixel apart (half a post
 //   spacing, if posts are coarser). Between posts, the rms difference of cell and raster is at most r / 4. The post
 //   nearest to a summit has the height of the summit's pixel, or of its block if pixels are averaged in blocks.
-// Errors: GDAL cannot open or read the file, the raster is not as above, or the build has no GDAL (gdal_absent.cpp).
+// Errors: GDAL cannot open or read the file, the raster is not as above, the system lacks the library of GDAL or PROJ,
+//   or the build has no GDAL (gdal_absent.cpp).
 // Threads: the functions are thread-safe. Each call opens the file.
 #pragma once
 
