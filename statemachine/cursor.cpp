@@ -195,14 +195,25 @@ class Nearest {
   std::size_t count_ = 0;
 };
 
-DrawnPoint drawn(const RoutePoint& point, bool selected) {
+// True if the point is an offset of an initial point.
+bool is_of_initial_point(const RoutePoint& point, std::span<const RoutePoint> route) {
+  if (point.kind != radar::PointKind::steer_offset) return false;
+  const auto offset = radar::point_name(point.name);
+  return offset && std::ranges::any_of(route, [&offset](const RoutePoint& other) {
+           const auto name = radar::point_name(other.name);
+           return other.kind == radar::PointKind::initial && name && name->number == offset->number;
+         });
+}
+
+DrawnPoint drawn(const RoutePoint& point, std::string_view selected, std::span<const RoutePoint> route) {
   DrawnPoint entry{};
   entry.latitude_deg = point.position.latitude_deg;
   entry.longitude_deg = point.position.longitude_deg;
   entry.elevation_m = point.elevation_m;
   text::put_text(entry.name, point.name);
   entry.kind = static_cast<std::uint8_t>(point.kind);
-  entry.selected = selected ? 1 : 0;
+  entry.selected = point.name == selected ? 1 : 0;
+  entry.of_initial_point = is_of_initial_point(point, route) ? 1 : 0;
   return entry;
 }
 
@@ -268,7 +279,7 @@ void draw_points(RadarState& state, const Inputs& inputs, const Parameters& para
     std::rotate(std::upper_bound(entries.begin(), next, *next, precedes), next, next + 1);
   std::fill(std::begin(state.points), std::end(state.points), DrawnPoint{});
   std::transform(entries.begin(), entries.end(), state.points,
-                 [selected](const auto& entry) { return drawn(*entry.point, entry.point->name == selected); });
+                 [&](const auto& entry) { return drawn(*entry.point, selected, parameters.route); });
   state.points_drawn = static_cast<std::uint8_t>(entries.size());
 }
 

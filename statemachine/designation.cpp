@@ -1,9 +1,7 @@
 #include "statemachine/designation.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <span>
 #include <string>
 #include <string_view>
@@ -192,9 +190,6 @@ namespace {
 using radar::PointName;
 using text::text_of;
 
-constexpr int kMaxNumber = 100;  // docs/spec/pilots_interface.md#rule-11
-constexpr int kMaxOffset = 99;
-
 // Navigator coordinates of the cursor. They are computed anew, because the cursor may have jumped in this tick.
 geo::GeoPoint known_cursor(const Step& step) {
   const RadarState& state = step.state;
@@ -258,21 +253,13 @@ std::optional<PointName> next_free(const RadarState& state, const Parameters& pa
   // A designated target that is not a point of the route gets no offsets, because the new target replaces it.
   const bool of_route = selected && is_taken({selected->number, 0, true}, parameters);
   if (selected && selected->target && of_route) {
-    for (int offset = 1; offset <= kMaxOffset; ++offset)
+    for (int offset = 1; offset <= radar::kMaxPointOffset; ++offset)
       if (!is_taken({selected->number, offset, true}, parameters)) return PointName{selected->number, offset, true};
     return std::nullopt;
   }
-  for (int number = 1; number <= kMaxNumber; ++number)
+  for (int number = 1; number <= radar::kMaxPointNumber; ++number)
     if (!is_taken({number, 0, true}, parameters)) return PointName{number, 0, true};
   return std::nullopt;
-}
-
-// Text of a name: "4." or "4.01".
-std::string text_of(PointName name) {
-  std::array<char, 16> text{};
-  const char* const form = name.offset == 0 ? "%d." : "%d.%02d";
-  std::snprintf(text.data(), text.size(), form, name.number, name.offset);
-  return text.data();
 }
 
 // Stores target and cue. `adopted`: point of the route that becomes the target, with its own position and elevation;
@@ -310,7 +297,7 @@ void designate_target(Step& step) {
   const std::string_view old_name = text_of(state.target_name);
   const bool moves_selection = has(state, databuffer::kTargetDesignated) && text_of(state.sequence_point) == old_name &&
                                !is_of_route(old_name, step.parameters);
-  text::put_text(state.target_name, adopted ? adopted->name : text_of(*free));
+  text::put_text(state.target_name, adopted ? adopted->name : radar::text_of(*free));
   if (moves_selection) std::ranges::copy(state.target_name, state.sequence_point);
   put_target(step, adopted);
   ++state.target_count;
@@ -333,6 +320,22 @@ void store_mark(Step& step) {
   state.marks[number] = {known.latitude_deg, known.longitude_deg, 0.0, step.inputs.sim_time_ns};
   request_elevation(step, 1U << number);
   show_message(state, step.inputs, "MARK " + std::to_string(state.mark_count));
+}
+
+void move_target_with_route(RadarState& state, std::span<const radar::RoutePoint> before,
+                            const Parameters& parameters) {
+  if (!has(state, databuffer::kTargetDesignated)) return;
+  const std::string_view name = text_of(state.target_name);
+  const auto old_point = std::ranges::find(before, name, &radar::RoutePoint::name);
+  const auto new_point = std::ranges::find(parameters.route, name, &radar::RoutePoint::name);
+  if (old_point == before.end() || new_point == parameters.route.end()) return;
+  if (GeoPoint{state.target_latitude_deg, state.target_longitude_deg} != old_point->position) return;
+  const bool is_moved = new_point->position != old_point->position;
+  if (!is_moved && std::isnan(new_point->elevation_m)) return;  // the target may have the elevation of the ground
+  state.target_latitude_deg = new_point->position.latitude_deg;
+  state.target_longitude_deg = new_point->position.longitude_deg;
+  state.target_elevation_m = new_point->elevation_m;
+  cancel_request(state, databuffer::kAskedForTarget);
 }
 
 std::optional<radar::RoutePoint> designated_point(const RadarState& state) {

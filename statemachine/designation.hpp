@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 
 #include "databuffer/messages/radar_state.hpp"
 #include "lib/geo/geodesy.hpp"
@@ -66,6 +67,11 @@ void cue_sensor(Step& step);
 void designate_target(Step& step);
 // Stores a mark. If there are ten already, drops the oldest.
 void store_mark(Step& step);
+
+// Moves a target that lies at a point of the route `before` to the place and elevation of that point in the new route,
+// `parameters.route`. A target whose point is gone stays.
+void move_target_with_route(databuffer::RadarState& state, std::span<const radar::RoutePoint> before,
+                            const Parameters& parameters);
 
 // The designated target as a sequence point; nullopt if there is no target.
 std::optional<radar::RoutePoint> designated_point(const databuffer::RadarState& state);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/model_records.hpp"
@@ -32,6 +33,12 @@ enum class Effect : std::uint32_t {
 // Applies one event to the state.
 Effect apply(databuffer::RadarState& state, const databuffer::InputEvent& event, const Inputs& inputs,
              const Parameters& parameters);
+
+// Adapts the state to a changed route, `parameters.route`; `before` is the route before. If the selected sequence point
+// is gone, the one with the lowest number is selected, as at power-up. A target that was designated at a point of the
+// route moves with that point. The cursor stays.
+void change_route(databuffer::RadarState& state, std::span<const radar::RoutePoint> before, const Inputs& inputs,
+                  const Parameters& parameters);
 
 // Advances the state by one tick, after the tick's events. Updates cursor, steering line, navigators, points, legends.
 void advance(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);

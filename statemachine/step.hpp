@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -56,7 +57,8 @@ struct Inputs {
   std::array<databuffer::PatchMap, kMaxMaps> maps{};
 };
 
-// Sections and values of a configuration that the state machine reads. The configuration must outlive this object.
+// Sections and values of a configuration that the state machine reads. The configuration, and the points of `route`,
+// must outlive this object.
 struct Parameters {
   // Converts from a structure that has all these members, such as radar::RadarConfiguration.
   template <class Configuration>
@@ -84,9 +86,9 @@ struct Parameters {
   const radar::ViewConfiguration& view;
   radar::MapLimits map_limits;
   const radar::NavigationConfiguration& navigation;
-  const std::vector<radar::RoutePoint>& route;
-  std::uint64_t seed;             // seed of all random numbers
-  double magnetic_variation_deg;  // [deg] configured magnetic variation, east positive
+  std::span<const radar::RoutePoint> route;  // sequence points; an instructor can change them
+  std::uint64_t seed;                        // seed of all random numbers
+  double magnetic_variation_deg;             // [deg] configured magnetic variation, east positive
   const radar::WindowLimits& window_limits;
   const radar::HeightRanges& height_ranges;
 };

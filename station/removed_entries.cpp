@@ -32,6 +32,8 @@ void RemovedEntries::note(const WorldState& before, const WorldState& after) {
                    databuffer::used(after.jammers, after.jammer_count), remember);
   for_each_missing(databuffer::used(before.movers, before.mover_count),
                    databuffer::used(after.movers, after.mover_count), remember);
+  for_each_missing(databuffer::used(before.points, before.point_count),
+                   databuffer::used(after.points, after.point_count), remember);
 }
 
 error::Expected<void> RemovedEntries::restore(WorldState& world, databuffer::WorldList list, std::uint32_t id) const {

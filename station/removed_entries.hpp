@@ -16,7 +16,7 @@ namespace yars::station {
 
 class RemovedEntries {
  public:
-  static constexpr std::size_t kMaxEntries = 256;  // of all lists; a world has at most 144
+  static constexpr std::size_t kMaxEntries = 512;  // of all lists; a world has at most 272
 
   // Remembers the entries of `before` that `after` lacks.
   void note(const databuffer::WorldState& before, const databuffer::WorldState& after);
@@ -24,9 +24,10 @@ class RemovedEntries {
   error::Expected<void> restore(databuffer::WorldState& world, databuffer::WorldList list, std::uint32_t id) const;
 
  private:
+  // The alternatives have the order of WorldList.
   using Entry =
-      std::variant<databuffer::WorldRainCell, databuffer::WorldJammer, databuffer::WorldMover>;  // as WorldList
-  std::deque<Entry> entries_;                                                                    // the newest first
+      std::variant<databuffer::WorldRainCell, databuffer::WorldJammer, databuffer::WorldMover, databuffer::WorldPoint>;
+  std::deque<Entry> entries_;  // the newest first
 };
 
 }  // namespace yars::station

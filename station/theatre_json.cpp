@@ -97,10 +97,6 @@ ordered_json theatre_json(const radar::RadarConfiguration& configuration, const 
   for (const Place& place : scenes)
     places.push_back(
         {{"name", place.name}, {"lat", place.position.latitude_deg}, {"lon", place.position.longitude_deg}});
-  auto& points = theatre["points"] = ordered_json::array();
-  for (const radar::RoutePoint& point : configuration.route)
-    points.push_back(
-        {{"name", point.name}, {"lat", point.position.latitude_deg}, {"lon", point.position.longitude_deg}});
   auto& beacons = theatre["beacons"] = ordered_json::array();
   for (const radar::Beacon& beacon : configuration.world.beacons.beacons)
     beacons.push_back({{"name", beacon.name},

@@ -63,6 +63,12 @@ Expected<WorldEdit> add_edit(WorldList list, geo::GeoPoint position) {
       return edit_by([=](WorldState& world, std::int64_t sim_time_ns) {
         return add(world, databuffer::default_mover(position, sim_time_ns));
       });
+    case WorldList::points:
+      return edit_by([=](WorldState& world, std::int64_t) -> Expected<std::uint32_t> {
+        const auto point = databuffer::default_point(world, position);
+        if (!point) return tl::unexpected(point.error());
+        return add(world, *point);
+      });
   }
   return refused("list", kWorldLists);
 }
@@ -102,6 +108,19 @@ Expected<WorldEdit> change_edit(WorldList list, std::uint32_t id, const json& ob
         return steer(world, id, speed_kt * kMetresPerSecondPerKnot, heading_deg, sim_time_ns);
       });
     }
+    case WorldList::points: {
+      const std::string name = text(object, "name");
+      const auto elevation = object.find("elevation_ft");
+      const bool is_unknown = elevation != object.end() && elevation->is_null();
+      const double elevation_ft = number(object, "elevation_ft");
+      if (!is_unknown && !std::isfinite(elevation_ft)) return refused("elevation_ft", "a number, or null: unknown");
+      return edit_by([=](WorldState& world, std::int64_t) -> Expected<void> {
+        auto point = changed(databuffer::used(std::as_const(world.points), world.point_count), id);
+        if (auto named = databuffer::set_name(point, name); !named) return named;
+        point.elevation_m = elevation_ft * geo::kMetresPerFoot;
+        return replace(world, point);
+      });
+    }
   }
   return refused("list", kWorldLists);
 }
@@ -129,6 +148,7 @@ std::optional<WorldList> world_list(const json& object, const char* name) {
   if (list == "rain") return WorldList::rain;
   if (list == "jammers") return WorldList::jammers;
   if (list == "movers") return WorldList::movers;
+  if (list == "points") return WorldList::points;
   return std::nullopt;
 }
 

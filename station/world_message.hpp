@@ -1,4 +1,5 @@
-// Commands of the instructor's page that change the world: sea, wind, rain cells, jammers, movers, fidelity.
+// Commands of the instructor's page that change the world: sea, wind, rain cells, jammers, movers, sequence
+// points, fidelity.
 // Inputs: the name of a command and its object of JSON. Outputs: the change, as a function for change_world().
 // Errors: an argument that is absent or no number of the right kind, when the command is read; a value out of range or
 //   an unknown id, when the change is made. Each says what was expected.
@@ -27,7 +28,7 @@ std::optional<error::Expected<WorldEdit>> world_edit(std::string_view command, c
 
 // List that an object names; nullopt: none of kWorldLists.
 std::optional<databuffer::WorldList> world_list(const nlohmann::json& object, const char* name);
-inline constexpr const char* kWorldLists = "rain, jammers or movers";
+inline constexpr const char* kWorldLists = "rain, jammers, movers or points";
 
 // Names of the commands, for messages.
 std::string_view world_commands();

@@ -1,6 +1,7 @@
 // Forms of the configuration language GUF with their slots (schema.hpp): Route, Point, Navigation.
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -8,55 +9,57 @@
 #include "config/schema/schema.hpp"
 #include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/route.hpp"
 #include "lib/radar/velocity_beams.hpp"
 
 namespace yars::config {
 
 namespace {
 
-// Words in the order of radar::PointKind.
-constexpr std::array<std::string_view, 5> kKinds{"steer", "initial", "target", "steer-offset", "target-offset"};
-
-radar::PointKind kind_by_name(const radar::PointName& name) {
-  if (name.offset != 0) return name.target ? radar::PointKind::target_offset : radar::PointKind::steer_offset;
-  return name.target ? radar::PointKind::target : radar::PointKind::steer;
+radar::NamedPoint named(const radar::RoutePoint& point) {
+  return {radar::point_name(point.name).value_or(radar::PointName{}), point.kind};
 }
 
-bool is_point(const radar::PointName& name) {  // false: an offset
-  return name.offset == 0;
+std::vector<radar::NamedPoint> named_points(const std::vector<radar::RoutePoint>& route) {
+  std::vector<radar::NamedPoint> points;
+  std::ranges::transform(route, std::back_inserter(points), named);
+  return points;
 }
 
-// Rules of a point: its name is valid and occurs once in the route, and its coordinates are given. Each number belongs
-// to one steer point, initial point or target; its offsets have the same number. If the file gives the kind, the name
-// fits that kind: a name such as "2" fits a steer point or an initial point, and a name with a dot fits one kind only.
-std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
+std::optional<ConstraintViolation> check_name(const ConfigurationBuilder& builder) {
   const auto name = radar::point_name(builder.point.name);
   if (!name) {
     return ConstraintViolation{"name",
                                "a name of a sequence point: \"2\", \"2.\", \"2.1\" or \"2.01\", number 1 to 100",
                                quoted_text(builder.point.name)};
   }
+  const auto route = named_points(builder.radar.route);
+  if (route.size() >= radar::kMaxRoutePoints)
+    return ConstraintViolation{
+        "name", "at most " + std::to_string(radar::kMaxRoutePoints) + " points in a route, offsets included",
+        quoted_text(builder.point.name)};
+  const radar::NamedPoint* const other = radar::conflict(*name, route);
+  if (other == nullptr) return std::nullopt;
+  if (other->name == *name)
+    return ConstraintViolation{"name", "a name that is not yet in the route", quoted_text(builder.point.name)};
+  return ConstraintViolation{"name", "a number that no other steer point or target has",
+                             quoted_text(builder.point.name) + " beside " + quoted_text(radar::text_of(other->name))};
+}
+
+// Rules of a point: its name is valid and occurs once in the route, and its coordinates are given. Each number belongs
+// to one steer point, initial point or target; its offsets have the same number. If the file gives the kind, the name
+// fits that kind: a name such as "2" fits a steer point or an initial point, and a name with a dot fits one kind only.
+std::optional<ConstraintViolation> check_point(const ConfigurationBuilder& builder) {
+  if (auto wrong = check_name(builder)) return wrong;
   if (auto wrong = check_coordinates(builder.point.position)) return wrong;
-  for (const auto& other : builder.radar.route) {
-    if (other.name == builder.point.name)
-      return ConstraintViolation{"name", "a name that is not yet in the route", quoted_text(other.name)};
-    // Numbers are 1 to 100, so a route has at most 100 points plus offsets.
-    const auto other_name = radar::point_name(other.name);
-    if (is_point(*name) && other_name && is_point(*other_name) && other_name->number == name->number) {
-      return ConstraintViolation{"name", "a number that no other steer point or target has",
-                                 quoted_text(builder.point.name) + " beside " + quoted_text(other.name)};
-    }
-  }
   if (builder.point_kind == kKindByName) return std::nullopt;
-  const auto given = static_cast<radar::PointKind>(builder.point_kind);
-  const auto by_name = kind_by_name(*name);
-  if (given == by_name || (given == radar::PointKind::initial && by_name == radar::PointKind::steer)) {
-    return std::nullopt;
-  }
-  return ConstraintViolation{"kind",
-                             "the kind that the name " + builder.point.name + " has, " +
-                                 std::string(kKinds[static_cast<std::size_t>(by_name)]),
-                             std::string(kKinds[static_cast<std::size_t>(builder.point_kind)])};
+  const radar::PointName name = *radar::point_name(builder.point.name);
+  if (radar::is_kind_of(static_cast<radar::PointKind>(builder.point_kind), name)) return std::nullopt;
+  return ConstraintViolation{
+      "kind",
+      "the kind that the name " + builder.point.name + " has, " +
+          std::string(radar::kPointKindNames[static_cast<std::size_t>(radar::kind_by_name(name))]),
+      std::string(radar::kPointKindNames[static_cast<std::size_t>(builder.point_kind)])};
 }
 
 void begin_point(ConfigurationBuilder& builder) {
@@ -68,7 +71,7 @@ void begin_point(ConfigurationBuilder& builder) {
 }
 
 void end_point(ConfigurationBuilder& builder) {
-  builder.point.kind = builder.point_kind == kKindByName ? kind_by_name(*radar::point_name(builder.point.name))
+  builder.point.kind = builder.point_kind == kKindByName ? radar::kind_by_name(*radar::point_name(builder.point.name))
                                                          : static_cast<radar::PointKind>(builder.point_kind);
   if (builder.point_kind == kKindByName) builder.points_without_kind.insert(builder.point.name);
   builder.radar.route.push_back(builder.point);
@@ -79,58 +82,47 @@ void clear_route(ConfigurationBuilder& builder) {
   builder.points_without_kind.clear();
 }
 
-// Sorts the points other than offsets by number. In this order, the last steer point before each target becomes an
-// initial point. Exceptions: the file states the kind of that steer point, or states another initial point between the
-// previous target and this target. The order of the route itself does not change.
+// The last steer point before each target becomes an initial point, unless the file states its kind.
 void derive_initial_points(ConfigurationBuilder& builder) {
-  std::vector<radar::RoutePoint*> points;
-  for (radar::RoutePoint& point : builder.radar.route) {
-    if (is_point(*radar::point_name(point.name))) points.push_back(&point);
-  }
-  std::sort(points.begin(), points.end(),
-            [](const auto* left, const auto* right) { return radar::precedes(left->name, right->name); });
-  radar::RoutePoint* last_steer = nullptr;
-  for (radar::RoutePoint* point : points) {
-    if (point->kind == radar::PointKind::target) {
-      if (last_steer != nullptr && builder.points_without_kind.contains(last_steer->name))
-        last_steer->kind = radar::PointKind::initial;
-      last_steer = nullptr;
-    } else {
-      const bool has_initial = last_steer != nullptr && last_steer->kind == radar::PointKind::initial;
-      if (!has_initial) last_steer = point;
-    }
+  const auto points = named_points(builder.radar.route);
+  for (const radar::NamedPoint& target : points) {
+    if (target.kind != radar::PointKind::target) continue;
+    const auto index = radar::initial_point_before(target.name.number, points);
+    if (!index) continue;
+    radar::RoutePoint& point = builder.radar.route[*index];
+    if (builder.points_without_kind.contains(point.name)) point.kind = radar::PointKind::initial;
   }
 }
 
 FormSchema point() {
-  return {
-      .name = "Point",
-      .purpose = "a sequence point",
-      .slots = {{.name = "name",
-                 .binding = TextSlot{YARS_FIELD(point.name)},
-                 .purpose = "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\""},
-                latitude_slot(YARS_FIELD(point.position.latitude_deg)),
-                longitude_slot(YARS_FIELD(point.position.longitude_deg)),
-                {.name = "elevation",
-                 .unit = "ft",
-                 .lowest = -1500,
-                 .highest = 30'000,
-                 .binding = NumberSlot{YARS_FIELD(point.elevation_m), geo::kMetresPerFoot},
-                 .purpose = "above mean sea level; left out: unknown"},
-                {.name = "kind",
-                 .binding = ChoiceSlot{kKinds, [](const ConfigurationBuilder& builder) { return builder.point_kind; },
-                                       [](ConfigurationBuilder& builder, int index) { builder.point_kind = index; }},
-                 .purpose = "left out: from the name; the last steer point before a target becomes initial"}},
-      .part_of_value = true,
-      .begin = begin_point,
-      .check = check_point,
-      .end = end_point,
-      .count = [](const ConfigurationBuilder& builder) { return builder.radar.route.size(); },
-      .select =
-          [](ConfigurationBuilder& builder, std::size_t index) {
-            builder.point = builder.radar.route[index];
-            builder.point_kind = static_cast<int>(builder.point.kind);
-          }};
+  return {.name = "Point",
+          .purpose = "a sequence point",
+          .slots = {{.name = "name",
+                     .binding = TextSlot{YARS_FIELD(point.name)},
+                     .purpose = "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\""},
+                    latitude_slot(YARS_FIELD(point.position.latitude_deg)),
+                    longitude_slot(YARS_FIELD(point.position.longitude_deg)),
+                    {.name = "elevation",
+                     .unit = "ft",
+                     .lowest = -1500,
+                     .highest = 30'000,
+                     .binding = NumberSlot{YARS_FIELD(point.elevation_m), geo::kMetresPerFoot},
+                     .purpose = "above mean sea level; left out: unknown"},
+                    {.name = "kind",
+                     .binding = ChoiceSlot{
+                         radar::kPointKindNames, [](const ConfigurationBuilder& builder) { return builder.point_kind; },
+                         [](ConfigurationBuilder& builder, int index) { builder.point_kind = index; }},
+                     .purpose = "left out: from the name; the last steer point before a target becomes initial"}},
+          .part_of_value = true,
+          .begin = begin_point,
+          .check = check_point,
+          .end = end_point,
+          .count = [](const ConfigurationBuilder& builder) { return builder.radar.route.size(); },
+          .select =
+              [](ConfigurationBuilder& builder, std::size_t index) {
+                builder.point = builder.radar.route[index];
+                builder.point_kind = static_cast<int>(builder.point.kind);
+              }};
 }
 
 }  // namespace
@@ -138,7 +130,7 @@ FormSchema point() {
 std::vector<FormSchema> route_forms() {
   return {{.name = "Route",
            .purpose = "the sequence points; replaces an earlier route",
-           .slots = {list_slot("points", "Point", clear_route, "at most 100 points and their offsets")},
+           .slots = {list_slot("points", "Point", clear_route, "at most 128, offsets included")},
            .end = derive_initial_points},
           point()};
 }

@@ -323,13 +323,14 @@ typedef struct {
 
 /* A sequence point on the display. Its position is in the navigator's coordinates, not as the video shows it. */
 typedef struct {
-  double latitude_deg;  /* [deg] [-90, 90] */
-  double longitude_deg; /* [deg] [-180, 180] */
-  double elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
-  char name[8];         /* "2.01", zero terminated */
-  uint8_t kind;         /* radar::PointKind */
-  uint8_t selected;     /* [0, 1] 1: the selected sequence point */
-  uint8_t reserved[6];
+  double latitude_deg;      /* [deg] [-90, 90] */
+  double longitude_deg;     /* [deg] [-180, 180] */
+  double elevation_m;       /* [m] [-12000, 10000] MSL; NaN = unknown */
+  char name[8];             /* "2.01", zero terminated */
+  uint8_t kind;             /* radar::PointKind */
+  uint8_t selected;         /* [0, 1] 1: the selected sequence point */
+  uint8_t of_initial_point; /* [0, 1] 1: an offset of an initial point; its kind is steer_offset */
+  uint8_t reserved[5];
 } yars_drawn_point;
 
 /* Error of a navigator, added to position and velocity of Nav in the ownship lane. */

@@ -1,5 +1,6 @@
 #include "databuffer/json/world_json.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -8,6 +9,7 @@
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/messages/world_edit.hpp"
 #include "lib/geo/quantity.hpp"
+#include "lib/radar/route.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
@@ -56,6 +58,22 @@ ordered_json object_of(const WorldMover& mover) {
           {"height_ft", mover.height_m / geo::kMetresPerFoot}};
 }
 
+ordered_json object_of(const WorldPoint& point) {
+  return {{"id", point.id},
+          {"name", std::string(text_of(point.name))},
+          {"kind", kind_name(point)},
+          {"latitude_deg", point.latitude_deg},
+          {"longitude_deg", point.longitude_deg},
+          {"elevation_ft", null_if_missing(point.elevation_m / geo::kMetresPerFoot)}};
+}
+
+template <class Entries>
+ordered_json list_of(const Entries& entries) {
+  ordered_json list = ordered_json::array();
+  for (const auto& entry : entries) list.push_back(object_of(entry));
+  return list;
+}
+
 }  // namespace
 
 const char* band_name(std::int32_t band) {
@@ -63,10 +81,12 @@ const char* band_name(std::int32_t band) {
   return band >= 0 && band < static_cast<std::int32_t>(kNames.size()) ? kNames[static_cast<std::size_t>(band)] : "all";
 }
 
+std::string_view kind_name(const WorldPoint& point) {
+  return radar::kPointKindNames[std::min<std::size_t>(point.kind, radar::kPointKindNames.size() - 1)];
+}
+
 nlohmann::ordered_json world_json(const WorldState& world, std::int64_t sim_time_ns) {
-  ordered_json rain = ordered_json::array(), jammers = ordered_json::array(), movers = ordered_json::array();
-  for (const WorldRainCell& cell : used(world.rain, world.rain_count)) rain.push_back(object_of(cell));
-  for (const WorldJammer& jammer : used(world.jammers, world.jammer_count)) jammers.push_back(object_of(jammer));
+  ordered_json movers = ordered_json::array();
   for (const WorldMover& mover : used(world.movers, world.mover_count))
     movers.push_back(object_of(at_sim_time(mover, sim_time_ns)));
   return {{"edit", world.edit},
@@ -75,9 +95,11 @@ nlohmann::ordered_json world_json(const WorldState& world, std::int64_t sim_time
           {"sea_state", null_if_missing(world.sea_state)},
           {"wind_kt", geo::Speed::metres_per_second(world.wind_speed_mps).knots()},
           {"wind_from_deg", world.wind_from_deg},
-          {"rain", rain},
-          {"jammers", jammers},
-          {"movers", movers}};
+          {"rain", list_of(used(world.rain, world.rain_count))},
+          {"jammers", list_of(used(world.jammers, world.jammer_count))},
+          {"movers", movers},
+          {"points_changed", (world.flags & kWorldPointsChanged) != 0U},
+          {"points", list_of(used(world.points, world.point_count))}};
 }
 
 }  // namespace yars::databuffer

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <nlohmann/json_fwd.hpp>
+#include <string_view>
 
 #include "databuffer/messages/world_state.hpp"
 
@@ -14,5 +15,7 @@ nlohmann::ordered_json world_json(const WorldState& world, std::int64_t sim_time
 
 // Name of a jammer's band: "A" to "E", or "all" for -1.
 const char* band_name(std::int32_t band);
+// Word for the kind of a sequence point, such as "target" (radar::kPointKindNames).
+std::string_view kind_name(const WorldPoint& point);
 
 }  // namespace yars::databuffer

@@ -8,6 +8,8 @@
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/messages/record_checks.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/route.hpp"
+#include "lib/text/plain_text.hpp"
 
 // check_fields() is generated from the ranges in the IDL. This file checks the fields whose range applies only under a
 // condition on another field, such as a flag. The IDL marks these fields with @by_hand.
@@ -113,6 +115,23 @@ void inspect_ids(Inspection& inspection, const std::string& list, const Entry (&
   }
 }
 
+// Checks that each sequence point has a valid name, a kind that fits it, and no name or number of an earlier point.
+void inspect_points(Inspection& inspection, std::span<const WorldPoint> points) {
+  std::array<radar::NamedPoint, kMaxWorldPoints> earlier{};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::string field = "points[" + std::to_string(i) + ']';
+    const std::string_view text = text::text_of(points[i].name);
+    const auto kind = static_cast<radar::PointKind>(points[i].kind);
+    const auto name = radar::point_name(text);
+    if (!name) return inspection.fault(field + ".name", "a name such as 2, 2., 2.1 or 2.01", text);
+    if (!radar::is_kind_of(kind, *name))
+      inspection.fault(field + ".kind", "the kind that the name has", std::to_string(points[i].kind));
+    if (radar::conflict(*name, std::span(earlier).first(i)) != nullptr)
+      inspection.fault(field + ".name", "a name and number that no earlier point has", text);
+    earlier[i] = {*name, kind};
+  }
+}
+
 }  // namespace
 
 Refusal validate(const WorldState& world) {
@@ -121,6 +140,8 @@ Refusal validate(const WorldState& world) {
   inspect_ids(inspection, "rain", world.rain, world.rain_count);
   inspect_ids(inspection, "jammers", world.jammers, world.jammer_count);
   inspect_ids(inspection, "movers", world.movers, world.mover_count);
+  inspect_ids(inspection, "points", world.points, world.point_count);
+  inspect_points(inspection, used(world.points, world.point_count));
   return inspection.result();
 }
 

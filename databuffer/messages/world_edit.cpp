@@ -11,6 +11,7 @@
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/messages/world_values.hpp"
 #include "lib/radar/fidelity.hpp"
+#include "lib/radar/route.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
@@ -77,6 +78,13 @@ Expected<void> check(const WorldMover& mover) {
                 {"sim time", static_cast<double>(mover.since_ns), 0.0, static_cast<double>(kLatestSimTime_ns), "ns"}});
 }
 
+Expected<void> check(const WorldPoint& point) {
+  const double elevation_m = std::isnan(point.elevation_m) ? 0.0 : point.elevation_m;
+  return check_all("point", {{"latitude", point.latitude_deg, -90.0, 90.0, "deg"},
+                             {"longitude", point.longitude_deg, -180.0, 180.0, "deg"},
+                             {"elevation", elevation_m, -1500.0, 30'000.0, "ft", geo::kMetresPerFoot}});
+}
+
 template <std::size_t size>
 Expected<void> store_name(char (&into)[size], std::string_view subject, std::string_view name) {
   const auto printable = [](char letter) { return letter >= ' ' && letter <= '~'; };
@@ -107,6 +115,9 @@ List<WorldJammer> list_of(WorldState& world, const WorldJammer* /*kind*/) {
 List<WorldMover> list_of(WorldState& world, const WorldMover* /*kind*/) {
   return {world.movers, world.mover_count, "mover"};
 }
+List<WorldPoint> list_of(WorldState& world, const WorldPoint* /*kind*/) {
+  return {world.points, world.point_count, "point"};
+}
 template <class Entry>
 List<Entry> list_in(WorldState& world) {
   return list_of(world, static_cast<const Entry*>(nullptr));
@@ -114,6 +125,47 @@ List<Entry> list_in(WorldState& world) {
 
 void mark_changed(WorldState& world) {
   world.flags &= ~kWorldConfigured;
+}
+template <class Entry>
+void mark_list_changed(WorldState& world) {
+  mark_changed(world);
+  if constexpr (std::is_same_v<Entry, WorldPoint>) world.flags |= kWorldPointsChanged;
+}
+
+// ---- Rules of sequence points among each other
+std::vector<radar::NamedPoint> named_points(const WorldState& world, std::uint32_t without_id = 0) {
+  std::vector<radar::NamedPoint> points;
+  for (const WorldPoint& point : used(world.points, world.point_count)) {
+    const auto name = radar::point_name(text::text_of(point.name));
+    if (name && point.id != without_id) points.push_back({*name, static_cast<radar::PointKind>(point.kind)});
+  }
+  return points;
+}
+
+// Entries of other kinds go together with all others.
+template <class Entry>
+Expected<void> check_beside_others(const WorldState& /*world*/, const Entry& /*entry*/) {
+  return {};
+}
+Expected<void> check_beside_others(const WorldState& world, const WorldPoint& point) {
+  const std::string text(text::text_of(point.name));
+  const auto name = radar::point_name(text);
+  if (!name || !radar::is_kind_of(static_cast<radar::PointKind>(point.kind), *name))
+    return fail("point: name", "a name such as 2, 2., 2.1 or 2.01 with a kind that fits it", text);
+  const auto others = named_points(world, point.id);
+  const radar::NamedPoint* const other = radar::conflict(*name, others);
+  if (other == nullptr) return {};
+  return fail("point: name", "a name that no other point has, and a number that no other steer point or target has",
+              text + " beside " + radar::text_of(other->name),
+              "choose another number, or give an offset such as " + radar::text_of({name->number, 1, name->target}));
+}
+
+// The last steer point before a target becomes an initial point. Other points change nothing.
+void make_initial_point(WorldState& world, const WorldPoint& target) {
+  const auto name = radar::point_name(text::text_of(target.name));
+  if (!name || target.kind != static_cast<std::uint8_t>(radar::PointKind::target)) return;
+  const auto index = radar::initial_point_before(name->number, named_points(world));
+  if (index) world.points[*index].kind = static_cast<std::uint8_t>(radar::PointKind::initial);
 }
 
 template <class Entry>
@@ -124,11 +176,15 @@ std::string ids_of(std::span<Entry> entries) {
 }
 
 template <class Entry>
+tl::unexpected<error::Error> fail_unknown(std::string_view subject, std::span<Entry> in_use, std::uint32_t id) {
+  return fail(std::string(subject), ids_of(in_use), "id " + std::to_string(id), "see `yars world`");
+}
+
+template <class Entry>
 Expected<Entry*> find(const List<Entry>& list, std::uint32_t id) {
   const auto in_use = list.in_use();
   const auto found = std::ranges::find(in_use, id, &Entry::id);
-  if (found == in_use.end())
-    return fail(std::string(list.subject), ids_of(in_use), "id " + std::to_string(id), "see `yars world`");
+  if (found == in_use.end()) return fail_unknown(list.subject, in_use, id);
   return &*found;
 }
 
@@ -147,8 +203,9 @@ Expected<void> append_entry(WorldState& world, const Entry& entry) {
   if (list.count >= list.entries.size())
     return fail(std::string(list.subject), "at most " + std::to_string(list.entries.size()) + " in the world",
                 "one more", "remove another one first");
+  if (auto fitting = check_beside_others(world, entry); !fitting) return fitting;
   list.entries[list.count++] = entry;
-  mark_changed(world);
+  mark_list_changed<Entry>(world);
   return {};
 }
 
@@ -178,8 +235,9 @@ Expected<void> replace_entry(WorldState& world, const Entry& entry) {
   if (auto valid = check(entry); !valid) return valid;
   const auto found = find(list_in<Entry>(world), entry.id);
   if (!found) return tl::unexpected(found.error());
+  if (auto fitting = check_beside_others(world, entry); !fitting) return fitting;
   **found = entry;
-  mark_changed(world);
+  mark_list_changed<Entry>(world);
   return {};
 }
 
@@ -204,7 +262,7 @@ Expected<void> remove_entry(WorldState& world, std::uint32_t id) {
   std::copy(in_use.begin() + (*found - in_use.data()) + 1, in_use.end(), *found);
   in_use.back() = {};
   --list.count;
-  mark_changed(world);
+  mark_list_changed<Entry>(world);
   return {};
 }
 
@@ -230,11 +288,34 @@ WorldMover default_mover(geo::GeoPoint position, std::int64_t sim_time_ns) {
   return mover;
 }
 
+Expected<WorldPoint> default_point(const WorldState& world, geo::GeoPoint position) {
+  const auto others = named_points(world);
+  const auto is_free = [&others](int number) { return radar::conflict({number, 0, false}, others) == nullptr; };
+  int last = 0;
+  for (const radar::NamedPoint& other : others) last = std::max(last, other.name.number);
+  int number = last + 1;
+  if (number > radar::kMaxPointNumber)
+    for (number = 1; number <= radar::kMaxPointNumber && !is_free(number);) ++number;
+  if (number > radar::kMaxPointNumber)
+    return fail("point", "a free number from 1 to 100", "none", "remove another point first, or add an offset");
+  radar::RoutePoint point{.name = std::to_string(number), .position = position, .elevation_m = std::nan("")};
+  return world_state_from({}, std::span(&point, 1)).points[0];
+}
+
 Expected<void> set_name(WorldJammer& jammer, std::string_view name) {
   return store_name(jammer.name, "jammer", name);
 }
 Expected<void> set_name(WorldMover& mover, std::string_view name) {
   return store_name(mover.name, "mover", name);
+}
+Expected<void> set_name(WorldPoint& point, std::string_view name) {
+  const auto parts = radar::point_name(name);
+  if (!parts)
+    return fail("point: name", "2, target 2., offset 2.1 or target offset 2.01, with a number from 1 to 100",
+                '"' + text::printable(std::string(name.substr(0, 40))) + '"');
+  if (!radar::is_kind_of(static_cast<radar::PointKind>(point.kind), *parts))
+    point.kind = static_cast<std::uint8_t>(radar::kind_by_name(*parts));
+  return store_name(point.name, "point", name);
 }
 
 Expected<std::uint32_t> add(WorldState& world, WorldRainCell cell) {
@@ -246,6 +327,11 @@ Expected<std::uint32_t> add(WorldState& world, WorldJammer jammer) {
 Expected<std::uint32_t> add(WorldState& world, WorldMover mover) {
   return add_entry(world, mover);
 }
+Expected<std::uint32_t> add(WorldState& world, WorldPoint point) {
+  const auto id = add_entry(world, point);
+  if (id) make_initial_point(world, point);
+  return id;
+}
 
 Expected<void> replace(WorldState& world, const WorldRainCell& cell) {
   return replace_entry(world, cell);
@@ -256,6 +342,13 @@ Expected<void> replace(WorldState& world, const WorldJammer& jammer) {
 Expected<void> replace(WorldState& world, const WorldMover& mover) {
   return replace_entry(world, mover);
 }
+Expected<void> replace(WorldState& world, const WorldPoint& point) {
+  const auto before = find(list_in<WorldPoint>(world), point.id);
+  const bool is_renamed = before && text::text_of((*before)->name) != text::text_of(point.name);
+  auto done = replace_entry(world, point);
+  if (done && is_renamed) make_initial_point(world, point);
+  return done;
+}
 
 Expected<void> move(WorldState& world, WorldList list, std::uint32_t id, geo::GeoPoint position,
                     std::int64_t sim_time_ns) {
@@ -265,9 +358,11 @@ Expected<void> move(WorldState& world, WorldList list, std::uint32_t id, geo::Ge
     case WorldList::jammers:
       return move_entry<WorldJammer>(world, id, position, sim_time_ns);
     case WorldList::movers:
+      return move_entry<WorldMover>(world, id, position, sim_time_ns);
+    case WorldList::points:
       break;
   }
-  return move_entry<WorldMover>(world, id, position, sim_time_ns);
+  return move_entry<WorldPoint>(world, id, position, sim_time_ns);
 }
 
 Expected<void> steer(WorldState& world, std::uint32_t id, double speed_mps, double heading_deg,
@@ -280,6 +375,13 @@ Expected<void> steer(WorldState& world, std::uint32_t id, double speed_mps, doub
   return replace_entry(world, steered);
 }
 
+Expected<WorldPoint> point_with(const WorldState& world, std::uint32_t id) {
+  const auto in_use = used(world.points, world.point_count);
+  const auto found = std::ranges::find(in_use, id, &WorldPoint::id);
+  if (found == in_use.end()) return fail_unknown("point", in_use, id);
+  return *found;
+}
+
 Expected<void> remove(WorldState& world, WorldList list, std::uint32_t id) {
   switch (list) {
     case WorldList::rain:
@@ -287,9 +389,11 @@ Expected<void> remove(WorldState& world, WorldList list, std::uint32_t id) {
     case WorldList::jammers:
       return remove_entry<WorldJammer>(world, id);
     case WorldList::movers:
+      return remove_entry<WorldMover>(world, id);
+    case WorldList::points:
       break;
   }
-  return remove_entry<WorldMover>(world, id);
+  return remove_entry<WorldPoint>(world, id);
 }
 
 Expected<void> restore(WorldState& world, const WorldRainCell& cell) {
@@ -300,6 +404,9 @@ Expected<void> restore(WorldState& world, const WorldJammer& jammer) {
 }
 Expected<void> restore(WorldState& world, const WorldMover& mover) {
   return restore_entry(world, mover);
+}
+Expected<void> restore(WorldState& world, const WorldPoint& point) {
+  return restore_entry(world, point);
 }
 
 Expected<void> set_sea_state(WorldState& world, double state) {

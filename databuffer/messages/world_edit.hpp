@@ -3,7 +3,7 @@
 // Units: those of the record. Messages name limits in the units of the configuration's forms: NM, ft, kt, deg.
 // Errors: a value out of range, an unknown id, a full list. The world then stays as it was.
 // Use: inside databuffer::change_world() (session_world.hpp), so that no edit of another program is lost.
-// Source: limits as in docs/configuration (forms Sea, RainCell, Jammer, Mover).
+// Source: limits as in docs/configuration (forms Sea, RainCell, Jammer, Mover, Point).
 #pragma once
 
 #include <cstdint>
@@ -15,27 +15,38 @@
 
 namespace yars::databuffer {
 
-enum class WorldList : std::uint8_t { rain, jammers, movers };
+enum class WorldList : std::uint8_t { rain, jammers, movers, points };
 
 // Entries with the values that hold for what a user does not give.
 WorldRainCell default_rain_cell(geo::GeoPoint position);
 WorldJammer default_jammer(geo::GeoPoint position);
 // `sim_time_ns`: sim time at which the mover is at `position`.
 WorldMover default_mover(geo::GeoPoint position, std::int64_t sim_time_ns);
+// A steer point with the lowest number that is greater than those of all points, or else the lowest free one. Its
+// elevation is unknown. Error: all numbers are in use.
+error::Expected<WorldPoint> default_point(const WorldState& world, geo::GeoPoint position);
 
 // Name of a jammer or mover: at most 15 characters of printable ASCII.
 error::Expected<void> set_name(WorldJammer& jammer, std::string_view name);
 error::Expected<void> set_name(WorldMover& mover, std::string_view name);
+// Name of a sequence point: "2", target "2.", offset "2.1", target offset "2.01". A kind that
+// does not fit the name becomes that of the name.
+error::Expected<void> set_name(WorldPoint& point, std::string_view name);
+
+// Sequence points: an edit of a point sets kWorldPointsChanged. A name or number that another point has is refused. A
+// target that is added or renamed makes the last steer point before it an initial point, as in a configuration.
 
 // Add an entry with a new id and return the id; the id of the argument is not used.
 error::Expected<std::uint32_t> add(WorldState& world, WorldRainCell cell);
 error::Expected<std::uint32_t> add(WorldState& world, WorldJammer jammer);
 error::Expected<std::uint32_t> add(WorldState& world, WorldMover mover);
+error::Expected<std::uint32_t> add(WorldState& world, WorldPoint point);
 
 // Replace the entry with the id of the argument.
 error::Expected<void> replace(WorldState& world, const WorldRainCell& cell);
 error::Expected<void> replace(WorldState& world, const WorldJammer& jammer);
 error::Expected<void> replace(WorldState& world, const WorldMover& mover);
+error::Expected<void> replace(WorldState& world, const WorldPoint& point);
 
 // Moves an entry to a position. A mover is there at `sim_time_ns`, and goes on with its speed and present heading.
 error::Expected<void> move(WorldState& world, WorldList list, std::uint32_t id, geo::GeoPoint position,
@@ -43,11 +54,14 @@ error::Expected<void> move(WorldState& world, WorldList list, std::uint32_t id, 
 // Gives a mover another speed and heading at its position at `sim_time_ns`.
 error::Expected<void> steer(WorldState& world, std::uint32_t id, double speed_mps, double heading_deg,
                             std::int64_t sim_time_ns);
+// Point with an id, to be changed by replace().
+error::Expected<WorldPoint> point_with(const WorldState& world, std::uint32_t id);
 error::Expected<void> remove(WorldState& world, WorldList list, std::uint32_t id);
 // Add an entry that was removed again, with the id that it had. Errors: the list is full, or has an entry with this id.
 error::Expected<void> restore(WorldState& world, const WorldRainCell& cell);
 error::Expected<void> restore(WorldState& world, const WorldJammer& jammer);
 error::Expected<void> restore(WorldState& world, const WorldMover& mover);
+error::Expected<void> restore(WorldState& world, const WorldPoint& point);
 
 // Sea state, WMO code 3700, 0 to 6; NaN: from the wind.
 error::Expected<void> set_sea_state(WorldState& world, double state);

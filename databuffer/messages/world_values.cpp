@@ -78,6 +78,16 @@ WorldMover record_of(const radar::Mover& mover) {
   return record;
 }
 
+WorldPoint record_of(const radar::RoutePoint& point) {
+  WorldPoint record{};
+  write_name(record.name, point.name);
+  record.latitude_deg = point.position.latitude_deg;
+  record.longitude_deg = point.position.longitude_deg;
+  record.elevation_m = point.elevation_m;
+  record.kind = static_cast<std::uint8_t>(point.kind);
+  return record;
+}
+
 template <class Entry, std::size_t size, class Configured>
 std::uint32_t write_list(Entry (&entries)[size], const Configured& configured) {
   const std::uint32_t count = count_in(entries, configured.size());
@@ -90,7 +100,8 @@ std::uint32_t write_list(Entry (&entries)[size], const Configured& configured) {
 
 }  // namespace
 
-WorldState world_state_from(const radar::WorldConfiguration& world) {
+WorldState world_state_from(const radar::WorldConfiguration& world, std::span<const radar::RoutePoint> route) {
+  static_assert(kMaxWorldPoints == radar::kMaxRoutePoints);
   WorldState state{};
   state.flags = kWorldConfigured;
   state.sea_state = world.sea.state;
@@ -99,7 +110,8 @@ WorldState world_state_from(const radar::WorldConfiguration& world) {
   state.rain_count = write_list(state.rain, world.rain.cells);
   state.jammer_count = write_list(state.jammers, world.jamming.jammers);
   state.mover_count = write_list(state.movers, world.movers);
-  state.last_id = std::max({state.rain_count, state.jammer_count, state.mover_count});
+  state.point_count = write_list(state.points, route);
+  state.last_id = std::max({state.rain_count, state.jammer_count, state.mover_count, state.point_count});
   return state;
 }
 
@@ -131,6 +143,16 @@ void apply(const WorldState& state, radar::WorldConfiguration& world) {
          .cross_section_m2 = mover.cross_section_m2,
          .height_m = mover.height_m,
          .since = geo::Duration::seconds(static_cast<double>(mover.since_ns) * kSecondsPerNanosecond)});
+}
+
+std::vector<radar::RoutePoint> route_of(const WorldState& state) {
+  std::vector<radar::RoutePoint> route;
+  for (const WorldPoint& point : used(state.points, state.point_count))
+    route.push_back({.name = std::string(text::text_of(point.name)),
+                     .kind = static_cast<radar::PointKind>(point.kind),
+                     .position = {point.latitude_deg, point.longitude_deg},
+                     .elevation_m = point.elevation_m});
+  return route;
 }
 
 }  // namespace yars::databuffer

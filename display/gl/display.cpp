@@ -59,7 +59,6 @@ struct Display::State {
   State(const SymbologyParameters& parameters, int size, const ColorScheme& colors_used)
       : view_section(parameters.view),
         blind_zone_deg(parameters.blind_zone_deg),
-        route(parameters.route),
         colors(colors_used),
         view(parameters.view),
         picture(size),
@@ -158,7 +157,6 @@ struct Display::State {
 
   radar::ViewConfiguration view_section;
   double blind_zone_deg;
-  std::vector<radar::RoutePoint> route;
   ColorScheme colors;
   PlanView view;
   Framebuffer picture, base_picture;
@@ -222,8 +220,7 @@ bool Display::draw(const DisplayInput& input) {
   wanted.frame = present_frame(input, video ? state.store.newest() : nullptr);
   wanted.brightness = input.state.brightness;
   wanted.contrast = input.state.contrast;
-  draw_symbology(input, {state.view_section, state.blind_zone_deg, state.route}, state.view, wanted.frame, state.labels,
-                 state.list);
+  draw_symbology(input, {state.view_section, state.blind_zone_deg}, state.view, wanted.frame, state.labels, state.list);
   state.damage.reset(state.picture.size());
   state.update_base(wanted);
   state.mark_changed_symbols();

@@ -46,16 +46,7 @@ void draw_triangle(Point at, bool dashed, DrawList& list) {
   list.polygon(corners, dashed);
 }
 
-// True for an offset of an initial point (IP). Offset "3.2" belongs to point "3".
-bool is_offset_of_initial_point(std::string_view name, std::span<const radar::RoutePoint> route) {
-  const std::string_view base = name.substr(0, name.find('.'));
-  return std::ranges::any_of(route, [&](const radar::RoutePoint& point) {
-    return point.kind == radar::PointKind::initial && point.name == base;
-  });
-}
-
-void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::RoutePoint> route, Point at,
-                 DrawList& list) {
+void draw_symbol(const databuffer::DrawnPoint& point, Point at, DrawList& list) {
   switch (static_cast<radar::PointKind>(point.kind)) {
     case radar::PointKind::steer:
       list.circle(at, kSymbolRadius, false);
@@ -67,7 +58,7 @@ void draw_symbol(const databuffer::DrawnPoint& point, std::span<const radar::Rou
       draw_triangle(at, false, list);
       return;
     case radar::PointKind::steer_offset:
-      if (is_offset_of_initial_point(text::text_of(point.name), route)) {
+      if (point.of_initial_point != 0) {
         draw_square(at, true, list);
       } else {
         list.circle(at, kSymbolRadius, true);
@@ -171,14 +162,13 @@ PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const
   return placed;
 }
 
-void draw_points(const databuffer::RadarState& state, std::span<const radar::RoutePoint> route,
-                 const PlacedPoints& placed, DrawList& list) {
+void draw_points(const databuffer::RadarState& state, const PlacedPoints& placed, DrawList& list) {
   list.draw_on(Layer::points);
   const auto points = points_of(state);
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!placed[i]) continue;
     const Point at = *placed[i];
-    draw_symbol(points[i], route, at, list);
+    draw_symbol(points[i], at, list);
     const char* const name = points[i].selected != 0 ? "selected point" : "point";
     list.occupy(name, grown({at.x, at.y, at.x, at.y}, kSymbolRadius + 1.0F), BoxKind::point);
   }

@@ -1,6 +1,6 @@
 // Ground symbols: cursor, sequence points with their names, window outline of a map, and pattern steering line (PSL), a
 // line that shows from which direction the target is approached.
-// Inputs: DisplayInput, view and frame (plan_view.hpp), route, labels of the last picture.
+// Inputs: DisplayInput, view and frame (plan_view.hpp), labels of the last picture.
 // Outputs: strokes and occupied boxes in a draw list; labels for label_layout.hpp.
 // Frame: the cursor is drawn at its true ground position, as is the video. Points and target are displaced from their
 // true positions by the position error of the selected navigator.
@@ -10,16 +10,11 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 
 #include "display/symbology/draw_list.hpp"
 #include "display/symbology/label_layout.hpp"
 #include "display/symbology/plan_view.hpp"
 #include "lib/radar/modes.hpp"
-
-namespace yars::radar {
-struct RoutePoint;
-}  // namespace yars::radar
 
 namespace yars::display {
 
@@ -40,9 +35,8 @@ PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const
                           const LabelMemory& labels, const DrawList& list);
 
 // Draws a circle for a steer point, a square for an initial point, a triangle for a target. An offset of a point has
-// the symbol of that point, dashed. `route` tells offsets of initial points from offsets of steer points.
-void draw_points(const databuffer::RadarState& state, std::span<const radar::RoutePoint> route,
-                 const PlacedPoints& placed, DrawList& list);
+// the symbol of that point, dashed.
+void draw_points(const databuffer::RadarState& state, const PlacedPoints& placed, DrawList& list);
 
 // Rank of a name in label placement: the selected point, then the designated target, then all others.
 enum class NameRank : std::uint8_t { selected, target, other };

@@ -308,10 +308,10 @@ void draw_readouts(const DisplayInput& input, const Format& format, DrawList& li
 }
 
 // Symbols are drawn before labels, because labels are placed clear of symbols.
-void draw_ground(const DisplayInput& input, std::span<const radar::RoutePoint> route, const PlanView& view,
-                 const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
+void draw_ground(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, LabelMemory& labels,
+                 DrawList& list) {
   const PlacedPoints placed = place_points(input, view, frame, labels, list);
-  draw_points(input.state, route, placed, list);
+  draw_points(input.state, placed, list);
   const auto heading = draw_steering_line(input, view, frame, list);
   LabelQueue queue;
   add_names(input.state, placed, NameRank::selected, queue);
@@ -339,7 +339,7 @@ void draw_format(const DisplayInput& input, const Format& format, const Symbolog
   if (placed && format.map) draw_map_width(input.map, list);
   if (format.velocity) draw_velocity_format(input, list);
   if (placed && format.mapping) draw_window_outline(input, view, frame, list);
-  if (placed) draw_ground(input, parameters.route, view, frame, labels, list);
+  if (placed) draw_ground(input, view, frame, labels, list);
   list.blank_behind_texts();
 }
 

@@ -15,7 +15,6 @@
 #include "display/symbology/plan_view.hpp"
 
 namespace yars::radar {
-struct RoutePoint;
 struct ViewConfiguration;
 }  // namespace yars::radar
 
@@ -54,18 +53,16 @@ bool takes_cursor(const DisplayInput& input);
 
 // Sections and values of a configuration that the symbology reads. The configuration must outlive this object.
 struct SymbologyParameters {
-  // Converts from a configuration with view, blind zone and route, such as radar::RadarConfiguration.
+  // Converts from a configuration with view and blind zone, such as radar::RadarConfiguration.
   template <class Configuration>
-  requires requires(const Configuration& whole) { whole.route; }
+  requires requires(const Configuration& whole) { whole.high_resolution; }
   SymbologyParameters(const Configuration& whole)
-      : SymbologyParameters(whole.view, whole.high_resolution.blind_zone_deg, whole.route) {}
-  SymbologyParameters(const radar::ViewConfiguration& view_section, double blind_zone,
-                      const std::vector<radar::RoutePoint>& route_points)
-      : view(view_section), blind_zone_deg(blind_zone), route(route_points) {}
+      : SymbologyParameters(whole.view, whole.high_resolution.blind_zone_deg) {}
+  SymbologyParameters(const radar::ViewConfiguration& view_section, double blind_zone)
+      : view(view_section), blind_zone_deg(blind_zone) {}
 
   const radar::ViewConfiguration& view;
   double blind_zone_deg;  // [deg] either side of the ground track
-  const std::vector<radar::RoutePoint>& route;
 };
 
 // Draws all symbols and texts that power and mode require. With power STBY these are the legends, the message, the name

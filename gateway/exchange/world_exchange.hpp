@@ -1,9 +1,8 @@
-// The world on several hosts: sea, wind, rain, jammers and movers that an instructor of any host changes.
+// The world on several hosts: sea, wind, rain, jammers, movers and sequence points that any host's instructor changes.
 // Inputs: on radar-model's host its containers world, world_configured and world_latched, and requests of other hosts;
 //   on the others samples of that host, and the local container world_request.
-// Outputs: on radar-model's host samples, and requested changes in `world`; on the others the same three containers,
-// and
-//   requests. An answer for each request.
+// Outputs: on radar-model's host samples, and requested changes in `world`; on the others the same three
+//   containers, and requests. An answer for each request.
 // Errors: an invalid record is refused, counted and noted. A request is answered as outdated if it is not based on the
 //   newest edit, so that no change of another instructor is lost. One that is older than 1 s has no effect.
 // Limits: one waiting request of each host; one takes effect each 50 ms.

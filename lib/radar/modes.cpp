@@ -48,8 +48,6 @@ std::string_view name_of(Navigator navigator) {
 
 namespace {
 
-constexpr int kMaxNumber = 100;  // largest number of a sequence point; docs/spec/pilots_interface.md#rule-11
-
 std::optional<int> number_of(std::string_view digits) {
   const bool all_digits = std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
   int value = 0;
@@ -72,7 +70,7 @@ std::optional<PointName> point_name(std::string_view text) {
   const std::string_view number_text = text.substr(0, dot);
   const auto number = number_of(number_text);
   // A number with leading zeros is refused, because one point would then have several names.
-  if (!number || number_text.front() == '0' || *number > kMaxNumber) return std::nullopt;
+  if (!number || number_text.front() == '0' || *number > kMaxPointNumber) return std::nullopt;
   if (dot == std::string_view::npos) return PointName{*number, 0, false};
 
   const std::string_view offset_text = text.substr(dot + 1);
@@ -80,6 +78,14 @@ std::optional<PointName> point_name(std::string_view text) {
   const auto offset = number_of(offset_text);
   if (offset_text.size() > 2 || !offset || *offset == 0) return std::nullopt;
   return PointName{*number, *offset, offset_text.size() == 2};
+}
+
+std::string text_of(const PointName& name) {
+  std::string text = std::to_string(name.number);
+  if (name.target || name.offset != 0) text += '.';
+  if (name.offset == 0) return text;
+  if (name.target && name.offset < 10) text += '0';
+  return text + std::to_string(name.offset);
 }
 
 bool precedes(std::string_view left, std::string_view right) {

@@ -9,14 +9,18 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 namespace yars::radar {
 
-// Sizes of arrays in records, and the duration of a tick.
+// Sizes of arrays in records, numbers of sequence points, and the duration of a tick.
 inline constexpr int kMaxSamples = 4096;                     // maximum number of samples of a sweep
 inline constexpr int kBezelButtons = 20;                     // buttons around the display
 inline constexpr int kMaxPointsDrawn = 8;                    // sequence points in a record; state-machine uses five
+inline constexpr int kMaxRoutePoints = 128;                  // sequence points of a route, offsets included
+inline constexpr int kMaxPointNumber = 100;                  // largest number of a sequence point
+inline constexpr int kMaxPointOffset = 99;                   // largest offset of a target; 9 of other points
 inline constexpr std::int64_t kTickNanoseconds = 5'000'000;  // [ns] tick of all programs, in sim time
 inline constexpr double kTickSeconds = 0.005;                // [s] kTickNanoseconds in seconds
 
@@ -75,6 +79,9 @@ struct PointName {
 
 // Number and offset in a name; nullopt: the text is no name of a sequence point.
 std::optional<PointName> point_name(std::string_view text);
+
+// The name as a text: "2", "2.", "2.1" or "2.01".
+std::string text_of(const PointName& name);
 
 // True if `left` comes before `right` when the pilot steps through the points: by number, a point before its offsets.
 // Texts that are no names come last, in alphabetical order.

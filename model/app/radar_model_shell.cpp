@@ -66,7 +66,7 @@ RadarModelShell::RadarModelShell(databuffer::Session& session, const radar::Rada
       kernel_(configuration),
       governor_(configuration.fidelity.core_share),
       fidelity_(configuration.fidelity) {
-  session.layout().world_configured.publish(databuffer::world_state_from(configuration.world));
+  session.layout().world_configured.publish(databuffer::world_state_from(configuration.world, configuration.route));
   resume();
 }
 
@@ -208,7 +208,7 @@ void RadarModelShell::latch_world() {
   if (is_new || first_tick_) {
     radar::WorldConfiguration world = configuration_->world;
     const databuffer::WorldState& wanted = wanted_world_.value();
-    databuffer::WorldState latched = databuffer::world_state_from(world);
+    databuffer::WorldState latched = databuffer::world_state_from(world, configuration_->route);
     if (wanted_world_.has_value() && (wanted.flags & databuffer::kWorldConfigured) == 0U) {
       latched = wanted;
       databuffer::apply(wanted, world);

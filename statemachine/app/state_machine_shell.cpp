@@ -9,7 +9,9 @@
 
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "databuffer/messages/world_values.hpp"
 #include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/session_world.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/mission.hpp"
 #include "statemachine/advice.hpp"
@@ -28,10 +30,12 @@ constexpr std::int64_t kMaxEventAge_ns = 1'000'000'000;
 StateMachineShell::StateMachineShell(databuffer::Session& session, const Parameters& parameters, bool lockstep)
     : session_(&session),
       parameters_(parameters),
+      configured_route_(parameters.route),
       drop_old_events_(!lockstep),
       field_(parameters.navigation.magnetic_model, parameters.navigation.magnetic_folder),
-      state_(initial_state(parameters)),
       published_{} {
+  use_route(databuffer::newest_world(std::as_const(session).layout()));
+  state_ = initial_state(parameters_);
   // Missing data is reported only for a configured magnetic model. Without data the configured variation applies.
   if (!field_.has_data() && !parameters.navigation.magnetic_model.empty())
     log::warning("magnetic model: " + field_.problem() + "; the configured variation applies");
@@ -68,6 +72,7 @@ void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
   inputs_.height_above_ground_m = stale ? std::nan("") : inputs_.model.height_above_ground_m;
   latch_variation();
   latch_maps();
+  latch_route();
 }
 
 // Returns false while the segment has no model status, and until a valid one has been received. An invalid status is
@@ -110,6 +115,25 @@ void StateMachineShell::latch_maps() {
         return databuffer::read_patch(session_->layout(), id, map);
       },
       [](const databuffer::PatchMap&) {});
+}
+
+void StateMachineShell::use_route(const std::optional<databuffer::WorldState>& world) {
+  const bool is_changed = world && (world->flags & databuffer::kWorldPointsChanged) != 0U;
+  changed_route_ = is_changed ? databuffer::route_of(*world) : std::vector<radar::RoutePoint>();
+  parameters_.route = is_changed ? changed_route_ : configured_route_;
+}
+
+// radar-model latches an instructor's change of the sequence points as part of the world.
+void StateMachineShell::latch_route() {
+  const auto& layout = std::as_const(*session_).layout();
+  const std::uint64_t latched = layout.world_latched.next();
+  if (std::exchange(worlds_latched_, latched) == latched) return;
+  const auto world = databuffer::world_in_effect(layout);
+  if (!world) return;
+  const std::vector<radar::RoutePoint> before(parameters_.route.begin(), parameters_.route.end());
+  use_route(world);
+  change_route(state_, before, inputs_, parameters_);
+  advice_due_ = true;
 }
 
 void StateMachineShell::take_events(std::int64_t tick) {

@@ -1,17 +1,22 @@
 // Shell of state-machine in a session: latches the inputs once per tick, applies events, publishes the results.
-// Inputs: events of all input lanes, ownship and nav, model status, recorder status, patch map records.
+// Inputs: events of all input lanes, ownship and nav, model status, recorder status, patch map records, sequence points
+//   of the world in effect.
 // Outputs: the radar state when it has changed; every applied event; an Outputs record in every tick; advice for the
 //   pilot when it has changed.
 // Errors: invalid events and records are dropped and noted in the flight recorder; the last valid record stays in use.
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include "databuffer/runtime/receivers.hpp"
 #include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "lib/radar/mission.hpp"
 #include "statemachine/machine.hpp"
 
 namespace yars::statemachine {
@@ -27,6 +32,8 @@ class StateMachineShell {
   void latch_maps();
   void latch_recorder();
   void latch_variation();
+  void latch_route();
+  void use_route(const std::optional<databuffer::WorldState>& world);
   void latch(const databuffer::TickLoop::Due& due);
   void take_events(std::int64_t tick);
   void take(const databuffer::InputEvent& event, std::size_t lane, std::int64_t tick);
@@ -35,6 +42,9 @@ class StateMachineShell {
 
   databuffer::Session* session_;
   Parameters parameters_;
+  std::span<const radar::RoutePoint> configured_route_;
+  std::vector<radar::RoutePoint> changed_route_;  // the sequence points that an instructor has changed
+  std::uint64_t worlds_latched_ = 0;              // records in the ring world_latched at the last look
   bool drop_old_events_;  // drops events older than 1 s; false in lockstep and after the first tick
   databuffer::OwnshipReceiver ownship_;
   geo::MagneticField field_;

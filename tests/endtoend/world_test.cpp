@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "databuffer/messages/inspection.hpp"
 #include "databuffer/session/session_world.hpp"
+#include "lib/radar/modes.hpp"
 #include "tests/endtoend/process_set.hpp"
 #include "tools/recording/recording_reader.hpp"
 
@@ -88,6 +91,56 @@ TEST_F(ChangedWorld, IsSeenOutlastsTheModelAndIsReplayed) {
   const auto replay = nlohmann::json::parse(set.yars({"replay", recording.string(), "--events"}, 240.0).output);
   EXPECT_EQ(replay["different"], 0) << replay.dump();
   EXPECT_GT(replay["equal"].get<int>(), 1000) << replay.dump();
+}
+
+// The drawn sequence point with this name; nullopt: it is not drawn.
+std::optional<databuffer::DrawnPoint> drawn(const databuffer::SessionLayout& layout, const std::string& name) {
+  databuffer::RadarState state{};
+  if (!layout.radar_state.read(state)) return std::nullopt;
+  for (const auto& point : databuffer::used(state.points, state.points_drawn))
+    if (point.name == name) return point;
+  return std::nullopt;
+}
+
+TEST_F(ChangedWorld, SequencePointsChangeOutlastTheStateMachineAndAreRecorded) {
+  ASSERT_NO_FATAL_FAILURE(start());
+  const auto session = databuffer::Session::open_read_only(set.session());
+  ASSERT_TRUE(session);
+  const auto& layout = session->layout();
+  const auto is_at = [&](const std::string& name, double latitude_deg) {
+    return eventually(
+        [&] { return drawn(layout, name).value_or(databuffer::DrawnPoint{}).latitude_deg == latitude_deg; });
+  };
+  EXPECT_EQ(world()["points"].size(), 0U);
+  const auto steer = set.yars({"world", "point", "add", "37.5", "-122.9"});
+  ASSERT_EQ(steer.code, 0) << steer.errors;
+  EXPECT_NE(steer.output.find("sequence point 1"), std::string::npos) << steer.output;
+  ASSERT_EQ(set.yars({"world", "point", "add", "37.5", "-122.8", "--name", "7.", "--elevation-ft", "300"}).code, 0);
+  ASSERT_TRUE(is_at("7.", 37.5));
+  EXPECT_NEAR(drawn(layout, "7.")->elevation_m, 91.44, 1e-9);
+  EXPECT_EQ(drawn(layout, "1")->kind, static_cast<std::uint8_t>(radar::PointKind::initial));
+  ASSERT_EQ(set.yars({"inject", "sp 7."}).code, 0);
+  ASSERT_TRUE(eventually([&] { return drawn(layout, "7.").value_or(databuffer::DrawnPoint{}).selected == 1; }));
+  const auto id = std::to_string(world()["points"][1]["id"].get<int>());
+  ASSERT_EQ(set.yars({"world", "point", "move", id, "37.4", "-122.8"}).code, 0);
+  EXPECT_TRUE(is_at("7.", 37.4));
+
+  set.kill("state", SIGKILL);
+  set.start_again("state");
+  ASSERT_EQ(set.yars({"world", "point", "change", id, "--name", "8.", "--elevation-ft", "200"}).code, 0);
+  EXPECT_TRUE(is_at("8.", 37.4)) << "the new process has the points of the old one";
+  EXPECT_TRUE(is_at("1", 37.5));
+  const auto taken = set.yars({"world", "point", "add", "37.5", "-122.8", "--name", "8"});
+  EXPECT_EQ(taken.code, 1);
+  EXPECT_NE(taken.errors.find("8 beside 8."), std::string::npos) << taken.errors;
+  ASSERT_EQ(set.yars({"world", "point", "remove", id}).code, 0);
+  EXPECT_TRUE(eventually([&] { return !drawn(layout, "8."); }));
+  ASSERT_EQ(set.yars({"world", "reset"}).code, 0);
+  EXPECT_TRUE(eventually([&] { return !drawn(layout, "1"); })) << "the configured route has no points";
+
+  set.kill("recorder", SIGTERM);
+  ASSERT_EQ(set.wait("recorder"), 0) << set.log_of("recorder");
+  EXPECT_EQ(edits_in(recording), (std::vector<std::uint64_t>{0, 1, 2, 3, 4, 5, 6}));
 }
 
 TEST_F(ChangedWorld, RefusesWhatIsOutOfRangeAndNeedsARadarModel) {

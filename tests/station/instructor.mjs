@@ -112,6 +112,39 @@ const tests = {
     await until("the picture from before", async () => await brightness(page, far) > 0.8 * before);
     await noProblem(page);
   },
+  async "sequence points are added, named, selected, dragged, removed and brought back"(page) {
+    await page.click("#reset_world");
+    const configured = world().points.length;
+    await page.click("#add_points");
+    await page.mouse.click(...await middle(page, 70, -60));
+    await until("a sequence point", () => world().points.length === configured + 1);
+    const { id } = world().points[configured];
+    const point = () => world().points.find((one) => one.id === id);
+    await page.click(`#things li:has-text("point ${point().name}") button`);
+    await page.fill("#thing_name", "90.");
+    await page.fill("#thing_elevation_ft", "250");
+    await page.click("#thing_form button");
+    await until("a target with an elevation", () => point().name === "90." && point().kind === "target" && near(point().elevation_ft, 250, 0.01));
+    await page.selectOption("#points", "90.");
+    await page.click("#steer_form button");
+    await until("the pilot's selected point", () => watch().sequence_point === "90." && watch().points_drawn.includes("90."));
+    await page.selectOption("#places", { label: "sequence point 90." });
+    await until("the map at the point", async () => await page.getAttribute("#follow", "aria-pressed") === "false");
+    const before = point();
+    await page.mouse.move(...await middle(page, 0, 0));
+    await page.mouse.down();
+    await page.mouse.move(...await middle(page, -90, 20), { steps: 5 });
+    await page.mouse.up();
+    await until("farther west", () => point().longitude_deg < before.longitude_deg - 0.001);
+    const moved = point();
+    await page.click("#things button[aria-label='Remove point 90.']");
+    await until("no such point", () => point() === undefined);
+    await page.click("#undo_button");
+    await until("the same point", () => JSON.stringify(point()) === JSON.stringify(moved));
+    await page.click("#reset_world");
+    await until("the configured points", () => world().points.length === configured);
+    await noProblem(page);
+  },
   async "jammers and movers are added, dragged, changed and removed"(page) {
     for (const list of ["jammers", "movers"]) {
       await page.click(`#add_${list}`);

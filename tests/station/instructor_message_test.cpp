@@ -78,7 +78,7 @@ TEST(InstructorMessage, WhatIsNoCommandIsRefusedWithWhatIsExpected) {
               HasSubstr("lat: expected a number from -90 to 90"));
   EXPECT_THAT(refusal(R"({"do": "play", "id": 1, "file": "", "at": 0})"), HasSubstr("file: expected a text"));
   EXPECT_THAT(refusal(R"({"do": "add", "id": 1, "list": "trees", "lat": 1, "lon": 1})"),
-              HasSubstr("rain, jammers or movers"));
+              HasSubstr("rain, jammers, movers or points"));
   EXPECT_THAT(refusal(R"({"do": "add", "id": 1, "list": "rain", "lat": 1})"), HasSubstr("two numbers"));
   EXPECT_THAT(refusal(R"({"do": "sea", "id": 1})"), HasSubstr("null: from the wind"));
 }
@@ -111,6 +111,21 @@ TEST(InstructorMessage, EntriesOfTheWorldAreAddedMovedChangedAndRemoved) {
   EXPECT_NEAR(world.movers[0].speed_mps, 10.2889, 1e-3);
   EXPECT_EQ(world.movers[0].heading_deg, 45.0);
   EXPECT_EQ(world.movers[0].since_ns, 10'000'000'000) << "it turns where it is at the time of the command";
+
+  world = after(world, R"({"do": "add", "id": 1, "list": "points", "lat": 35, "lon": -122})");
+  ASSERT_EQ(world.point_count, 1U);
+  EXPECT_STREQ(world.points[0].name, "1");
+  const std::string change_point =
+      R"({"do": "change", "id": 1, "list": "points", "item": )" + std::to_string(world.points[0].id);
+  world = after(world, (change_point + R"(, "name": "4.", "elevation_ft": 1000})").c_str());
+  EXPECT_STREQ(world.points[0].name, "4.");
+  EXPECT_NEAR(world.points[0].elevation_m, 304.8, 1e-9);
+  world = after(world, (change_point + R"(, "name": "4.", "elevation_ft": null})").c_str());
+  EXPECT_TRUE(std::isnan(world.points[0].elevation_m));
+  std::string problem;
+  world = after(world, (change_point + R"(, "name": "four", "elevation_ft": null})").c_str(), &problem);
+  EXPECT_STREQ(world.points[0].name, "4.");
+  EXPECT_NE(problem.find("2.01"), std::string::npos) << problem;
 }
 
 TEST(InstructorMessage, AnEntryThatIsRestoredIsNamedByListAndId) {

@@ -16,12 +16,13 @@ using databuffer::WorldList;
 using databuffer::WorldState;
 using ::testing::HasSubstr;
 
-// A world with a rain cell, a jammer and a mover, with the ids 1, 2 and 3.
+// A world with a rain cell, a jammer, a mover and a sequence point, with the ids 1, 2, 3 and 4.
 WorldState a_world() {
   WorldState world = databuffer::world_state_from(radar::WorldConfiguration());
   EXPECT_TRUE(add(world, databuffer::default_rain_cell({37.0, -122.0})));
   EXPECT_TRUE(add(world, databuffer::default_jammer({36.0, -122.0})));
   EXPECT_TRUE(add(world, databuffer::default_mover({35.0, -122.0}, 5)));
+  EXPECT_TRUE(add(world, databuffer::default_point(world, {34.0, -122.0}).value()));
   return world;
 }
 
@@ -39,13 +40,16 @@ TEST(RemovedEntries, AnEntryOfEachListComesBack) {
   WorldState world = without(removed, full, WorldList::rain, 1);
   world = without(removed, world, WorldList::jammers, 2);
   world = without(removed, world, WorldList::movers, 3);
-  ASSERT_EQ(world.rain_count + world.jammer_count + world.mover_count, 0U);
+  world = without(removed, world, WorldList::points, 4);
+  ASSERT_EQ(world.rain_count + world.jammer_count + world.mover_count + world.point_count, 0U);
   ASSERT_TRUE(removed.restore(world, WorldList::rain, 1));
   ASSERT_TRUE(removed.restore(world, WorldList::jammers, 2));
   ASSERT_TRUE(removed.restore(world, WorldList::movers, 3));
   EXPECT_EQ(world.rain[0].latitude_deg, 37.0);
   EXPECT_EQ(world.jammers[0].latitude_deg, 36.0);
   EXPECT_EQ(world.movers[0].since_ns, 5);
+  ASSERT_TRUE(removed.restore(world, WorldList::points, 4));
+  EXPECT_EQ(world.points[0].latitude_deg, 34.0);
 }
 
 TEST(RemovedEntries, WhatWasChangedBetweenTwoRemovalsComesBackChanged) {

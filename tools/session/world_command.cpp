@@ -1,4 +1,5 @@
-// `yars world`: prints the world in effect, and changes it while the set flies: sea, wind, rain, jammers, movers.
+// `yars world`: prints the world in effect, and changes it while the set flies: sea, wind, rain, jammers, movers,
+// sequence points.
 
 #include <algorithm>
 #include <chrono>
@@ -82,6 +83,12 @@ void print_entries(const WorldState& world, std::int64_t sim_time_ns) {
                 rounded(geo::Speed::metres_per_second(now.speed_mps).knots(), "kt").c_str(),
                 rounded(now.heading_deg, "deg").c_str(), rounded(now.cross_section_m2, "m2").c_str());
   }
+  for (const auto& point : databuffer::used(world.points, world.point_count))
+    std::printf("point %s: %s, %s, %s\n", named(point.id, point.name).c_str(),
+                position_text(point.latitude_deg, point.longitude_deg).c_str(),
+                std::isnan(point.elevation_m) ? "elevation unknown"
+                                              : rounded(point.elevation_m / geo::kMetresPerFoot, "ft").c_str(),
+                std::string(databuffer::kind_name(point)).c_str());
 }
 
 bool is_in_effect(const Session& session, const WorldState& world) {
@@ -357,6 +364,57 @@ void add_mover(databuffer::Command parent, const Shared& options) {
   add_steer(mover, options);
 }
 
+// Writes the given name and elevation into a point.
+struct PointValues {
+  Place place;
+  std::string name;
+  std::optional<double> elevation_ft;
+  Expected<void> write(databuffer::WorldPoint& point) const {
+    if (elevation_ft) point.elevation_m = *elevation_ft * geo::kMetresPerFoot;
+    if (name.empty()) return {};
+    return databuffer::set_name(point, name);
+  }
+};
+
+void add_point_options(databuffer::Command command, PointValues& values, const char* name_otherwise,
+                       const char* elevation_otherwise) {
+  command.option("--name", values.name, "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\"")
+      .otherwise(name_otherwise);
+  command.option("--elevation-ft", values.elevation_ft, "[ft] above mean sea level")
+      .range(-1500.0, 30'000.0)
+      .otherwise(elevation_otherwise);
+}
+
+void add_point(databuffer::Command parent, const Shared& options) {
+  databuffer::Command point = parent.subcommand("point", "sequence points");
+  point.require_subcommand();
+  const auto values = std::make_shared<PointValues>();
+  databuffer::Command adding = add_action(point, "add", "add a sequence point", options, [options, values] {
+    change(*options, [&](WorldState& world, std::int64_t) -> Expected<std::string> {
+      auto entry = databuffer::default_point(world, values->place.point());
+      if (!entry) return tl::unexpected(entry.error());
+      if (auto written = values->write(*entry); !written) return tl::unexpected(written.error());
+      return added(world, *entry, std::string("sequence point ") + entry->name + ", id");
+    });
+  });
+  add_position(adding, values->place);
+  add_point_options(adding, *values, "a steer point with the next number", "unknown");
+  const auto changes = std::make_shared<PointValues>();
+  databuffer::Command changing =
+      add_action(point, "change", "change the name or the elevation of a point", options, [options, changes] {
+        change(*options, [&](WorldState& world, std::int64_t) -> Expected<std::string> {
+          const auto id = static_cast<std::uint32_t>(changes->place.id);
+          auto entry = databuffer::point_with(world, id);
+          if (!entry) return tl::unexpected(entry.error());
+          if (auto written = changes->write(*entry); !written) return tl::unexpected(written.error());
+          return text_if_done(databuffer::replace(world, *entry), "point " + std::to_string(id) + " changed");
+        });
+      });
+  add_id(changing, changes->place);
+  add_point_options(changing, *changes, "as it is", "as it is");
+  add_move_and_remove(point, WorldList::points, "point", options);
+}
+
 void add_wind(databuffer::Command parent, const Shared& options) {
   struct Values {
     double speed_kt = 0.0, from_deg = 0.0;
@@ -376,7 +434,8 @@ void add_wind(databuffer::Command parent, const Shared& options) {
 }  // namespace
 
 void add_world_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command world = app.subcommand("world", "print or change sea, wind, rain, jammers and movers");
+  databuffer::Command world =
+      app.subcommand("world", "print or change sea, wind, rain, jammers, movers and sequence points");
   const auto options = std::make_shared<WorldOptions>(WorldOptions{common});
   add_json_flag(world, options->json);
   world.callback([world, options] {
@@ -390,6 +449,7 @@ void add_world_command(databuffer::Command app, const CommonOptions& common) {
   add_rain(world, options);
   add_jammer(world, options);
   add_mover(world, options);
+  add_point(world, options);
   add_action(world, "reset", "the configuration's world", options, [options] { reset(*options); });
 }
 

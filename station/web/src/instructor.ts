@@ -21,6 +21,7 @@ class InstructorPage {
   private readonly world: WorldPanel;
   private state: InstructorState | undefined;
   private theatre: Theatre | undefined;
+  private places: (Position & { name: string })[] = [];
   private typed = false; // values of the aircraft that are not sent yet
 
   constructor() {
@@ -57,17 +58,26 @@ class InstructorPage {
   private async readTheatre(): Promise<void> {
     this.theatre = await (await fetch("/theatre.json")).json() as Theatre;
     this.map.show(this.theatre);
+    this.showPlaces();
+  }
+
+  // The places that the map can go to, and the sequence points that can be selected.
+  private showPlaces(): void {
+    const points = this.state?.world?.points ?? [];
+    const { scenes, beacons } = this.theatre ?? { scenes: [], beacons: [] };
+    this.places = [...scenes, ...points.map((point) => ({ name: `sequence point ${point.name}`, lat: point.latitude_deg, lon: point.longitude_deg })),
+      ...beacons.map((beacon) => ({ ...beacon, name: `beacon ${beacon.name || beacon.code}` }))];
+    const names = this.places.map(({ name }) => name);
+    fill("places", names.join(), () => [new Option("a place or a point", ""), ...names.map((name, at) => new Option(name, String(at)))]);
+    const selected = element<HTMLSelectElement>("points").value;
+    fill("points", points.map(({ name }) => name).join(), () => points.map(({ name }) => new Option(name, name, false, name === selected)));
+  }
+  private goToPlace(): void {
     const places = element<HTMLSelectElement>("places");
-    const named = [...this.theatre.scenes, ...this.theatre.points.map((point) => ({ ...point, name: `sequence point ${point.name}` })),
-      ...this.theatre.beacons.map((beacon) => ({ ...beacon, name: `beacon ${beacon.name || beacon.code}` }))];
-    named.forEach((place, at) => places.append(new Option(place.name, String(at))));
-    places.addEventListener("change", () => {
-      const place = named[Number(places.value)];
-      if (places.value !== "" && place) this.map.goTo(place);
-      this.showFollow();
-      places.value = "";
-    });
-    for (const point of this.theatre.points) element("points").append(new Option(point.name, point.name));
+    const place = this.places[Number(places.value)];
+    if (places.value !== "" && place) this.map.goTo(place);
+    this.showFollow();
+    places.value = "";
   }
 
   // Sends a command and says why it was not done.
@@ -84,6 +94,7 @@ class InstructorPage {
   private listenToMap(): void {
     onClick("zoom_in", () => this.map.zoom(1.6));
     onClick("zoom_out", () => this.map.zoom(1 / 1.6));
+    element("places").addEventListener("change", () => this.goToPlace());
     onClick("follow", () => {
       this.map.follow = !this.map.follow;
       this.showFollow();
@@ -162,6 +173,7 @@ class InstructorPage {
     const errors = state.navigators;
     say("errors", errors ? `MN ${errors.mission.north_ft.toFixed(0)} ft north, ${errors.mission.east_ft.toFixed(0)} ft east · INS ${errors.ins.north_ft.toFixed(0)} ft north, ${errors.ins.east_ft.toFixed(0)} ft east` : "unknown");
     this.world.show(state);
+    this.showPlaces();
     this.showSet(state);
     document.body.dataset.state = "shown";
   }

@@ -14,7 +14,9 @@ const PATCHES_SHOWN = 2; // the newest: the radar repeats a map as the aircraft 
 const TOUCH_PX = 18; // distance at which a symbol is under the pointer
 
 export interface Position { lat: number; lon: number }
-export type Kind = "aircraft" | "rain" | "jammers" | "movers";
+export const LISTS = ["rain", "jammers", "movers", "points"] as const; // of the world
+export type Kind = "aircraft" | typeof LISTS[number];
+const WORDS: Record<Kind, string> = { aircraft: "aircraft", rain: "rain", jammers: "jammer", movers: "mover", points: "point" };
 export interface Thing extends Position { kind: Kind; id: number; name: string }
 
 // Where and what the user did on the map.
@@ -22,6 +24,12 @@ export interface MapUser {
   moved(thing: Thing, to: Position): void; // dragged
   chosen(thing: Thing | undefined): void;
   placed(at: Position): void; // a click while `placing`
+}
+
+// Name of a thing of the world: its own, or a word with its id. That of a sequence point is a number.
+function nameOf(kind: Kind, entry: { id: number; name?: string }): string {
+  if (kind === "points") return `point ${entry.name}`;
+  return entry.name || `${WORDS[kind]} ${entry.id}`;
 }
 
 export const wrap = (lon: number): number => ((((lon + 180) % 360) + 360) % 360) - 180;
@@ -114,9 +122,8 @@ export class TheatreMap {
     const { state } = this;
     if (!state) return [];
     const list: Thing[] = state.aircraft ? [{ kind: "aircraft", id: 0, name: "aircraft", lat: state.aircraft.lat, lon: state.aircraft.lon }] : [];
-    for (const kind of ["rain", "jammers", "movers"] as const)
-      for (const entry of state.world?.[kind] ?? [])
-        list.push({ kind, id: entry.id, name: "name" in entry && entry.name ? entry.name : `${kind === "rain" ? "rain" : kind.slice(0, -1)} ${entry.id}`, lat: entry.latitude_deg, lon: entry.longitude_deg });
+    for (const kind of LISTS)
+      for (const entry of state.world?.[kind] ?? []) list.push({ kind, id: entry.id, name: nameOf(kind, entry), lat: entry.latitude_deg, lon: entry.longitude_deg });
     return list;
   }
 
@@ -366,7 +373,6 @@ export class TheatreMap {
     if (!theatre) return;
     this.line(theatre.route.map(([lat, lon]) => ({ lat, lon })), "#ffffffb0", 1.5, [8, 5]);
     for (const scene of theatre.scenes) this.label(scene, scene.name, "#fff", 4);
-    for (const point of theatre.points) { this.dot(point, "#b9e0ff", "circle"); this.label(point, point.name, "#b9e0ff"); }
     for (const beacon of theatre.beacons) { this.dot(beacon, "#c9a6ff", "diamond"); this.label(beacon, beacon.name || `beacon ${beacon.code}`, "#dcc6ff"); }
   }
 
@@ -409,15 +415,21 @@ export class TheatreMap {
     for (const jammer of state?.world?.jammers ?? []) {
       const at = this.place("jammers", jammer.id, { lat: jammer.latitude_deg, lon: jammer.longitude_deg });
       this.dot(at, "#ff7a6b", "triangle");
-      this.label(at, jammer.name || `jammer ${jammer.id}`, "#ffc0b8");
+      this.label(at, nameOf("jammers", jammer), "#ffc0b8");
       this.ring(at, "jammers", jammer.id);
     }
     for (const mover of state?.world?.movers ?? []) {
       const at = this.place("movers", mover.id, { lat: mover.latitude_deg, lon: mover.longitude_deg });
       this.line([at, pointFrom(at, mover.heading_deg, mover.speed_kt * M_PER_NM / 12)], "#ffd27a", 2); // the way of five minutes
       this.dot(at, "#ffd27a", "square");
-      this.label(at, mover.name || `mover ${mover.id}`, "#ffe7b8");
+      this.label(at, nameOf("movers", mover), "#ffe7b8");
       this.ring(at, "movers", mover.id);
+    }
+    for (const point of state?.world?.points ?? []) {
+      const at = this.place("points", point.id, { lat: point.latitude_deg, lon: point.longitude_deg });
+      this.dot(at, "#b9e0ff", point.kind.startsWith("target") ? "triangle" : point.kind === "initial" ? "square" : "circle");
+      this.label(at, point.name, "#b9e0ff");
+      this.ring(at, "points", point.id);
     }
   }
 

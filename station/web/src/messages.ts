@@ -54,9 +54,10 @@ export interface Jammer { id: number; name: string; latitude_deg: number; longit
 export interface Mover {
   id: number; name: string; latitude_deg: number; longitude_deg: number; speed_kt: number; heading_deg: number; cross_section_m2: number; height_ft: number;
 }
+export interface SequencePoint { id: number; name: string; kind: string; latitude_deg: number; longitude_deg: number; elevation_ft: number | null }
 export interface World {
   sea_state: number | null; wind_kt: number; wind_from_deg: number; configured: boolean;
-  rain: Rain[]; jammers: Jammer[]; movers: Mover[];
+  rain: Rain[]; jammers: Jammer[]; movers: Mover[]; points: SequencePoint[];
 }
 export interface PatchEntry { id: number; lat: number; lon: number; window_nm: number; up_deg: number; size: number; corners: [number, number][] }
 export interface RoleEntry {
@@ -88,7 +89,6 @@ export interface Recording {
 export interface Answer { answer: number; problem: string | null; session?: string; recordings?: Recording[] }
 export interface Theatre {
   radar: string; fidelity: string;
-  points: { name: string; lat: number; lon: number }[];
   beacons: { name: string; lat: number; lon: number; code: number }[];
   scenes: { name: string; lat: number; lon: number }[];
   route: [number, number][];

@@ -1,18 +1,40 @@
 // The world on the instructor's page: sea, wind, and the things on the map, which are added, changed, removed and
 // brought back.
-import { Kind, Position, TheatreMap, Thing } from "./map";
+import { Kind, LISTS, Position, TheatreMap, Thing } from "./map";
 import { Answer, InstructorState } from "./messages";
 import { button, element, fill, onClick, onSubmit, say } from "./page";
 import { UndoLine } from "./undo";
 
-const KINDS: Record<string, string> = { rain: "rain", jammers: "jammer", movers: "mover" };
+const KINDS: Record<string, string> = { rain: "rain", jammers: "jammer", movers: "mover", points: "sequence point" };
 
-// Fields of a thing that the page edits: [name in the state and in commands, label, minimum, maximum].
-const FIELDS: Record<string, [string, string, number, number][]> = {
-  rain: [["radius_nm", "Radius [NM]", 0.1, 100], ["rate_mmh", "Rain [mm/h]", 0.1, 300], ["top_ft", "Top [ft]", 500, 60000]],
-  jammers: [["power_w", "Power [W]", 0.001, 1e6]],
-  movers: [["speed_kt", "Speed [kt]", 0, 1000], ["heading_deg", "Heading [deg true]", 0, 360]],
+// A value of a thing that the page edits. `name`: in the state and in commands.
+interface Field { name: string; label: string; min?: number; max?: number; pattern?: string; hint?: string; optional?: boolean }
+const FIELDS: Record<string, Field[]> = {
+  rain: [{ name: "radius_nm", label: "Radius [NM]", min: 0.1, max: 100 }, { name: "rate_mmh", label: "Rain [mm/h]", min: 0.1, max: 300 },
+    { name: "top_ft", label: "Top [ft]", min: 500, max: 60000 }],
+  jammers: [{ name: "power_w", label: "Power [W]", min: 0.001, max: 1e6 }],
+  movers: [{ name: "speed_kt", label: "Speed [kt]", min: 0, max: 1000 }, { name: "heading_deg", label: "Heading [deg true]", min: 0, max: 360 }],
+  points: [{ name: "name", label: "Name", pattern: "[1-9][0-9]{0,2}([.][0-9]{0,2})?", hint: "7 steer point, 7. target, 7.1 offset, 7.01 offset of a target; 1 to 100" },
+    { name: "elevation_ft", label: "Elevation [ft]", min: -1500, max: 30000, optional: true, hint: "above mean sea level; empty: unknown" }],
 };
+
+// Input of a field, with the value that the thing has.
+function inputOf(field: Field, value: unknown): HTMLInputElement {
+  const made = document.createElement("input");
+  const isText = field.pattern !== undefined;
+  Object.assign(made, { id: `thing_${field.name}`, type: isText ? "text" : "number", required: !field.optional, title: field.hint ?? "" });
+  if (isText) Object.assign(made, { pattern: field.pattern, size: 6 });
+  else Object.assign(made, { step: "any", min: String(field.min), max: String(field.max) });
+  if (isText) made.value = String(value ?? "");
+  else if (typeof value === "number") made.value = String(Math.round(value * 100) / 100);
+  return made;
+}
+// What the user has put in: a text, a number, or null for an empty field of numbers.
+function valueOf(field: Field): string | number | null {
+  const shown = input(`thing_${field.name}`);
+  if (field.pattern !== undefined) return shown.value;
+  return shown.value === "" ? null : shown.valueAsNumber;
+}
 
 const input = (id: string): HTMLInputElement => element<HTMLInputElement>(id);
 const number = (id: string): number => input(id).valueAsNumber;
@@ -26,7 +48,7 @@ export class WorldPanel {
   // `order` sends a command; `moved`: the map shows another place.
   constructor(private readonly map: TheatreMap, private readonly order: (name: string, values?: object) => Promise<Answer>,
     private readonly moved: () => void) {
-    for (const kind of ["rain", "jammers", "movers"] as const) onClick(`add_${kind}`, () => this.beginAdding(kind));
+    for (const kind of LISTS) onClick(`add_${kind}`, () => this.beginAdding(kind));
     window.addEventListener("keydown", (event) => {
       if (event.key === "Escape") this.stopAdding();
     });
@@ -38,7 +60,7 @@ export class WorldPanel {
     onSubmit("wind_form", () => void this.order("wind", { speed_kt: number("wind"), from: number("wind_from") }));
     onSubmit("thing_form", () => {
       if (!this.chosen) return;
-      const values = Object.fromEntries(FIELDS[this.chosen.kind].map(([name]) => [name, number(`thing_${name}`)]));
+      const values = Object.fromEntries(FIELDS[this.chosen.kind].map((field) => [field.name, valueOf(field)]));
       void this.order("change", { list: this.chosen.kind, item: this.chosen.id, ...values });
     });
   }
@@ -76,13 +98,11 @@ export class WorldPanel {
     const form = element<HTMLFormElement>("thing_form");
     form.hidden = thing === undefined || !(thing.kind in FIELDS);
     if (form.hidden || !thing || thing.kind === "aircraft") return;
-    const entry = this.state?.world?.[thing.kind].find(({ id }) => id === thing.id) as unknown as Record<string, number> | undefined;
-    const rows = FIELDS[thing.kind].map(([name, text, min, max]) => {
+    const entries: readonly { id: number }[] = this.state?.world?.[thing.kind] ?? [];
+    const entry = entries.find(({ id }) => id === thing.id) as Record<string, unknown> | undefined;
+    const rows = FIELDS[thing.kind].map((field) => {
       const label = document.createElement("label");
-      const field = document.createElement("input");
-      Object.assign(field, { id: `thing_${name}`, type: "number", step: "any", min: String(min), max: String(max), required: true });
-      field.value = String(Math.round((entry?.[name] ?? 0) * 100) / 100);
-      label.append(`${text} `, field);
+      label.append(`${field.label} `, inputOf(field, entry?.[field.name]));
       return label;
     });
     const submit = document.createElement("button");

@@ -49,6 +49,18 @@ TEST(Route, RefusesPointsThatAreInvalidIncompleteOrRepeated) {
               HasSubstr("expected a longitude for :longitude, found none"));
 }
 
+TEST(Route, HasAtMost128PointsAndOnePointOfANumber) {
+  std::string points;
+  for (int number = 1; number <= 100; ++number) points += "( Point \"" + std::to_string(number) + "\" 1 2 )";
+  for (int offset = 1; offset <= 9; ++offset) points += "( Point \"1." + std::to_string(offset) + "\" 1 2 )";
+  for (int offset = 1; offset <= 9; ++offset) points += "( Point \"2." + std::to_string(offset) + "\" 1 2 )";
+  for (int offset = 11; offset <= 20; ++offset) points += "( Point \"3." + std::to_string(offset) + "\" 1 2 )";
+  EXPECT_EQ(loaded("( Route `( " + points + " ) )").radar.route.size(), 128U);
+  EXPECT_THAT(refusal("( Route `( " + points + "( Point \"4.1\" 1 2 ) ) )"),
+              HasSubstr("at most 128 points in a route"));
+  EXPECT_THAT(refusal("( Route `( ( Point \"7\" 1 2 ) ( Point \"7.\" 1 2 ) ) )"), HasSubstr("\"7.\" beside \"7\""));
+}
+
 TEST(Route, ASecondRouteReplacesTheFirst) {
   const auto route = loaded("( Route `( ( Point \"1\" 1 2 ) ) )( Route `( ( Point \"7\" 3 4 ) ) )").radar.route;
   ASSERT_EQ(route.size(), 1U);

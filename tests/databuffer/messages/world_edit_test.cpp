@@ -6,9 +6,12 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/messages/world_values.hpp"
+#include "lib/radar/route.hpp"
 
 namespace yars::databuffer {
 namespace {
@@ -133,6 +136,159 @@ TEST(WorldEdit, ARemovedEntryComesBackWithItsIdAndAllItsValues) {
   EXPECT_EQ(std::memcmp(&world.movers[0], &mover, sizeof mover), 0);
   EXPECT_EQ(validate(world), std::nullopt);
   EXPECT_EQ(world.flags & kWorldConfigured, 0U);
+}
+
+// A world with the sequence points 1, 2, 2.1 and 5, with ids 1 to 4.
+WorldState a_route() {
+  const std::vector<radar::RoutePoint> route{{"1", radar::PointKind::steer, {37.0, -122.0}, 10.0},
+                                             {"2", radar::PointKind::steer, {37.1, -122.0}, kNaN},
+                                             {"2.1", radar::PointKind::steer_offset, {37.2, -122.0}, 30.0},
+                                             {"5", radar::PointKind::steer, {37.3, -122.0}, 40.0}};
+  return world_state_from(configured(), route);
+}
+
+WorldPoint a_point(const WorldState& world, const char* name) {
+  WorldPoint point = default_point(world, {38.0, -121.0}).value();
+  EXPECT_TRUE(set_name(point, name));
+  return point;
+}
+
+radar::PointKind kind_of(const WorldState& world, std::uint32_t id) {
+  return static_cast<radar::PointKind>(point_with(world, id).value().kind);
+}
+
+TEST(WorldValues, ARecordGivesTheRouteBack) {
+  const WorldState world = a_route();
+  EXPECT_EQ(validate(world), std::nullopt);
+  EXPECT_EQ(world.flags, kWorldConfigured);
+  EXPECT_EQ(world.last_id, 4U);
+  const auto route = route_of(world);
+  ASSERT_EQ(route.size(), 4U);
+  EXPECT_EQ(route[2].name, "2.1");
+  EXPECT_EQ(route[2].kind, radar::PointKind::steer_offset);
+  EXPECT_EQ(route[2].position, (geo::GeoPoint{37.2, -122.0}));
+  EXPECT_EQ(route[2].elevation_m, 30.0);
+  EXPECT_TRUE(std::isnan(route[1].elevation_m));
+}
+
+TEST(WorldPoints, ANewPointIsASteerPointWithTheNextNumberAndNoElevation) {
+  WorldState world = a_route();
+  const auto point = default_point(world, {38.0, -121.0});
+  ASSERT_TRUE(point);
+  EXPECT_STREQ(point->name, "6");
+  EXPECT_TRUE(std::isnan(point->elevation_m));
+  EXPECT_EQ(add(world, *point), 5U);
+  EXPECT_EQ(world.point_count, 5U);
+  EXPECT_EQ(world.flags, kWorldPointsChanged) << "state-machine then takes the points of the record";
+  EXPECT_EQ(validate(world), std::nullopt);
+}
+
+TEST(WorldPoints, AfterTheNumber100TheLowestFreeOneIsGivenAndThenNone) {
+  WorldState world = a_route();
+  ASSERT_TRUE(add(world, a_point(world, "100")));
+  EXPECT_STREQ(default_point(world, {0.0, 0.0}).value().name, "3");
+  WorldState full{};
+  for (int number = 1; number <= 100; ++number)
+    ASSERT_TRUE(add(full, a_point(full, std::to_string(number).c_str()))) << number;
+  EXPECT_FALSE(default_point(full, {0.0, 0.0}));
+}
+
+TEST(WorldPoints, OtherEditsDoNotMarkThePointsAsChanged) {
+  WorldState world = a_route();
+  ASSERT_TRUE(add(world, default_rain_cell({37.0, -122.0})));
+  ASSERT_TRUE(set_sea_state(world, 3.0));
+  EXPECT_EQ(world.flags & kWorldPointsChanged, 0U);
+}
+
+TEST(WorldPoints, NamesAndNumbersThatOthersHaveAreRefused) {
+  WorldState world = a_route();
+  const WorldState before = world;
+  for (const char* name : {"1", "1.", "5.", "2.1"}) {
+    WorldPoint point = default_point(world, {38.0, -121.0}).value();
+    ASSERT_TRUE(set_name(point, name)) << name;
+    const auto refused = add(world, point);
+    ASSERT_FALSE(refused) << name;
+    EXPECT_NE(refused.error().message().find("beside"), std::string::npos) << refused.error().message();
+  }
+  EXPECT_TRUE(equal_but_flags(world, before));
+  for (const char* name : {"2.2", "2.01", "1.1", "3", "4."}) EXPECT_TRUE(add(world, a_point(world, name))) << name;
+  EXPECT_EQ(validate(world), std::nullopt);
+  WorldPoint point = a_point(world, "9");
+  for (const char* name : {"", "0", "101", "2.001", "x", "7.."}) EXPECT_FALSE(set_name(point, name)) << name;
+  EXPECT_STREQ(point.name, "9");
+}
+
+TEST(WorldPoints, ATargetMakesTheLastSteerPointBeforeItAnInitialPoint) {
+  WorldState world = a_route();
+  const auto target = add(world, a_point(world, "6."));
+  ASSERT_TRUE(target);
+  EXPECT_EQ(kind_of(world, 4), radar::PointKind::initial);
+  EXPECT_EQ(kind_of(world, 2), radar::PointKind::steer);
+  EXPECT_EQ(kind_of(world, *target), radar::PointKind::target);
+  WorldPoint renamed = point_with(world, 2).value();
+  ASSERT_TRUE(set_name(renamed, "3."));
+  ASSERT_TRUE(replace(world, renamed));
+  EXPECT_EQ(kind_of(world, 1), radar::PointKind::initial);
+  EXPECT_EQ(kind_of(world, 2), radar::PointKind::target);
+  EXPECT_EQ(validate(world), std::nullopt);
+}
+
+TEST(WorldPoints, AMovedTargetChangesNoOtherPoint) {
+  WorldState world = a_route();
+  ASSERT_TRUE(add(world, a_point(world, "6.")));
+  world.points[3].kind = static_cast<std::uint8_t>(radar::PointKind::steer);  // as a configuration can state it
+  ASSERT_TRUE(move(world, WorldList::points, 5, {39.0, -120.0}, 0));
+  EXPECT_EQ(point_with(world, 5).value().latitude_deg, 39.0);
+  EXPECT_EQ(kind_of(world, 4), radar::PointKind::steer);
+}
+
+TEST(WorldPoints, AnInitialPointKeepsItsKindUnderAnotherNumber) {
+  WorldState world = a_route();
+  world.points[3].kind = static_cast<std::uint8_t>(radar::PointKind::initial);
+  WorldPoint point = world.points[3];
+  ASSERT_TRUE(set_name(point, "8"));
+  ASSERT_TRUE(replace(world, point));
+  EXPECT_EQ(kind_of(world, 4), radar::PointKind::initial);
+}
+
+TEST(WorldPoints, AreRemovedAndComeBackUnlessTheirNameIsGiven) {
+  WorldState world = a_route();
+  const WorldPoint point = world.points[0];
+  ASSERT_TRUE(remove(world, WorldList::points, 1));
+  EXPECT_EQ(world.point_count, 3U);
+  WorldState renewed = world;
+  ASSERT_TRUE(restore(world, point));
+  EXPECT_EQ(std::memcmp(&world.points[3], &point, sizeof point), 0);
+  ASSERT_TRUE(add(renewed, a_point(renewed, "1")));
+  EXPECT_FALSE(restore(renewed, point));
+  EXPECT_FALSE(point_with(world, 77));
+}
+
+TEST(WorldPoints, ValuesOutOfRangeAreRefused) {
+  WorldState world = a_route();
+  WorldPoint point = world.points[0];
+  point.elevation_m = 31'000.0 * geo::kMetresPerFoot;
+  const auto refused = replace(world, point);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message().find("-1500 to 30000 ft"), std::string::npos) << refused.error().message();
+  EXPECT_FALSE(move(world, WorldList::points, 1, {91.0, 0.0}, 0));
+}
+
+TEST(WorldPoints, ARecordWithWrongNamesOrKindsIsInvalid) {
+  const auto refusal = [](auto change) {
+    WorldState world = a_route();
+    change(world);
+    return validate(world).value_or("valid");
+  };
+  EXPECT_EQ(refusal([](WorldState&) {}), "valid");
+  EXPECT_NE(refusal([](WorldState& world) { world.points[1].name[0] = '1'; }).find("points[1].name"),
+            std::string::npos);
+  EXPECT_NE(refusal([](WorldState& world) { world.points[1].name[0] = 'x'; }).find("points[1].name"),
+            std::string::npos);
+  EXPECT_NE(refusal([](WorldState& world) { world.points[1].kind = 2; }).find("points[1].kind"), std::string::npos);
+  EXPECT_NE(refusal([](WorldState& world) { world.points[1].kind = 9; }).find("kind"), std::string::npos);
+  EXPECT_NE(refusal([](WorldState& world) { world.points[1].id = 1; }).find("points[1].id"), std::string::npos);
+  EXPECT_NE(refusal([](WorldState& world) { world.point_count = 129; }).find("point_count"), std::string::npos);
 }
 
 TEST(WorldEdit, AFullListTakesNoRemovedEntryBack) {

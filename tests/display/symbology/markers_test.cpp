@@ -100,26 +100,25 @@ TEST(Markers, PointsAreDrawnAtTheirPositionsAndOnlyOnTheDisplay) {
 }
 
 // Number of strokes of the point's symbol, without those of its name.
-std::size_t strokes_of_point(radar::PointKind kind, const std::string& name, const radar::RadarConfiguration& with) {
+std::size_t strokes_of_point(radar::PointKind kind, const std::string& name, bool of_initial_point = false) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
-  const std::size_t before = strokes(drawn(input, with));
+  const std::size_t before = strokes(drawn(input));
   testing::add_point(input, name, kind, testing::at(30.0, 30.0));
-  const std::size_t with_name = strokes(drawn(input, with)) - before;
+  input.state.points[0].of_initial_point = of_initial_point ? 1 : 0;
+  const std::size_t with_name = strokes(drawn(input)) - before;
   // The name has as many strokes as the same text as a message.
   testing::set_text(input.state.message, name);
-  return with_name - (strokes(drawn(input, with)) - before - with_name);
+  return with_name - (strokes(drawn(input)) - before - with_name);
 }
 
 TEST(Markers, SteerIsACircleInitialASquareTargetATriangleAndOffsetsAreDashed) {
   using radar::PointKind;
-  radar::RadarConfiguration configuration;
-  configuration.route.push_back({"2", PointKind::initial, {}, 0.0});
-  EXPECT_EQ(strokes_of_point(PointKind::steer, "1", configuration), 24U);
-  EXPECT_EQ(strokes_of_point(PointKind::initial, "2", configuration), 4U);
-  EXPECT_EQ(strokes_of_point(PointKind::target, "3.", configuration), 3U);
-  const std::size_t steer_offset = strokes_of_point(PointKind::steer_offset, "1.1", configuration);
-  const std::size_t initial_offset = strokes_of_point(PointKind::steer_offset, "2.1", configuration);
-  const std::size_t target_offset = strokes_of_point(PointKind::target_offset, "3.01", configuration);
+  EXPECT_EQ(strokes_of_point(PointKind::steer, "1"), 24U);
+  EXPECT_EQ(strokes_of_point(PointKind::initial, "2"), 4U);
+  EXPECT_EQ(strokes_of_point(PointKind::target, "3."), 3U);
+  const std::size_t steer_offset = strokes_of_point(PointKind::steer_offset, "1.1");
+  const std::size_t initial_offset = strokes_of_point(PointKind::steer_offset, "2.1", true);
+  const std::size_t target_offset = strokes_of_point(PointKind::target_offset, "3.01");
   EXPECT_NE(steer_offset, initial_offset) << "the offset of an initial point is a square";
   EXPECT_GT(initial_offset, 4U);
   EXPECT_GT(target_offset, 3U);

@@ -1,8 +1,9 @@
-// Rules of lib/radar: range by height, windows of patch maps, names of sequence points, names of modes and settings.
+// Rules of lib/radar: range by height, windows of patch maps, sequence points, names of modes and settings.
 // Also random::standard_normal(). Source: docs/spec/pilots_interface.md#rule-1, #rule-4, #rule-11.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -12,6 +13,7 @@
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/mapping.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/radar/route.hpp"
 #include "lib/random/counter_rng.hpp"
 
 namespace yars::radar {
@@ -139,6 +141,44 @@ TEST(PointName, DistinguishesSteerPointsTargetsAndTheirOffsets) {
   EXPECT_EQ(point_name("2.1"), (PointName{2, 1, false}));
   EXPECT_EQ(point_name("2.01"), (PointName{2, 1, true}));
   EXPECT_EQ(point_name("100.99"), (PointName{100, 99, true}));
+}
+
+TEST(PointName, GivesItsTextBack) {
+  for (const char* text : {"1", "2.", "2.1", "2.01", "2.10", "100.99", "7.9"})
+    EXPECT_EQ(text_of(point_name(text).value()), text);
+}
+
+TEST(Route, APointHasTheKindOfItsNameOrIsAnInitialPoint) {
+  EXPECT_EQ(kind_by_name({2, 0, false}), PointKind::steer);
+  EXPECT_EQ(kind_by_name({2, 0, true}), PointKind::target);
+  EXPECT_EQ(kind_by_name({2, 1, false}), PointKind::steer_offset);
+  EXPECT_EQ(kind_by_name({2, 1, true}), PointKind::target_offset);
+  EXPECT_TRUE(is_kind_of(PointKind::initial, {2, 0, false}));
+  EXPECT_FALSE(is_kind_of(PointKind::initial, {2, 0, true}));
+  EXPECT_FALSE(is_kind_of(PointKind::initial, {2, 1, false}));
+}
+
+TEST(Route, ANameConflictsWithItselfAndANumberWithThatOfAnotherPoint) {
+  const std::array<NamedPoint, 3> route{
+      {{{2, 0, false}, PointKind::steer}, {{2, 1, false}, PointKind::steer_offset}, {{3, 0, true}, PointKind::target}}};
+  EXPECT_EQ(conflict({2, 0, true}, route), &route[0]);
+  EXPECT_EQ(conflict({2, 1, false}, route), &route[1]);
+  EXPECT_EQ(conflict({3, 0, false}, route), &route[2]);
+  EXPECT_EQ(conflict({2, 1, true}, route), nullptr) << "2.01 beside 2.1";
+  EXPECT_EQ(conflict({3, 2, false}, route), nullptr);
+  EXPECT_EQ(conflict({4, 0, false}, route), nullptr);
+}
+
+TEST(Route, TheInitialPointOfATargetIsTheLastSteerPointAfterTheTargetBefore) {
+  std::vector<NamedPoint> route{{{5, 0, false}, PointKind::steer}, {{1, 0, false}, PointKind::steer},
+                                {{3, 0, true}, PointKind::target}, {{6, 1, false}, PointKind::steer_offset},
+                                {{4, 0, false}, PointKind::steer}, {{9, 0, false}, PointKind::steer}};
+  EXPECT_EQ(initial_point_before(7, route), 0U);
+  EXPECT_EQ(initial_point_before(3, route), 1U);
+  EXPECT_EQ(initial_point_before(4, route), std::nullopt) << "no steer point after target 3";
+  EXPECT_EQ(initial_point_before(1, route), std::nullopt);
+  route[4].kind = PointKind::initial;
+  EXPECT_EQ(initial_point_before(7, route), std::nullopt) << "4 is the initial point";
 }
 
 TEST(PointName, RefusesOtherText) {
