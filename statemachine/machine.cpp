@@ -120,7 +120,6 @@ Effect apply(RadarState& state, const databuffer::InputEvent& event, const Input
 void change_route(RadarState& state, std::span<const radar::RoutePoint> before, const Inputs& inputs,
                   const Parameters& parameters) {
   move_target_with_route(state, before, parameters);
-  if (power_of(state) == radar::Power::off) return;
   if (!selected_point(state, parameters)) select_first_sequence_point(state, parameters);
   draw_points(state, inputs, parameters);
 }

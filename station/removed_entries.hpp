@@ -16,7 +16,7 @@ namespace yars::station {
 
 class RemovedEntries {
  public:
-  static constexpr std::size_t kMaxEntries = 512;  // of all lists; a world has at most 272
+  static constexpr std::size_t kMaxEntries = 512;  // of all lists; a world has at most 400
 
   // Remembers the entries of `before` that `after` lacks.
   void note(const databuffer::WorldState& before, const databuffer::WorldState& after);

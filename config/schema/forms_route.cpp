@@ -130,7 +130,7 @@ FormSchema point() {
 std::vector<FormSchema> route_forms() {
   return {{.name = "Route",
            .purpose = "the sequence points; replaces an earlier route",
-           .slots = {list_slot("points", "Point", clear_route, "at most 128, offsets included")},
+           .slots = {list_slot("points", "Point", clear_route, "at most 100 points, and 256 with their offsets")},
            .end = derive_initial_points},
           point()};
 }

@@ -16,19 +16,13 @@ using error::fail;
 
 namespace {
 
-constexpr int kAttempts = 200;            // to get the role, 1 ms apart; a change takes much less
-constexpr int kAttemptsOverHosts = 2500;  // an editor before this one may wait for its answer
+// [ns] Time to get the role instructor. A change takes much less; over hosts an editor before this one may wait for its
+// answer.
+constexpr std::int64_t kClaimTime_ns = 200'000'000;
+constexpr std::int64_t kClaimTimeOverHosts_ns = 2'500'000'000;
 // [ns] Time within which a change may be requested again, on the world that an edit of another host has made.
 constexpr std::int64_t kRetryTime_ns = 1'000'000'000;
 constexpr std::int64_t kAnswerTime_ns = kMaxWorldRequestAge_ns + 200'000'000;
-
-Expected<Claim> claim_instructor(Session& session, int attempts) {
-  for (int attempt = 1;; ++attempt) {
-    auto claim = session.claim(Role::instructor);
-    if (claim || attempt == attempts) return claim;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-}
 
 tl::unexpected<error::Error> fail_without_model() {
   return fail("world", "a radar-model that runs in the session", "none", "start radar-model, as with scripts/start");
@@ -51,17 +45,13 @@ Expected<WorldState> next_world(const Session& session, const WorldChange& chang
 }
 
 // ---- radar-model on another host
-// none: no answer in time, or that host has lost the role.
-WorldAnswer await_answer(const Session& session, std::uint64_t number) {
-  const auto& requests = session.layout().world_requests;
-  const std::int64_t deadline_ns = monotonic_ns() + kAnswerTime_ns;
-  while (session.is_mirrored(Role::radar_model) && session.role_is_held(Role::radar_model)) {
-    const std::uint64_t word = requests.answered.load(std::memory_order_acquire);
-    if (word >> 8 == number) return static_cast<WorldAnswer>(word & 0xFFU);
-    if (monotonic_ns() > deadline_ns) break;
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return WorldAnswer::none;
+// Answer to a request; nullopt: it is still awaited. none: no answer in time, or that host has lost the role.
+std::optional<WorldAnswer> answer_to(const Session& session, std::uint64_t number, std::int64_t requested_ns) {
+  const std::uint64_t word = session.layout().world_requests.answered.load(std::memory_order_acquire);
+  if (word >> 8 == number) return static_cast<WorldAnswer>(word & 0xFFU);
+  if (!session.is_mirrored(Role::radar_model) || !session.role_is_held(Role::radar_model)) return WorldAnswer::none;
+  if (monotonic_ns() - requested_ns > kAnswerTime_ns) return WorldAnswer::none;
+  return std::nullopt;
 }
 
 tl::unexpected<error::Error> fail_by(WorldAnswer answer) {
@@ -79,23 +69,6 @@ tl::unexpected<error::Error> fail_by(WorldAnswer answer) {
       return fail("world", "an answer of radar-model's host", "none in time",
                   "see with `yars world` whether the change has come, then give the command again");
   }
-}
-
-// An edit that came first on the other host makes the request outdated: it is made again on top of that edit.
-Expected<WorldState> request_world(Session& session, const WorldChange& change) {
-  auto& layout = session.layout();
-  const std::int64_t end_ns = monotonic_ns() + kRetryTime_ns;
-  WorldAnswer answer = WorldAnswer::outdated;
-  while (answer == WorldAnswer::outdated && monotonic_ns() < end_ns) {
-    auto next = next_world(std::as_const(session), change);
-    if (!next) return next;
-    const std::uint64_t number = (layout.world_requests.asked.load() + 1) & WorldRequests::kLastNumber;
-    layout.world_request.publish(*next);
-    layout.world_requests.asked.store(number, std::memory_order_release);
-    answer = await_answer(std::as_const(session), number);
-    if (answer == WorldAnswer::applied) return next;
-  }
-  return fail_by(answer);
 }
 
 }  // namespace
@@ -126,24 +99,65 @@ Expected<WorldState> replace_world(Session& session, const Claim& /*instructor*/
   return next;
 }
 
-Expected<WorldState> change_world(Session& session, const WorldChange& change) {
-  if (!session.role_is_held(Role::radar_model)) return fail_without_model();
-  const bool is_elsewhere = session.is_mirrored(Role::radar_model);
-  const auto claim = claim_instructor(session, is_elsewhere ? kAttemptsOverHosts : kAttempts);
-  if (!claim) return tl::unexpected(claim.error());
-  const WorldChange timed = [&change](const WorldState& before) {
+WorldChangeInProgress::WorldChangeInProgress(Session& session, WorldChange change)
+    : session_(&session), begun_ns_(monotonic_ns()) {
+  change_ = [change = std::move(change)](const WorldState& before) {
     auto next = change(before);
     if (next) next->source_time_ns = monotonic_ns();
     return next;
   };
-  return is_elsewhere ? request_world(session, timed) : replace_world(session, *claim, timed);
 }
 
-Expected<WorldState> reset_world(Session& session) {
-  return change_world(session, [&session](const WorldState&) -> Expected<WorldState> {
-    if (const auto configured = read_valid(std::as_const(session).layout().world_configured)) return *configured;
+std::optional<Expected<WorldState>> WorldChangeInProgress::poll() {
+  if (!instructor_) return begin();
+  const auto answer = answer_to(std::as_const(*session_), number_, requested_ns_);
+  if (!answer) return std::nullopt;
+  if (*answer == WorldAnswer::applied) return requested_;
+  // An edit that came first on the other host makes the request outdated: it is made again on top of that edit.
+  if (*answer == WorldAnswer::outdated && monotonic_ns() - first_request_ns_ < kRetryTime_ns) return request();
+  return Expected<WorldState>(fail_by(*answer));
+}
+
+std::optional<Expected<WorldState>> WorldChangeInProgress::begin() {
+  if (!session_->role_is_held(Role::radar_model)) return Expected<WorldState>(fail_without_model());
+  const bool is_elsewhere = session_->is_mirrored(Role::radar_model);
+  auto claim = session_->claim(Role::instructor);
+  if (!claim) {
+    const std::int64_t patience_ns = is_elsewhere ? kClaimTimeOverHosts_ns : kClaimTime_ns;
+    if (monotonic_ns() - begun_ns_ < patience_ns) return std::nullopt;
+    return Expected<WorldState>(tl::unexpected(claim.error()));
+  }
+  instructor_ = std::move(*claim);
+  if (!is_elsewhere) return replace_world(*session_, *instructor_, change_);
+  first_request_ns_ = monotonic_ns();
+  return request();
+}
+
+std::optional<Expected<WorldState>> WorldChangeInProgress::request() {
+  auto next = next_world(std::as_const(*session_), change_);
+  if (!next) return next;
+  requested_ = *next;
+  requested_ns_ = monotonic_ns();
+  auto& layout = session_->layout();
+  number_ = (layout.world_requests.asked.load() + 1) & WorldRequests::kLastNumber;
+  layout.world_request.publish(requested_);
+  layout.world_requests.asked.store(number_, std::memory_order_release);
+  return std::nullopt;
+}
+
+Expected<WorldState> change_world(Session& session, const WorldChange& change) {
+  WorldChangeInProgress progress(session, change);
+  while (true) {
+    if (auto decided = progress.poll()) return *std::move(decided);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+}
+
+WorldChange reset_of(const Session& session) {
+  return [&session](const WorldState&) -> Expected<WorldState> {
+    if (const auto configured = read_valid(session.layout().world_configured)) return *configured;
     return fail("world", "the world of radar-model's configuration", "none", "restart radar-model");
-  });
+  };
 }
 
 }  // namespace yars::databuffer

@@ -32,6 +32,29 @@ using WorldChange = std::function<error::Expected<WorldState>(const WorldState&)
 // greater. Waits at most 2.2 s for another host.
 error::Expected<WorldState> change_world(Session& session, const WorldChange& change);
 
+// The same for a program that must not wait, such as a server. It holds the role instructor until the change is decided.
+class WorldChangeInProgress {
+ public:
+  WorldChangeInProgress(Session& session, WorldChange change);
+
+  // Goes on as far as it can without waiting. The changed world, or why there is none, once that is decided; nullopt
+  // before. Then it must not be called any more.
+  std::optional<error::Expected<WorldState>> poll();
+
+ private:
+  std::optional<error::Expected<WorldState>> begin();
+  std::optional<error::Expected<WorldState>> request();
+
+  Session* session_;
+  WorldChange change_;
+  std::int64_t begun_ns_;
+  std::optional<Claim> instructor_;
+  WorldState requested_{};           // of another host
+  std::uint64_t number_ = 0;         // of that request
+  std::int64_t requested_ns_ = 0;    // time of that request
+  std::int64_t first_request_ns_ = 0;
+};
+
 // The same for a caller that holds the role instructor, in a session whose radar-model is on this host. No waiting. The
 // change gives source_time_ns, which tells an edit from an equal one of another host.
 error::Expected<WorldState> replace_world(Session& session, const Claim& instructor, const WorldChange& change);
@@ -39,7 +62,7 @@ error::Expected<WorldState> replace_world(Session& session, const Claim& instruc
 // [ns] A request to another host that is older than this has no effect. It may have been under way during a cut.
 inline constexpr std::int64_t kMaxWorldRequestAge_ns = 1'000'000'000;
 
-// Replaces the newest world by that of radar-model's configuration.
-error::Expected<WorldState> reset_world(Session& session);
+// The change to the world of radar-model's configuration. Error: radar-model has published none.
+WorldChange reset_of(const Session& session);
 
 }  // namespace yars::databuffer

@@ -18,7 +18,7 @@ namespace yars::radar {
 inline constexpr int kMaxSamples = 4096;                     // maximum number of samples of a sweep
 inline constexpr int kBezelButtons = 20;                     // buttons around the display
 inline constexpr int kMaxPointsDrawn = 8;                    // sequence points in a record; state-machine uses five
-inline constexpr int kMaxRoutePoints = 128;                  // sequence points of a route, offsets included
+inline constexpr int kMaxRoutePoints = 256;                  // sequence points of a route, offsets included
 inline constexpr int kMaxPointNumber = 100;                  // largest number of a sequence point
 inline constexpr int kMaxPointOffset = 99;                   // largest offset of a target; 9 of other points
 inline constexpr std::int64_t kTickNanoseconds = 5'000'000;  // [ns] tick of all programs, in sim time

@@ -14,7 +14,6 @@
 #include "databuffer/json/world_json.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
-#include "databuffer/session/session_world.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/log/log.hpp"
@@ -26,6 +25,7 @@ namespace yars::station {
 namespace {
 
 using databuffer::ClockState;
+using databuffer::WorldState;
 using error::Expected;
 using nlohmann::ordered_json;
 
@@ -33,10 +33,16 @@ constexpr std::int64_t kSceneInterval_ns = 100'000'000;  // 10 states a second
 constexpr std::int64_t kStatusInterval_ns = 1'000'000'000;
 constexpr std::int64_t kPortionTime_ns = 1'000'000 * databuffer::kPortionTime_ms;
 constexpr std::size_t kNotesShown = 12;
+constexpr std::size_t kMostEdits = 64;  // changes of the world that wait for the one in progress
 
 // Roles that the page may end with a signal. The supervisor of the set starts them again.
 constexpr std::array<std::string_view, 6> kRoles{"flight-model", "input-monitor", "state-machine",
                                                  "radar-model",  "radar-display", "recorder"};
+
+Expected<void> outcome_of(const Expected<WorldState>& world) {
+  if (!world) return tl::unexpected(world.error());
+  return {};
+}
 
 ordered_json clock_json(const databuffer::Session& session) {
   const ClockState clock = session.clock();
@@ -68,6 +74,7 @@ InstructorShell::InstructorShell(databuffer::Session& session, std::string name)
 void InstructorShell::refresh(bool shown) {
   const std::int64_t now_ns = databuffer::monotonic_ns();
   go_on_with_clock(now_ns);
+  go_on_with_edits();
   if (!shown || now_ns < next_state_ns_) return;
   next_state_ns_ = now_ns + kSceneInterval_ns;
   if (now_ns >= next_status_ns_) {
@@ -172,38 +179,80 @@ Expected<void> InstructorShell::kill_role(const std::string& role) {
   return error::fail("kill " + role, "a process of this computer", "none");
 }
 
-Expected<void> InstructorShell::edit_world(const WorldEdit& edit) {
-  databuffer::WorldState before{};
-  const auto after = databuffer::change_world(*session_, [&](const databuffer::WorldState& world) {
-    before = world;
-    return edit(world, session_->reached_sim_time_ns());
-  });
-  if (!after) return tl::unexpected(after.error());
-  removed_.note(before, *after);
-  return {};
+// Of several changes the first one is in progress, so that each sees those before it.
+void InstructorShell::begin_edit(databuffer::WorldChange change, WorldOutcome done) {
+  if (edits_.size() >= kMostEdits)
+    return done(error::fail("world", "fewer changes at once", std::to_string(edits_.size()) + " that wait",
+                            "wait for the answer of radar-model's host"));
+  edits_.push_back({databuffer::WorldChangeInProgress(*session_, std::move(change)), std::move(done)});
+  go_on_with_edits();
 }
 
-Expected<void> InstructorShell::reset_world() {
-  const auto before = databuffer::newest_world(std::as_const(*session_).layout());
-  const auto after = databuffer::reset_world(*session_);
-  if (!after) return tl::unexpected(after.error());
-  if (before) reset_ = WorldReset{*before, after->edit};
-  return {};
+void InstructorShell::go_on_with_edits() {
+  while (!edits_.empty()) {
+    const auto after = edits_.front().change.poll();
+    if (!after) return;
+    const WorldOutcome done = std::move(edits_.front().done);
+    edits_.pop_front();
+    done(*after);
+  }
 }
 
-Expected<void> InstructorShell::undo_reset() {
-  if (!reset_) return error::fail("undo reset", "a reset of the world by a page", "none");
-  const auto after = databuffer::change_world(
-      *session_, [this](const databuffer::WorldState& world) -> Expected<databuffer::WorldState> {
+void InstructorShell::edit_world(const WorldEdit& edit, Answer answer) {
+  const auto before = std::make_shared<WorldState>();
+  begin_edit(
+      [this, edit, before](const WorldState& world) {
+        *before = world;
+        return edit(world, session_->reached_sim_time_ns());
+      },
+      [this, before, answer = std::move(answer)](const Expected<WorldState>& after) {
+        if (after) removed_.note(*before, *after);
+        answer(outcome_of(after));
+      });
+}
+
+void InstructorShell::reset_world(Answer answer) {
+  const auto before = std::make_shared<WorldState>();
+  begin_edit(
+      [before, reset = databuffer::reset_of(*session_)](const WorldState& world) {
+        *before = world;
+        return reset(world);
+      },
+      [this, before, answer = std::move(answer)](const Expected<WorldState>& after) {
+        if (after) reset_ = WorldReset{*before, after->edit};
+        answer(outcome_of(after));
+      });
+}
+
+void InstructorShell::undo_reset(Answer answer) {
+  begin_edit(
+      [this](const WorldState& world) -> Expected<WorldState> {
+        if (!reset_) return error::fail("undo reset", "a reset of the world by a page", "none");
         if (world.edit == reset_->edit) return reset_->before;
         return error::fail("undo reset", "no change of the world since the reset", "one");
+      },
+      [this, answer = std::move(answer)](const Expected<WorldState>& after) {
+        reset_.reset();
+        answer(outcome_of(after));
       });
-  reset_.reset();
-  if (!after) return tl::unexpected(after.error());
-  return {};
 }
 
-Expected<void> InstructorShell::execute(const InstructorCommand& command) {
+void InstructorShell::execute(const InstructorCommand& command, Answer answer) {
+  if (const auto* edit = std::get_if<EditWorld>(&command)) return edit_world(edit->edit, std::move(answer));
+  if (const auto* restore = std::get_if<RestoreEntry>(&command))
+    return edit_world(
+        [this, restore = *restore](WorldState world, std::int64_t) -> Expected<WorldState> {
+          if (auto done = removed_.restore(world, restore.list, restore.item); !done)
+            return tl::unexpected(done.error());
+          return world;
+        },
+        std::move(answer));
+  if (std::holds_alternative<ResetWorld>(command)) return reset_world(std::move(answer));
+  if (std::holds_alternative<UndoReset>(command)) return undo_reset(std::move(answer));
+  answer(execute_at_once(command));
+}
+
+Expected<void> InstructorShell::execute_at_once(const InstructorCommand& command) {
   if (const auto* run = std::get_if<SetRunning>(&command))
     return change_clock([&](const ClockState& clock) { return databuffer::with_running(clock, run->running); });
   if (const auto* rate = std::get_if<SetRate>(&command))
@@ -223,14 +272,6 @@ Expected<void> InstructorShell::execute(const InstructorCommand& command) {
     if (move->speed_kt) to.ground_speed = geo::Speed::knots(*move->speed_kt);
     return begin_epoch([&](const ClockState& clock) { return databuffer::repositioned(clock, to); });
   }
-  if (const auto* edit = std::get_if<EditWorld>(&command)) return edit_world(edit->edit);
-  if (const auto* restore = std::get_if<RestoreEntry>(&command))
-    return edit_world([&](databuffer::WorldState world, std::int64_t) -> Expected<databuffer::WorldState> {
-      if (auto done = removed_.restore(world, restore->list, restore->item); !done) return tl::unexpected(done.error());
-      return world;
-    });
-  if (std::holds_alternative<ResetWorld>(command)) return reset_world();
-  if (std::holds_alternative<UndoReset>(command)) return undo_reset();
   if (const auto* kill = std::get_if<KillRole>(&command)) return kill_role(kill->role);
   if (const auto* note = std::get_if<WriteNote>(&command)) {
     session_->note(databuffer::NoteKind::supervision, "instructor: " + note->text);

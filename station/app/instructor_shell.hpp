@@ -7,6 +7,8 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -16,6 +18,7 @@
 #include "databuffer/runtime/processor_load.hpp"
 #include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/session.hpp"
+#include "databuffer/session/session_world.hpp"
 #include "station/instructor_message.hpp"
 #include "station/removed_entries.hpp"
 
@@ -27,14 +30,17 @@ class InstructorShell {
  public:
   InstructorShell(databuffer::Session& session, std::string name);
 
-  // Goes on with steps and new epochs that need time. If a page shows the state, makes a new text when one is due.
+  // Goes on with steps, new epochs and changes of the world that need time. If a page shows the state, makes a new text when one is due.
   void refresh(bool shown);
   // The newest state as a message; its number counts up with each new text.
   const Text& state() const { return text_; }
   std::uint64_t state_number() const { return number_; }
 
-  // The commands that change the session. Others are an Error.
-  error::Expected<void> execute(const InstructorCommand& command);
+  // Called once with the outcome of a command.
+  using Answer = std::function<void(const error::Expected<void>& outcome)>;
+  // The commands that change the session. Others are an Error. A change of the world is answered later if it needs time,
+  // as with radar-model on another host.
+  void execute(const InstructorCommand& command, Answer answer);
   // A patch map of the session as a PNG; empty: the session does not have it any more.
   std::string patch_png(std::uint64_t id) const;
 
@@ -43,9 +49,13 @@ class InstructorShell {
   error::Expected<void> change_clock(const Change& change);
   template <class Change>
   error::Expected<void> begin_epoch(const Change& change);
-  error::Expected<void> edit_world(const WorldEdit& edit);
-  error::Expected<void> reset_world();
-  error::Expected<void> undo_reset();
+  error::Expected<void> execute_at_once(const InstructorCommand& command);
+  void edit_world(const WorldEdit& edit, Answer answer);
+  void reset_world(Answer answer);
+  void undo_reset(Answer answer);
+  using WorldOutcome = std::function<void(const error::Expected<databuffer::WorldState>& after)>;
+  void begin_edit(databuffer::WorldChange change, WorldOutcome done);
+  void go_on_with_edits();
   error::Expected<void> kill_role(const std::string& role);
   void go_on_with_clock(std::int64_t now_ns);
   void refresh_status();
@@ -68,6 +78,11 @@ class InstructorShell {
     std::uint64_t edit;  // of the world after it
   };
   std::optional<WorldReset> reset_;  // the last one, until it is undone
+  struct PendingEdit {
+    databuffer::WorldChangeInProgress change;
+    WorldOutcome done;
+  };
+  std::deque<PendingEdit> edits_;  // changes of the world, made one after the other
 };
 
 }  // namespace yars::station

@@ -44,7 +44,9 @@ void carry_out(Site& site, SessionFeed& feed, const std::shared_ptr<OpenPage>& p
       if (list.contains("problem")) return answer(*there, id, list["problem"].get<std::string>());
       there->tell(text_of({{"answer", id}, {"problem", nullptr}, {"recordings", list["recordings"]}}));
     });
-  answer_outcome(*page, id, feed.instructor.execute(message.command));
+  feed.instructor.execute(message.command, [id, waiting = std::weak_ptr(page)](const error::Expected<void>& outcome) {
+    if (const auto there = waiting.lock()) answer_outcome(*there, id, outcome);
+  });
 }
 
 }  // namespace

@@ -163,7 +163,7 @@ void change(const WorldOptions& options, const Edit& edit) {
 
 void reset(const WorldOptions& options) {
   Session session = open_world_session(options.common);
-  const auto changed = databuffer::reset_world(session);
+  const auto changed = databuffer::change_world(session, databuffer::reset_of(session));
   if (!changed) throw_failure(changed.error());
   report(session, await_effect(std::as_const(session), *changed), "the configuration's world", options.json);
 }

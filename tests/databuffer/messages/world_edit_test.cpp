@@ -288,7 +288,7 @@ TEST(WorldPoints, ARecordWithWrongNamesOrKindsIsInvalid) {
   EXPECT_NE(refusal([](WorldState& world) { world.points[1].kind = 2; }).find("points[1].kind"), std::string::npos);
   EXPECT_NE(refusal([](WorldState& world) { world.points[1].kind = 9; }).find("kind"), std::string::npos);
   EXPECT_NE(refusal([](WorldState& world) { world.points[1].id = 1; }).find("points[1].id"), std::string::npos);
-  EXPECT_NE(refusal([](WorldState& world) { world.point_count = 129; }).find("point_count"), std::string::npos);
+  EXPECT_NE(refusal([](WorldState& world) { world.point_count = 257; }).find("point_count"), std::string::npos);
 }
 
 TEST(WorldEdit, AFullListTakesNoRemovedEntryBack) {

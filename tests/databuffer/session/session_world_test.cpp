@@ -89,7 +89,7 @@ TEST_F(SessionWorldTest, AResetGivesTheConfigurationsWorldAlsoBeforeItIsLatched)
   start_model();
   ASSERT_TRUE(set_sea(model_, 5.0));
   latch();
-  const auto reset = reset_world(model_);
+  const auto reset = change_world(model_, reset_of(model_));
   ASSERT_TRUE(reset);
   EXPECT_EQ(reset->edit, 2U);
   EXPECT_EQ(reset->sea_state, 2.0);
@@ -97,7 +97,7 @@ TEST_F(SessionWorldTest, AResetGivesTheConfigurationsWorldAlsoBeforeItIsLatched)
   EXPECT_EQ(add_rain(model_)->sea_state, 2.0);
   latch();
   const std::uint32_t id = world_in_effect(model_.layout())->rain[0].id;
-  ASSERT_TRUE(reset_world(model_));
+  ASSERT_TRUE(change_world(model_, reset_of(model_)));
   EXPECT_GT(add_rain(model_)->rain[0].id, id) << "a reset gives no id again";
 }
 
@@ -186,6 +186,35 @@ TEST_F(WorldOfAnotherHost, IsNotAwaitedForEver) {
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message().find("none in time"), std::string::npos) << refused.error().message();
   EXPECT_FALSE(model_.role_is_held(Role::instructor));
+}
+
+TEST_F(WorldOfAnotherHost, IsChangedWithoutWaiting) {
+  WorldChangeInProgress change(model_, [](WorldState world) -> error::Expected<WorldState> {
+    world.sea_state = 4.0;
+    return world;
+  });
+  EXPECT_FALSE(change.poll()) << "asked";
+  EXPECT_FALSE(change.poll()) << "not answered yet";
+  EXPECT_TRUE(model_.role_is_held(Role::instructor));
+  EXPECT_EQ(answer(WorldAnswer::applied).sea_state, 4.0);
+  const auto done = change.poll();
+  ASSERT_TRUE(done && *done);
+  EXPECT_EQ((*done)->sea_state, 4.0);
+  EXPECT_EQ(model_.layout().world_requests.asked, 1U);
+}
+
+TEST_F(SessionWorldTest, AChangeWaitsForAnotherEditorAndGivesUpAfterAWhile) {
+  start_model();
+  auto other = open("other editor");
+  auto claim = other.claim(Role::instructor);
+  ASSERT_TRUE(claim);
+  WorldChangeInProgress change(model_, reset_of(model_));
+  EXPECT_FALSE(change.poll());
+  *claim = Claim();
+  const auto done = change.poll();
+  ASSERT_TRUE(done && *done);
+  auto again = other.claim(Role::instructor);
+  ASSERT_FALSE(again) << "held until the change in progress is gone";
 }
 
 TEST_F(WorldOfAnotherHost, IsNotAskedForWhatIsOutOfRange) {
