@@ -26,7 +26,7 @@ struct TopicCounts {
   std::uint64_t sent = 0, sent_bytes = 0, received = 0, received_bytes = 0, failed = 0, posed = 0;
 };
 
-inline constexpr std::size_t kMaxSample_bytes = 32768;  // of the structure of a topic
+inline constexpr std::size_t kMaxSample_bytes = 40960;  // of the structure of a topic
 
 class Link {
  public:

@@ -69,7 +69,8 @@ bool take_message(Site& site, SessionFeed& feed, PagePilot& pilot, const std::sh
     return false;
   }
   if (right != Right::instructor) {
-    if (commands) answer(*page, command->id, "expected the token of an instructor, found that of a viewer");
+    if (commands || !events->empty())
+      answer(*page, commands ? command->id : 0, "expected the token of an instructor, found that of a viewer");
     return true;
   }
   for (const databuffer::InputEvent& event : *events) feed.display->send(event);

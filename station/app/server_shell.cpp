@@ -43,10 +43,14 @@ error::Expected<void> use_certificate(asio::ssl::context& tls, const ServerSetti
   error_code problem;
   tls.set_options(asio::ssl::context::default_workarounds | asio::ssl::context::no_sslv2 |
                   asio::ssl::context::no_sslv3 | asio::ssl::context::no_tlsv1 | asio::ssl::context::no_tlsv1_1);
-  tls.use_certificate_chain_file(settings.certificate, problem);
+  const auto certificate = file::read_text_file(settings.certificate);
+  if (!certificate) return tl::unexpected(certificate.error());
+  const auto key = file::read_text_file(settings.key);
+  if (!key) return tl::unexpected(key.error());
+  tls.use_certificate_chain(asio::buffer(*certificate), problem);
   if (problem)
     return error::fail("--certificate", "a certificate in PEM", settings.certificate + " (" + problem.message() + ")");
-  tls.use_private_key_file(settings.key, asio::ssl::context::pem, problem);
+  tls.use_private_key(asio::buffer(*key), asio::ssl::context::pem, problem);
   if (problem)
     return error::fail("--key", "the private key of the certificate, in PEM",
                        settings.key + " (" + problem.message() + ")");
@@ -87,7 +91,7 @@ error::Expected<void> Server::Work::open() {
   if (!problem) acceptor.listen(asio::socket_base::max_listen_connections, problem);
   if (problem)
     return error::fail("--port", "a free port", std::to_string(place.port()) + " (" + problem.message() + ")",
-                       "choose another, or 0 for any free one");
+                       "choose another (--web-port of the start script), or 0 for any free one");
   site.access = settings.access;
   site.access.port = acceptor.local_endpoint().port();
   site.access.loopback = address.is_loopback();

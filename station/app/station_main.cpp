@@ -147,12 +147,16 @@ error::Expected<station::ServerSettings> settings_of(const databuffer::ProgramOp
   return settings;
 }
 
+// The name or address in the printed addresses. All addresses of this computer: its first name, else loopback.
+std::string printed_host(const station::ServerSettings& settings) {
+  if (settings.address == "0.0.0.0" || settings.address == "::")
+    return settings.access.names.empty() ? "127.0.0.1" : settings.access.names.front();
+  return settings.address.find(':') == std::string::npos ? settings.address : '[' + settings.address + ']';
+}
+
 void print_addresses(const station::ServerSettings& settings, std::uint16_t port) {
-  const bool everywhere = settings.address == "0.0.0.0" || settings.address == "::";
-  const std::string host =
-      settings.address.find(':') == std::string::npos ? settings.address : '[' + settings.address + ']';
-  const std::string begin = (settings.certificate.empty() ? "http://" : "https://") +
-                            (everywhere ? std::string("127.0.0.1") : host) + ':' + std::to_string(port);
+  const std::string begin =
+      (settings.certificate.empty() ? "http://" : "https://") + printed_host(settings) + ':' + std::to_string(port);
   const auto with = [](const std::string& token) { return token.empty() ? token : "?token=" + token; };
   std::printf("%s/display.html%s\n", begin.c_str(), with(settings.access.viewer_token).c_str());
   std::printf("%s/instructor.html%s\n", begin.c_str(), with(settings.access.instructor_token).c_str());

@@ -136,7 +136,8 @@ class Options(unittest.TestCase):
         self.assertIn("--without-tls", text)
 
     def test_what_cannot_be_used_is_named(self):
-        for options, words in [(("--certificate", "x.pem"), "--key"), (("--certificate", "x.pem", "--key", "y.pem"), "x.pem"),
+        for options, words in [(("--certificate", "x.pem"), "--key"),
+                               (("--certificate", "x.pem", "--key", "y.pem"), "x.pem: expected a file that can be read"),
                                (("--listen", "nowhere", "--tokens", "t", "--without-tls"), "an address in numbers"),
                                (("--pages", "/nowhere"), "display.html"), (("--terrain", "/nowhere"), "/nowhere"),
                                (("--source", "route:/nowhere"), "/nowhere")]:
@@ -173,6 +174,10 @@ class Tokens(unittest.TestCase):
         with Station(self.folder.name, "--listen", "0.0.0.0", "--tokens", str(self.file), "--without-tls") as again:
             self.assertEqual([re.search(r"token=(\w+)", address).group(1) for address in again.addresses], self.tokens)
 
+    def test_printed_addresses_have_the_first_name_of_this_computer(self):
+        self.assertTrue(self.station.addresses[0].startswith(f"http://radar.example:{self.port}/display.html?"), self.station.addresses)
+        self.assertTrue(self.station.addresses[1].startswith(f"http://radar.example:{self.port}/instructor.html?"), self.station.addresses)
+
     def test_without_a_token_there_is_nothing_of_the_session(self):
         for path in ("/display.html", "/instructor.html", "/theatre.json", "/map/0/0/0.png", "/patch/x/1.png", "/nothing"):
             self.assertEqual(get(self.port, path)[0], 401, path)
@@ -196,6 +201,7 @@ class Tokens(unittest.TestCase):
         page.send({"do": "freeze", "id": 5})
         self.assertIn("token of an instructor", page.answer(5))
         page.send({"event": "pb 13"})
+        self.assertIn("token of an instructor", page.answer(0))
         page.send({"do": "rate", "id": 6, "rate": 2})
         self.assertIn("token of an instructor", page.answer(6))
         page.close()

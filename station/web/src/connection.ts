@@ -10,6 +10,7 @@ export interface Receiver {
   instructor?(state: InstructorState): void;
   sets?(sets: SetEntry[]): void;
   frame?(frame: FrameMessage): void;
+  refused?(problem: string): void; // an event or key, of a page with the token of a viewer
   connected(open: boolean): void;
 }
 
@@ -68,6 +69,7 @@ export class Connection {
     if (message.watch !== undefined) this.receiver.state?.(message as State);
     else if (message.instructor !== undefined) this.receiver.instructor?.(message.instructor);
     else if (message.sets !== undefined) this.receiver.sets?.(message.sets);
+    else if (message.answer === 0) this.receiver.refused?.(message.problem ?? "");
     else if (message.answer !== undefined) this.resolve(message as Answer);
   }
 

@@ -33,6 +33,7 @@ class DisplayPage {
         this.lastFrame_ms = performance.now();
         this.picture.show(frame);
       },
+      refused: (problem) => this.showRefusal(problem),
       connected: (open) => this.showConnection(open),
     }, "display", sessionOfPage());
     for (const control of document.querySelectorAll<HTMLButtonElement>("button[data-event]"))
@@ -108,6 +109,11 @@ class DisplayPage {
   private showWords(number: number): void {
     this.explained = number;
     this.words.textContent = this.buttons[number - 1].title;
+  }
+
+  private showRefusal(problem: string): void {
+    this.explained = 0;
+    say("words", `Not done: ${problem}.`);
   }
 
   private showConnection(open: boolean): void {
