@@ -32,7 +32,8 @@ using WorldChange = std::function<error::Expected<WorldState>(const WorldState&)
 // greater. Waits at most 2.2 s for another host.
 error::Expected<WorldState> change_world(Session& session, const WorldChange& change);
 
-// The same for a program that must not wait, such as a server. It holds the role instructor until the change is decided.
+// The same for a program that must not wait, such as a server. It holds the role instructor until the change is
+// decided.
 class WorldChangeInProgress {
  public:
   WorldChangeInProgress(Session& session, WorldChange change);
@@ -49,9 +50,9 @@ class WorldChangeInProgress {
   WorldChange change_;
   std::int64_t begun_ns_;
   std::optional<Claim> instructor_;
-  WorldState requested_{};           // of another host
-  std::uint64_t number_ = 0;         // of that request
-  std::int64_t requested_ns_ = 0;    // time of that request
+  WorldState requested_{};         // of another host
+  std::uint64_t number_ = 0;       // of that request
+  std::int64_t requested_ns_ = 0;  // time of that request
   std::int64_t first_request_ns_ = 0;
 };
 

@@ -30,7 +30,8 @@ class InstructorShell {
  public:
   InstructorShell(databuffer::Session& session, std::string name);
 
-  // Goes on with steps, new epochs and changes of the world that need time. If a page shows the state, makes a new text when one is due.
+  // Goes on with steps, new epochs and changes of the world that need time. If a page shows the state, makes a new text
+  // when one is due.
   void refresh(bool shown);
   // The newest state as a message; its number counts up with each new text.
   const Text& state() const { return text_; }
@@ -38,8 +39,8 @@ class InstructorShell {
 
   // Called once with the outcome of a command.
   using Answer = std::function<void(const error::Expected<void>& outcome)>;
-  // The commands that change the session. Others are an Error. A change of the world is answered later if it needs time,
-  // as with radar-model on another host.
+  // The commands that change the session. Others are an Error. A change of the world is answered later if it needs
+  // time, as with radar-model on another host.
   void execute(const InstructorCommand& command, Answer answer);
   // A patch map of the session as a PNG; empty: the session does not have it any more.
   std::string patch_png(std::uint64_t id) const;

@@ -109,7 +109,7 @@ TEST_F(ChangedWorld, SequencePointsChangeOutlastTheStateMachineAndAreRecorded) {
   const auto& layout = session->layout();
   const auto is_at = [&](const std::string& name, double latitude_deg) {
     return eventually(
-        [&] { return drawn(layout, name).value_or(databuffer::DrawnPoint{}).latitude_deg == latitude_deg; });
+        [&] { return drawn(layout, name).value_or(databuffer::DrawnPoint{}).latitude_deg == latitude_deg; }, 20.0);
   };
   EXPECT_EQ(world()["points"].size(), 0U);
   const auto steer = set.yars({"world", "point", "add", "37.5", "-122.9"});
@@ -120,7 +120,7 @@ TEST_F(ChangedWorld, SequencePointsChangeOutlastTheStateMachineAndAreRecorded) {
   EXPECT_NEAR(drawn(layout, "7.")->elevation_m, 91.44, 1e-9);
   EXPECT_EQ(drawn(layout, "1")->kind, static_cast<std::uint8_t>(radar::PointKind::initial));
   ASSERT_EQ(set.yars({"inject", "sp 7."}).code, 0);
-  ASSERT_TRUE(eventually([&] { return drawn(layout, "7.").value_or(databuffer::DrawnPoint{}).selected == 1; }));
+  ASSERT_TRUE(eventually([&] { return drawn(layout, "7.").value_or(databuffer::DrawnPoint{}).selected == 1; }, 20.0));
   const auto id = std::to_string(world()["points"][1]["id"].get<int>());
   ASSERT_EQ(set.yars({"world", "point", "move", id, "37.4", "-122.8"}).code, 0);
   EXPECT_TRUE(is_at("7.", 37.4));
@@ -134,9 +134,9 @@ TEST_F(ChangedWorld, SequencePointsChangeOutlastTheStateMachineAndAreRecorded) {
   EXPECT_EQ(taken.code, 1);
   EXPECT_NE(taken.errors.find("8 beside 8."), std::string::npos) << taken.errors;
   ASSERT_EQ(set.yars({"world", "point", "remove", id}).code, 0);
-  EXPECT_TRUE(eventually([&] { return !drawn(layout, "8."); }));
+  EXPECT_TRUE(eventually([&] { return !drawn(layout, "8."); }, 20.0));
   ASSERT_EQ(set.yars({"world", "reset"}).code, 0);
-  EXPECT_TRUE(eventually([&] { return !drawn(layout, "1"); })) << "the configured route has no points";
+  EXPECT_TRUE(eventually([&] { return !drawn(layout, "1"); }, 20.0)) << "the configured route has no points";
 
   set.kill("recorder", SIGTERM);
   ASSERT_EQ(set.wait("recorder"), 0) << set.log_of("recorder");

@@ -133,7 +133,7 @@ TEST(InstructorMessage, AnEntryThatIsRestoredIsNamedByListAndId) {
   EXPECT_EQ(restored.list, databuffer::WorldList::movers);
   EXPECT_EQ(restored.item, 7U);
   EXPECT_THAT(refusal(R"({"do": "restore", "id": 1, "list": "trees", "item": 7})"),
-              HasSubstr("restore: list: expected rain, jammers or movers, found \"trees\""));
+              HasSubstr("restore: list: expected rain, jammers, movers or points, found \"trees\""));
   EXPECT_THAT(refusal(R"({"do": "restore", "id": 1, "list": "rain"})"), HasSubstr("item: expected a number"));
   EXPECT_TRUE(read(R"({"do": "undo reset", "id": 1})"));
 }

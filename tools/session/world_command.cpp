@@ -84,7 +84,7 @@ void print_entries(const WorldState& world, std::int64_t sim_time_ns) {
                 rounded(now.heading_deg, "deg").c_str(), rounded(now.cross_section_m2, "m2").c_str());
   }
   for (const auto& point : databuffer::used(world.points, world.point_count))
-    std::printf("point %s: %s, %s, %s\n", named(point.id, point.name).c_str(),
+    std::printf("point %u \"%s\": %s, %s, %s\n", point.id, point.name,
                 position_text(point.latitude_deg, point.longitude_deg).c_str(),
                 std::isnan(point.elevation_m) ? "elevation unknown"
                                               : rounded(point.elevation_m / geo::kMetresPerFoot, "ft").c_str(),

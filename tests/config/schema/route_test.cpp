@@ -96,7 +96,8 @@ TEST(Route, HasAtMostAHundredPointsAndOneForEachNumber) {
   EXPECT_THAT(refusal("( Route `( " + points + " ( Point \"101\" 1 2 ) ) )"), HasSubstr("number 1 to 100"));
   for (int offset = 11; offset <= 66; ++offset) points += "( Point \"7." + std::to_string(offset) + "\" 1 2 )";
   EXPECT_EQ(loaded("( Route `( " + points + " ) )").radar.route.size(), 256U);
-  EXPECT_THAT(refusal("( Route `( " + points + " ( Point \"8.11\" 1 2 ) ) )"), HasSubstr("at most 256 points in a route"));
+  EXPECT_THAT(refusal("( Route `( " + points + " ( Point \"8.11\" 1 2 ) ) )"),
+              HasSubstr("at most 256 points in a route"));
   EXPECT_THAT(
       refusal("( Route `( ( Point \"2\" 1 2 ) ( Point \"2.\" 1 2 ) ) )"),
       HasSubstr("expected a number that no other steer point or target has for :name, found \"2.\" beside \"2\""));
