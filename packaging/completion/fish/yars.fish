@@ -10,7 +10,7 @@ function __yars_path
             continue
         end
         switch $word
-            case --airfields --alt-ft --altitude-ft --at --await --band --base --cells-lat --cells-lon --channel --color --config --cross-section --csv --dask --east --edge --elevation --fidelity --from --gain --heading --height-ft --in --keep --kind --knob --lat --level --lockstep --log-dir --log-level --lon --looks --map --markdown --name --north --origin --out --pixels --power --presets --radius-nm --range-nm --rate --reduction --repeat --restarted --ruler --ruler-samples --ruler-size --samples --scan-width --scene --scene-without --seed --seek --session --shadow --shard --size --source --south --speed --speed-kt --step --target-lat --target-lon --terrain --threads --time-s --to --top-ft --triangles --until --view --west --width --window-nm --without --workers
+            case --airfields --alt-ft --altitude-ft --at --await --band --base --cells-lat --cells-lon --channel --color --config --cross-section --csv --dask --east --edge --elevation --elevation-ft --fidelity --from --gain --heading --height-ft --in --keep --kind --knob --lat --level --lockstep --log-dir --log-level --lon --looks --map --markdown --name --north --origin --out --pixels --power --presets --radius-nm --range-nm --rate --reduction --repeat --restarted --ruler --ruler-samples --ruler-size --samples --scan-width --scene --scene-without --seed --seek --session --shadow --shard --size --source --south --speed --speed-kt --step --target-lat --target-lon --terrain --threads --time-s --to --top-ft --triangles --until --view --west --width --window-nm --without --workers
                 set left 1
             case --from --to
                 set left 2
@@ -19,7 +19,7 @@ function __yars_path
             case '-*'
             case '*'
                 set -l longer (string join ' ' $path $word)
-                contains -- $longer 'scan' 'patch' 'trade' 'trade maps' 'terrain' 'terrain generate' 'terrain info' 'terrain image' 'terrain profile' 'terrain dump' 'terrain reduce' 'terrain convert' 'terrain pack' 'scene' 'scene generate' 'scene info' 'scene image' 'dataset' 'config' 'config check' 'config print' 'config convert' 'config user' 'sim' 'sim state' 'sim freeze' 'sim run' 'sim rate' 'sim step' 'sim reset' 'sim reposition' 'world' 'world sea' 'world wind' 'world rain' 'world rain add' 'world rain move' 'world rain remove' 'world jammer' 'world jammer add' 'world jammer move' 'world jammer remove' 'world mover' 'world mover add' 'world mover move' 'world mover remove' 'world mover steer' 'world reset' 'inject' 'note' 'status' 'watch' 'record' 'recordings' 'replay' 'help'; and set -a path $word
+                contains -- $longer 'scan' 'patch' 'trade' 'trade maps' 'terrain' 'terrain generate' 'terrain info' 'terrain image' 'terrain profile' 'terrain dump' 'terrain reduce' 'terrain convert' 'terrain pack' 'scene' 'scene generate' 'scene info' 'scene image' 'dataset' 'config' 'config check' 'config print' 'config convert' 'config user' 'sim' 'sim state' 'sim freeze' 'sim run' 'sim rate' 'sim step' 'sim reset' 'sim reposition' 'world' 'world sea' 'world wind' 'world rain' 'world rain add' 'world rain move' 'world rain remove' 'world jammer' 'world jammer add' 'world jammer move' 'world jammer remove' 'world mover' 'world mover add' 'world mover move' 'world mover remove' 'world mover steer' 'world point' 'world point add' 'world point change' 'world point move' 'world point remove' 'world reset' 'inject' 'note' 'status' 'watch' 'record' 'recordings' 'replay' 'help'; and set -a path $word
         end
     end
     string join ' ' $path
@@ -53,7 +53,7 @@ complete -c yars -n "__yars_at ''" -a scene -d 'polygonal scenes (OpenFlight): g
 complete -c yars -n "__yars_at ''" -a dataset -d 'make training data: patch maps with labels, by a specification'
 complete -c yars -n "__yars_at ''" -a config -d 'check, print and convert configurations; print user defaults'
 complete -c yars -n "__yars_at ''" -a sim -d 'the session\'s clock and the aircraft\'s position'
-complete -c yars -n "__yars_at ''" -a world -d 'print or change sea, wind, rain, jammers and movers'
+complete -c yars -n "__yars_at ''" -a world -d 'print or change sea, wind, rain, jammers, movers and sequence points'
 complete -c yars -n "__yars_at ''" -a inject -d 'send events, e.g. yars inject \'power opr\' \'pb 13\' \'elevation -5\''
 complete -c yars -n "__yars_at ''" -a note -d 'write a note into the session\'s flight recorder'
 complete -c yars -n "__yars_at ''" -a status -d 'health of a session and of the hosts that share it'
@@ -385,6 +385,7 @@ complete -c yars -n "__yars_at 'world'" -a wind -d 'set the wind over the sea'
 complete -c yars -n "__yars_at 'world'" -a rain -d 'rain cells'
 complete -c yars -n "__yars_at 'world'" -a jammer -d 'noise jammers'
 complete -c yars -n "__yars_at 'world'" -a mover -d 'moving targets: ships and vehicles'
+complete -c yars -n "__yars_at 'world'" -a point -d 'sequence points'
 complete -c yars -n "__yars_at 'world'" -a reset -d 'the configuration\'s world'
 complete -c yars -n "__yars_at 'world'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'world'" -l json -d 'print one JSON object in place of text'
@@ -510,6 +511,45 @@ complete -c yars -n "__yars_at 'world mover steer'" -l json -d 'print one JSON o
 complete -c yars -n "__yars_at 'world mover steer'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'world mover steer'" -l config -r -F -d 'GUF configuration file'
 complete -c yars -n "__yars_at 'world mover steer'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world point'" -a add -d 'add a sequence point'
+complete -c yars -n "__yars_at 'world point'" -a change -d 'change the name or the elevation of a point'
+complete -c yars -n "__yars_at 'world point'" -a move -d 'move an entry to a position'
+complete -c yars -n "__yars_at 'world point'" -a remove -d 'remove an entry'
+complete -c yars -n "__yars_at 'world point'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world point'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world point'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world point'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world point add'"
+complete -c yars -n "__yars_at 'world point add'"
+complete -c yars -n "__yars_at 'world point add'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world point add'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world point add'" -l name -x -d '"2", target "2.", offset "2.1", target offset "2.01"'
+complete -c yars -n "__yars_at 'world point add'" -l elevation-ft -x -d '[ft] above mean sea level'
+complete -c yars -n "__yars_at 'world point add'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world point add'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world point add'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world point change'"
+complete -c yars -n "__yars_at 'world point change'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world point change'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world point change'" -l name -x -d '"2", target "2.", offset "2.1", target offset "2.01"'
+complete -c yars -n "__yars_at 'world point change'" -l elevation-ft -x -d '[ft] above mean sea level'
+complete -c yars -n "__yars_at 'world point change'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world point change'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world point change'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world point move'"
+complete -c yars -n "__yars_at 'world point move'"
+complete -c yars -n "__yars_at 'world point move'"
+complete -c yars -n "__yars_at 'world point move'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world point move'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world point move'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world point move'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world point move'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
+complete -c yars -n "__yars_at 'world point remove'"
+complete -c yars -n "__yars_at 'world point remove'" -s h -l help -d 'print this help'
+complete -c yars -n "__yars_at 'world point remove'" -l json -d 'print one JSON object in place of text'
+complete -c yars -n "__yars_at 'world point remove'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
+complete -c yars -n "__yars_at 'world point remove'" -l config -r -F -d 'GUF configuration file'
+complete -c yars -n "__yars_at 'world point remove'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'
 complete -c yars -n "__yars_at 'world reset'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'world reset'" -l json -d 'print one JSON object in place of text'
 complete -c yars -n "__yars_at 'world reset'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
