@@ -113,7 +113,7 @@ inline constexpr KindName kKindOf<databuffer::RecorderStatus>{13, "RecorderStatu
 template <>
 inline constexpr KindName kKindOf<databuffer::Traffic>{14, "Traffic"};
 template <>
-inline constexpr KindName kKindOf<databuffer::WorldState>{15, "WorldState"};
+inline constexpr KindName kKindOf<databuffer::WorldState>{15, "WorldState", 2};
 template <>
 inline constexpr KindName kKindOf<FlightSource>{16, "FlightSource"};
 
