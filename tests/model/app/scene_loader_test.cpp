@@ -62,8 +62,9 @@ TEST_F(SceneLoading, ALoaderWithAThreadReturnsAllScenesLater) {
 
 TEST_F(SceneLoading, AStandbyLoadsTheScenesOfTheScanWithoutThoseOfTheMargin) {
   SceneLoader loader(store(), true);
-  const geo::GeoPoint beside =
-      geo::geodesic_direct(kScenePosition, geo::Bearing::degrees(20.0), geo::Length::metres(30'000.0));
+  // The file does not say how far the scene reaches.
+  const auto distance = geo::Length::metres(20'000.0 + scene::kUnknownReach_m + 0.5 * kLoadMargin_m);
+  const geo::GeoPoint beside = geo::geodesic_direct(kScenePosition, geo::Bearing::degrees(20.0), distance);
   const terrain::TerrainRegion region{beside, 20'000.0, 0};
   const SceneLoader::LoadedScenes ahead = loader.request(region, kStandbyMargin_m);
   EXPECT_TRUE(ahead.complete);
