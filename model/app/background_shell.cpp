@@ -8,19 +8,18 @@ namespace yars::model {
 
 namespace {
 
-// [m] Margin of a request beyond the needed region. The next request starts when the aircraft has moved by half of the
-// margin, so the current view still covers the needed region while the next view loads. A smaller margin means more
-// loads, a larger margin more memory.
-constexpr double kRegionMargin_m = 20'000.0;
+// True if `wide` contains `region` and a margin around it.
+bool covers(const terrain::TerrainRegion& wide, const terrain::TerrainRegion& region, double margin_m) {
+  if (region.radius_m + margin_m > wide.radius_m) return false;
+  const double moved_m = geo::geodesic_inverse(wide.centre, region.centre).distance.metres();
+  return moved_m + region.radius_m + margin_m <= wide.radius_m;
+}
 
 // True if the requested region has the detail of `region` and contains it with half of the margin. The requested radius
 // must also exceed that of `region` by two margins at most.
-bool still_covers(const terrain::TerrainRegion& requested, const terrain::TerrainRegion& region) {
-  if (region.detail != requested.detail) return false;
-  if (region.radius_m > requested.radius_m || region.radius_m + 2.0 * kRegionMargin_m < requested.radius_m)
-    return false;
-  const double moved_m = geo::geodesic_inverse(requested.centre, region.centre).distance.metres();
-  return moved_m + region.radius_m + 0.5 * kRegionMargin_m <= requested.radius_m;
+bool still_covers(const terrain::TerrainRegion& requested, const terrain::TerrainRegion& region, double margin_m) {
+  return region.detail == requested.detail && region.radius_m + 2.0 * margin_m >= requested.radius_m &&
+         covers(requested, region, 0.5 * margin_m);
 }
 
 }  // namespace
@@ -42,11 +41,12 @@ TerrainLoader::~TerrainLoader() {
   thread_.join();
 }
 
-void TerrainLoader::request(const terrain::TerrainRegion& region) {
-  if (requested_ && still_covers(*requested_, region)) return;
-  requested_ = terrain::TerrainRegion{region.centre, region.radius_m + kRegionMargin_m, region.detail, region.radius_m};
+void TerrainLoader::request(const terrain::TerrainRegion& region, double margin_m) {
+  if (requested_ && still_covers(*requested_, region, margin_m)) return;
+  requested_ = terrain::TerrainRegion{region.centre, region.radius_m + margin_m, region.detail, region.radius_m};
   if (synchronous_) {
     view_ = store_->prepare(*requested_);
+    loaded_region_ = requested_;
     collect_problems();
     return;
   }
@@ -57,9 +57,9 @@ void TerrainLoader::request(const terrain::TerrainRegion& region) {
   wake_.notify_one();
 }
 
-bool TerrainLoader::is_idle() const {
+bool TerrainLoader::has_loaded(const terrain::TerrainRegion& region) const {
   const std::scoped_lock lock(mutex_);
-  return !pending_ && !loading_;
+  return loaded_region_ && loaded_region_->detail == region.detail && covers(*loaded_region_, region, 0.0);
 }
 
 terrain::TerrainViewPointer TerrainLoader::view() const {
@@ -83,30 +83,23 @@ void TerrainLoader::serve() {
     if (ending_) return;
     const terrain::TerrainRegion region = *pending_;
     pending_.reset();
-    loading_ = true;
     lock.unlock();
-    auto view = store_->prepare_in_steps(region, [this](const terrain::TerrainViewPointer& interim) {
+    // A view before the last has the detail of the region if it has all cells within the scan's range.
+    const terrain::TerrainRegion reach{region.centre, region.reach_m, region.detail};
+    bool cancelled = false;
+    auto view = store_->prepare_in_steps(region, [&](const terrain::TerrainViewPointer& interim) {
       const std::scoped_lock hold(mutex_);
       view_ = interim;
-      return !ending_ && !pending_;
+      loaded_region_ = interim->has_detail(region.detail) ? std::optional(reach) : std::nullopt;
+      cancelled = ending_ || pending_;
+      return !cancelled;
     });
     lock.lock();
     view_ = std::move(view);
-    loading_ = false;
+    if (!cancelled) loaded_region_ = region;
     collect_problems();
   }
 }
-
-namespace {
-
-// True if `wide` contains `region` and a margin around it.
-bool covers(const terrain::TerrainRegion& wide, const terrain::TerrainRegion& region, double margin_m) {
-  if (region.radius_m + margin_m > wide.radius_m) return false;
-  const double moved_m = geo::geodesic_inverse(wide.centre, region.centre).distance.metres();
-  return moved_m + region.radius_m + margin_m <= wide.radius_m;
-}
-
-}  // namespace
 
 SceneLoader::SceneLoader(std::unique_ptr<scene::SceneStore> store, bool synchronous)
     : store_(std::move(store)), synchronous_(synchronous) {
@@ -123,10 +116,10 @@ SceneLoader::~SceneLoader() {
   thread_.join();
 }
 
-SceneLoader::LoadedScenes SceneLoader::request(const terrain::TerrainRegion& region) {
+SceneLoader::LoadedScenes SceneLoader::request(const terrain::TerrainRegion& region, double margin_m) {
   if (!store_) return {};
-  if (!requested_ || !covers(*requested_, region, 0.5 * kRegionMargin_m)) {
-    requested_ = terrain::TerrainRegion{region.centre, region.radius_m + kRegionMargin_m, 0};
+  if (!requested_ || !covers(*requested_, region, 0.5 * margin_m)) {
+    requested_ = terrain::TerrainRegion{region.centre, region.radius_m + margin_m, 0};
     if (synchronous_) {
       read(*requested_);
     } else {

@@ -23,6 +23,13 @@
 
 namespace yars::model {
 
+// [m] Margin of a request beyond the needed region. The next request starts when the aircraft has moved by half of the
+// margin, so the current view still covers the needed region while the next view loads. A smaller margin means more
+// loads, a larger margin more memory.
+inline constexpr double kLoadMargin_m = 20'000.0;
+// [m] The same for a process that stands by and asks again every 0.25 s. The holder of the role needs the processor.
+inline constexpr double kStandbyMargin_m = 1'000.0;
+
 // Loads the terrain of the scan. A loader with a thread loads in steps; view() returns the result of the latest step. A
 // newer request cancels the remaining steps of an older request.
 class TerrainLoader {
@@ -32,12 +39,12 @@ class TerrainLoader {
   TerrainLoader(const TerrainLoader&) = delete;
   TerrainLoader& operator=(const TerrainLoader&) = delete;
 
-  // Requests a region with a margin of 20 km, replacing the previous request. No effect while the previous request has
-  // the same detail, still contains the region with half of the margin and is not much larger. A synchronous loader
-  // blocks until the region is loaded.
-  void request(const terrain::TerrainRegion& region);
-  // True if the region of the last request is loaded as far as it can be.
-  bool is_idle() const;
+  // Requests a region with a margin, replacing the previous request. No effect while the previous request has the same
+  // detail, still contains the region with half of the margin and is not much larger. A synchronous loader blocks until
+  // the region is loaded.
+  void request(const terrain::TerrainRegion& region, double margin_m = kLoadMargin_m);
+  // True if view() has the region in its detail, as far as it can be loaded.
+  bool has_loaded(const terrain::TerrainRegion& region) const;
   // Latest view; empty at first, never null.
   terrain::TerrainViewPointer view() const;
   // Problems with cells since the last call; each cell is named once.
@@ -49,13 +56,13 @@ class TerrainLoader {
 
   std::unique_ptr<terrain::TerrainStore> store_;
   bool synchronous_;
-  mutable std::mutex mutex_;  // with a thread: guards pending_, view_, problems_, loading_ and ending_
+  mutable std::mutex mutex_;  // with a thread: guards pending_, view_, loaded_region_, problems_ and ending_
   std::condition_variable wake_;
   std::optional<terrain::TerrainRegion> pending_;
   std::optional<terrain::TerrainRegion> requested_;
   terrain::TerrainViewPointer view_;
+  std::optional<terrain::TerrainRegion> loaded_region_;  // that view_ has in its detail
   std::vector<std::string> problems_;
-  bool loading_ = false;
   bool ending_ = false;
   std::thread thread_;
 };
@@ -74,8 +81,8 @@ class SceneLoader {
     scene::SceneViewPointer view;  // null: nothing is read yet, or there are no scenes
     bool complete = true;          // true if the view has all scenes that overlap the region, or there are no scenes
   };
-  // Requests a region (its detail is ignored) and returns the scenes loaded so far.
-  LoadedScenes request(const terrain::TerrainRegion& region);
+  // Requests a region (its detail is ignored) with a margin and returns the scenes loaded so far.
+  LoadedScenes request(const terrain::TerrainRegion& region, double margin_m = kLoadMargin_m);
   std::vector<std::string> take_problems();
 
  private:

@@ -94,10 +94,12 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Model
     if (!stores) return tl::unexpected(stores.error());
     Loaders loaders(std::move(*stores), *configuration, !options.lockstep.empty());
     int waits = 0;
+    std::optional<model::kernel::RadarKernel> kernel;
     const auto load_ahead = [&](const databuffer::Session& session) {
       constexpr int kWaitsBetween = 25;  // 0.25 s
-      if (waits++ % kWaitsBetween == 0 && options.lockstep.empty())
-        model::load_ahead(session, *configuration, loaders.terrain, loaders.scenes);
+      if (waits++ % kWaitsBetween != 0 || !options.lockstep.empty()) return;
+      if (!kernel) kernel.emplace(*configuration);
+      model::load_ahead(session, *kernel, loaders.terrain, loaders.scenes);
     };
     auto held = databuffer::take_role(options.session, databuffer::Role::radar_model, "radar-model",
                                       model_options.standby, load_ahead);

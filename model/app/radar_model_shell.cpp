@@ -36,8 +36,8 @@ double thread_time_s() {
 
 }  // namespace
 
-void load_ahead(const databuffer::Session& session, const radar::RadarConfiguration& configuration,
-                TerrainLoader& terrain, SceneLoader& scenes) {
+void load_ahead(const databuffer::Session& session, kernel::RadarKernel& kernel, TerrainLoader& terrain,
+                SceneLoader& scenes) {
   const auto status = databuffer::read_valid(session.layout().model_status);
   const auto state = databuffer::read_valid(session.layout().radar_state);
   if (!status || !state) return;
@@ -48,12 +48,11 @@ void load_ahead(const databuffer::Session& session, const radar::RadarConfigurat
   tick.ownship = status->ownship;
   tick.command = databuffer::command_from_state(*state);
   tick.flags = databuffer::kTickOwnshipValid;
-  kernel::RadarKernel kernel(configuration);
   kernel.resume(*status);
   const auto need = kernel.need(tick);
   if (!need.ground) return;
-  terrain.request(need.region);
-  scenes.request(need.region);
+  terrain.request(need.region, kStandbyMargin_m);
+  scenes.request(need.region, kStandbyMargin_m);
 }
 
 RadarModelShell::RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration,
@@ -238,7 +237,7 @@ void RadarModelShell::await_ground(const terrain::TerrainRegion& region) {
   constexpr std::int64_t kPatience_ns = 500'000'000;  // 0.5 s; then sweeps are flagged not ready as in flight
   constexpr timespec kPause{0, 2'000'000};
   const std::int64_t deadline_ns = databuffer::monotonic_ns() + kPatience_ns;
-  while (!(terrain_->is_idle() && loaded_scenes_.complete) && databuffer::monotonic_ns() < deadline_ns) {
+  while (!(terrain_->has_loaded(region) && loaded_scenes_.complete) && databuffer::monotonic_ns() < deadline_ns) {
     nanosleep(&kPause, nullptr);
     session_->heartbeat();
     loaded_scenes_ = scenes_->request(region);

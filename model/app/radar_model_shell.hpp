@@ -29,9 +29,10 @@ struct RadarConfiguration;
 namespace yars::model {
 
 // Requests the terrain and the scenes that a radar model will need when it resumes from the session's model status.
-// A standby calls it while it waits. No effect while the session has no status or no radar state.
-void load_ahead(const databuffer::Session& session, const radar::RadarConfiguration& configuration,
-                TerrainLoader& terrain, SceneLoader& scenes);
+// A standby calls it while it waits. No effect while the session has no status or no radar state. Resumes `kernel`,
+// which serves only to find what is needed.
+void load_ahead(const databuffer::Session& session, kernel::RadarKernel& kernel, TerrainLoader& terrain,
+                SceneLoader& scenes);
 
 class RadarModelShell {
  public:

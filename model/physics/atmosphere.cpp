@@ -71,14 +71,15 @@ constexpr double kZeroCelsius_k = 273.15;
 
 // Oxygen lines.
 double oxygen(double f, const Air& air, double theta, double vapour_hpa) {
+  const double theta3 = std::pow(theta, 3.0), theta08 = std::pow(theta, 0.8);
   double sum = 0.0;
   for (const GasLine& line : kOxygenLines) {
     const double line_ghz = line[0];
-    const double strength = line[1] * 1e-7 * air.dry_hpa * std::pow(theta, 3.0) * std::exp(line[2] * (1.0 - theta));
-    const double pressure_width =
-        line[3] * 1e-4 * (air.dry_hpa * std::pow(theta, 0.8 - line[4]) + 1.1 * vapour_hpa * theta);
+    const double strength = line[1] * 1e-7 * air.dry_hpa * theta3 * std::exp(line[2] * (1.0 - theta));
+    const double dry_width = line[4] == 0.0 ? theta08 : std::pow(theta, 0.8 - line[4]);
+    const double pressure_width = line[3] * 1e-4 * (air.dry_hpa * dry_width + 1.1 * vapour_hpa * theta);
     const double width = std::sqrt(pressure_width * pressure_width + 2.25e-6);
-    const double mixing = (line[5] + line[6] * theta) * 1e-4 * (air.dry_hpa + vapour_hpa) * std::pow(theta, 0.8);
+    const double mixing = (line[5] + line[6] * theta) * 1e-4 * (air.dry_hpa + vapour_hpa) * theta08;
     const double shape = (width - mixing * (line_ghz - f)) / ((line_ghz - f) * (line_ghz - f) + width * width) +
                          (width - mixing * (line_ghz + f)) / ((line_ghz + f) * (line_ghz + f) + width * width);
     sum += strength * f / line_ghz * shape;
@@ -96,10 +97,11 @@ double dry_continuum(double f, const Air& air, double theta, double vapour_hpa) 
 
 // Water vapour lines.
 double vapour(double f, const Air& air, double theta, double vapour_hpa) {
+  const double theta35 = std::pow(theta, 3.5);
   double sum = 0.0;
   for (const GasLine& line : kWaterLines) {
     const double line_ghz = line[0];
-    const double strength = line[1] * 1e-1 * vapour_hpa * std::pow(theta, 3.5) * std::exp(line[2] * (1.0 - theta));
+    const double strength = line[1] * 1e-1 * vapour_hpa * theta35 * std::exp(line[2] * (1.0 - theta));
     const double pressure_width =
         line[3] * 1e-4 * (air.dry_hpa * std::pow(theta, line[4]) + line[5] * vapour_hpa * std::pow(theta, line[6]));
     const double width = 0.535 * pressure_width +

@@ -62,7 +62,7 @@ Replay::Replay(const radar::RadarConfiguration& configuration, model::terrain::T
       world_(configuration.world) {}
 
 void Replay::begin_kernel(const databuffer::ModelStatus& status) {
-  kernel_ = model::kernel::RadarKernel(*configuration_);
+  if (!std::exchange(kernel_is_new_, false)) kernel_ = model::kernel::RadarKernel(*configuration_);
   kernel_.use_world(world_);
   kernel_.resume(status);
 }
@@ -98,6 +98,7 @@ const databuffer::Sweep* Replay::tick(const databuffer::ModelTick& tick) {
   if ((tick.flags & databuffer::kTickRestart) != 0U && ticks_ > 0) restart(tick.resumed_tick);
   before_last_ = last_;
   ++ticks_;
+  kernel_is_new_ = false;
   if (const auto need = kernel_.need(tick); need.ground) {
     view_ = store_->prepare(need.region);
     if (scenes_ != nullptr) scene_view_ = scenes_->prepare(need.region);

@@ -83,6 +83,7 @@ class Replay {
   const radar::RadarConfiguration* configuration_;
   model::terrain::TerrainStore* store_;
   model::kernel::RadarKernel kernel_;
+  bool kernel_is_new_ = true;  // it has not been resumed or stepped
   model::terrain::TerrainViewPointer view_;
   model::scene::SceneStore* scenes_;
   model::scene::SceneViewPointer scene_view_;

@@ -146,6 +146,7 @@ bool SceneStore::load(std::span<const std::size_t> numbers) {
     return read_openflight(index_[numbers[i]].file, &filter);
   });
   std::vector<Loading> loads;
+  loads.reserve(numbers.size());
   for (std::size_t i = 0; i < numbers.size(); ++i)
     if (auto loading = begin_load(numbers[i], std::move(models[i]))) loads.push_back(std::move(*loading));
   const auto placed = at_once(loads.size(), [&](std::size_t i) {
@@ -244,7 +245,8 @@ error::Expected<std::unique_ptr<SceneStore>> open_scenes(const std::vector<radar
                                                          const radar::TerrainConfiguration& terrain, SceneUse use) {
   const std::vector<radar::Scene> scenes = scenes_with_terrain(configured, terrain);
   if (scenes.empty()) return std::unique_ptr<SceneStore>();
-  auto ground = terrain::open_terrain(terrain);
+  constexpr bool kMaterials = false;  // a scene stands on heights
+  auto ground = terrain::open_terrain(terrain, kMaterials);
   if (!ground) return tl::unexpected(ground.error());
   SceneStoreOptions options;
   options.use = use;

@@ -161,6 +161,9 @@ class Flattener {
     for (const std::string& warning : tree.warnings) warnings_.add(warning);
     model_.objects.emplace_back();
     for (const SurfaceKind& kind : tree.kinds) kind_numbers_.push_back(kinds_.number_of(kind));
+    // As many as without copies and two-sided faces.
+    model_.vertices.reserve(tree.corners.size());
+    model_.triangles.reserve(tree.corners.size() / 2);
   }
 
   error::Expected<Model> run() {

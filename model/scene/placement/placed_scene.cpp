@@ -107,7 +107,7 @@ class ScenePlacer {
       std::array<Vector3, 3> at;
       for (std::size_t corner = 0; corner < 3; ++corner) {
         at[corner] = rotated(model_position(triangle.corners[corner]));
-        points_.push_back({at[corner].x, at[corner].y});
+        add_point({at[corner].x, at[corner].y});
         outline.min_z_m = outline.empty ? at[corner].z : std::min(outline.min_z_m, at[corner].z);
         outline.max_z_m = outline.empty ? at[corner].z : std::max(outline.max_z_m, at[corner].z);
         outline.empty = false;
@@ -117,6 +117,14 @@ class ScenePlacer {
     }
     outline.box = footprint_of(points_);
     return outline;
+  }
+
+  // Leaves out a point equal to one of the three before: the corners of the other triangle of a face, and the lower
+  // corners of a wall.
+  void add_point(geo::PlanePoint point) {
+    const auto recent = points_.end() - static_cast<std::ptrdiff_t>(std::min<std::size_t>(points_.size(), 3));
+    const auto same = [&](geo::PlanePoint other) { return other.x_m == point.x_m && other.y_m == point.y_m; };
+    if (std::none_of(recent, points_.end(), same)) points_.push_back(point);
   }
 
   void place_object(std::uint32_t number, PlacedScene& placed) {
@@ -209,6 +217,7 @@ class ScenePlacer {
       double sum = 0.0;
       for (const ModelTriangle& triangle : model_.triangles) {
         const Corners3 corners = rotated_corners(triangle);
+        if (has_no_longer_edge(corners, edge_m)) continue;
         const double longest_m = longest_plan_edge(corners).length_m;
         if (!(longest_m > edge_m) || !counts(triangle)) continue;
         const double width_m = length(cross(corners[1] - corners[0], corners[2] - corners[0])) / longest_m;

@@ -153,7 +153,7 @@ bool DirectoryTerrainStore::load(Level level) {
   const CellCorner corner = corner_of_slot(level.first);
   // Heights and culture are read at the same time. If no thread can be started, get() reads the culture.
   std::future<error::Expected<Culture>> culture;
-  if (file.culture)
+  if (file.culture && options_.materials)
     culture = std::async(std::launch::async | std::launch::deferred,
                          [&path = *file.culture, corner] { return read_culture(path, corner); });
   error::Expected<CellReading> reading = read_cell(file, corner, level.second);
@@ -207,11 +207,12 @@ TerrainViewPointer DirectoryTerrainStore::make_view(int detail) {
   return view;
 }
 
-error::Expected<std::unique_ptr<TerrainStore>> open_terrain(const radar::TerrainConfiguration& configuration) {
+error::Expected<std::unique_ptr<TerrainStore>> open_terrain(const radar::TerrainConfiguration& configuration,
+                                                            bool materials) {
   if (configuration.directory.empty())
     return std::make_unique<FixedTerrainStore>(std::make_shared<const AnalyticTerrain>(built_in_hills()));
-  auto store =
-      DirectoryTerrainStore::open(configuration.directory, {.missing_cell_is_sea = configuration.missing_cell_is_sea});
+  auto store = DirectoryTerrainStore::open(
+      configuration.directory, {.missing_cell_is_sea = configuration.missing_cell_is_sea, .materials = materials});
   if (!store) return tl::unexpected(store.error());
   return std::move(*store);
 }

@@ -30,6 +30,7 @@ namespace yars::model::terrain {
 struct DirectoryStoreOptions {
   bool missing_cell_is_sea = true;                // a cell without a file is sea at 0 m; false: void
   std::size_t resident_limit_bytes = 512U << 20;  // [bytes] limit after a prepare(); exceeded if one region needs more
+  bool materials = true;                          // false: heights alone, no culture is read
 };
 
 // Numbers of cells in the region of the last prepare().
@@ -97,7 +98,8 @@ class DirectoryTerrainStore final : public TerrainStore {
 };
 
 // Opens the terrain directory of a configuration. Without a directory, the store has the built-in hills.
-// Errors: the directory is missing or has no usable cell.
-error::Expected<std::unique_ptr<TerrainStore>> open_terrain(const radar::TerrainConfiguration& configuration);
+// `materials` false: its views have heights alone. Errors: the directory is missing or has no usable cell.
+error::Expected<std::unique_ptr<TerrainStore>> open_terrain(const radar::TerrainConfiguration& configuration,
+                                                            bool materials = true);
 
 }  // namespace yars::model::terrain

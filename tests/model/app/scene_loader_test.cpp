@@ -60,6 +60,21 @@ TEST_F(SceneLoading, ALoaderWithAThreadReturnsAllScenesLater) {
   EXPECT_EQ(loaded.view->scatterers().size(), 1U);
 }
 
+TEST_F(SceneLoading, AStandbyLoadsTheScenesOfTheScanWithoutThoseOfTheMargin) {
+  SceneLoader loader(store(), true);
+  // The file does not say how far the scene reaches.
+  const auto distance = geo::Length::metres(20'000.0 + scene::kUnknownReach_m + 0.5 * kLoadMargin_m);
+  const geo::GeoPoint beside = geo::geodesic_direct(kScenePosition, geo::Bearing::degrees(20.0), distance);
+  const terrain::TerrainRegion region{beside, 20'000.0, 0};
+  const SceneLoader::LoadedScenes ahead = loader.request(region, kStandbyMargin_m);
+  EXPECT_TRUE(ahead.complete);
+  ASSERT_TRUE(ahead.view);
+  EXPECT_TRUE(ahead.view->scatterers().empty());
+  const SceneLoader::LoadedScenes with_margin = loader.request(region);
+  EXPECT_TRUE(with_margin.complete);
+  EXPECT_EQ(with_margin.view->scatterers().size(), 1U);
+}
+
 TEST_F(SceneLoading, ASynchronousLoaderReturnsAllScenesAlongAFlight) {
   SceneLoader loader(store(), true);
   for (int minute = 0; minute < 30; ++minute) {

@@ -53,6 +53,15 @@ TEST_F(OpenScenes, WithoutAnySceneThereIsNoStore) {
   EXPECT_EQ(opened(), nullptr) << "the built-in hills";
 }
 
+TEST_F(OpenScenes, ScenesStandOnHeightsWithoutTheCultureOfTheTerrain) {
+  folder_.write("terrain/N37W123.smc.png", std::vector<std::byte>(10));
+  folder_.write("terrain/scenes/a.flt", box("shed"));
+  const auto store = opened();
+  ASSERT_NE(store, nullptr);
+  EXPECT_TRUE(has_object(*store, "shed"));
+  EXPECT_TRUE(store->take_problems().empty());
+}
+
 TEST_F(OpenScenes, FilesInTheTerrainsFolderBelongToTheTerrain) {
   folder_.write("terrain/scenes/a.flt", box("shed"));
   const auto store = opened();

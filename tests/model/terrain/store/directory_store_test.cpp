@@ -9,6 +9,7 @@
 #include <random>
 
 #include "lib/radar/world.hpp"
+#include "model/terrain/formats/culture.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
 #include "tests/model/terrain/sampling/fast_path.hpp"
@@ -64,6 +65,18 @@ TEST(DirectoryStore, PrepareKeepsNoMemoryOfItsReaders) {
   store_over(folder)->prepare({middle(20), kNear});
   EXPECT_EQ(reading_buffers().file.capacity(), 0U);
   EXPECT_EQ(reading_buffers().posts.capacity(), 0U);
+}
+
+TEST(DirectoryStore, WithoutMaterialsNoCultureIsRead) {
+  const test::TemporaryFolder folder;
+  write_cells(folder);
+  folder.write(culture_path(name_at(20)).string(), std::vector<std::byte>(10));
+  const auto heights = store_over(folder, {.materials = false});
+  EXPECT_EQ(heights->prepare({middle(20), kNear})->elevation_m(middle(20)), 20);
+  EXPECT_TRUE(heights->take_problems().empty());
+  const auto store = store_over(folder);
+  EXPECT_EQ(store->prepare({middle(20), kNear})->elevation_m(middle(20)), 20);
+  EXPECT_EQ(store->take_problems().size(), 1U) << "ten zeros are no culture";
 }
 
 TEST(DirectoryStore, AMissingCellIsVoidIfTheOptionForSeaIsOff) {
