@@ -26,7 +26,7 @@ WITH_JSON = ["scan", "patch", "trade", "trade maps", "terrain generate", "terrai
              "terrain pack", "scene generate", "scene info", "config check", "config user", "sim state", "sim freeze",
              "sim run", "sim rate", "sim step", "sim reset", "sim reposition", "world", "world sea", "world wind", "world rain add",
              "world rain move", "world rain remove", "world jammer add", "world jammer move", "world jammer remove", "world mover add",
-             "world mover move", "world mover remove", "world mover steer", "world point add", "world point move", "world point change",
+             "world mover move", "world mover remove", "world mover steer", "world point add", "world point change", "world point move",
              "world point remove", "world reset", "inject", "status", "watch", "record", "recordings", "replay"]
 SESSION = f"commands-{os.getpid()}"
 faults = []
