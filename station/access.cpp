@@ -70,7 +70,7 @@ Right right_of_cookies(std::string_view cookies, const AccessRules& rules) {
 
 std::string cookie_of_token(std::string_view token, const AccessRules& rules) {
   return cookie_name(right_of_token(token, rules), rules) + '=' + std::string(token) +
-         "; Path=/; HttpOnly; SameSite=Strict" + (rules.tls ? "; Secure" : "");
+         "; Path=/; HttpOnly; SameSite=Lax" + (rules.tls ? "; Secure" : "");
 }
 
 std::string file_of_path(std::string_view path) {
