@@ -26,9 +26,10 @@ bool equals_secret(std::string_view given, std::string_view secret) {
   return difference == 0;
 }
 
-// Cookies of a host are shared by all its ports.
-std::string cookie_name(const AccessRules& rules) {
-  return "yars_station_" + std::to_string(rules.port);
+// Cookies of a host are shared by all its ports. Each right has its own, so that a link of viewers replaces none of an
+// instructor.
+std::string cookie_name(Right right, const AccessRules& rules) {
+  return "yars_station_" + std::to_string(rules.port) + (right == Right::instructor ? "_instructor" : "_viewer");
 }
 
 }  // namespace
@@ -54,20 +55,22 @@ Right right_of_token(std::string_view token, const AccessRules& rules) {
 
 Right right_of_cookies(std::string_view cookies, const AccessRules& rules) {
   if (rules.instructor_token.empty()) return Right::instructor;
-  const std::string begin = cookie_name(rules) + '=';
+  const std::string viewer = cookie_name(Right::viewer, rules), instructor = cookie_name(Right::instructor, rules);
   Right right = Right::none;
   while (!cookies.empty()) {
     const std::string_view cookie = cookies.substr(0, cookies.find(';'));
     cookies.remove_prefix(std::min(cookies.size(), cookie.size() + 1));
     const std::string_view trimmed = cookie.substr(std::min(cookie.size(), cookie.find_first_not_of(' ')));
-    if (trimmed.starts_with(begin)) right = std::max(right, right_of_token(trimmed.substr(begin.size()), rules));
+    const std::string_view name = trimmed.substr(0, trimmed.find('='));
+    if (name.size() < trimmed.size() && (name == viewer || name == instructor))
+      right = std::max(right, right_of_token(trimmed.substr(name.size() + 1), rules));
   }
   return right;
 }
 
 std::string cookie_of_token(std::string_view token, const AccessRules& rules) {
-  return cookie_name(rules) + '=' + std::string(token) + "; Path=/; HttpOnly; SameSite=Strict" +
-         (rules.tls ? "; Secure" : "");
+  return cookie_name(right_of_token(token, rules), rules) + '=' + std::string(token) +
+         "; Path=/; HttpOnly; SameSite=Lax" + (rules.tls ? "; Secure" : "");
 }
 
 std::string file_of_path(std::string_view path) {

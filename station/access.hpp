@@ -37,9 +37,11 @@ bool is_own_origin(std::string_view origin, std::string_view host, const AccessR
 
 // Right that a token gives.
 Right right_of_token(std::string_view token, const AccessRules& rules);
-// Right of a request by its header Cookie.
+// Right of a request by its header Cookie: the highest that one of its cookies gives.
 Right right_of_cookies(std::string_view cookies, const AccessRules& rules);
-// Header Set-Cookie with which a browser sends the token along: to this server only, not to scripts.
+// Header Set-Cookie with which a browser sends the token along: to this server only, not to scripts. It replaces no
+// cookie of another right. A link on a foreign page opens a page with it (SameSite=Lax); what a foreign page loads or
+// sends by itself comes without it.
 std::string cookie_of_token(std::string_view token, const AccessRules& rules);
 
 // Name of the file of a path: "display.html" for "/" and "/display.html?x"; empty for a path that names none.

@@ -167,6 +167,7 @@ TEST_F(FlyOut, NamesWhatIsWrong) {
   const auto refused = [&](const std::vector<std::string>& more, int code, const std::string& reason) {
     const auto finished = run_tool(fly_out("refused", more));
     EXPECT_EQ(finished.code, code) << finished.errors;
+    EXPECT_TRUE(finished.errors.starts_with("scripts/start: ")) << finished.errors;
     EXPECT_NE(finished.errors.find(reason), std::string::npos) << finished.errors;
   };
   refused({"--at", "9"}, 2, "expected a recording that can be read");

@@ -2,6 +2,7 @@
 """A station that others can reach: tokens, rights, TLS, limits. usage: access_of_others_test.py BIN (folder of the programs)"""
 import base64
 import http.client
+import http.cookiejar
 import json
 import os
 import pathlib
@@ -14,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import urllib.request
 
 BIN = pathlib.Path(sys.argv.pop(1)).resolve()
 
@@ -126,6 +128,28 @@ def status_of(port, path, cookie=""):
     return page.status
 
 
+class Browser:
+    """Opens printed addresses of a station and keeps its cookies."""
+
+    def __init__(self, port):
+        self.port = port
+        self.jar = http.cookiejar.CookieJar()
+        self.opener = urllib.request.build_opener(urllib.request.ProxyHandler({}), urllib.request.HTTPCookieProcessor(self.jar))
+
+    def open(self, address):
+        """Status of the page that the address leads to."""
+        path = re.fullmatch(r"https?://[^/]+(/.*)", address).group(1)
+        with self.opener.open(f"http://127.0.0.1:{self.port}{path}", timeout=20) as response:
+            return response.status
+
+    def may_freeze(self):
+        page = SocketOfPage(self.port, cookie="; ".join(f"{cookie.name}={cookie.value}" for cookie in self.jar))
+        page.send({"do": "freeze", "id": 5})
+        problem = page.answer(5)
+        page.close()
+        return problem is None
+
+
 class Options(unittest.TestCase):
     def test_beyond_loopback_needs_tokens_and_a_certificate(self):
         code, text = refusal("--listen", "0.0.0.0")
@@ -162,7 +186,7 @@ class Tokens(unittest.TestCase):
         cls.station = Station(cls.folder.name, "--listen", "0.0.0.0", "--tokens", str(cls.file), "--without-tls", "--names", "radar.example")
         cls.port = cls.station.port
         cls.tokens = [re.search(r"token=(\w+)", address).group(1) for address in cls.station.addresses]
-        cls.cookies = [f"yars_station_{cls.port}={token}" for token in cls.tokens]
+        cls.cookies = [f"yars_station_{cls.port}_{right}={token}" for right, token in zip(("viewer", "instructor"), cls.tokens)]
 
     @classmethod
     def tearDownClass(cls):
@@ -181,7 +205,7 @@ class Tokens(unittest.TestCase):
     def test_without_a_token_there_is_nothing_of_the_session(self):
         for path in ("/display.html", "/instructor.html", "/theatre.json", "/map/0/0/0.png", "/patch/x/1.png", "/nothing"):
             self.assertEqual(get(self.port, path)[0], 401, path)
-            self.assertEqual(get(self.port, path, cookie=f"yars_station_{self.port}=wrong")[0], 401, path)
+            self.assertEqual(get(self.port, path, cookie=f"yars_station_{self.port}_instructor=wrong")[0], 401, path)
         self.assertEqual(status_of(self.port, "/socket"), 401)
         self.assertEqual(get(self.port, "/display.html?token=wrong")[0], 401)
 
@@ -194,6 +218,18 @@ class Tokens(unittest.TestCase):
         self.assertEqual(get(self.port, "/instructor.html", cookie)[0], 200)
         self.assertEqual(get(self.port, "/theatre.json", cookie)[0], 200)
         self.assertEqual(get(self.port, "/map/0/0/0.png", cookie)[0], 200)
+
+    def test_a_browser_of_an_instructor_stays_one_at_the_address_of_viewers(self):
+        for addresses in (self.station.addresses, self.station.addresses[::-1]):
+            browser = Browser(self.port)
+            self.assertEqual([browser.open(address) for address in addresses], [200, 200])
+            self.assertTrue(browser.may_freeze(), addresses)
+
+    def test_the_address_of_viewers_gives_a_viewers_rights(self):
+        browser = Browser(self.port)
+        self.assertEqual(browser.open(self.station.addresses[0]), 200)
+        self.assertEqual(browser.open(self.station.addresses[1].partition("?")[0]), 200)
+        self.assertFalse(browser.may_freeze())
 
     def test_a_viewer_looks_and_changes_nothing(self):
         page = SocketOfPage(self.port, cookie=self.cookies[0])
