@@ -121,6 +121,7 @@ std::string InstructorShell::state_message() const {
       {"patches", patches_json(layout)},
       {"forming", forming_json(model)},
       {"navigators", radar ? navigators_json(*radar) : ordered_json(nullptr)},
+      {"sequence_point", radar ? std::string(text::text_of(radar->sequence_point)) : std::string()},
       {"world", world ? databuffer::world_json(*world, session_->reached_sim_time_ns()) : ordered_json(nullptr)},
       {"fidelity",
        {{"wanted", world ? std::string(text::text_of(world->fidelity)) : std::string()},

@@ -34,7 +34,7 @@ error::Expected<std::map<std::string, std::string>> read_pages(const std::filesy
     files[entry->path().filename().string()] = std::move(*text);
   }
   if (!files.contains("display.html"))
-    return error::fail("pages", "a folder with display.html", pages.string(),
+    return error::fail("pages", "a folder with display.html", pages.empty() ? "none" : pages.string(),
                        "give --pages the folder share/yars/station of an installation");
   return files;
 }

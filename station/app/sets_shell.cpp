@@ -19,6 +19,7 @@
 #include <cstring>
 #include <ctime>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "lib/file/folder.hpp"
@@ -50,6 +51,12 @@ int spawn(const std::vector<std::string>& command, int output) {
   ::dup2(output, STDERR_FILENO);
   for (int file = STDERR_FILENO + 1; file < 1024; ++file) ::close(file);
   ::execv(arguments[0], arguments.data());
+  // The reason is the last line of the output, which the page shows.
+  const auto say = [](std::string_view text) {
+    if (::write(STDERR_FILENO, text.data(), text.size()) < 0) ::_exit(127);
+  };
+  say("expected a program that can be started, found ");
+  say(arguments[0]);
   ::_exit(127);
 }
 
@@ -114,6 +121,7 @@ std::string SetsShell::new_session(const std::string& kind) {
 }
 
 std::filesystem::path SetsShell::start_script() const {
+  if (!settings_.start_script.empty()) return settings_.start_script;
   const std::filesystem::path installed = settings_.programs / "yars-start";
   return std::filesystem::exists(installed) ? installed : settings_.programs / "../../../scripts/start";
 }

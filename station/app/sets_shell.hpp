@@ -26,10 +26,11 @@ class io_context;
 namespace yars::station {
 
 struct SetSettings {
-  std::string session;               // of the station
-  std::filesystem::path programs;    // folder of yars and radar-display
-  std::filesystem::path recordings;  // folder of the recordings
-  std::string config, terrain;       // of the station; empty: the programs' defaults
+  std::string session;                 // of the station
+  std::filesystem::path programs;      // folder of yars and radar-display
+  std::filesystem::path recordings;    // folder of the recordings
+  std::string config, terrain;         // of the station; empty: the programs' defaults
+  std::filesystem::path start_script;  // flies out of a recording; empty: that of the installation or the source tree
 };
 
 class SetsShell {

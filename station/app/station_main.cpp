@@ -30,7 +30,7 @@ using namespace yars;
 
 struct StationOptions {
   int port = 8096;
-  std::string pages, terrain, source, recordings = "recordings";
+  std::string pages, start_script, terrain, source, recordings = "recordings";
   std::string listen = "127.0.0.1", names, tokens, certificate, key;
   bool without_tls = false;
 };
@@ -136,8 +136,12 @@ error::Expected<station::ServerSettings> settings_of(const databuffer::ProgramOp
   settings.certificate = station_options.certificate;
   settings.key = station_options.key;
   const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
-  settings.sets = {options.session, programs, std::filesystem::absolute(station_options.recordings), options.config,
-                   station_options.terrain};
+  settings.sets = {options.session,
+                   programs,
+                   std::filesystem::absolute(station_options.recordings),
+                   options.config,
+                   station_options.terrain,
+                   station_options.start_script};
   const auto route = waypoints_of(station_options.source);
   if (!route) return tl::unexpected(route.error());
   const auto places = places_of(configuration);
@@ -205,6 +209,9 @@ int main(int argc, char** argv) {
       .otherwise("no TLS");
   app.flag("--without-tls", station_options.without_tls, "listen beyond this computer without a certificate");
   app.option("--pages", station_options.pages, "folder of the pages").value_name("DIR").otherwise("the installed ones");
+  app.option("--start-script", station_options.start_script, "script that starts a set which flies out of a recording")
+      .value_name("FILE")
+      .otherwise("that of the installation");
   app.option("--terrain", station_options.terrain, "folder of elevation cells, for the map")
       .value_name("DIR")
       .otherwise("the configuration's")

@@ -250,7 +250,7 @@ const tests = {
     await until("the recorder writes", () => status().recorder?.writing);
     await new Promise((resolve) => setTimeout(resolve, 6000));
     const end = watch().sim_time;
-    await until("the page says so", async () => await page.textContent("#record") === "Stop recording");
+    await until("the page says so", async () => await page.textContent("#record") === "Pause recording");
     await page.click("#record");
     await until("the recorder stands", () => status().recorder?.writing === false);
     await page.click("#machine summary");

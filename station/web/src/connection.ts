@@ -45,7 +45,7 @@ export class Connection {
         return;
       }
       this.waiting.set(id, resolve);
-      setTimeout(() => this.resolve({ answer: id, problem: "no answer within 10 s" }), ANSWER_WITHIN_MS);
+      setTimeout(() => this.resolve({ answer: id, problem: `no answer within 10 s to: ${name}` }), ANSWER_WITHIN_MS);
     });
   }
   close(): void {

@@ -10,8 +10,12 @@ import { TimeMachine } from "./time_machine";
 import { WorldPanel } from "./world_panel";
 
 const DIGITS = 5; // of positions in degrees: 1 m
+const TOGGLE_MS = 500; // the state has the effect of a command by then
 const input = (id: string): HTMLInputElement => element<HTMLInputElement>(id);
 const number = (id: string): number => input(id).valueAsNumber;
+
+const groundOf = (above_ft: number | null): string =>
+  above_ft === null ? "no terrain below" : above_ft < 0 ? "below the ground" : `${Math.round(above_ft)} ft above the ground`;
 
 class InstructorPage {
   private readonly connection: Connection;
@@ -22,6 +26,7 @@ class InstructorPage {
   private state: InstructorState | undefined;
   private theatre: Theatre | undefined;
   private places: (Position & { name: string })[] = [];
+  private toggled: { running: boolean; at: number } | undefined; // what Run or Freeze last asked for
   private typed = false; // values of the aircraft that are not sent yet
 
   constructor() {
@@ -37,6 +42,10 @@ class InstructorPage {
       connected: (open) => {
         document.body.dataset.connection = open ? "open" : "lost";
         if (!open) say("health", "");
+        if (open) {
+          say("problem", "");
+          this.world.forgetRemovals();
+        }
         say("status", open ? "connected" : "no connection: the station does not answer; trying again");
       },
     }, "instructor", sessionOfPage());
@@ -69,8 +78,8 @@ class InstructorPage {
       ...beacons.map((beacon) => ({ ...beacon, name: `beacon ${beacon.name || beacon.code}` }))];
     const names = this.places.map(({ name }) => name);
     fill("places", names.join(), () => [new Option("a place or a point", ""), ...names.map((name, at) => new Option(name, String(at)))]);
-    const selected = element<HTMLSelectElement>("points").value;
-    fill("points", points.map(({ name }) => name).join(), () => points.map(({ name }) => new Option(name, name, false, name === selected)));
+    const selected = this.state?.sequence_point ?? "";
+    fill("points", `${points.map(({ name }) => name).join()} ${selected}`, () => points.map(({ name }) => new Option(name === selected ? `${name} (selected)` : name, name, false, name === selected)));
   }
   private goToPlace(): void {
     const places = element<HTMLSelectElement>("places");
@@ -107,10 +116,18 @@ class InstructorPage {
   }
 
   private listenToTime(): void {
-    onClick("run", () => void this.order(this.state?.clock.running ? "freeze" : "run"));
+    onClick("run", () => this.toggleRunning());
     element("rate").addEventListener("change", () => void this.order("rate", { rate: Number(element<HTMLSelectElement>("rate").value) }));
     onSubmit("step_form", () => void this.order("step", { ticks: number("ticks") }));
     onSubmit("reset_form", () => void this.order("reset", { time: number("time") }));
+  }
+
+  // Presses in quick succession alternate, also before the state has the effect of the first.
+  private toggleRunning(): void {
+    const now = performance.now();
+    const running = this.toggled && now - this.toggled.at < TOGGLE_MS ? this.toggled.running : this.state?.clock.running;
+    this.toggled = { running: !running, at: now };
+    void this.order(running ? "freeze" : "run");
   }
 
   private listenToAircraft(): void {
@@ -167,7 +184,7 @@ class InstructorPage {
     const rate = element<HTMLSelectElement>("rate");
     if (document.activeElement !== rate) rate.value = String(clock.rate);
     say("flight", aircraft
-      ? `${aircraft.lat.toFixed(4)}, ${aircraft.lon.toFixed(4)} · ${Math.round(aircraft.alt_ft)} ft · heading ${Math.round(aircraft.heading_deg) % 360} · ${Math.round(aircraft.speed_kt)} kt`
+      ? `${aircraft.lat.toFixed(4)}, ${aircraft.lon.toFixed(4)} · ${Math.round(aircraft.alt_ft)} ft · heading ${Math.round(aircraft.heading_deg) % 360} · ${Math.round(aircraft.speed_kt)} kt · ${groundOf(aircraft.above_ground_ft)}`
       : "no position: no flight model runs");
     if (!element("aircraft_form").contains(document.activeElement)) this.showAircraftForm();
     const errors = state.navigators;
@@ -207,9 +224,9 @@ class InstructorPage {
       return row;
     }));
     const { recorder } = status;
-    this.machine.showRecorder(recorder ? (recorder.writing ? "writes" : "stands") : "none");
-    say("record", recorder ? (recorder.writing ? "Stop recording" : "Go on recording") : "Record");
-    say("recorder", recorder ? recorder.problem ?? `${recorder.writing ? "writes" : "stands"}, ${(recorder.bytes / 1e6).toFixed(1)} MB` : "no recorder runs");
+    this.machine.showRecorder(recorder ? (recorder.writing ? "writes" : "paused") : "none");
+    say("record", recorder ? (recorder.writing ? "Pause recording" : "Go on recording") : "Record");
+    say("recorder", recorder ? recorder.problem ?? `${recorder.writing ? "writes" : "paused"}, ${(recorder.bytes / 1e6).toFixed(1)} MB` : "no recorder runs");
     const { notes } = status;
     fill("notes", JSON.stringify(notes), () => notes.map(({ sim_time, process, text }) => {
       const row = document.createElement("li");

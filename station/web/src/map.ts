@@ -428,7 +428,7 @@ export class TheatreMap {
     for (const point of state?.world?.points ?? []) {
       const at = this.place("points", point.id, { lat: point.latitude_deg, lon: point.longitude_deg });
       this.dot(at, "#b9e0ff", point.kind.startsWith("target") ? "triangle" : point.kind === "initial" ? "square" : "circle");
-      this.label(at, point.name, "#b9e0ff");
+      this.label(at, point.name === state?.sequence_point ? `${point.name} selected` : point.name, "#b9e0ff", 26);
       this.ring(at, "points", point.id);
     }
   }
@@ -439,7 +439,7 @@ export class TheatreMap {
     const { scan } = state;
     this.line(this.trail, "#9be29b", 2);
     const at = this.place("aircraft", 0, state.aircraft);
-    if (scan && scan.range_nm > 0) {
+    if (scan?.scanning && scan.range_nm > 0) {
       const range_m = scan.range_nm * M_PER_NM, begin = scan.centre_deg - scan.width_deg / 2;
       const arc = Array.from({ length: 33 }, (_, step) => pointFrom(at, begin + (scan.width_deg * step) / 32, range_m));
       context.beginPath();
@@ -450,7 +450,7 @@ export class TheatreMap {
       context.lineWidth = 1;
       context.strokeStyle = "#9be29b";
       context.stroke();
-      if (scan.scanning && scan.beam_deg !== null) this.line([at, pointFrom(at, scan.beam_deg, range_m)], "#d8ffd8", 1.5);
+      if (scan.beam_deg !== null) this.line([at, pointFrom(at, scan.beam_deg, range_m)], "#d8ffd8", 1.5);
     }
     const [x, y] = this.xy(at);
     context.save();

@@ -73,6 +73,7 @@ export interface InstructorState {
   world: World | null;
   fidelity: { wanted: string; used: string }; // presets; wanted empty: the configured one
   navigators: { mission: NavigatorError; ins: NavigatorError } | null;
+  sequence_point: string; // that the pilot has selected; empty: none
   status: {
     roles: RoleEntry[];
     health: { state: string; reasons: string[] };

@@ -170,7 +170,7 @@ export class TimeMachine {
   private rowOfSet(set: SetEntry, sets: SetEntry[]): HTMLLIElement {
     const row = document.createElement("li");
     const from = set.kind === "recorder" ? "" : ` from ${set.at.toFixed(1)} s`;
-    row.append(`${set.kind} ${fileName(set.file)}${from}${set.ended ? `: ${set.ended}` : ""} `);
+    row.append(`${set.kind === "recorder" ? "recorder" : set.session}: ${fileName(set.file)}${from}${set.ended ? `: ${set.ended}` : ""} `);
     const link = (text: string, address: string) => {
       const anchor = document.createElement("a");
       anchor.href = address;

@@ -4,6 +4,7 @@ import { element, say } from "./page";
 
 const MAX_OFFERS = 20;
 const DONE_MS = 8000; // what is done is said for so long
+const OFFERED_MS = 60000; // an undo is offered for so long
 
 interface Offer {
   text: string; // what was done: "Removed rain 3"
@@ -18,10 +19,7 @@ export class UndoLine {
 
   constructor() {
     this.button.addEventListener("click", () => void this.undo());
-    element("undo_close").addEventListener("click", () => {
-      this.offers.length = 0;
-      this.show("");
-    });
+    element("undo_close").addEventListener("click", () => this.forget());
     window.addEventListener("keydown", (event) => {
       const types = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement; // the field's own undo
       if (types || event.key.toLowerCase() !== "z" || !(event.ctrlKey || event.metaKey) || event.shiftKey || this.offers.length === 0) return;
@@ -38,6 +36,11 @@ export class UndoLine {
     this.button.focus({ preventScroll: true });
   }
 
+  forget(): void {
+    this.offers.length = 0;
+    this.show("");
+  }
+
   private async undo(): Promise<void> {
     const offer = this.offers.pop();
     if (!offer) return;
@@ -49,8 +52,8 @@ export class UndoLine {
 
   private show(text: string): void {
     clearTimeout(this.clearing);
-    if (this.offers.length === 0) this.clearing = setTimeout(() => { if (text !== "") this.show(""); }, DONE_MS);
     const offers = this.offers.length > 0;
+    if (text !== "") this.clearing = setTimeout(() => this.forget(), offers ? OFFERED_MS : DONE_MS);
     say("undo_text", text);
     this.button.hidden = !offers;
     element("undo_close").hidden = text === "";

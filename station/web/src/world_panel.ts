@@ -14,7 +14,7 @@ const FIELDS: Record<string, Field[]> = {
     { name: "top_ft", label: "Top [ft]", min: 500, max: 60000 }],
   jammers: [{ name: "power_w", label: "Power [W]", min: 0.001, max: 1e6 }],
   movers: [{ name: "speed_kt", label: "Speed [kt]", min: 0, max: 1000 }, { name: "heading_deg", label: "Heading [deg true]", min: 0, max: 360 }],
-  points: [{ name: "name", label: "Name", pattern: "[1-9][0-9]{0,2}([.][0-9]{0,2})?", hint: "7 steer point, 7. target, 7.1 offset, 7.01 offset of a target; 1 to 100" },
+  points: [{ name: "name", label: "Name", pattern: "[1-9][0-9]{0,2}([.][0-9]{0,2})?", hint: "7 is a steer point, 7. a target, 7.1 an offset, 7.01 an offset of a target. The radar draws the five nearest and the selected one" },
     { name: "elevation_ft", label: "Elevation [ft]", min: -1500, max: 30000, optional: true, hint: "above mean sea level; empty: unknown" }],
 };
 
@@ -70,7 +70,8 @@ export class WorldPanel {
     if (this.adding === kind) return this.add(this.map.middle());
     this.adding = kind;
     this.map.placing = true;
-    say("adding", `Click on the map where the ${KINDS[kind]} is to be, or press again for the middle of the map. Escape ends.`);
+    say("adding", `Press on the map where the ${KINDS[kind]} is to be, or this button again for the middle of the map. Escape ends.`);
+    element("map").scrollIntoView({ block: "nearest" });
   }
   private stopAdding(): void {
     this.adding = undefined;
@@ -92,6 +93,9 @@ export class WorldPanel {
     if (problem === null) this.undo.offer({ text: "Reset the world", restored: "The changed world is back", undo: () => this.order("undo reset") });
   }
 
+  // What was offered belongs to a station that may be gone.
+  forgetRemovals(): void { this.undo.forget(); }
+
   choose(thing: Thing | undefined): void {
     this.chosen = thing;
     this.map.chosen = thing;
@@ -105,10 +109,16 @@ export class WorldPanel {
       label.append(`${field.label} `, inputOf(field, entry?.[field.name]));
       return label;
     });
+    const hints = FIELDS[thing.kind].filter(({ hint }) => hint !== undefined).map(({ label, hint }) => {
+      const note = document.createElement("p");
+      note.className = "note";
+      note.textContent = `${label}: ${hint}`;
+      return note;
+    });
     const submit = document.createElement("button");
+    submit.id = "change_thing";
     submit.textContent = `Change ${thing.name}`;
-    form.replaceChildren(...rows, submit);
-    form.scrollIntoView({ block: "nearest" });
+    form.replaceChildren(...rows, ...hints, submit);
   }
 
   show(state: InstructorState): void {
@@ -120,7 +130,13 @@ export class WorldPanel {
     for (const [id, value] of [["wind", world.wind_kt], ["wind_from", world.wind_from_deg]] as const)
       if (!element("wind_form").contains(document.activeElement)) input(id).value = String(Math.round(value * 10) / 10);
     const things = this.map.things();
-    if (this.chosen && !things.some(({ kind, id }) => kind === this.chosen?.kind && id === this.chosen.id)) this.choose(undefined);
+    const { chosen } = this;
+    const present = things.find(({ kind, id }) => kind === chosen?.kind && id === chosen.id);
+    if (chosen && !present) this.choose(undefined);
+    else if (chosen && present && present.name !== chosen.name) {
+      this.chosen = present;
+      say("change_thing", `Change ${present.name}`);
+    }
     fill("things", things.map(({ kind, id, name }) => `${kind} ${id} ${name}`).join(), () => things.map((thing) => this.row(thing)));
   }
 
@@ -128,6 +144,7 @@ export class WorldPanel {
     const row = document.createElement("li");
     row.append(button(thing.name, () => {
       this.choose(thing);
+      element("thing_form").scrollIntoView({ block: "nearest" });
       this.map.goTo(thing);
       this.moved();
     }));
