@@ -128,6 +128,7 @@ const tests = {
     await page.selectOption("#points", "90.");
     await page.click("#steer_form button");
     await until("the pilot's selected point", () => watch().sequence_point === "90." && watch().points_drawn.includes("90."));
+    await until("the page names the pilot's point", async () => /90\. \(selected\)/.test(await page.textContent("#points")));
     await page.selectOption("#places", { label: "sequence point 90." });
     await until("the map at the point", async () => await page.getAttribute("#follow", "aria-pressed") === "false");
     const before = point();
