@@ -123,7 +123,10 @@ def a_program_says_how_it_ended(hosts):
 
 
 def exists(pid):
-    return os.path.exists(f"/proc/{pid}") and state(pid) != "Z"
+    try:
+        return state(pid) != "Z"
+    except OSError:  # it is gone, or goes between the opening and the reading
+        return False
 
 
 def nothing_stays_behind(wire):
