@@ -8,6 +8,7 @@
 #include "databuffer/messages/derived_values.hpp"
 #include "lib/geo/frames.hpp"
 #include "lib/geo/geodesy.hpp"
+#include "lib/radar/mission.hpp"
 #include "statemachine/cursor.hpp"
 #include "statemachine/designation.hpp"
 #include "statemachine/maps.hpp"

@@ -328,7 +328,7 @@ Expected<std::uint32_t> add(WorldState& world, WorldMover mover) {
   return add_entry(world, mover);
 }
 Expected<std::uint32_t> add(WorldState& world, WorldPoint point) {
-  const auto id = add_entry(world, point);
+  auto id = add_entry(world, point);
   if (id) make_initial_point(world, point);
   return id;
 }

@@ -36,6 +36,7 @@ using nlohmann::ordered_json;
 // Starts a program with its output in `output`. It ends when the station ends. -1: the system refused.
 int spawn(const std::vector<std::string>& command, int output) {
   std::vector<char*> arguments;
+  arguments.reserve(command.size() + 1);
   for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   const int parent = ::getpid();
