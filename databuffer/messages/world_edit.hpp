@@ -1,7 +1,8 @@
 // Edits of a world: what an instructor changes while the set flies. Pure functions on a WorldState.
 // Inputs: a valid WorldState and the change. Outputs: the changed WorldState, without flag kWorldConfigured.
 // Units: those of the record. Messages name limits in the units of the configuration's forms: NM, ft, kt, deg.
-// Errors: a value out of range, an unknown id, a full list. The world then stays as it was.
+// Errors: a value out of range, an unknown id, a full list, a name that another sequence point has. The world then
+//   stays as it was.
 // Use: inside databuffer::change_world() (session_world.hpp), so that no edit of another program is lost.
 // Source: limits as in docs/configuration (forms Sea, RainCell, Jammer, Mover, Point).
 #pragma once
@@ -29,8 +30,8 @@ error::Expected<WorldPoint> default_point(const WorldState& world, geo::GeoPoint
 // Name of a jammer or mover: at most 15 characters of printable ASCII.
 error::Expected<void> set_name(WorldJammer& jammer, std::string_view name);
 error::Expected<void> set_name(WorldMover& mover, std::string_view name);
-// Name of a sequence point: "2", target "2.", offset "2.1", target offset "2.01". A kind that
-// does not fit the name becomes that of the name.
+// Name of a sequence point: "2", target "2.", offset "2.1", target offset "2.01". A kind that does not fit the name
+// becomes that of the name.
 error::Expected<void> set_name(WorldPoint& point, std::string_view name);
 
 // Sequence points: an edit of a point sets kWorldPointsChanged. A name or number that another point has is refused. A

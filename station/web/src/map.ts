@@ -428,7 +428,7 @@ export class TheatreMap {
     for (const point of state?.world?.points ?? []) {
       const at = this.place("points", point.id, { lat: point.latitude_deg, lon: point.longitude_deg });
       this.dot(at, "#b9e0ff", point.kind.startsWith("target") ? "triangle" : point.kind === "initial" ? "square" : "circle");
-      this.label(at, point.name === state?.sequence_point ? `${point.name} selected` : point.name, "#b9e0ff", 26);
+      this.label(at, point.name === state?.sequence_point ? `${point.name} selected` : point.name, "#b9e0ff", 26); // below the ring of the chosen point
       this.ring(at, "points", point.id);
     }
   }
