@@ -9,7 +9,6 @@
 #include <exception>
 #include <limits>
 #include <new>
-#include <type_traits>
 
 #include "lib/geo/earth.hpp"
 
@@ -43,12 +42,27 @@ struct GeodesicRay::Line {
 
 GeodesicRay::GeodesicRay(GeoPoint start, Bearing azimuth) {
   static_assert(sizeof(Line) <= sizeof(storage_) && alignof(Line) <= alignof(std::max_align_t));
-  // Required, because storage_ is copied byte by byte and Line's destructor is never called.
-  static_assert(std::is_trivially_copyable_v<Line> && std::is_trivially_destructible_v<Line>);
   ::new (storage_.data())
       Line{wgs84().Line(start.latitude_deg, start.longitude_deg, azimuth.degrees(),
                         GeographicLib::Geodesic::LATITUDE | GeographicLib::Geodesic::LONGITUDE |
                             GeographicLib::Geodesic::AZIMUTH | GeographicLib::Geodesic::DISTANCE_IN)};
+}
+
+GeodesicRay::GeodesicRay(const GeodesicRay& other) {
+  ::new (storage_.data()) Line(other.line());
+}
+
+GeodesicRay& GeodesicRay::operator=(const GeodesicRay& other) {
+  line() = other.line();
+  return *this;
+}
+
+GeodesicRay::~GeodesicRay() {
+  line().~Line();
+}
+
+GeodesicRay::Line& GeodesicRay::line() {
+  return *std::launder(reinterpret_cast<Line*>(storage_.data()));
 }
 
 const GeodesicRay::Line& GeodesicRay::line() const {

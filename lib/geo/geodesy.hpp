@@ -43,6 +43,9 @@ GeoPoint geodesic_direct(GeoPoint from, Bearing azimuth, Length distance);
 class GeodesicRay {
  public:
   GeodesicRay(GeoPoint start, Bearing azimuth);
+  GeodesicRay(const GeodesicRay&);
+  GeodesicRay& operator=(const GeodesicRay&);
+  ~GeodesicRay();
 
   GeoPoint position(Length distance) const;
   // Position and the azimuth of the ray there.
@@ -54,8 +57,9 @@ class GeodesicRay {
 
  private:
   struct Line;
+  Line& line();
   const Line& line() const;
-  alignas(std::max_align_t) std::array<std::byte, 1024> storage_;  // contains a Line, which is trivially copyable
+  alignas(std::max_align_t) std::array<std::byte, 1024> storage_;  // holds a Line: 920 bytes in GeographicLib 2.5
 };
 
 // Radius of curvature of the ellipsoid at a latitude, in the vertical plane of an azimuth (Euler's theorem). It is the

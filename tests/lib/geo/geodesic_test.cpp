@@ -1,6 +1,7 @@
 // Geodesics and coordinate frames against results that follow from the definition of the WGS84 ellipsoid.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
