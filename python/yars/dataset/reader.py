@@ -145,8 +145,11 @@ class Dataset:
         return self._kinds[name]
 
     def _chip(self, name, block, at):
-        """(rows, columns) of an item. Of a block that is touched for the first time only this item is decoded."""
-        if (name, block) in self._kept or self._touched == block:
+        """(rows, columns) of an item. Of a block that is touched for the first time only this item is decoded, where numcodecs
+        can: from version 0.16 on it decodes whole chunks only."""
+        decoder = self._kind(name)[1]
+        decodes_items = decoder is None or hasattr(decoder, "decode_partial")
+        if not decodes_items or (name, block) in self._kept or self._touched == block:
             return self._keep((name, block), lambda: self._decode(name, block))[at].copy()
         return self._decode(name, block, at)
 
