@@ -17,7 +17,6 @@ namespace yars::station {
 namespace {
 
 namespace asio = boost::asio;
-namespace beast = boost::beast;
 using boost::system::error_code;
 using tcp = asio::ip::tcp;
 
@@ -108,13 +107,11 @@ void Server::Work::accept() {
     if (!problem && site.connections < kMaxConnections) {
       error_code ignored;
       socket.set_option(tcp::no_delay(true), ignored);
-      beast::tcp_stream stream(std::move(socket));
+      PlainStream stream(std::move(socket));
       if (tls)
-        std::make_shared<Visit<beast::ssl_stream<beast::tcp_stream>>>(
-            site, beast::ssl_stream<beast::tcp_stream>(std::move(stream), *tls))
-            ->begin();
+        begin_visit(site, TlsStream(std::move(stream), *tls));
       else
-        std::make_shared<Visit<beast::tcp_stream>>(site, std::move(stream))->begin();
+        begin_visit(site, std::move(stream));
     }
     accept();
   });

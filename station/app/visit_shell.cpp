@@ -1,6 +1,12 @@
 #include "station/app/visit_shell.hpp"
 
+#include <boost/asio/post.hpp>
+#include <boost/beast/http/message.hpp>
+#include <boost/beast/websocket/rfc6455.hpp>
 #include <charconv>
+#include <string_view>
+
+#include "station/app/page_shell.hpp"
 
 namespace yars::station {
 
