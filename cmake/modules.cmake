@@ -57,7 +57,7 @@ endfunction()
 # yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [SETS] [COMPUTES] [OPENGL] [SEPARATE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from
 # tests/FOLDER/*_test.cpp, those of its subfolders named, and its support sources, found when ctest runs. ALONE: its tests
 # have the machine to themselves. SETS: its tests run whole sets in real time:
-# one at a time, beside tests of another kind. COMPUTES: its own code takes long to run, so it is compiled without YARS_TEST_FLAGS.
+# one at a time, beside tests of another kind. COMPUTES: its own code takes long to run, so it is compiled with YARS_COMPUTING_TEST_FLAGS.
 # SEPARATE: each source stays a unit of its own with YARS_UNITY, because names in its sources are the same.
 # OPENGL: it draws, so leaks are not looked for (the search crashes now and then beside the threads of llvmpipe).
 function(yars_test folder)
@@ -79,7 +79,8 @@ function(yars_test folder)
     endif()
   endforeach()
   target_link_libraries(${target} PRIVATE ${ARG_DEPENDS} GTest::gmock GTest::gtest_main)
-  if(ARG_COMPUTES AND yars_test_flags)
+  if(ARG_COMPUTES)
+    target_compile_options(${target} PRIVATE ${yars_computing_test_flags})
     yars_use_precompiled(${target} yars_precompiled_computing_tests)
   else()
     target_compile_options(${target} PRIVATE ${yars_test_flags})
