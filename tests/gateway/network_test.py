@@ -90,7 +90,9 @@ def a_map_that_is_commanded_appears_on_all_hosts(flight):
     spread = flight.spread
     for event in ("power opr", "pb 14", "tdc 1 0"):
         spread.yars("d", "inject", event)
-    flight.await_watch("d", lambda seen: seen["cursor"] and seen["cursor"]["bearing_deg"] - seen["ownship"]["heading_deg"] > ASIDE_DEG,
+    # An epoch begins without an ownship.
+    flight.await_watch("d", lambda seen: seen["ownship"] and seen["cursor"] and
+                       seen["cursor"]["bearing_deg"] - seen["ownship"]["heading_deg"] > ASIDE_DEG,
                        "a cursor right of the blind zone ahead of the aircraft")
     for event in ("tdc 0 0", "tdc release"):
         spread.yars("d", "inject", event)
