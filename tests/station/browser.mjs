@@ -55,9 +55,10 @@ export async function fitsSmallScreens(path, check = async () => {}) {
 export async function run(tests, page) {
   let failed = 0;
   for (const [name, test] of Object.entries(tests)) {
+    const began = performance.now();
     try {
       await test(page);
-      console.log(`passed: ${name}`);
+      console.log(`passed: ${name}, ${((performance.now() - began) / 1000).toFixed(1)} s`);
     } catch (error) {
       ++failed;
       console.log(`FAILED: ${name}: ${error.stack}`);
