@@ -89,13 +89,13 @@ ASIDE_DEG = 20.0  # of the nose; the blind zone is 8 degrees either side
 def a_map_that_is_commanded_appears_on_all_hosts(flight):
     spread = flight.spread
     for event in ("power opr", "pb 14", "tdc 1 0"):
-        spread.yars("d", "inject", event)
+        spread.inject("d", event)
     # An epoch begins without an ownship.
     flight.await_watch("d", lambda seen: seen["ownship"] and seen["cursor"] and
                        seen["cursor"]["bearing_deg"] - seen["ownship"]["heading_deg"] > ASIDE_DEG,
                        "a cursor right of the blind zone ahead of the aircraft")
     for event in ("tdc 0 0", "tdc release"):
-        spread.yars("d", "inject", event)
+        spread.inject("d", event)
     deadline = time.monotonic() + WITHIN_S
     while True:
         maps = {host: spread.ask(host, "maps") for host in LAYOUT}
@@ -106,7 +106,7 @@ def a_map_that_is_commanded_appears_on_all_hosts(flight):
     for stated, computed in maps["d"].values():
         assert stated == computed != 0, maps
     flight.await_watch("d", lambda seen: seen.get("mode") == "PATCH", "the map on the display's host")
-    spread.yars("a", "inject", "pb 6")
+    spread.inject("a", "pb 6")
     flight.await_watch("d", lambda seen: seen.get("mode") != "PATCH", "a mode that sweeps")
 
 
@@ -373,7 +373,7 @@ def a_standby_goes_on_where_the_killed_host_ended(flight):
     for role in ("model", "machine"):
         states = flight.await_whole()
         for event in ("power opr", "pb 9", "pb 3", "pb 14", "pb 2"):
-            spread.yars("a", "inject", event)
+            spread.inject("a", event)
         flight.await_one_state(flight.host_of("machine", states))
         pilot, holder = spread.watch("d"), flight.host_of(role, states)
         status = spread.ask("d", "state")
@@ -387,7 +387,7 @@ def a_standby_goes_on_where_the_killed_host_ended(flight):
         assert after["events_applied"] == pilot["events_applied"], (pilot, after)
         resumed = states["d"]
         assert resumed["scan"] >= status["scan"] > 0 and resumed["model_tick"] > status["model_tick"], (status, resumed)
-        spread.yars("a", "inject", "pb 9")
+        spread.inject("a", "pb 9")
         flight.await_watch("d", lambda seen: seen["scan"] != pilot["scan"], "the scan width of the event")
         flight.campaign.lives[holder] += 1
         spread.start_host(holder)
@@ -414,7 +414,7 @@ def main():
         return 77
     with spread_set.SpreadSet(programs, LAYOUT) as spread:
         spread.start()
-        spread.yars("a", "inject", "power opr")
+        spread.inject("a", "power opr")
         flight = Flight(spread)
         flight.await_whole()
         spread_set.run_tests([test for test in TESTS if not names or test.__name__ in names], flight)
