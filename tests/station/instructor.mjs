@@ -162,6 +162,7 @@ const tests = {
     const moved = point();
     await page.click("#things button[aria-label='Remove point 90.']");
     await until("no such point", () => point() === undefined);
+    await said(page, /^Removed point 90\./);
     await page.click("#undo_button");
     await until("the same point", () => JSON.stringify(point()) === JSON.stringify(moved));
     await page.click("#reset_world");
@@ -296,7 +297,7 @@ const tests = {
     });
     await page.click("#recordings li button");
     await page.click("#play");
-    await page.waitForFunction(() => document.getElementById("replay_picture").dataset.frame, undefined, { timeout: 20000 });
+    await page.waitForFunction(() => document.getElementById("replay_picture").dataset.frame);
     await until("it plays", async () => await page.textContent("#play") === "Pause");
     await page.click("#play");
     await until("the replay stands", async () => await page.textContent("#play") === "Go on");
