@@ -176,7 +176,8 @@ ordered_json ranging(const Outputs& outputs) {
 
 void add_ownship(ordered_json& object, const ModelStatus& model, std::int64_t now_ns) {
   object["antenna"] = {{"az_deg", model.antenna_azimuth_deg}, {"el_deg", model.antenna_elevation_deg}};
-  if ((model.flags & kModelStale) != 0U || model.ownship_lane >= kOwnshipLanes) {
+  // The ownship in use may be in no lane here: its source runs on the model's host, and another one reaches this host.
+  if ((model.flags & kModelStale) != 0U) {
     object["ownship"] = nullptr;
     return;
   }

@@ -25,6 +25,7 @@ constexpr std::int64_t kMaxRequestAge_ns =
     1'000'000'000;                                      // on a bad line a request takes up to some tenths of a second
 constexpr std::int64_t kOneMeeting_ns = 1'000'000'000;  // what hosts see of it one after another
 constexpr std::int64_t kMaxBehind_ns = 100'000'000;     // kMaxTicksBehind ticks
+constexpr std::int64_t kRounding_ns = 1'000;            // of sim times that are equal but for their base
 
 bool equal(const ClockState& first, const ClockState& second) {
   return std::memcmp(&first, &second, sizeof first) == 0;
@@ -44,6 +45,41 @@ ClockState rebased(ClockState clock, std::int64_t now_ns) {
   clock.base_sim_ns = databuffer::sim_time_at(clock, now_ns);
   clock.base_monotonic_ns = now_ns;
   return clock;
+}
+
+// A change that another host has made to its clock at `after.base_monotonic_ns`.
+struct RequestedChange {
+  ClockState before, after;
+  bool begins_epoch = false;
+};
+
+// True if the owner's clock is the one that the other host has changed. False: somebody else has changed it meanwhile.
+// Running clocks of two hosts differ by the error of the offset.
+bool is_based_on(const RequestedChange& change, const ClockState& clock) {
+  const auto& [before, after, begins_epoch] = change;
+  if (before.epoch != clock.epoch || before.rate != clock.rate || before.running != clock.running) return false;
+  const std::int64_t at_ns = after.base_monotonic_ns;
+  const std::int64_t apart_ns = databuffer::sim_time_at(before, at_ns) - databuffer::sim_time_at(clock, at_ns);
+  return std::abs(apart_ns) <= (clock.running != 0 ? kMaxBehind_ns : 0);
+}
+
+// The clock after a change that was made to an earlier one: what the change left as it was stays as it is. So changes
+// that two hosts make at the same time both take effect, and sim time does not go back within an epoch.
+ClockState with_late_change(const ClockState& clock, const RequestedChange& change, std::int64_t now_ns) {
+  const auto& [before, after, begins_epoch] = change;
+  const std::int64_t advance_ns = after.base_sim_ns - databuffer::sim_time_at(before, after.base_monotonic_ns);
+  const bool sets_time = std::abs(advance_ns) > kRounding_ns;  // false: the time only went on
+  ClockState next = rebased(clock, now_ns);
+  if (begins_epoch && !equal(before, after)) {  // equal: the host asks for a new epoch alone
+    next = after;                               // with its position of the aircraft
+    next.base_monotonic_ns = now_ns;
+    if (!sets_time) next.base_sim_ns = databuffer::sim_time_at(clock, now_ns);
+  } else if (sets_time && before.epoch == clock.epoch) {
+    next.base_sim_ns += advance_ns;
+  }
+  next.rate = after.rate != before.rate ? after.rate : clock.rate;
+  next.running = after.running != before.running ? after.running : clock.running;
+  return next;
 }
 
 }  // namespace
@@ -119,7 +155,7 @@ void ClockExchange::end_epoch_of_meeting(Context& context) {
   next_meeting_request_ns_ = context.now_ns + kRequestTime_ns;
   ClockState ended = clock;
   ended.epoch = *meeting_epoch_;
-  request(context, ended, EpochRequest::end_of_epoch);
+  request(context, clock, ended, EpochRequest::end_of_epoch);
 }
 
 // The aircraft stays where it is: flight models go on from the ownship in use.
@@ -166,10 +202,14 @@ void ClockExchange::receive(Context& context, const yars_net_ClockRequestSample&
   if (!context.hosts.is_new(sample) || sample.owner != context.hosts.self().id || !owns_ ||
       context.hosts.find(sample.host) == nullptr)
     return;
-  ClockState wanted{};
-  copy_record(wanted, sample.clock);
-  if (const auto reason = validate(wanted))
-    return context.hosts.refuse(sample.host, dds::Topic::clock_requests, *reason);
+  RequestedChange change{};
+  copy_record(change.before, sample.before);
+  copy_record(change.after, sample.clock);
+  change.begins_epoch = sample.new_epoch != static_cast<std::uint32_t>(EpochRequest::change);
+  for (const ClockState& clock : {change.before, change.after})
+    if (const auto reason = validate(clock))
+      return context.hosts.refuse(sample.host, dds::Topic::clock_requests, *reason);
+  const ClockState& wanted = change.after;
   // DDS delivers what a host wrote before it was cut off. By then others may have changed the clock.
   const std::int64_t age_ns = context.now_ns - wanted.base_monotonic_ns;
   if (age_ns > kMaxRequestAge_ns) {
@@ -183,10 +223,11 @@ void ClockExchange::receive(Context& context, const yars_net_ClockRequestSample&
     return;
   }
   const auto changed = context.session.change_clock([&](const ClockState& clock) {
-    ClockState next = wanted;
+    const std::int64_t now_ns = databuffer::monotonic_ns();
+    ClockState next = is_based_on(change, clock) ? wanted : with_late_change(clock, change, now_ns);
     // The request has the sim time that its host had. The time of transmission has passed since.
-    next.base_monotonic_ns = std::min(next.base_monotonic_ns, databuffer::monotonic_ns());
-    next.epoch = clock.epoch + (sample.new_epoch != 0 ? 1 : 0);
+    next.base_monotonic_ns = std::min(next.base_monotonic_ns, now_ns);
+    next.epoch = clock.epoch + (change.begins_epoch ? 1 : 0);
     return next;
   });
   if (!changed) return context.hosts.refuse(sample.host, dds::Topic::clock_requests, changed.error().message());
@@ -212,12 +253,12 @@ void ClockExchange::follow(Context& context) {
   followed_->theirs = theirs;
   const ClockState before = context.session.clock();
   if (first) followed_->offset.set(continuous_offset(before, theirs, *offset_ns, context.now_ns));
-  adopt(context);
+  adopt(context, first);
   // Local roles that are ahead in the same epoch would wait until the owner's sim time reaches theirs.
   if (!followed_) return;
   const std::int64_t ahead_ns = databuffer::sim_time_at(before, context.now_ns) - context.session.sim_time_ns();
   if (first && before.epoch == theirs.epoch && ahead_ns > kMaxBehind_ns && !context.lockstep)
-    request(context, followed_->written, EpochRequest::change_with_new_epoch);
+    request(context, followed_->written, followed_->written, EpochRequest::change_with_new_epoch);
 }
 
 // Offset with which the owner's clock continues the local one. After a change of the owner both show nearly the same
@@ -232,8 +273,10 @@ std::int64_t ClockExchange::continuous_offset(const ClockState& mine, const Cloc
   return measured_ns + static_cast<std::int64_t>(static_cast<double>(ahead_ns) / mine.rate);
 }
 
-// Writes the owner's clock to the local segment, with its base at the present time.
-void ClockExchange::adopt(Context& context) {
+// Writes the owner's clock to the local segment, with its base at the present time. A change that a program of this
+// host has made since the beginning of this pass stays; the next pass forwards it. `first`: what stands there is not
+// followed.
+void ClockExchange::adopt(Context& context, bool first) {
   const std::int64_t now_ns = databuffer::monotonic_ns();
   ClockState mine = followed_->theirs;
   // The owner's clock has begun. An offset by which it has not would leave an error that nothing slews.
@@ -242,11 +285,15 @@ void ClockExchange::adopt(Context& context) {
   mine.base_sim_ns = databuffer::sim_time_at(followed_->theirs, now_ns + followed_->offset.offset_ns());
   mine.base_monotonic_ns = now_ns;
   followed_->changed_ns = context.now_ns;
-  const auto changed = context.session.change_clock([&mine](const ClockState&) { return mine; });
-  if (changed)
-    followed_->written = mine;
-  else
+  bool untouched = true;
+  const auto changed = context.session.change_clock([&](const ClockState& present) {
+    untouched = first || equal(present, followed_->written);
+    return untouched ? mine : present;
+  });
+  if (!changed)
     followed_.reset();  // the next pass begins again
+  else if (untouched)
+    followed_->written = mine;
 }
 
 // A program of this host has changed the clock (`yars sim`, a jump of the aircraft): the owner is asked to change it.
@@ -256,21 +303,25 @@ bool ClockExchange::forward_local_change(Context& context) {
   if (!context.writes(dds::Topic::clock_requests))
     log::warning(
         "the session clock was changed here, and is set back: this host may not write the topic clock_requests");
-  request(context, clock,
+  request(context, followed_->written, clock,
           clock.epoch != followed_->written.epoch ? EpochRequest::change_with_new_epoch : EpochRequest::change);
   followed_->written = clock;
   request_pending_until_ns_ = context.now_ns + kRequestTime_ns;
   return true;
 }
 
-void ClockExchange::request(Context& context, const ClockState& wanted, EpochRequest epoch) {
+void ClockExchange::request(Context& context, const ClockState& before, const ClockState& wanted, EpochRequest epoch) {
   yars_net_ClockRequestSample sample{};
   context.hosts.stamp(sample);
   sample.owner = owner_;
   sample.new_epoch = static_cast<std::uint32_t>(epoch);
-  const ClockState moved = rebased(wanted, context.now_ns);
-  copy_record(sample.clock, moved);
-  sample.clock.base_monotonic_ns = std::max<std::int64_t>(context.now_ns + followed_->offset.offset_ns(), 0);
+  // The change may have been made after this pass began.
+  const std::int64_t at_ns = std::max(context.now_ns, wanted.base_monotonic_ns);
+  const ClockState before_then = rebased(before, at_ns), wanted_then = rebased(wanted, at_ns);
+  copy_record(sample.before, before_then);
+  copy_record(sample.clock, wanted_then);
+  sample.clock.base_monotonic_ns = std::max<std::int64_t>(at_ns + followed_->offset.offset_ns(), 0);
+  sample.before.base_monotonic_ns = sample.clock.base_monotonic_ns;
   context.write(sample);
 }
 

@@ -51,9 +51,10 @@ class ClockExchange {
   void follow(Context& context);
   static std::int64_t continuous_offset(const databuffer::ClockState& mine, const databuffer::ClockState& theirs,
                                         std::int64_t measured_ns, std::int64_t now_ns);
-  void adopt(Context& context);
+  void adopt(Context& context, bool first);
   bool forward_local_change(Context& context);
-  void request(Context& context, const databuffer::ClockState& wanted, EpochRequest epoch);
+  void request(Context& context, const databuffer::ClockState& before, const databuffer::ClockState& wanted,
+               EpochRequest epoch);
   void slew(Context& context);
 
   bool owns_ = false;

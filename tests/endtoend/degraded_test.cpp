@@ -23,7 +23,7 @@ class Degraded : public Supervision {
     const auto first = set_.watch();
     if (first.is_null() || first["power"] != "OPR") return false;
     const auto sweeps = first["sweeps"].get<std::uint64_t>();
-    return set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps; }, 2.0);
+    return set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps; }, kTimeout_s);
   }
 };
 
@@ -95,7 +95,9 @@ TEST_F(Degraded, AFullDiskStopsOnlyFramesAndRecording) {
       },
       kTimeout_s))
       << reasons() << start_log();
-  std::this_thread::sleep_for(std::chrono::seconds(2));
+  const double found_s = set_.watch()["sim_time"];
+  EXPECT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sim_time"] > found_s + 2.0; }, kTimeout_s))
+      << "time for ten more frames";
   EXPECT_TRUE(is_on_and_scans()) << start_log();
   EXPECT_EQ(occurrences(start_log(), "each frame tries again"), 1u) << "reported once";
   EXPECT_THAT(start_log(), Not(HasSubstr("starting it again")));

@@ -196,7 +196,7 @@ TEST_F(LiveSet, ARecordingReplaysTheSameSweeps) {
   for (const auto* role : {"state-machine", "flight-model"}) start(role);
   const auto recording = (set_.folder() / "run.yars").string();
   set_.start("recorder", {"yars", "record", recording});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].contains("recorder"); }));
+  ASSERT_TRUE(eventually([&] { return set_.is_recorded(); }, 60.0)) << set_.log_of("recorder");
   start("radar-model");
   inject({"power opr"});
   ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["sweeps"] > 400; }));
@@ -281,7 +281,7 @@ TEST_F(LiveSet, AutomaticFidelityObeysTheCoreShareAndReplays) {
   for (const auto* role : {"state-machine", "flight-model"}) start(role);
   // --sweeps: the recording also has the video of each sweep.
   set_.start("recorder", {"yars", "--config", configuration, "record", "--sweeps", recording});
-  ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["processes"].contains("recorder"); }));
+  ASSERT_TRUE(eventually([&] { return set_.is_recorded(); }, 60.0)) << set_.log_of("recorder");
   set_.start("radar-model", {"radar-model", "--config", configuration});
   inject({"power opr", "elevation -3"});
   const auto fidelity = [this] {

@@ -200,6 +200,13 @@ Finished ProcessSet::yars(std::vector<std::string> arguments, double timeout_s) 
   return run_program(arguments, timeout_s);
 }
 
+bool ProcessSet::is_recorded() const {
+  const auto finished = yars({"status", "--json"});
+  if (!finished.output.starts_with('{')) return false;
+  const auto recorder = nlohmann::json::parse(finished.output)["recorder"];
+  return recorder.is_object() && recorder["writing"] == true;
+}
+
 nlohmann::json ProcessSet::watch() const {
   const auto finished = yars({"watch", "--json", "--once"});
   return finished.code == 0 ? nlohmann::json::parse(finished.output) : nlohmann::json();

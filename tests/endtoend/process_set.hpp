@@ -60,6 +60,8 @@ class ProcessSet {
   std::map<std::string, int> end_all();
 
   Finished yars(std::vector<std::string> arguments, double timeout_s = 60.0) const;
+  // True once the recorder of the session writes. As a process it is known some time before.
+  bool is_recorded() const;
   nlohmann::json watch() const;  // one object of `yars watch --json --once`; null when there is no session
   // Calls watch() until the condition holds. False after the timeout.
   bool wait_until(const std::function<bool(const nlohmann::json&)>& condition, double timeout_s = 60.0) const;

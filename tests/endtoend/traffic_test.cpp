@@ -42,6 +42,7 @@ TEST(TrafficFromOutside, IsLatchedDroppedAndReplayed) {
   const auto recording = set.folder() / "traffic.yarsrec";
   set.start("recorder", {"yars", "record", recording.string()});
   ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["tick"] > 20; })) << set.log_of("model");
+  ASSERT_TRUE(eventually([&] { return set.is_recorded(); }, 60.0)) << set.log_of("recorder");
   ASSERT_EQ(set.yars({"inject", "power opr"}).code, 0);
 
   auto session = databuffer::Session::open(set.session(), "instructor");

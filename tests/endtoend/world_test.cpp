@@ -43,6 +43,7 @@ class ChangedWorld : public ::testing::Test {
     set.start("flight", {"flight-model", "--source", "fixed:37.5,-123.0,15000,90,480"});
     set.start("recorder", {"yars", "record", recording.string()});
     ASSERT_TRUE(set.wait_until([](const auto& watch) { return watch["tick"] > 20; })) << set.log_of("model");
+    ASSERT_TRUE(eventually([&] { return set.is_recorded(); }, 60.0)) << set.log_of("recorder");
     ASSERT_EQ(set.yars({"inject", "power opr"}).code, 0);
   }
   void await_sweeps(int more) {

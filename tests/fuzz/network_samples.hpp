@@ -79,6 +79,7 @@ inline void fill(yars_net_ClockSample& sample, std::size_t /*host*/) {
 }
 inline void fill(yars_net_ClockRequestSample& sample, std::size_t /*host*/) {
   copy_record(sample.clock, good_clock());
+  copy_record(sample.before, good_clock());
   sample.owner = host_id("alpha");
 }
 inline void fill(yars_net_OwnshipSample& sample, std::size_t /*host*/) {

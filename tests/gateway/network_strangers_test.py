@@ -143,7 +143,7 @@ TEXT = "GAIN 3"  # a legend of the radar state
 
 def sweeping(spread, hosts="abc"):
     spread.start(list(hosts))
-    spread.yars("a", "inject", "power opr")
+    spread.inject("a", "power opr")
     states = spread.wait_for(lambda seen: runs(seen) and all(one["sweeps"] > 50 for one in seen.values()) and
                              len({one["epoch"] for one in seen.values()}) == 1, "sweeps on all hosts, in one epoch",
                              hosts=list(hosts), within_s=WITHIN_S)
@@ -164,7 +164,7 @@ def a_stranger_sees_no_host_and_changes_nothing(programs, build):
         spread.start_gateway("e", options="").wait_for("joined", WITHIN_S)  # alone
         spread.start_roles("e")
         spread.start_observer("e")
-        spread.yars("e", "inject", "power stby")
+        spread.inject("e", "power stby")
         spread.yars("e", "sim", "freeze")
         spread.wait_for(lambda seen: seen["e"]["machine"] == "here" and not seen["e"]["running"], "a set of its own on e", hosts=["e"])
         assert spread.ask("e", "press 7")["pushed"]
@@ -212,7 +212,7 @@ def a_member_that_may_only_read_holds_no_role_and_poses_as_nobody(programs, buil
         assert all(abs(after["a"]["network"]["hosts"][host]["error_ns"]) < 10**9 for host in hosts), after
         assert count_lines(spread.gateways["a"], "expected samples of the host that the writer's certificate names") > 0, spread.logs()
         assert count_lines(spread.gateways["a"], "host d claims roles or the clock, and may not write their topics") == 1, spread.logs()
-        spread.yars("a", "inject", "power stby")
+        spread.inject("a", "power stby")
         spread.wait_for(lambda seen: spread.watch("c").get("power") == "STBY", "power STBY", hosts=hosts)
 
 

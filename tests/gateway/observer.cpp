@@ -115,7 +115,9 @@ class Observer {
     return {{"edit", world.edit}, {"rain", rain}, {"configured", (world.flags & databuffer::kWorldConfigured) != 0U}};
   }
 
-  // The TDC's deflection says nothing; the number is what the driver looks for.
+  // The number is what the driver looks for. The deflection tells the event from those of other programs.
+  static double deflection_of(std::uint32_t number) { return 0.001 * (number % 1000); }
+
   json press(const std::string& text) {
     const std::uint32_t number = number_in(text);
     if (!lane_) {
@@ -128,7 +130,7 @@ class Observer {
     event.monotonic_ns = databuffer::monotonic_ns();
     event.kind = static_cast<std::uint16_t>(databuffer::EventKind::tdc);
     event.number = number;
-    event.x = 0.001 * (number % 1000);
+    event.x = deflection_of(number);
     return {{"pushed", session_.layout().input.push(static_cast<std::size_t>(lane_->lane()), event)}};
   }
 
@@ -140,7 +142,8 @@ class Observer {
       const auto read = layout().applied_events.read(applied_cursor_, event);
       lost += read.lost;
       if (!read.delivered) break;
-      const bool is_ours = event.event.kind == static_cast<std::uint16_t>(databuffer::EventKind::tdc);
+      const bool is_ours = event.event.kind == static_cast<std::uint16_t>(databuffer::EventKind::tdc) &&
+                           event.event.number != 0 && event.event.x == deflection_of(event.event.number);
       const double latency_ms = 1e-6 * static_cast<double>(event.monotonic_ns - event.event.monotonic_ns);
       if (is_ours)
         numbers.push_back({event.event.number, latency_ms, event.tick, static_cast<std::int32_t>(event.lane)});

@@ -112,6 +112,16 @@ class SpreadSet:
     def yars(self, host, *words, code=0, within_s=60.0):
         return self.lab.run(host, str(self.programs / "yars"), [*words, "--session", self.session], code=code, within_s=within_s)
 
+    def inject(self, host, event):
+        """Until the event is applied. `yars inject` waits 2 s for it; on a busy machine, or before a state machine runs, that
+        may be too short, and it is sent again."""
+        deadline = time.monotonic() + JOINS_WITHIN_S
+        while True:
+            said = self.yars(host, "inject", event, code=None)
+            if "1 done" in said or "1 without effect" in said:
+                return
+            assert "applied within 2 s" in said and time.monotonic() < deadline, (event, said, self.logs())
+
     def watch(self, host):
         """What `yars watch` shows; empty while there is no session."""
         text = self.yars(host, "watch", "--json", "--once", code=None)

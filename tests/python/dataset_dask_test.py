@@ -108,7 +108,7 @@ class Dask(Case):
         self.assertIn("2,000 items made", done.stdout)
         self.assertGreaterEqual(cluster.kills, 2)
         self.assertEqual(tree(self.out), self.reference())
-        self.assertTrue(wait_for(lambda: not hosts_of(self.out), 5.0), "a host process is left")
+        self.assertTrue(wait_for(lambda: not hosts_of(self.out)), "a host process is left")
 
     def test_interrupt(self):
         cluster = self.cluster(FAKE_MAKER_S="0.2")
@@ -117,7 +117,7 @@ class Dask(Case):
         process.send_signal(signal.SIGTERM)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 143, errors)
-        self.assertTrue(wait_for(lambda: not hosts_of(self.out), 10.0), "a host process is left")
+        self.assertTrue(wait_for(lambda: not hosts_of(self.out)), "a host process is left")
         there = self.blocks_there()
         time.sleep(1.0)
         self.assertEqual(self.blocks_there(), there)
@@ -133,7 +133,7 @@ class Dask(Case):
         self.assertEqual(process.returncode, 1, errors)
         self.assertEqual(len(errors.strip().splitlines()), 1, errors)
         self.assertIn("yars dataset: --dask: expected the scheduler", errors)
-        self.assertTrue(wait_for(lambda: not hosts_of(self.out), 10.0), "a host process is left")
+        self.assertTrue(wait_for(lambda: not hosts_of(self.out)), "a host process is left")
         there = self.blocks_there()
         self.assertIn(f"{16 * there:,} were there", self.run_it().stdout)
         self.assertEqual(tree(self.out), self.reference())

@@ -75,7 +75,7 @@ class EqualFiles(Kernels):
         self.run_it("--dask", cluster.address)
         self.assertGreaterEqual(cluster.kills, 3)
         self.assertEqual(tree(self.out), whole)
-        self.assertTrue(wait_for(lambda: not hosts_of(self.out), 5.0), "a host process is left")
+        self.assertTrue(wait_for(lambda: not hosts_of(self.out)), "a host process is left")
 
 
 class Values(Kernels):

@@ -16,11 +16,12 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import tour_start_test  # noqa: E402
 
+# It writes down that it starts when it is ready for the signal that ends it.
 ROLE = """#!/bin/bash
-echo "$(basename "$0") $@" >>"$YARS_TEST_LOG"
-case "$(basename "$0") $*" in gateway*) ;; *--lockstep*) exit 0 ;; esac
+case "$(basename "$0") $*" in gateway*) ;; *--lockstep*) echo "$(basename "$0") $@" >>"$YARS_TEST_LOG"; exit 0 ;; esac
 trap 'kill $waiting; echo "ended $(basename "$0")" >>"$YARS_TEST_LOG"; exit 0' TERM INT
 sleep 60 & waiting=$!
+echo "$(basename "$0") $@" >>"$YARS_TEST_LOG"
 wait $waiting
 """
 YARS = """#!/bin/bash
@@ -65,7 +66,6 @@ class Place(tour_start_test.Place):
         while len(self.begun()) < number:
             assert time.monotonic() < deadline and process.poll() is None, (self.begun(), process.poll())
             time.sleep(0.02)
-        time.sleep(0.2)
         process.send_signal(signal.SIGTERM)
         text = process.communicate(timeout=WATCHDOG_S)[0]
         assert process.returncode == 0, text

@@ -16,14 +16,16 @@ import tempfile
 import time
 
 HOME = pathlib.Path(__file__).resolve().parents[2]
+# Those that wait write down that they start when they are ready for the signal that ends them.
 ROLE = """#!/bin/bash
-echo "$(basename "$0") $@" >>"$YARS_TEST_LOG"
+says() { echo "$(basename "$0") $@" >>"$YARS_TEST_LOG"; }
 case "$(basename "$0") $*" in
-  *--lockstep*) exit 0 ;;
-  input-monitor*) sleep 0.3; exit "${YARS_TEST_CODE:-0}" ;;
+  *--lockstep*) says "$@"; exit 0 ;;
+  input-monitor*) says "$@"; sleep 0.3; exit "${YARS_TEST_CODE:-0}" ;;
 esac
 trap 'kill $waiting; exit 0' TERM INT
 sleep 60 & waiting=$!
+says "$@"
 wait $waiting
 """
 YARS = """#!/bin/bash
@@ -115,8 +117,7 @@ def a_signal_ends_it_all(place):
         assert time.monotonic() < deadline, "nothing happened"
         time.sleep(0.05)
     process.send_signal(signal.SIGTERM)
-    process.communicate(timeout=WATCHDOG_S)
-    time.sleep(0.2)
+    process.communicate(timeout=WATCHDOG_S)  # what starts the next part has ended
     assert len(place.lines("radar-display")) == 1, place.lines("radar-display")
     place.write("bin/input-monitor", ROLE)
 

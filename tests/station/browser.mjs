@@ -13,12 +13,14 @@ export { address };
 export const call = (...words) => execFileSync(yars, ["--session", session, ...words], { encoding: "utf8" });
 export const watch = () => JSON.parse(call("watch", "--json", "--once"));
 
-export async function until(what, check, turns = 100) {
-  for (let turn = 0; turn < turns; ++turn) {
-    if (await check()) return;
+const WATCHDOG_MS = 60000; // of a wait; a busy machine takes long
+
+export async function until(what, check) {
+  const end = performance.now() + WATCHDOG_MS;
+  while (!await check()) {
+    if (performance.now() > end) assert.fail(`expected within ${WATCHDOG_MS / 1000} s: ${what}`);
     await new Promise((resolve) => setTimeout(resolve, 100));
   }
-  assert.fail(`expected within ${turns / 10} s: ${what}`);
 }
 
 export const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
@@ -27,6 +29,7 @@ export const faults = []; // errors in the console of the pages
 // A page that shows its first state.
 export async function open(width, height, path) {
   const page = await browser.newPage({ viewport: { width, height } });
+  page.setDefaultTimeout(WATCHDOG_MS);
   page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
   page.on("pageerror", (error) => faults.push(String(error)));
   await page.goto(address + path);
@@ -55,9 +58,10 @@ export async function fitsSmallScreens(path, check = async () => {}) {
 export async function run(tests, page) {
   let failed = 0;
   for (const [name, test] of Object.entries(tests)) {
+    const began = performance.now();
     try {
       await test(page);
-      console.log(`passed: ${name}`);
+      console.log(`passed: ${name}, ${((performance.now() - began) / 1000).toFixed(1)} s`);
     } catch (error) {
       ++failed;
       console.log(`FAILED: ${name}: ${error.stack}`);

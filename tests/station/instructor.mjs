@@ -12,6 +12,17 @@ const status = () => { // exit code 3: degraded
   }
 };
 const near = (value, expected, tolerance) => Math.abs(value - expected) <= tolerance;
+// What the list "On the map" has can be pressed and dragged on the map. The world's record has it some 0.1 s earlier.
+const onMap = (page, word) => page.waitForSelector(`#things li:has-text('${word}')`);
+// The line beside the button Undo. The page offers an undo when the answer to the command has come, after the world has changed.
+const said = (page, text) => until(`the line ${text}`, async () => text.test(await page.textContent("#undo_text")));
+// Two states that the page has received after now: the first may have been under way.
+async function twoStates(page) {
+  for (let turn = 0; turn < 2; ++turn) {
+    const before = await page.textContent("#clock");
+    await until("another sim time on the page", async () => await page.textContent("#clock") !== before);
+  }
+}
 const noProblem = async (page) => assert.equal(await page.textContent("#problem"), "");
 
 // Mean of the green of the radar picture in a part of it: x, y, width, height in shares of its edge.
@@ -25,7 +36,7 @@ const brightness = (page, part) => page.evaluate(([left, top, width, height]) =>
 
 const tests = {
   async "time is frozen, stepped, run, set to a rate and reset"(page) {
-    await page.click("#run");
+    await page.click("#run:text-is('Freeze')");
     await until("frozen", () => !watch().running);
     const before = watch().sim_time;
     await page.fill("#ticks", "200");
@@ -33,29 +44,36 @@ const tests = {
     await until("one second later", () => near(watch().sim_time, before + 1, 0.0051));
     await page.selectOption("#rate", "2");
     await until("rate 2", () => watch().rate === 2);
-    await page.click("#run");
+    await page.click("#run:text-is('Run')");
     await until("running", () => watch().running);
     await page.selectOption("#rate", "1");
     await until("rate 1", () => watch().rate === 1);
     const { epoch } = watch();
-    await page.fill("#time", "0");
+    await page.fill("#time", "500");
     await page.click("#reset_form button");
-    await until("a new epoch at 0", () => watch().epoch === epoch + 1 && watch().sim_time < 5);
+    await until("a new epoch from 500 s", () => {
+      const after = watch();
+      return after.epoch === epoch + 1 && after.sim_time >= 500;
+    });
     await noProblem(page);
   },
   async "the form moves the aircraft, and a speed lets it fly straight"(page) {
     const values = { lat: "37.5", lon: "-122.9", alt: "20000", heading: "45", speed: "300" };
     for (const [id, value] of Object.entries(values)) await page.fill(`#${id}`, value);
     await page.click("#aircraft_form button:not([type])");
-    await until("there", () => near(watch().ownship.lat, 37.5, 0.1) && near(watch().ownship.lon, -122.9, 0.1));
-    const { ownship } = watch();
+    let ownship;
+    await until("there", () => {
+      ({ ownship } = watch());
+      return ownship && near(ownship.lat, 37.5, 0.1) && near(ownship.lon, -122.9, 0.1);
+    });
     assert.ok(near(ownship.ground_speed_kt, 300, 1) && near(ownship.heading_deg, 45, 1) && near(ownship.alt_ft, 20000, 1), JSON.stringify(ownship));
     await noProblem(page);
   },
   async "the aircraft is dragged to another place"(page) {
     await page.fill("#speed", "30"); // it stays about where it is put
-    if (await page.getAttribute("#follow", "aria-pressed") === "false") await page.click("#follow");
-    await new Promise((resolve) => setTimeout(resolve, 500));
+    assert.equal(await page.getAttribute("#follow", "aria-pressed"), "true");
+    await until("the page shows the repositioned aircraft, which is in the middle of its map", async () =>
+      /^37\.\d+, -122\.\d+ .* heading 45 .* 300 kt/.test(await page.textContent("#flight")));
     const before = watch().ownship;
     const box = await (await page.$("#map")).boundingBox();
     const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
@@ -94,7 +112,10 @@ const tests = {
     await page.click("#aircraft_form button:not([type])");
     await until("there", () => watch().ownship && near(watch().ownship.lon, -122.6, 0.05));
     const far = [0.4, 0.2, 0.2, 0.2]; // ahead, in the farther half
-    await new Promise((resolve) => setTimeout(resolve, 5000)); // two scans
+    const { scan } = status().model;
+    await until("two whole scans from there", () => status().model.scan >= scan + 3);
+    const scanned_s = watch().sim_time;
+    await until("their picture", async () => Number(await page.getAttribute("#picture", "data-sim-time")) >= scanned_s);
     const before = await brightness(page, far);
     assert.ok(before > 12, `expected land ahead, found brightness ${before}`);
     await page.click("#add_rain");
@@ -114,6 +135,7 @@ const tests = {
   },
   async "sequence points are added, named, selected, dragged, removed and brought back"(page) {
     await page.click("#reset_world");
+    await said(page, /^Reset the world/);
     const configured = world().points.length;
     await page.click("#add_points");
     await page.mouse.click(...await middle(page, 70, -60));
@@ -140,6 +162,7 @@ const tests = {
     const moved = point();
     await page.click("#things button[aria-label='Remove point 90.']");
     await until("no such point", () => point() === undefined);
+    await said(page, /^Removed point 90\./);
     await page.click("#undo_button");
     await until("the same point", () => JSON.stringify(point()) === JSON.stringify(moved));
     await page.click("#reset_world");
@@ -150,7 +173,7 @@ const tests = {
     for (const list of ["jammers", "movers"]) {
       await page.click(`#add_${list}`);
       await page.mouse.click(...await middle(page, 80, 60));
-      await until(`one of ${list}`, () => world()[list].length === 1);
+      await onMap(page, list.slice(0, -1));
       const before = world()[list][0];
       await page.mouse.move(...await middle(page, 80, 60));
       await page.mouse.down();
@@ -179,21 +202,25 @@ const tests = {
     await page.focus("#things button[aria-label^='Remove jammer']");
     await page.keyboard.press("Enter");
     await until("no jammer", () => world().jammers.length === 0);
-    await until("it is said", async () => /Removed jammer/.test(await page.textContent("#undo_text[role=status]")));
+    await said(page, /^Removed jammer/);
+    assert.equal(await page.getAttribute("#undo_text", "role"), "status");
     assert.equal(await page.evaluate(() => document.activeElement.id), "undo_button");
     await page.keyboard.press("Enter");
     await until("the same jammer", () => JSON.stringify(world().jammers) === JSON.stringify(before));
-    await until("it is said", async () => /jammer .* is back/.test(await page.textContent("#undo_text")));
+    await said(page, /jammer .* is back/);
     // The last removal is taken back first; a key does it too.
     await page.click("#things button[aria-label^='Remove jammer']");
     await until("no jammer", () => world().jammers.length === 0);
+    await said(page, /^Removed jammer/);
     await page.click("#add_movers");
     await page.click("#add_movers");
     await until("a mover", () => world().movers.length === 1);
     await page.click("#things button[aria-label^='Remove mover']");
     await until("no mover", () => world().movers.length === 0);
+    await said(page, /^Removed mover/);
     await page.keyboard.press("Control+z");
     await until("the mover", () => world().movers.length === 1);
+    await said(page, /mover .* is back/);
     assert.equal(world().jammers.length, 0);
     await page.keyboard.press("Control+z");
     await until("the jammer", () => JSON.stringify(world().jammers) === JSON.stringify(before));
@@ -201,26 +228,35 @@ const tests = {
   },
   async "a removal is undone after a reset of the world, and so is the reset"(page) {
     const before = world();
+    const isBack = () => JSON.stringify(world().jammers) === JSON.stringify(before.jammers);
     await page.click("#things button[aria-label^='Remove jammer']");
-    await until("no jammer", () => world().jammers.length === 0);
+    await said(page, /^Removed jammer/);
+    assert.equal(world().jammers.length, 0);
     await page.click("#reset_world");
-    await until("no mover", () => world().movers.length === 0);
+    await said(page, /^Reset the world/);
+    assert.equal(world().movers.length, 0);
     await page.click("#undo_button");
-    await until("the world before the reset", () => world().movers.length === 1 && world().jammers.length === 0);
+    await said(page, /^The changed world is back/);
+    assert.ok(world().movers.length === 1 && world().jammers.length === 0);
     await page.click("#undo_button");
-    await until("the jammer", () => JSON.stringify(world().jammers) === JSON.stringify(before.jammers));
+    await said(page, /^jammer .* is back/);
+    assert.ok(isBack());
     await page.click("#things button[aria-label^='Remove jammer']");
-    await until("no jammer", () => world().jammers.length === 0);
+    await said(page, /^Removed jammer/);
+    assert.equal(world().jammers.length, 0);
     call("world", "reset");
     await page.click("#undo_button");
-    await until("the jammer, after a reset from elsewhere", () => JSON.stringify(world().jammers) === JSON.stringify(before.jammers));
+    await said(page, /^jammer .* is back/);
+    assert.ok(isBack(), "after a reset from elsewhere");
     await noProblem(page);
     await page.click("#reset_world");
-    await until("the configured world", () => world().jammers.length === 0);
+    await said(page, /^Reset the world/);
+    assert.equal(world().jammers.length, 0);
     call("world", "sea", "4");
     await page.click("#undo_button");
     await until("a reset that others have built upon stays", async () => /no change of the world since/.test(await page.textContent("#problem")));
     await page.click("#reset_world");
+    await said(page, /^Reset the world/);
     await page.click("#undo_close");
     await until("no line", async () => !await page.isVisible("#undo"));
   },
@@ -232,6 +268,7 @@ const tests = {
     await until("another process", () => watch().processes["radar-model"] && watch().processes["radar-model"].pid !== before);
     await until("sea state 3 in effect", () => world().sea_state === 3);
     await page.click("#reset_world");
+    await said(page, /^Reset the world/);
   },
   async "the dial of fidelity changes the preset of the next scan"(page) {
     await page.selectOption("#fidelity", "draft");
@@ -247,12 +284,11 @@ const tests = {
     assert.ok(status().notes.some(({ text }) => text.includes("a note of the test")));
   },
   async "a recording is made, played, scrubbed, and flown out of"(page) {
-    await page.click("#record");
+    await page.click("#record:text-is('Record')");
     await until("the recorder writes", () => status().recorder?.writing);
-    await new Promise((resolve) => setTimeout(resolve, 6000));
-    const end = watch().sim_time;
-    await until("the page says so", async () => await page.textContent("#record") === "Pause recording");
-    await page.click("#record");
+    const end = watch().sim_time + 6;
+    await until("six seconds of it", () => watch().sim_time >= end);
+    await page.click("#record:text-is('Pause recording')");
     await until("the recorder stands", () => status().recorder?.writing === false);
     await page.click("#machine summary");
     await until("a recording in the list", async () => {
@@ -261,7 +297,7 @@ const tests = {
     });
     await page.click("#recordings li button");
     await page.click("#play");
-    await page.waitForFunction(() => document.getElementById("replay_picture").dataset.frame, undefined, { timeout: 20000 });
+    await page.waitForFunction(() => document.getElementById("replay_picture").dataset.frame);
     await until("it plays", async () => await page.textContent("#play") === "Pause");
     await page.click("#play");
     await until("the replay stands", async () => await page.textContent("#play") === "Go on");
@@ -305,7 +341,7 @@ const tests = {
     await noProblem(page);
   },
   async "a recording whose recorder was killed is no longer being written"(page) {
-    await page.click("#record");
+    await page.click("#record:text-is('Record')");
     await until("the recorder writes", () => status().recorder?.writing);
     await until("being written", async () => /being written/.test(await page.textContent("#recordings")));
     await until("a part of it is on the disk", () => status().recorder.bytes > 2000);
@@ -318,14 +354,14 @@ const tests = {
     const latitude = () => page.$eval("#lat", (field) => field.value);
     await page.click("h1");
     const before = await latitude();
-    await page.click("#run"); // if it stood
-    await page.click("#run");
     await page.fill("#lat", "");
-    await new Promise((resolve) => setTimeout(resolve, 500));
+    await twoStates(page);
     assert.equal(await latitude(), "", "an empty field stays empty");
     const { epoch } = watch();
     await page.click("#aircraft_form button:not([type])");
-    await new Promise((resolve) => setTimeout(resolve, 300));
+    await page.fill("#note", "after the empty field"); // commands of a page are done in their order
+    await page.click("#note_form button");
+    await until("the note", async () => /after the empty field/.test(await page.textContent("#notes")));
     assert.equal(watch().epoch, epoch, "and moves nothing");
     await page.click("#copy");
     assert.ok(near(Number(await latitude()), Number(before), 1));

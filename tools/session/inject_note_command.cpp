@@ -99,18 +99,26 @@ std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) 
 // Result of each event (kEventDone, kEventDead or kEventRefused), in the order of sending.
 using Outcome = std::vector<std::uint32_t>;
 
-// Waits for the results of `count` events that this process sent through input lane `lane`. The results arrive in the
+// Waits for the results of `count` events that this process sent through input lane `lane`, and for the records of the
+// tick that applied the last of them: the state machine publishes Outputs last in a tick. The results arrive in the
 // order of sending. Returns fewer after the timeout (2 s) or a stop request. `cursor`: position in the ring of applied
 // events before the first event was sent.
 Outcome wait_until_applied(Session& session, std::uint32_t lane, std::uint64_t cursor, std::size_t count) {
   Outcome outcome;
   const std::int64_t deadline_ns = databuffer::monotonic_ns() + kTimeout_ns;
   AppliedEvent applied{};
-  while (outcome.size() < count && databuffer::monotonic_ns() < deadline_ns && !databuffer::stop_requested()) {
+  std::int64_t tick = 0;
+  const auto is_published = [&] {
+    const auto outputs = databuffer::read_valid(session.layout().outputs);
+    return outcome.size() >= count && outputs && outputs->tick >= tick;
+  };
+  while (!is_published() && databuffer::monotonic_ns() < deadline_ns && !databuffer::stop_requested()) {
     while (session.layout().applied_events.read(cursor, applied).delivered) {
-      if (applied.lane == lane) outcome.push_back(applied.effective);
+      if (applied.lane != lane) continue;
+      outcome.push_back(applied.effective);
+      tick = applied.tick;
     }
-    if (outcome.size() < count) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (!is_published()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   return outcome;
 }
@@ -121,13 +129,6 @@ std::string events_text(std::size_t count) {
 
 databuffer::RadarState published_state(Session& session) {
   return databuffer::read_valid(session.layout().radar_state).value_or(databuffer::RadarState{});
-}
-
-// The radar state after the events. Waits 20 ms, because the state machine publishes this state a little later than the
-// results of the events.
-databuffer::RadarState state_after_events(Session& session) {
-  std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  return published_state(session);
 }
 
 std::size_t count_of(const statemachine::AppliedSequence& applied, std::uint32_t effect) {
@@ -240,8 +241,7 @@ void inject(const CommonOptions& common, const InjectOptions& options) {
   if (outcome.size() < events.size())
     throw_failure({kSubject, events_text(events.size()) + " applied within 2 s", std::to_string(outcome.size()),
                    "check with `yars status` that state-machine and the clock run", false});
-  const bool all_done = std::ranges::count(outcome, databuffer::kEventDone) == std::ssize(outcome);
-  const databuffer::RadarState after = all_done ? databuffer::RadarState{} : state_after_events(*session);
+  const databuffer::RadarState after = published_state(*session);
   const auto advice = databuffer::read_valid(session->layout().advice).value_or(databuffer::PilotAdvice{});
   const statemachine::AppliedSequence applied{
       events, outcome, before, after, session->role_is_held(databuffer::Role::recorder), advice.remedy};

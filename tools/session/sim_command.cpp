@@ -13,7 +13,9 @@
 #include "databuffer/runtime/program.hpp"
 #include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/session.hpp"
+#include "databuffer/session/validated.hpp"
 #include "lib/geo/quantity.hpp"
+#include "lib/radar/modes.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 
@@ -22,6 +24,7 @@ namespace yars::tools {
 namespace {
 
 using databuffer::ClockState;
+using databuffer::Role;
 using databuffer::Session;
 
 // Options that all subcommands of `yars sim` share.
@@ -77,15 +80,40 @@ void change_and_report(const SimOptions& options, const Change& change) {
   report(session, options.json);
 }
 
-// Gives the programs of the session time to run the ticks that have become due.
-void pause_for_roles() {
-  std::this_thread::sleep_for(std::chrono::milliseconds(databuffer::kPortionTime_ms));
+// True if state-machine and radar-model have run all ticks up to the time of the frozen clock, or do not run.
+bool have_run_due_ticks(const Session& session) {
+  const ClockState clock = session.clock();
+  const std::int64_t due = clock.base_sim_ns / radar::kTickNanoseconds;
+  const auto has_run = [&](Role role, const auto& record) {
+    return !session.role_is_held(role) || (record && record->epoch == clock.epoch && record->tick >= due);
+  };
+  return has_run(Role::state_machine, databuffer::read_valid(session.layout().outputs)) &&
+         has_run(Role::radar_model, databuffer::read_valid(session.layout().model_status));
 }
+
+// Gives the programs of the session time to run the ticks that have become due: kPortionTime_ms, and on a busy machine
+// until they have run. A program that hangs is waited for once.
+class PauseForRoles {
+ public:
+  void operator()(const Session& session) {
+    int waited_ms = databuffer::kPortionTime_ms;
+    std::this_thread::sleep_for(std::chrono::milliseconds(waited_ms));
+    while (!have_run_due_ticks(session) && waited_ms < most_ms_ && !databuffer::stop_requested()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      ++waited_ms;
+    }
+    if (waited_ms >= most_ms_) most_ms_ = databuffer::kPortionTime_ms;
+  }
+
+ private:
+  int most_ms_ = 1000;
+};
 
 // Freezes the clock and advances it by a portion at a time, so that no program skips a tick.
 void step(const SimOptions& options, std::int64_t ticks) {
   auto session = open_live_session(options.common);
   const std::uint32_t epoch = session.clock().epoch;
+  PauseForRoles pause;
   while (ticks > 0 && !databuffer::stop_requested()) {
     change_clock(session,
                  [&](const ClockState& clock) { return databuffer::stepped(clock, clock.epoch == epoch ? ticks : 0); });
@@ -93,7 +121,7 @@ void step(const SimOptions& options, std::int64_t ticks) {
       throw_failure(
           {"step", "no new epoch while stepping", "a reset or repositioning by another program", "step again", false});
     ticks -= databuffer::kStepPortion_ticks;
-    pause_for_roles();
+    pause(session);
   }
   report(session, options.json);
 }
@@ -104,7 +132,7 @@ void begin_epoch(const SimOptions& options, const Change& change) {
   auto session = open_live_session(options.common);
   change_clock(session, change);
   if (session.clock().running == 0) {
-    pause_for_roles();
+    PauseForRoles()(session);
     change_clock(session, databuffer::after_first_tick);
   }
   report(session, options.json);

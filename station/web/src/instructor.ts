@@ -1,7 +1,7 @@
 // The instructor's page: map, time, aircraft, world, set, time machine.
 import { Connection, sessionOfPage } from "./connection";
 import { Position, TheatreMap, Thing } from "./map";
-import { Answer, InstructorState, Theatre } from "./messages";
+import { Answer, InstructorState, RoleEntry, Theatre } from "./messages";
 import { button, element, fill, onClick, onSubmit, say } from "./page";
 import { Picture } from "./picture";
 import { PRESETS, wordsOfPreset } from "./presets";
@@ -195,6 +195,28 @@ class InstructorPage {
     document.body.dataset.state = "shown";
   }
 
+  // Rows stay while their values change: a button that is being pressed, or has the focus, is not replaced.
+  private showRoles(roles: RoleEntry[]): void {
+    fill("roles", JSON.stringify(roles.map(({ name, can_kill }) => [name, can_kill])), () => roles.map(({ name, can_kill }) => {
+      const row = document.createElement("tr");
+      for (const text of [name, "", ""]) row.insertCell().textContent = text;
+      const last = row.insertCell();
+      if (can_kill) {
+        const kill = button("Kill", () => void this.order("kill", { role: name }));
+        kill.setAttribute("aria-label", `Kill ${name}`);
+        kill.title = "The supervisor of the set starts it again";
+        last.append(kill);
+      }
+      return row;
+    }));
+    const { rows } = element<HTMLTableSectionElement>("roles");
+    roles.forEach((role, at) => {
+      const core = role.pid === 0 ? "not running" : role.hangs ? "hangs" : role.load === null ? "-" : `${(100 * role.load).toFixed(0)} %`;
+      for (const [cell, text] of [[1, core], [2, String(role.restarts)]] as const)
+        if (rows[at].cells[cell].textContent !== text) rows[at].cells[cell].textContent = text;
+    });
+  }
+
   private showSet(state: InstructorState): void {
     const { status } = state;
     const { fidelity } = state;
@@ -210,19 +232,7 @@ class InstructorPage {
     say("health", status.health.state === "OK" ? "OK" : `${status.health.state}: ${first}${reasons.length > 1 ? ` (and ${reasons.length - 1} more)` : ""}`);
     element("health").title = reasons.join("\n");
     element("health").classList.toggle("bad", status.health.state !== "OK");
-    fill("roles", JSON.stringify(status.roles.map(({ name, pid, load, restarts, hangs, can_kill }) => [name, pid, load?.toFixed(2), restarts, hangs, can_kill])), () => status.roles.map((role) => {
-      const row = document.createElement("tr");
-      const cells = [role.name, role.pid === 0 ? "not running" : role.hangs ? "hangs" : role.load === null ? "-" : `${(100 * role.load).toFixed(0)} %`, String(role.restarts)];
-      for (const text of cells) row.insertCell().textContent = text;
-      const last = row.insertCell();
-      if (role.can_kill) {
-        const kill = button("Kill", () => void this.order("kill", { role: role.name }));
-        kill.setAttribute("aria-label", `Kill ${role.name}`);
-        kill.title = "The supervisor of the set starts it again";
-        last.append(kill);
-      }
-      return row;
-    }));
+    this.showRoles(status.roles);
     const { recorder } = status;
     this.machine.showRecorder(recorder ? (recorder.writing ? "writes" : "paused") : "none");
     say("record", recorder ? (recorder.writing ? "Pause recording" : "Go on recording") : "Record");

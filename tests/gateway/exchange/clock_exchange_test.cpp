@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 
+#include "databuffer/session/clock_changes.hpp"
 #include "tests/gateway/exchange/two_hosts.hpp"
 
 namespace yars::gateway {
@@ -62,16 +63,23 @@ class ClockExchangeTest : public testing::TwoHosts {
     state.reposition_latitude_deg = std::numeric_limits<double>::quiet_NaN();
     return state;
   }
-  bool request(const std::string& host, const ClockState& wanted, bool new_epoch) {
+  // The host has changed the clock `seen`, which it has had until then, into `wanted`. True: the owner's clock changes.
+  bool request(const std::string& host, const ClockState& seen, const ClockState& wanted, bool new_epoch) {
     auto sample = from<yars_net_ClockRequestSample>(host);
     sample.owner = host_id("alpha");
     sample.new_epoch = new_epoch ? 1 : 0;
     copy_record(sample.clock, wanted);
-    sample.clock.base_monotonic_ns = context_.now_ns;
+    copy_record(sample.before, at(seen, wanted.base_monotonic_ns));
     const ClockState before = session_.clock();
     exchange_.receive(context_, sample);
     const ClockState after = session_.clock();
     return std::memcmp(&before, &after, sizeof before) != 0;
+  }
+  // The same clock with another base.
+  static ClockState at(ClockState clock, std::int64_t monotonic_ns) {
+    clock.base_sim_ns = databuffer::sim_time_at(clock, monotonic_ns);
+    clock.base_monotonic_ns = monotonic_ns;
+    return clock;
   }
   std::uint64_t requests() const { return hosts_.written()[dds::index_of(dds::Topic::clock_requests)]; }
   ClockExchange exchange_;
@@ -188,9 +196,8 @@ TEST_F(ClockExchangeTest, AnyOffsetAndClockThatPassTheChecksAreFollowedOrRefused
 TEST_F(ClockExchangeTest, TheOwnerMakesARequestedChangeOnce) {
   own();
   announce("beta", 0);
-  ClockState wanted = session_.clock();
-  wanted.rate = 2.0;
-  EXPECT_TRUE(request("beta", wanted, true));
+  const ClockState wanted = databuffer::with_rate(session_.clock(), 2.0);
+  EXPECT_TRUE(request("beta", session_.clock(), wanted, true));
   EXPECT_EQ(session_.clock().rate, 2.0);
   const std::uint32_t epoch = session_.clock().epoch;
   auto again = from<yars_net_ClockRequestSample>("beta");
@@ -198,20 +205,94 @@ TEST_F(ClockExchangeTest, TheOwnerMakesARequestedChangeOnce) {
   again.owner = host_id("alpha");
   again.new_epoch = 1;
   copy_record(again.clock, wanted);
-  again.clock.base_monotonic_ns = context_.now_ns;
+  copy_record(again.before, wanted);
   exchange_.receive(context_, again);
   EXPECT_EQ(session_.clock().epoch, epoch);
 }
 
 TEST_F(ClockExchangeTest, RequestsOfUnknownHostsAndInvalidOnesAreNotMade) {
   own();
-  ClockState wanted = session_.clock();
-  wanted.rate = 2.0;
-  EXPECT_FALSE(request("stranger", wanted, false));
+  const ClockState seen = session_.clock();
+  const ClockState wanted = databuffer::with_rate(seen, 2.0);
+  EXPECT_FALSE(request("stranger", seen, wanted, false));
   announce("beta", 0);
-  wanted.rate = 200.0;
-  EXPECT_FALSE(request("beta", wanted, false));
+  EXPECT_FALSE(request("beta", seen, databuffer::with_rate(seen, 200.0), false));
   EXPECT_EQ(refusals(), 1u);
+  EXPECT_FALSE(request("beta", databuffer::with_rate(seen, 200.0), wanted, false));
+  EXPECT_EQ(refusals(), 2u);
+}
+
+// A host asks for a change before the reset has reached it.
+TEST_F(ClockExchangeTest, AChangeOfAnEarlierEpochKeepsTheTimeAndThePositionOfTheNewOne) {
+  own();
+  announce("beta", 0);
+  const ClockState seen = session_.clock();
+  const databuffer::Repositioning to{{37.0, -122.0}, geo::AltitudeMsl::feet(15000), geo::Bearing::degrees(90)};
+  ASSERT_TRUE(session_.change_clock([&](const ClockState& state) {
+    ClockState next = databuffer::repositioned(databuffer::reset_to(state, 1000.0), to);
+    next.epoch = seen.epoch + 1;
+    return next;
+  }));
+  EXPECT_TRUE(request("beta", seen, databuffer::with_rate(seen, 2.0), false));
+  EXPECT_TRUE(request("beta", seen, databuffer::stepped(seen, 10), false));
+  const ClockState clock = session_.clock();
+  EXPECT_EQ(clock.epoch, seen.epoch + 1);
+  EXPECT_EQ(clock.rate, 2.0);
+  EXPECT_EQ(clock.running, 0u);
+  EXPECT_GE(clock.base_sim_ns, 1'000'000'000'000);
+  EXPECT_EQ(clock.reposition_latitude_deg, 37.0);
+}
+
+TEST_F(ClockExchangeTest, ChangesOfTwoHostsToOneClockBothTakeEffect) {
+  own();
+  announce("beta", 0);
+  announce("gamma", 0, 77);
+  const ClockState seen = session_.clock();
+  EXPECT_TRUE(request("beta", seen, databuffer::with_running(seen, false), false));
+  const std::int64_t frozen_ns = session_.clock().base_sim_ns;
+  EXPECT_TRUE(request("gamma", seen, databuffer::with_rate(seen, 2.0), false));
+  EXPECT_EQ(session_.clock().running, 0u);
+  EXPECT_EQ(session_.clock().rate, 2.0);
+  EXPECT_EQ(session_.clock().base_sim_ns, frozen_ns) << "a frozen clock stands";
+}
+
+TEST_F(ClockExchangeTest, StepsOfTwoHostsAddUp) {
+  own();
+  announce("beta", 0);
+  announce("gamma", 0, 77);
+  ASSERT_TRUE(session_.change_clock([](const ClockState& state) { return databuffer::stepped(state, 1); }));
+  const ClockState seen = session_.clock();
+  EXPECT_TRUE(request("beta", seen, databuffer::stepped(seen, 10), false));
+  EXPECT_TRUE(request("gamma", seen, databuffer::stepped(seen, 5), false));
+  EXPECT_EQ(session_.clock().base_sim_ns, seen.base_sim_ns + 15 * 5'000'000);
+}
+
+TEST_F(ClockExchangeTest, AResetKeepsTheFreezeOfAnotherHost) {
+  own();
+  announce("beta", 0);
+  announce("gamma", 0, 77);
+  const ClockState seen = session_.clock();
+  EXPECT_TRUE(request("beta", seen, databuffer::with_running(seen, false), false));
+  EXPECT_TRUE(request("gamma", seen, databuffer::reset_to(seen, 1000.0), true));
+  EXPECT_EQ(session_.clock().epoch, seen.epoch + 1);
+  EXPECT_EQ(session_.clock().running, 0u);
+  EXPECT_EQ(session_.clock().base_sim_ns, 1'000'000'000'000);
+}
+
+TEST_F(ClockExchangeTest, ARepositioningKeepsTheTimeOfTheResetOfAnotherHost) {
+  own();
+  announce("beta", 0);
+  announce("gamma", 0, 77);
+  const ClockState seen = session_.clock();
+  EXPECT_TRUE(request("beta", seen, databuffer::reset_to(seen, 1000.0), true));
+  const databuffer::Repositioning to{{37.0, -122.0}, geo::AltitudeMsl::feet(15000), geo::Bearing::degrees(90)};
+  EXPECT_TRUE(request("gamma", seen, databuffer::repositioned(seen, to), true));
+  EXPECT_EQ(session_.clock().epoch, seen.epoch + 2);
+  EXPECT_GE(session_.clock().base_sim_ns, 1'000'000'000'000);
+  EXPECT_EQ(session_.clock().reposition_latitude_deg, 37.0);
+  EXPECT_TRUE(request("beta", seen, at(seen, databuffer::monotonic_ns()), true));
+  EXPECT_EQ(session_.clock().epoch, seen.epoch + 3);
+  EXPECT_EQ(session_.clock().reposition_latitude_deg, 37.0) << "beta asks for a new epoch alone";
 }
 
 TEST_F(ClockExchangeTest, WhenTwoOwnersMeetTheFirstBeginsALaterEpochThanBoth) {
@@ -272,6 +353,7 @@ TEST_F(ClockExchangeTest, AnOldRequestIsRefused) {
   auto sample = from<yars_net_ClockRequestSample>("beta");
   sample.owner = host_id("alpha");
   copy_record(sample.clock, wanted);
+  copy_record(sample.before, wanted);
   sample.clock.base_monotonic_ns = context_.now_ns - 3'000'000'000;
   exchange_.receive(context_, sample);
   EXPECT_EQ(session_.clock().running, 1u);
@@ -312,6 +394,7 @@ TEST_F(ClockExchangeTest, TheOwnerEndsAnEpochThatIsRequestedOnce) {
   sample.owner = host_id("alpha");
   sample.new_epoch = static_cast<std::uint32_t>(EpochRequest::end_of_epoch);
   copy_record(sample.clock, ended);
+  copy_record(sample.before, ended);
   sample.clock.base_monotonic_ns = context_.now_ns;
   exchange_.receive(context_, sample);
   EXPECT_EQ(session_.clock().epoch, 9u);

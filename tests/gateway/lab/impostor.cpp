@@ -94,6 +94,9 @@ class Impostor {
     request.new_epoch = 1;
     request.clock.base_monotonic_ns = owner.monotonic_ns;
     request.clock.epoch = owner.epoch;
+    request.before = request.clock;
+    request.before.running = 1;
+    request.before.rate = 1.0;
     write("requests", request);
   }
   void change_world_of(const yars_net_HostSample& host) {

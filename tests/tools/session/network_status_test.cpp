@@ -147,6 +147,23 @@ TEST_F(NetworkStatusTest, TextHasALineForEachHostAndOneForTheGateway) {
   EXPECT_THAT(text, HasSubstr("gateway: DDS domain 7, encrypted, 1.5 % of a core, 1 takeover, 2 conflicts"));
 }
 
+// Two hosts have a source of one priority. The model uses that of its host, and the other one is in a lane here.
+TEST_F(NetworkStatusTest, AnOwnshipOfTheModelsHostAloneIsShown) {
+  mirror_radar_model();
+  databuffer::ModelStatus model{};
+  model.ownship.latitude_deg = 37.5;
+  std::strcpy(model.ownship.source, "fixed");
+  model.ownship_lane = 0xFFFFFFFFU;
+  ASSERT_FALSE(databuffer::validate(model)) << *databuffer::validate(model);
+  gateway_->layout().model_status.publish(model);
+  EXPECT_EQ(status()["watch"]["ownship"]["source"], "fixed");
+  EXPECT_THAT(reasons(), Not(HasSubstr("ownship")));
+  model.flags = databuffer::kModelStale;
+  gateway_->layout().model_status.publish(model);
+  EXPECT_TRUE(status()["watch"]["ownship"].is_null());
+  EXPECT_THAT(reasons(), HasSubstr("no ownship"));
+}
+
 TEST_F(NetworkStatusTest, ARoleThatAnotherHostHoldsIsNotMissing) {
   const ordered_json before = status();
   EXPECT_EQ(role(before, "radar-model")["pid"], 0) << "not mirrored yet";

@@ -4,6 +4,7 @@
 #include <signal.h>
 
 #include <cmath>
+#include <optional>
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/memory/byte_order.hpp"
@@ -64,8 +65,8 @@ TEST_F(Bridge, FlightGearMovesOwnshipAndInItsSilenceAnotherSourceTakesOver) {
   ASSERT_TRUE(eventually([&] { return flown_by("fixed"); }, 30.0));
   const auto flown = [&] {
     peer.send(flyer.flightgear(), port);
-    const auto own = latched();
-    return flown_by("flightgear") && flyer.distance_m(*own) < 40.0 && std::abs(own->altitude_msl_m - 4572.0) < 0.5 &&
+    const auto own = latched_from("flightgear");
+    return own && flyer.distance_m(*own) < 40.0 && std::abs(own->altitude_msl_m - 4572.0) < 0.5 &&
            std::abs(own->velocity_east_mps - kSpeed_mps) < 0.5;
   };
   ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
@@ -83,7 +84,8 @@ TEST_F(Bridge, BadPacketsGiveFewNotesAndAFloodStallsNoRole) {
   const Flyer flyer;
   const auto flown = [&] {
     peer.send(flyer.flightgear(), port);
-    return flown_by("flightgear");
+    const auto own = latched_from("flightgear");
+    return own && flyer.distance_m(*own) < 40.0;
   };
   ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
   const std::uint64_t refused_before = notes(NoteKind::refusal);
@@ -99,7 +101,7 @@ TEST_F(Bridge, BadPacketsGiveFewNotesAndAFloodStallsNoRole) {
   };
   ASSERT_TRUE(eventually(under_fire, 30.0)) << set_.log_of("bridge");
   EXPECT_THAT(set_.log_of("bridge"), HasSubstr("version 24 and 408 bytes"));
-  EXPECT_TRUE(eventually([&] { return flown() && flyer.distance_m(*latched()) < 40.0; }, 30.0));
+  EXPECT_TRUE(eventually(flown, 30.0));
   const std::string log = set_.log_of("bridge");
   EXPECT_LT(std::count(log.begin(), log.end(), '\n'), 60) << "one line for thousands of packets";
   EXPECT_EQ(log.find("elsewhere"), std::string::npos) << log;
@@ -113,15 +115,19 @@ TEST_F(Bridge, AFreezeOfTheSessionStopsTheRadarButNotTheExternalProgram) {
   const Flyer flyer;
   const auto flown = [&] {
     peer.send(flyer.flightgear(), port);
-    return flown_by("flightgear") && flyer.distance_m(*latched()) < 40.0;
+    const auto own = latched_from("flightgear");
+    return own && flyer.distance_m(*own) < 40.0;
   };
   ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
   ASSERT_EQ(set_.yars({"sim", "freeze"}).code, 0);
-  const double frozen_m = flyer.distance_m(*latched());
+  const auto frozen = latched();
+  ASSERT_TRUE(frozen);
+  const double frozen_m = flyer.distance_m(*frozen);
   EXPECT_TRUE(eventually(
       [&] {
         peer.send(flyer.flightgear(), port);
-        return flyer.distance_m(*latched()) > frozen_m + 500.0;
+        const auto own = latched();
+        return own && flyer.distance_m(*own) > frozen_m + 500.0;
       },
       30.0))
       << "the position in the frozen radar stays";
@@ -136,13 +142,20 @@ TEST_F(Bridge, ARepositioningDoesNotMoveTheExternalProgram) {
   const Flyer flyer;
   const auto flown = [&] {
     peer.send(flyer.flightgear(), port);
-    return flown_by("flightgear");
+    return latched_from("flightgear");
   };
-  ASSERT_TRUE(eventually(flown, 30.0)) << set_.log_of("bridge");
+  ASSERT_TRUE(eventually([&] { return flown().has_value(); }, 30.0)) << set_.log_of("bridge");
   ASSERT_EQ(set_.yars({"sim", "reposition", "40", "-100", "20000", "45"}).code, 0);
-  EXPECT_TRUE(eventually([&] { return flown() && latched()->epoch >= 1; }, 30.0))
-      << "reports continue in the new epoch";
-  EXPECT_TRUE(eventually([&] { return flown() && flyer.distance_m(*latched()) < 40.0; }, 30.0));
+  const auto flown_in_new_epoch = [&] {
+    const auto own = flown();
+    return own && own->epoch >= 1;
+  };
+  EXPECT_TRUE(eventually(flown_in_new_epoch, 30.0)) << "reports continue in the new epoch";
+  const auto flown_in_place = [&] {
+    const auto own = flown();
+    return own && flyer.distance_m(*own) < 40.0;
+  };
+  EXPECT_TRUE(eventually(flown_in_place, 30.0));
   EXPECT_THAT(set_.log_of("bridge"), HasSubstr("controls the aircraft"));
 }
 
@@ -158,15 +171,17 @@ TEST_F(Bridge, XplaneIsSubscribedMovesOwnshipAndIsUnsubscribed) {
   const PacketBytes reply = packet_of("xplane/level.bin");
   const PacketBytes elsewhere =
       databuffer::bridges::with(packet_of("xplane/level.bin"), 9, -10.0F, std::endian::little);
+  std::optional<databuffer::Ownship> own;
   ASSERT_TRUE(eventually(
       [&] {
         other_sender.send(elsewhere, request->port);
         xplane.send(reply, request->port);
-        return flown_by("xplane");
+        own = latched_from("xplane");
+        return own.has_value();
       },
       30.0))
       << set_.log_of("bridge");
-  EXPECT_NEAR(latched()->latitude_deg, 36.5, 0.1);
+  EXPECT_NEAR(own->latitude_deg, 36.5, 0.1);
   EXPECT_EQ(set_.log_of("bridge").find("elsewhere"), std::string::npos) << set_.log_of("bridge");
   set_.kill("bridge", SIGTERM);
   EXPECT_EQ(set_.wait("bridge"), 0);
@@ -182,17 +197,19 @@ TEST_F(Bridge, ADisEntityIsOwnshipAndAShipIsTraffic) {
   const UdpPeer peer;
   PacketBytes aircraft = packet_of("dis/air.bin");
   std::uint32_t stamp = 1000;
+  std::optional<databuffer::Ownship> own;
   ASSERT_TRUE(eventually(
       [&] {
         put(aircraft, 4, stamp += 20'000, std::endian::big);
         peer.send(packet_of("dis/ship.bin"), port);
         peer.send(aircraft, port);
-        return flown_by("dis");
+        own = latched_from("dis");
+        return own.has_value();
       },
       30.0))
       << set_.log_of("bridge");
-  EXPECT_NEAR(latched()->latitude_deg, 36.6, 0.1);
-  EXPECT_NEAR(latched()->heading_deg, 80.0, 0.01);
+  EXPECT_NEAR(own->latitude_deg, 36.6, 0.1);
+  EXPECT_NEAR(own->heading_deg, 80.0, 0.01);
   // The ship is traffic: radar-model latches it as a moving target.
   databuffer::Traffic traffic{};
   EXPECT_TRUE(eventually([&] { return layout().traffic.read(traffic) && traffic.count == 1; }, 30.0));

@@ -53,10 +53,13 @@ class BridgedSet : public ::testing::Test {
     return status.ownship;
   }
 
-  bool flown_by(const std::string& source) const {
-    const auto own = latched();
-    return own && text::text_of(own->source) == source;
+  // The latched ownship, if it is of this source.
+  std::optional<databuffer::Ownship> latched_from(const std::string& source) const {
+    auto own = latched();
+    if (own && text::text_of(own->source) != source) own.reset();
+    return own;
   }
+  bool flown_by(const std::string& source) const { return latched_from(source).has_value(); }
 
   // Number of notes of this kind in the flight recorder.
   std::uint64_t notes(databuffer::NoteKind kind) const {
