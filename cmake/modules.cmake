@@ -43,21 +43,25 @@ function(yars_app name)
   endif()
 endfunction()
 
-# yars_program(NAME SOURCES ... DEPENDS ...): an executable in build/PRESET/bin, installed with the others.
+# yars_program(NAME [PRECOMPILED NAME] SOURCES ... DEPENDS ...): an executable in build/PRESET/bin, installed with the
+# others. PRECOMPILED: headers of its own (yars_precompiled), for other flags than those of the build.
 function(yars_program name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;SOURCES" ${ARGN})
+  cmake_parse_arguments(ARG "" "PRECOMPILED" "DEPENDS;SOURCES" ${ARGN})
+  if(NOT ARG_PRECOMPILED)
+    set(ARG_PRECOMPILED yars_precompiled)
+  endif()
   add_executable(${name} ${ARG_SOURCES})
   target_compile_definitions(${name} PRIVATE YARS_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS})
-  yars_use_precompiled(${name} yars_precompiled)
+  yars_use_precompiled(${name} ${ARG_PRECOMPILED})
   yars_unite(${name})
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endfunction()
 
 # yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [SETS] [COMPUTES] [OPENGL] [SEPARATE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from
-# tests/FOLDER/*_test.cpp, those of its subfolders named, and its support sources, found when ctest runs. ALONE: its tests
-# have the machine to themselves. SETS: its tests run whole sets in real time:
-# one at a time, beside tests of another kind. COMPUTES: its own code takes long to run, so it is compiled with YARS_COMPUTING_TEST_FLAGS.
+# tests/FOLDER/*_test.cpp, those of its subfolders named, and its support sources. ctest runs it as one test named FOLDER.
+# ALONE: it has the machine to itself. SETS: its tests run whole sets in real time: ctest runs each by itself, one at a
+# time, beside tests of another kind. COMPUTES: its own code takes long to run, so it is compiled with YARS_COMPUTING_TEST_FLAGS.
 # SEPARATE: each source stays a unit of its own with YARS_UNITY, because names in its sources are the same.
 # OPENGL: it draws, so leaks are not looked for (the search crashes now and then beside the threads of llvmpipe).
 function(yars_test folder)
@@ -96,14 +100,17 @@ function(yars_test folder)
   if(NOT ARG_LABELS)
     set(ARG_LABELS ${folder})
   endif()
-  set(environment)
+  set(properties TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_ALONE})
   if(ARG_OPENGL)
-    set(environment ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
+    list(APPEND properties ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
   endif()
-  set(lock)
   if(ARG_SETS)
-    set(lock RESOURCE_LOCK sets)
+    list(APPEND properties RESOURCE_LOCK sets)
+    gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${folder}." DISCOVERY_TIMEOUT 60
+      PROPERTIES LABELS "${ARG_LABELS}" ${properties})
+    return()
   endif()
-  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${folder}." DISCOVERY_TIMEOUT 60
-    PROPERTIES TIMEOUT ${ARG_TIMEOUT} LABELS "${ARG_LABELS}" RUN_SERIAL ${ARG_ALONE} ${lock} ${environment})
+  # One run of the program: a process for each of three thousand tests takes longer than what they test.
+  add_test(NAME ${folder} COMMAND ${target} --gtest_brief=1)
+  set_tests_properties(${folder} PROPERTIES LABELS "${ARG_LABELS}" ${properties})
 endfunction()

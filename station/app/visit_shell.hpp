@@ -43,6 +43,10 @@ Upgrade upgrade_of(Site& site, const Request& request);
 using PlainStream = boost::beast::tcp_stream;
 using TlsStream = boost::beast::ssl_stream<PlainStream>;
 
+// Makes a connection whose request was allowed to the WebSocket of a page.
+void begin_page(Site& site, Upgrade upgrade, PlainStream stream, Counted counted, Request request);
+void begin_page(Site& site, Upgrade upgrade, TlsStream stream, Counted counted, Request request);
+
 // Serves a connection until it ends, beginning with the handshake of TLS, if there is any.
 void begin_visit(Site& site, PlainStream stream);
 void begin_visit(Site& site, TlsStream stream);

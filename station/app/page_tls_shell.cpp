@@ -1,0 +1,11 @@
+#include <boost/beast/websocket/ssl.hpp>
+
+#include "station/app/page-inl.hpp"
+
+namespace yars::station {
+
+void begin_page(Site& site, Upgrade upgrade, TlsStream stream, Counted counted, Request request) {
+  open_page(site, std::move(upgrade), std::move(stream), std::move(counted), std::move(request));
+}
+
+}  // namespace yars::station
