@@ -58,14 +58,16 @@ function(yars_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endfunction()
 
-# yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [SETS] [COMPUTES] [OPENGL] [SEPARATE] [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from
-# tests/FOLDER/*_test.cpp, those of its subfolders named, and its support sources. ctest runs it as one test named FOLDER.
-# ALONE: it has the machine to itself. SETS: its tests run whole sets in real time: ctest runs each by itself, one at a
-# time, beside tests of another kind. COMPUTES: its own code takes long to run, so it is compiled with YARS_COMPUTING_TEST_FLAGS.
-# SEPARATE: each source stays a unit of its own with YARS_UNITY, because names in its sources are the same.
-# OPENGL: it draws, so leaks are not looked for (the search crashes now and then beside the threads of llvmpipe).
+# yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [SUITES] [LOCK name] [LONG filter] [COMPUTES] [OPENGL] [SEPARATE] [SUPPORT sources]
+#   [PROGRAMS it runs] DEPENDS ...): one gtest binary from tests/FOLDER/*_test.cpp, those of its subfolders named, and its
+# support sources. ctest runs it as one test named FOLDER; with SUITES as one test FOLDER.SUITE for each suite.
+# ALONE: it has the machine to itself. LOCK: one at a time of the tests with this lock, beside others: those that run sets.
+# LONG: tests (a filter of gtest) that only scripts/test --full runs, as FOLDER.long with the label long.
+# COMPUTES: its own code takes long to run, so it is compiled with YARS_COMPUTING_TEST_FLAGS. SEPARATE: each source stays a
+# unit of its own with YARS_UNITY, because names in its sources are the same. OPENGL: it draws, so leaks are not looked for
+# (the search crashes now and then beside the threads of llvmpipe).
 function(yars_test folder)
-  cmake_parse_arguments(ARG "ALONE;SETS;COMPUTES;OPENGL;SEPARATE" "TIMEOUT" "DEPENDS;LABELS;SUBFOLDERS;SUPPORT;PROGRAMS" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE;SUITES;COMPUTES;OPENGL;SEPARATE" "TIMEOUT;LOCK;LONG" "DEPENDS;LABELS;SUBFOLDERS;SUPPORT;PROGRAMS" ${ARGN})
   set(patterns ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cpp)
   foreach(subfolder IN LISTS ARG_SUBFOLDERS)
     list(APPEND patterns ${PROJECT_SOURCE_DIR}/tests/${folder}/${subfolder}/*_test.cpp)
@@ -104,13 +106,35 @@ function(yars_test folder)
   if(ARG_OPENGL)
     list(APPEND properties ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
   endif()
-  if(ARG_SETS)
-    list(APPEND properties RESOURCE_LOCK sets)
-    gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${folder}." DISCOVERY_TIMEOUT 60
-      PROPERTIES LABELS "${ARG_LABELS}" ${properties})
-    return()
+  if(ARG_LOCK)
+    list(APPEND properties RESOURCE_LOCK ${ARG_LOCK})
   endif()
-  # One run of the program: a process for each of three thousand tests takes longer than what they test.
-  add_test(NAME ${folder} COMMAND ${target} --gtest_brief=1)
-  set_tests_properties(${folder} PROPERTIES LABELS "${ARG_LABELS}" ${properties})
+  # One run of the program, or of each suite: a process for each of three thousand tests takes longer than what they test.
+  set(runs)
+  if(ARG_SUITES)
+    foreach(source IN LISTS sources)
+      set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
+      file(STRINGS ${source} lines REGEX "^TEST(_F|_P)?\\(")
+      list(TRANSFORM lines REPLACE "^TEST(_F|_P)?\\(([A-Za-z0-9_]+),.*" "\\2")
+      list(APPEND runs ${lines})
+    endforeach()
+    list(REMOVE_DUPLICATES runs)
+  endif()
+  if(NOT runs)
+    set(runs "*")
+  endif()
+  foreach(run IN LISTS runs)
+    set(name ${folder})
+    set(filter "*")
+    if(NOT run STREQUAL "*")
+      set(name ${folder}.${run})
+      set(filter "${run}.*:*/${run}.*")
+    endif()
+    add_test(NAME ${name} COMMAND ${target} --gtest_brief=1 "--gtest_filter=${filter}-${ARG_LONG}")
+    set_tests_properties(${name} PROPERTIES LABELS "${ARG_LABELS}" ${properties})
+  endforeach()
+  if(ARG_LONG)
+    add_test(NAME ${folder}.long COMMAND ${target} --gtest_brief=1 --gtest_filter=${ARG_LONG})
+    set_tests_properties(${folder}.long PROPERTIES LABELS "${ARG_LABELS};long" ${properties})
+  endif()
 endfunction()

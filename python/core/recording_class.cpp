@@ -108,13 +108,13 @@ void add_units(py::dict& units, const std::string& before, std::span<const Recor
   }
 }
 
-const rec::RecordedKind& kind_of(const std::string& name) {
+const rec::RecordedKind& kind_of(std::string_view name) {
   std::string names;
   for (const rec::RecordedKind& kind : rec::recorded_kinds()) {
     if (kind.name == name) return kind;
     names += (names.empty() ? "" : ", ") + std::string(kind.name);
   }
-  raise_value_error("yars.Recording: kind: expected one of " + names + ", found '" + name + "'");
+  raise_value_error("yars.Recording: kind: expected one of " + names + ", found '" + std::string(name) + "'");
 }
 
 // Bytes of an item, if it is of this kind.

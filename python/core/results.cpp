@@ -50,7 +50,7 @@ namespace {
 
 ScanLabels empty_labels(std::size_t count) {
   ScanLabels labels;
-  for (auto* flags : {&labels.shadow, &labels.layover, &labels.material}) flags->assign(count, 0);
+  for (auto* flags : {&labels.shadow, &labels.layover, &labels.material}) *flags = std::vector<std::uint8_t>(count);
   labels.object.assign(count, -1);
   for (auto* numbers : {&labels.ground_range_m, &labels.slant_range_m, &labels.latitude_deg, &labels.longitude_deg})
     numbers->assign(count, kNoNumber);

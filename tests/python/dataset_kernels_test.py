@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Data sets by the kernels of YARS: 2,000 chips of a town have the same bytes from one worker, two workers, seven shards, and three Dask
+"""Data sets by the kernels of YARS: 640 chips of a town (YARS_TEST_CHIPS; 2,000 in scripts/test --full) have the same bytes from one worker, two workers, seven shards, and three Dask
 workers, one of which is killed after each fifth of the blocks; the video's hash is that of `yars patch`. Needs yars._core.
 usage: dataset_kernels_test.py BIN [unittest options]   (BIN: folder of `yars`; PYTHONPATH: folder of the built package)"""
 import json
+import os
 import pathlib
 import shutil
 import subprocess
@@ -36,7 +37,7 @@ MORE = "movers: [{count: {uniform: [0, 2]}, north_m: {uniform: [-300, 300]}}]\nw
 
 
 class Kernels(Case):
-    count, size, triangles, more = 2000, 128, 10000, MORE
+    count, size, triangles, more = int(os.environ.get("YARS_TEST_CHIPS", "640")), 128, 10000, MORE
 
     def write_spec(self, name="specification.yaml", **changes):
         path = self.folder / name
@@ -70,8 +71,9 @@ class EqualFiles(Kernels):
         (self.folder / "cluster").mkdir()
         cluster = Cluster(self.folder / "cluster", 3, {})
         self.addCleanup(cluster.close)
+        blocks = self.count // 16
         # The run is shorter than 5 s on a fast computer. So a worker dies each time that a fifth of the blocks was made.
-        cluster.kill_when(lambda kills: self.blocks_there() >= 25 * (kills + 1))
+        cluster.kill_when(lambda kills: self.blocks_there() >= blocks // 5 * (kills + 1))
         self.run_it("--dask", cluster.address)
         self.assertGreaterEqual(cluster.kills, 3)
         self.assertEqual(tree(self.out), whole)
