@@ -7,6 +7,7 @@
 
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
+#include "lib/file/file_search.hpp"
 #include "lib/parallel/thread_pool.hpp"
 #include "tools/command/command.hpp"
 #include "tools/patch/patch_setup.hpp"
@@ -75,7 +76,7 @@ Radar::Radar(const py::object& preset, const std::optional<std::string>& config,
   std::string text;
   Warnings warnings;
   if (config) {
-    auto converted = config::convert_configuration(*config, {});
+    auto converted = config::convert_configuration(file::installed_file(*config), {});
     if (!converted) raise(converted.error());
     for (const std::string& warning : converted->warnings) warnings.sink()(warning);
     text = converted->text;
