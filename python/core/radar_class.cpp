@@ -76,7 +76,7 @@ Radar::Radar(const py::object& preset, const std::optional<std::string>& config,
   std::string text;
   Warnings warnings;
   if (config) {
-    auto converted = config::convert_configuration(file::installed_file(*config), {});
+    auto converted = config::convert_configuration(*config, {});
     if (!converted) raise(converted.error());
     for (const std::string& warning : converted->warnings) warnings.sink()(warning);
     text = converted->text;
@@ -159,6 +159,10 @@ std::string Radar::text() const {
 }
 
 void add_radar(py::module_& module) {
+  module.def(
+      "installed_file",
+      [](const std::string& name) { return py::bytes(file::installed_file(name)); }, py::arg("name"),
+      "Path of a file that came with YARS and is named without a folder; any other path as it is given.");
   py::class_<Radar> type(module, "Radar");
   type.def("scan", &Radar::scan, py::arg("terrain").none(false), py::arg("scene").none(true), py::arg("words"))
       .def("patch", &Radar::patch, py::arg("terrain").none(false), py::arg("scene").none(true), py::arg("words"))

@@ -1,7 +1,7 @@
 """`python -m yars [--json]` prints what is installed: version and folder, the compiled part, packages of others that are
 there or missing, programs that are found. Exit code 0 whatever is missing; 2 for an option that is not known."""
-import importlib
 import importlib.metadata
+import importlib.util
 import json
 import platform
 import subprocess
@@ -11,6 +11,8 @@ import yars
 from yars import programs
 
 USAGE = "usage: python -m yars [--json]"
+# Module of others whose distribution has another name.
+DISTRIBUTIONS = {"yaml": "PyYAML"}
 # Module of others -> what of this package needs it.
 PURPOSES = {"numpy": "Terrain, Scene, Radar, Recording, trade", "xarray": ".to_xarray()", "matplotlib": "yars.plot",
             "zarr": "yars.dataset", "numcodecs": "yars.dataset with zarr", "yaml": "yars.dataset",
@@ -19,10 +21,14 @@ PURPOSES = {"numpy": "Terrain, Scene, Radar, Recording, trade", "xarray": ".to_x
 
 
 def version_of(module):
-    """Version of a module of others, "unknown" where it does not say, None where it does not load."""
+    """Version of a module of others, "unknown" where it does not say, None where there is none. It is not loaded: that takes seconds."""
     try:
-        return str(getattr(importlib.import_module(module), "__version__", "unknown"))
-    except Exception:  # whatever a package of others raises when it is broken
+        if importlib.util.find_spec(module) is None:
+            return None
+        return importlib.metadata.version(DISTRIBUTIONS.get(module, module))
+    except importlib.metadata.PackageNotFoundError:
+        return "unknown"
+    except ImportError:
         return None
 
 
