@@ -31,8 +31,10 @@ def check_tools():
 
 
 def build(jobs, options):
-    """All parts: a release does not depend on what happens to be installed."""
-    run("cmake", "--preset", "release", "-DYARS_TESTS=OFF", "-DYARS_GDAL=ON", "-DYARS_GATEWAY=ON", "-DYARS_PYTHON=ON", *options)
+    """All parts: a release does not depend on what happens to be installed. Libraries lie where Debian's packages have them."""
+    triplet = subprocess.run(["dpkg-architecture", "-qDEB_HOST_MULTIARCH"], capture_output=True, text=True, check=True).stdout.strip()
+    run("cmake", "--preset", "release", "-DYARS_TESTS=OFF", "-DYARS_GDAL=ON", "-DYARS_GATEWAY=ON", "-DYARS_PYTHON=ON",
+        f"-DCMAKE_INSTALL_LIBDIR=lib/{triplet}", *options)
     run("cmake", "--build", BUILD, "--parallel", jobs)
 
 
