@@ -12,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// PREFIX/share/yars/NAME for a program in PREFIX/bin or PREFIX/libexec/yars, a library in PREFIX/lib/TRIPLET, or a Python
-// module in PREFIX, the folder of its package.
+// PREFIX/share/yars/NAME for a program in PREFIX/bin or PREFIX/libexec/yars, a library in PREFIX/lib/TRIPLET, or a
+// Python module in PREFIX, the folder of its package.
 std::optional<fs::path> folder_near(const fs::path& binary, std::string_view name) {
   std::error_code problem;
   fs::path folder = fs::weakly_canonical(binary, problem).parent_path();
@@ -27,8 +27,8 @@ std::optional<fs::path> folder_near(const fs::path& binary, std::string_view nam
 }  // namespace
 
 fs::path installed_folder(std::string_view name) {
-  // A library comes first: the program that loads it, such as Python, may belong to another installation. For a program's
-  // own code dladdr has the name that it was started by, which is no path when it came from PATH.
+  // A library comes first: the program that loads it, such as Python, may belong to another installation. For a
+  // program's own code dladdr has the name that it was started by, which is no path when it came from PATH.
   Dl_info library{};
   if (dladdr(reinterpret_cast<const void*>(&installed_folder), &library) != 0 && library.dli_fname != nullptr &&
       fs::path(library.dli_fname).is_absolute())

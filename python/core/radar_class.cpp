@@ -160,8 +160,7 @@ std::string Radar::text() const {
 
 void add_radar(py::module_& module) {
   module.def(
-      "installed_file",
-      [](const std::string& name) { return py::bytes(file::installed_file(name)); }, py::arg("name"),
+      "installed_file", [](const std::string& name) { return py::bytes(file::installed_file(name)); }, py::arg("name"),
       "Path of a file that came with YARS and is named without a folder; any other path as it is given.");
   py::class_<Radar> type(module, "Radar");
   type.def("scan", &Radar::scan, py::arg("terrain").none(false), py::arg("scene").none(true), py::arg("words"))
