@@ -47,15 +47,16 @@ def tag():
 
 def metadata(numpy=""):
     """The file METADATA. `numpy`: the version that the compiled part is built with; a later major version has another ABI."""
-    project = tomllib.loads((SOURCE / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    settings = tomllib.loads((SOURCE / "pyproject.toml").read_text(encoding="utf-8"))
+    project, extras = settings["project"], settings["tool"]["yars"]["extras"]
     major = numpy.partition(".")[0]
-    needs = [f"numpy<{int(major) + 1}" if major.isdigit() else "numpy"]
+    fitting = f"numpy<{int(major) + 1}" if major.isdigit() else "numpy"
     lines = ["Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {version()}", f"Summary: {project['description']}",
              f"Author: {project['authors'][0]['name']}", f"License: {project['license']['text']}", "License-File: LICENSE",
-             *(f"Classifier: {text}" for text in project["classifiers"]), f"Requires-Python: {project['requires-python']}",
-             *(f"Requires-Dist: {name}" for name in needs)]
-    for extra, names in project["optional-dependencies"].items():
-        lines += [f"Provides-Extra: {extra}", *(f'Requires-Dist: {name}; extra == "{extra}"' for name in names)]
+             *(f"Classifier: {text}" for text in project["classifiers"]), f"Requires-Python: {project['requires-python']}"]
+    for extra, names in extras.items():
+        lines.append(f"Provides-Extra: {extra}")
+        lines += [f'Requires-Dist: {fitting if name == "numpy" else name}; extra == "{extra}"' for name in names]
     return "\n".join(lines) + "\n"
 
 

@@ -84,7 +84,7 @@ class Pip(unittest.TestCase):
     def test_a_wheel_has_a_right_record_and_is_made_again_with_equal_bytes(self):
         made = []
         for name in ("one", "two"):
-            done = self.pip("wheel", ".", "--no-deps", "--wheel-dir", self.folder / name)
+            done = self.pip("wheel", ".", "--wheel-dir", self.folder / name)
             self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
             made += (self.folder / name).iterdir()
         python = f"cp{sys.version_info[0]}{sys.version_info[1]}"
