@@ -1,12 +1,41 @@
-# `cpack -G DEB` in the build folder of the release preset makes two packages, yars_VERSION-1_ARCHITECTURE.deb and
-# python3-yars_VERSION-1_ARCHITECTURE.deb: docs/packaging.md.
+# `cpack -G DEB` in the build folder of the release preset makes two packages, yars_VERSION-REVISION_ARCHITECTURE.deb and
+# python3-yars_VERSION-REVISION_ARCHITECTURE.deb: docs/packaging.md.
+# The revision names the suite as Debian's own backports do: 1~deb12u1 sorts before 1~deb13u1, so a package follows an upgrade
+# of the system, and behind every revision of an earlier version.
+function(suite_of_this_system result)
+  set(ID)
+  if(EXISTS /etc/os-release)
+    file(STRINGS /etc/os-release lines REGEX "^(ID|VERSION_ID)=")
+    foreach(line IN LISTS lines)
+      string(REGEX MATCH "^([A-Z_]+)=\"?([^\"]*)" ignored "${line}")
+      set(${CMAKE_MATCH_1} "${CMAKE_MATCH_2}")
+    endforeach()
+  endif()
+  if(NOT ID OR NOT VERSION_ID MATCHES "^[0-9.]+$")
+    set(${result} "" PARENT_SCOPE)  # testing and others without a number
+  elseif(ID STREQUAL "debian")
+    set(${result} "~deb${VERSION_ID}u1" PARENT_SCOPE)
+  else()
+    set(${result} "~${ID}${VERSION_ID}.1" PARENT_SCOPE)
+  endif()
+endfunction()
+suite_of_this_system(suite)
+set(YARS_DEBIAN_REVISION "1${suite}" CACHE STRING "revision of the Debian packages, behind the version and a hyphen")
+set(YARS_MAINTAINER "The YARS developers <yars@localhost>" CACHE STRING "maintainer of the Debian packages: NAME <ADDRESS>")
+set(YARS_HOMEPAGE "" CACHE STRING "address of the project's page in the Debian packages; empty: none")
+if(NOT YARS_MAINTAINER MATCHES "^[^<>]+ <[^<> ]+@[^<> ]+>$")
+  message(FATAL_ERROR "YARS_MAINTAINER: expected NAME <ADDRESS>, found '${YARS_MAINTAINER}'; give it as -DYARS_MAINTAINER=...")
+endif()
+set(full_version ${PROJECT_VERSION}-${YARS_DEBIAN_REVISION})
+
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME yars)
-set(CPACK_PACKAGE_CONTACT "YARS <yars@users.noreply.example.org>")
+set(CPACK_PACKAGE_CONTACT "${YARS_MAINTAINER}")
+set(CPACK_DEBIAN_PACKAGE_HOMEPAGE "${YARS_HOMEPAGE}")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_RELEASE ${YARS_DEBIAN_REVISION})
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
@@ -37,7 +66,7 @@ set(CPACK_DEBIAN_YARS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_YARS_PACKAGE_DEPENDS "libegl1, libgl1, python3:any")
 set(CPACK_DEBIAN_YARS_PACKAGE_RECOMMENDS "libgl1-mesa-dri${also_rasters}")
 set(CPACK_DEBIAN_YARS_PACKAGE_SUGGESTS "python3-yars")
-# For libyars-display: what a package that is linked with it depends on, and a run of ldconfig.
+# For libyars-display: what a package that is linked with it depends on, and a run of ldconfig by dpkg's trigger.
 file(WRITE ${PROJECT_BINARY_DIR}/install/shlibs
   "libyars-display ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} yars (>= ${PROJECT_VERSION})\n")
 file(WRITE ${PROJECT_BINARY_DIR}/install/triggers "activate-noawait ldconfig\n")
@@ -52,7 +81,7 @@ from digital terrain and scenes as NumPy arrays, with labels for training data.
 yars.plot draws them by matplotlib. yars.session is the client of a running
 session: ownship and events in, sweeps and pictures out.")
 set(recommended "python3-matplotlib, python3-xarray, python3-zarr, python3-numcodecs, python3-yaml, python3-dask, python3-distributed")
-set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_RECOMMENDS "yars (= ${PROJECT_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE}), ${recommended}${also_rasters}")
+set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_RECOMMENDS "yars (= ${full_version}), ${recommended}${also_rasters}")
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_SUGGESTS "python3-rasterio, python3-pil")
 # Compiles the module's sources when it is installed, as Debian's own packages do.
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_CONTROL_EXTRA
@@ -68,6 +97,7 @@ else()
   set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_DEPENDS "python3:any")
   string(APPEND CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_RECOMMENDS ", python3-numpy")
 endif()
+set(CPACK_POST_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/packaging/debian/repack.cmake)
 include(CPack)
 cpack_add_component_group(yars)
 cpack_add_component_group(python3-yars)
@@ -82,7 +112,7 @@ endforeach()
 string(TIMESTAMP day "%a, %d %b %Y 00:00:00 +0000" UTC)
 foreach(name yars python3-yars)
   file(WRITE ${PROJECT_BINARY_DIR}/install/changelog_of_${name}
-    "${name} (${PROJECT_VERSION}-1) unstable; urgency=medium\n\n  * Made by CPack from YARS ${PROJECT_VERSION}.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${day}\n")
+    "${name} (${full_version}) unstable; urgency=medium\n\n  * Made by CPack from YARS ${PROJECT_VERSION}.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${day}\n")
 endforeach()
 compressed(${PROJECT_BINARY_DIR}/install/changelog_of_yars changelog.Debian ${documents} Unspecified)
 set(python_documents ${CMAKE_INSTALL_DATADIR}/doc/python3-yars)

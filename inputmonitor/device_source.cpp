@@ -66,7 +66,7 @@ error::Expected<std::unique_ptr<DeviceReader>> DeviceReader::open(const std::fil
                                  : "");
   }
   std::unique_ptr<DeviceReader> reader(new DeviceReader(descriptor));
-  struct stat status {};
+  struct stat status{};
   fstat(descriptor, &status);
   reader->is_file_ = S_ISREG(status.st_mode);
   if (S_ISCHR(status.st_mode)) reader->info_ = info_of(descriptor);
@@ -105,8 +105,8 @@ DeviceReader::Outcome DeviceReader::read(std::span<std::byte> bytes, std::size_t
 }
 
 bool DeviceReader::is_at(const std::filesystem::path& path) const {
-  struct stat opened {};
-  struct stat present {};
+  struct stat opened{};
+  struct stat present{};
   return fstat(descriptor_, &opened) == 0 && stat(path.c_str(), &present) == 0 && opened.st_dev == present.st_dev &&
          opened.st_ino == present.st_ino;
 }

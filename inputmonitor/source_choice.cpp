@@ -29,8 +29,8 @@ void append(std::vector<T>& to, std::vector<T> more) {
 
 // True if both paths name the same file. std::filesystem::equivalent cannot be used: it fails for device nodes.
 bool is_same_node(const std::filesystem::path& one, const std::filesystem::path& other) {
-  struct stat first {};
-  struct stat second {};
+  struct stat first{};
+  struct stat second{};
   return stat(one.c_str(), &first) == 0 && stat(other.c_str(), &second) == 0 && first.st_dev == second.st_dev &&
          first.st_ino == second.st_ino;
 }
@@ -88,7 +88,7 @@ std::string FoundDevicesSource::description() const {
 
 void FoundDevicesSource::scan_folder() {
   for (const auto& path : device_paths(folder_)) {
-    struct stat status {};
+    struct stat status{};
     if (stat(path.c_str(), &status) != 0) continue;
     const Node node{status.st_ino, status.st_ctim.tv_sec * 1'000'000'000LL + status.st_ctim.tv_nsec};
     const auto [entry, is_new] = seen_.try_emplace(path, node);

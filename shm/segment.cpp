@@ -130,7 +130,7 @@ bool leave(SegmentFile& file, const std::string& file_name) {
 
 // Describes a file that exists but cannot be opened as a segment; `error` is the errno value.
 tl::unexpected<error::Error> describe_open_error(const std::string& file_name, int error) {
-  struct stat there {};
+  struct stat there{};
   if (lstat(path_of(file_name).c_str(), &there) != 0 || (S_ISREG(there.st_mode) && there.st_uid == geteuid()))
     return system_failure(file_name, "a segment that can be opened", error);
   const std::string owner = "user " + std::to_string(there.st_uid);

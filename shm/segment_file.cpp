@@ -54,7 +54,7 @@ bool was_opened_as(const std::string& target, const std::string& path) {
 // has opened the file again, /proc shows the removed temporary name of a file that already has its final name.
 // Files that are not regular, such as pipes, must not be opened.
 bool is_own_and_nameless(const std::string& descriptor) {
-  struct stat status {};
+  struct stat status{};
   return stat(descriptor.c_str(), &status) == 0 && status.st_nlink == 0 && S_ISREG(status.st_mode) &&
          status.st_uid == geteuid();
 }
@@ -76,7 +76,7 @@ namespace {
 constexpr int kNameAttempts = 20;  // maximum number of random temporary names that create() tries
 
 struct flock byte_lock(std::size_t byte, LockKind kind) {
-  struct flock lock {};
+  struct flock lock{};
   lock.l_type = kind == LockKind::none ? F_UNLCK : kind == LockKind::read ? F_RDLCK : F_WRLCK;
   lock.l_whence = SEEK_SET;
   lock.l_start = static_cast<off_t>(byte);
@@ -170,13 +170,13 @@ bool SegmentFile::map() {
 }
 
 struct stat SegmentFile::status() const {
-  struct stat status {};
+  struct stat status{};
   if (fstat(descriptor(), &status) != 0) status = {};
   return status;
 }
 
 bool SegmentFile::is_at(const std::string& path) const {
-  struct stat there {};
+  struct stat there{};
   const struct stat here = status();
   return lstat(path.c_str(), &there) == 0 && there.st_dev == here.st_dev && there.st_ino == here.st_ino;
 }

@@ -62,7 +62,7 @@ struct Inputs {
 struct Parameters {
   // Converts from a structure that has all these members, such as radar::RadarConfiguration.
   template <class Configuration>
-  requires requires(const Configuration& whole) { whole.height_ranges; }
+    requires requires(const Configuration& whole) { whole.height_ranges; }
   Parameters(const Configuration& whole)
       : ranges_nm(whole.ranges_nm),
         scan_widths_deg(whole.scan_widths_deg),

@@ -80,17 +80,12 @@ constexpr std::array<std::pair<std::string_view, Make>, 16> kCommands{{
     {"run", [](Arguments&) -> InstructorCommand { return SetRunning{true}; }},
     {"freeze", [](Arguments&) -> InstructorCommand { return SetRunning{false}; }},
     {"rate",
-     [](Arguments& of) -> InstructorCommand {
-       return SetRate{of.number("rate", {0.0, databuffer::kMaxClockRate})};
-     }},
+     [](Arguments& of) -> InstructorCommand { return SetRate{of.number("rate", {0.0, databuffer::kMaxClockRate})}; }},
     {"step",
      [](Arguments& of) -> InstructorCommand {
        return Step{static_cast<std::int64_t>(of.number("ticks", {1.0, kMaxTicks}))};
      }},
-    {"reset",
-     [](Arguments& of) -> InstructorCommand {
-       return Reset{of.number("time", {0.0, kMaxTime_s})};
-     }},
+    {"reset", [](Arguments& of) -> InstructorCommand { return Reset{of.number("time", {0.0, kMaxTime_s})}; }},
     {"reposition",
      [](Arguments& of) -> InstructorCommand {
        return Reposition{{of.number("lat", {-90.0, 90.0}), of.number("lon", {-180.0, 180.0})},

@@ -25,7 +25,7 @@ struct Row {
 
 #define YARS_ROW(code) \
   Row {                \
-#code, code        \
+    #code, code        \
   }
 constexpr std::array kButtons{
     YARS_ROW(BTN_TRIGGER),   YARS_ROW(BTN_THUMB),     YARS_ROW(BTN_THUMB2),    YARS_ROW(BTN_TOP),

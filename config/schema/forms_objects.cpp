@@ -29,40 +29,38 @@ std::optional<ConstraintViolation> check_jammer(const ConfigurationBuilder& buil
 }
 
 FormSchema jammer() {
-  return {.name = "Jammer",
-          .purpose = "a transmitter of noise, seen as a strobe",
-          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(jammer.name)}, .purpose = "name, free text"},
-                    latitude_slot(YARS_FIELD(jammer.position.latitude_deg)),
-                    longitude_slot(YARS_FIELD(jammer.position.longitude_deg)),
-                    number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(jammer.altitude_m), geo::kMetresPerFoot},
-                                "above mean sea level; left out: a mast of 10 m on the ground"),
-                    {.name = "band",
-                     .binding = ChoiceSlot{kBands,
-                                           [](const ConfigurationBuilder& builder) {
-                                             return builder.jammer.band == radar::kEveryBand ? kAllBands
-                                                                                             : builder.jammer.band;
-                                           },
-                                           [](ConfigurationBuilder& builder, int index) {
-                                             builder.jammer.band = index == kAllBands ? radar::kEveryBand : index;
-                                           }},
-                     .purpose = "band that it jams; left out: all"},
-                    {.name = "channels",
-                     .lowest = 1,
-                     .highest = 8,
-                     .binding = ListSlot{YARS_FIELD(jammer.channels), 1, 8, Order::ascending},
-                     .purpose = "channels that it jams; left out: all"},
-                    number_slot("power", "W", 0, 1e9, {YARS_FIELD(jammer.power_w)},
-                                "effective radiated power within the receiver's bandwidth; left out: 10")},
-          .part_of_value = true,
-          .begin =
-              [](ConfigurationBuilder& builder) {
-                builder.jammer = {.name = {}, .position = {kNotGiven, kNotGiven}};
-              },
-          .check = check_jammer,
-          .end = [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.push_back(builder.jammer); },
-          .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.jamming.jammers.size(); },
-          .select = [](ConfigurationBuilder& builder,
-                       std::size_t index) { builder.jammer = builder.radar.world.jamming.jammers[index]; }};
+  return {
+      .name = "Jammer",
+      .purpose = "a transmitter of noise, seen as a strobe",
+      .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(jammer.name)}, .purpose = "name, free text"},
+                latitude_slot(YARS_FIELD(jammer.position.latitude_deg)),
+                longitude_slot(YARS_FIELD(jammer.position.longitude_deg)),
+                number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(jammer.altitude_m), geo::kMetresPerFoot},
+                            "above mean sea level; left out: a mast of 10 m on the ground"),
+                {.name = "band",
+                 .binding = ChoiceSlot{kBands,
+                                       [](const ConfigurationBuilder& builder) {
+                                         return builder.jammer.band == radar::kEveryBand ? kAllBands
+                                                                                         : builder.jammer.band;
+                                       },
+                                       [](ConfigurationBuilder& builder, int index) {
+                                         builder.jammer.band = index == kAllBands ? radar::kEveryBand : index;
+                                       }},
+                 .purpose = "band that it jams; left out: all"},
+                {.name = "channels",
+                 .lowest = 1,
+                 .highest = 8,
+                 .binding = ListSlot{YARS_FIELD(jammer.channels), 1, 8, Order::ascending},
+                 .purpose = "channels that it jams; left out: all"},
+                number_slot("power", "W", 0, 1e9, {YARS_FIELD(jammer.power_w)},
+                            "effective radiated power within the receiver's bandwidth; left out: 10")},
+      .part_of_value = true,
+      .begin = [](ConfigurationBuilder& builder) { builder.jammer = {.name = {}, .position = {kNotGiven, kNotGiven}}; },
+      .check = check_jammer,
+      .end = [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.push_back(builder.jammer); },
+      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.jamming.jammers.size(); },
+      .select = [](ConfigurationBuilder& builder,
+                   std::size_t index) { builder.jammer = builder.radar.world.jamming.jammers[index]; }};
 }
 
 std::optional<ConstraintViolation> check_mover(const ConfigurationBuilder& builder) {
@@ -74,29 +72,27 @@ std::optional<ConstraintViolation> check_mover(const ConfigurationBuilder& build
 
 FormSchema mover() {
   constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
-  return {.name = "Mover",
-          .purpose = "a ship or a vehicle: a point that moves along a great circle",
-          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "name, free text"},
-                    latitude_slot(YARS_FIELD(mover.position.latitude_deg)),
-                    longitude_slot(YARS_FIELD(mover.position.longitude_deg)),
-                    number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
-                                "over ground; left out: 0"),
-                    number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
-                                "true heading at sim time 0; later the direction of the great circle"),
-                    number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
-                                "radar cross section; left out: 1000"),
-                    number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
-                                "height of the reflecting point above the ground; left out: 20")},
-          .part_of_value = true,
-          .begin =
-              [](ConfigurationBuilder& builder) {
-                builder.mover = {.name = {}, .position = {kNotGiven, kNotGiven}};
-              },
-          .check = check_mover,
-          .end = [](ConfigurationBuilder& builder) { builder.radar.world.movers.push_back(builder.mover); },
-          .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.movers.size(); },
-          .select = [](ConfigurationBuilder& builder,
-                       std::size_t index) { builder.mover = builder.radar.world.movers[index]; }};
+  return {
+      .name = "Mover",
+      .purpose = "a ship or a vehicle: a point that moves along a great circle",
+      .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "name, free text"},
+                latitude_slot(YARS_FIELD(mover.position.latitude_deg)),
+                longitude_slot(YARS_FIELD(mover.position.longitude_deg)),
+                number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
+                            "over ground; left out: 0"),
+                number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
+                            "true heading at sim time 0; later the direction of the great circle"),
+                number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
+                            "radar cross section; left out: 1000"),
+                number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
+                            "height of the reflecting point above the ground; left out: 20")},
+      .part_of_value = true,
+      .begin = [](ConfigurationBuilder& builder) { builder.mover = {.name = {}, .position = {kNotGiven, kNotGiven}}; },
+      .check = check_mover,
+      .end = [](ConfigurationBuilder& builder) { builder.radar.world.movers.push_back(builder.mover); },
+      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.movers.size(); },
+      .select = [](ConfigurationBuilder& builder,
+                   std::size_t index) { builder.mover = builder.radar.world.movers[index]; }};
 }
 
 // Words in the order of radar::SceneHeights.
@@ -194,33 +190,31 @@ SlotSchema whole_number(std::string_view name, double lowest, double highest, in
 }
 
 FormSchema beacon() {
-  return {.name = "Beacon",
-          .purpose = "a radar beacon on the ground: replies to a pulse of its code with a train of pulses",
-          .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(beacon.name)}, .purpose = "name, free text"},
-                    latitude_slot(YARS_FIELD(beacon.position.latitude_deg)),
-                    longitude_slot(YARS_FIELD(beacon.position.longitude_deg)),
-                    number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(beacon.altitude_m), geo::kMetresPerFoot},
-                                "above mean sea level; left out: a mast of 10 m on the ground"),
-                    whole_number("code", 1, kMaxCode, YARS_FIELD(beacon.code),
-                                 "interrogation code to which it replies; left out: 1"),
-                    number_slot("delay", "us", 0, 1000, {YARS_FIELD(beacon.delay_us)},
-                                "time from the received pulse to the first reply; left out: 2"),
-                    whole_number("replies", 2, radar::kMaxReplies, YARS_FIELD(beacon.replies),
-                                 "number of replies to a pulse; left out: 2"),
-                    number_slot("spacing", "us", 0.1, 1000, {YARS_FIELD(beacon.spacing_us)},
-                                "time between replies; left out: 10"),
-                    number_slot("power", "W", 0, 1e9, {YARS_FIELD(beacon.power_w)},
-                                "effective radiated power; left out: 100")},
-          .part_of_value = true,
-          .begin =
-              [](ConfigurationBuilder& builder) {
-                builder.beacon = {.name = {}, .position = {kNotGiven, kNotGiven}};
-              },
-          .check = check_beacon,
-          .end = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.push_back(builder.beacon); },
-          .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.beacons.beacons.size(); },
-          .select = [](ConfigurationBuilder& builder,
-                       std::size_t index) { builder.beacon = builder.radar.world.beacons.beacons[index]; }};
+  return {
+      .name = "Beacon",
+      .purpose = "a radar beacon on the ground: replies to a pulse of its code with a train of pulses",
+      .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(beacon.name)}, .purpose = "name, free text"},
+                latitude_slot(YARS_FIELD(beacon.position.latitude_deg)),
+                longitude_slot(YARS_FIELD(beacon.position.longitude_deg)),
+                number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(beacon.altitude_m), geo::kMetresPerFoot},
+                            "above mean sea level; left out: a mast of 10 m on the ground"),
+                whole_number("code", 1, kMaxCode, YARS_FIELD(beacon.code),
+                             "interrogation code to which it replies; left out: 1"),
+                number_slot("delay", "us", 0, 1000, {YARS_FIELD(beacon.delay_us)},
+                            "time from the received pulse to the first reply; left out: 2"),
+                whole_number("replies", 2, radar::kMaxReplies, YARS_FIELD(beacon.replies),
+                             "number of replies to a pulse; left out: 2"),
+                number_slot("spacing", "us", 0.1, 1000, {YARS_FIELD(beacon.spacing_us)},
+                            "time between replies; left out: 10"),
+                number_slot("power", "W", 0, 1e9, {YARS_FIELD(beacon.power_w)},
+                            "effective radiated power; left out: 100")},
+      .part_of_value = true,
+      .begin = [](ConfigurationBuilder& builder) { builder.beacon = {.name = {}, .position = {kNotGiven, kNotGiven}}; },
+      .check = check_beacon,
+      .end = [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.push_back(builder.beacon); },
+      .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.beacons.beacons.size(); },
+      .select = [](ConfigurationBuilder& builder,
+                   std::size_t index) { builder.beacon = builder.radar.world.beacons.beacons[index]; }};
 }
 
 }  // namespace

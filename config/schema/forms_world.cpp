@@ -250,10 +250,7 @@ FormSchema rain_cell() {
                     number_slot("top", "ft", 500, 60'000, {YARS_FIELD(rain_cell.top_m), geo::kMetresPerFoot},
                                 "top of the rain above mean sea level; left out: 15,000")},
           .part_of_value = true,
-          .begin =
-              [](ConfigurationBuilder& builder) {
-                builder.rain_cell = {.position = {kNotGiven, kNotGiven}};
-              },
+          .begin = [](ConfigurationBuilder& builder) { builder.rain_cell = {.position = {kNotGiven, kNotGiven}}; },
           .check = check_rain_cell,
           .end = [](ConfigurationBuilder& builder) { builder.radar.world.rain.cells.push_back(builder.rain_cell); },
           .count = [](const ConfigurationBuilder& builder) { return builder.radar.world.rain.cells.size(); },

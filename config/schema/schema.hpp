@@ -264,10 +264,7 @@ std::string value_kind(const SlotSchema& slot);
 
 // NOLINTBEGIN(bugprone-macro-parentheses): a path of fields cannot stand in parentheses.
 // Function that returns a reference to one field of a builder. Example: `YARS_FIELD(radar.seed)`.
-#define YARS_FIELD(path)                                        \
-  [](::yars::config::ConfigurationBuilder & builder) -> auto& { \
-    return builder.path;                                        \
-  }
+#define YARS_FIELD(path) [](::yars::config::ConfigurationBuilder& builder) -> auto& { return builder.path; }
 // NOLINTEND(bugprone-macro-parentheses)
 
 // The rows of the table, one function for each group of forms.

@@ -112,8 +112,7 @@ bool names(std::string_view label, std::string_view property) {
 // Printable form of a field, shortened for a message.
 std::string shown(std::string_view field) {
   std::string text(field.substr(0, kMaxShownCharacters));
-  std::ranges::replace_if(
-      text, [](char character) { return character < ' ' || character > '~'; }, '?');
+  std::ranges::replace_if(text, [](char character) { return character < ' ' || character > '~'; }, '?');
   return text;
 }
 

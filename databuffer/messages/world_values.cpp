@@ -19,8 +19,7 @@ constexpr double kSecondsPerNanosecond = 1e-9;
 template <std::size_t size>
 void write_name(char (&into)[size], std::string_view name) {
   const std::size_t length = name.copy(into, size - 1);
-  std::replace_if(
-      into, into + length, [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  std::replace_if(into, into + length, [](char letter) { return letter < ' ' || letter > '~'; }, '?');
 }
 
 // Number of entries that a record has room for.

@@ -110,6 +110,12 @@ class HelpFormatter : public CLI::Formatter {
  public:
   HelpFormatter() { column_width(kColumn); }
 
+  // Versions of CLI11 differ in the empty lines at the end; here there is none.
+  std::string make_help(const CLI::App* command, std::string name, CLI::AppFormatMode mode) const override {
+    std::string text = CLI::Formatter::make_help(command, std::move(name), mode);
+    while (text.ends_with("\n\n")) text.pop_back();
+    return text;
+  }
   std::string make_option(const CLI::Option* option, bool is_positional) const override {
     return entry(head(*option, is_positional), description(*option, is_positional));
   }

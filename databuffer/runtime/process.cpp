@@ -124,7 +124,7 @@ void on_signal(int) {
 }  // namespace
 
 void install_signal_handlers() {
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = on_signal;  // no SA_RESTART: a sleep or poll returns at once
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
@@ -170,7 +170,7 @@ void drop_to_normal_priority(int) {
 
 // Limits real-time computation: Linux sends SIGXCPU if a real-time thread computes for kMaxBurst_ms without a wait.
 bool limit_bursts() {
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = drop_to_normal_priority;
   action.sa_flags = SA_RESTART;
   sigemptyset(&action.sa_mask);

@@ -263,9 +263,8 @@ class GlfwWindow final : public Window {
 void set_icon(GLFWwindow* window) {
   std::array<imageio::Image, 3> icons{window_icon(16), window_icon(32), window_icon(64)};
   std::array<GLFWimage, icons.size()> images{};
-  std::ranges::transform(icons, images.begin(), [](imageio::Image& icon) {
-    return GLFWimage{icon.width, icon.height, icon.pixels.data()};
-  });
+  std::ranges::transform(icons, images.begin(),
+                         [](imageio::Image& icon) { return GLFWimage{icon.width, icon.height, icon.pixels.data()}; });
   glfwSetWindowIcon(window, static_cast<int>(images.size()), images.data());
 }
 

@@ -319,9 +319,8 @@ void OverlayPass::add(const Instance& instance, const Target& target) {
   const Rect box = grown({left * pixels_per_unit - x, top * pixels_per_unit - y, right * pixels_per_unit - x,
                           bottom * pixels_per_unit - y},
                          margin);
-  target.damage->visit(box, [&](const Rect& part) {
-    add_part({part.left + x, part.top + y, part.right + x, part.bottom + y});
-  });
+  target.damage->visit(
+      box, [&](const Rect& part) { add_part({part.left + x, part.top + y, part.right + x, part.bottom + y}); });
 }
 
 void OverlayPass::add_strokes(std::span<const Segment> segments, const ColorScheme& colors, bool halo,

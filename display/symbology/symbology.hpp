@@ -55,7 +55,7 @@ bool takes_cursor(const DisplayInput& input);
 struct SymbologyParameters {
   // Converts from a configuration with view and blind zone, such as radar::RadarConfiguration.
   template <class Configuration>
-  requires requires(const Configuration& whole) { whole.high_resolution; }
+    requires requires(const Configuration& whole) { whole.high_resolution; }
   SymbologyParameters(const Configuration& whole)
       : SymbologyParameters(whole.view, whole.high_resolution.blind_zone_deg) {}
   SymbologyParameters(const radar::ViewConfiguration& view_section, double blind_zone)

@@ -65,7 +65,7 @@ tl::unexpected<error::Error> fault(const std::string& expected, const std::strin
 
 Expected<std::string> text_of_file(const std::filesystem::path& path) {
   constexpr const char* kMake = "scripts/network_identities makes the folder of a host";
-  struct stat status {};
+  struct stat status{};
   if (::stat(path.c_str(), &status) != 0) return fault("the file " + path.string(), error::reason_of(errno), kMake);
   if (!S_ISREG(status.st_mode))
     return fault("a regular file " + path.string(),
@@ -191,7 +191,7 @@ Expected<void> check_permissions(const std::filesystem::path& path, const X509* 
 
 // A line if others than the owner can read or write the key.
 std::vector<std::string> warnings_of_key(const std::filesystem::path& path) {
-  struct stat status {};
+  struct stat status{};
   if (::stat(path.c_str(), &status) != 0 || (status.st_mode & 077U) == 0) return {};
   std::array<char, 8> mode{};
   std::snprintf(mode.data(), mode.size(), "%04o", static_cast<unsigned>(status.st_mode & 07777U));
@@ -203,7 +203,7 @@ std::vector<std::string> warnings_of_key(const std::filesystem::path& path) {
 
 Expected<std::vector<std::string>> check_identity(const std::string& folder, const std::string& name) {
   const std::filesystem::path path(folder);
-  struct stat status {};
+  struct stat status{};
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (!exists || !S_ISDIR(status.st_mode))
     return fault("a folder with the identity of this host", exists ? folder + ", a file" : "none at " + folder,

@@ -186,8 +186,7 @@ EventExchange::Receiving* EventExchange::receiving_from(Context& context, const 
 bool EventExchange::take_lane(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample) {
   char source[sizeof sample.source + 1] = {};
   std::memcpy(source, sample.source, sizeof sample.source);
-  std::replace_if(
-      source, source + std::strlen(source), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  std::replace_if(source, source + std::strlen(source), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
   const HostView* host = context.hosts.find(sample.host);
   const std::string name = (host == nullptr ? "?" : host->name) + "/" + source;
   auto claim = context.session.claim_input_lane(name);

@@ -37,7 +37,7 @@ constexpr int kPoll_ms = 200;  // maximum delay of a stop request and of a hint
 class Typist {
  public:
   Typist() {
-    struct stat status {};
+    struct stat status{};
     const bool is_terminal = isatty(STDIN_FILENO) == 1;
     if (is_foreground_terminal(STDIN_FILENO)) {
       if (auto mode = TerminalMode::enter(STDIN_FILENO)) mode_ = std::move(*mode);

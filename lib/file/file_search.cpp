@@ -12,12 +12,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// PREFIX/share/yars/NAME for a program in PREFIX/bin or PREFIX/libexec/yars, or a library in PREFIX/lib/TRIPLET.
+// PREFIX/share/yars/NAME for a program in PREFIX/bin or PREFIX/libexec/yars, a library in PREFIX/lib/TRIPLET, or a
+// Python module in PREFIX, the folder of its package.
 std::optional<fs::path> folder_near(const fs::path& binary, std::string_view name) {
   std::error_code problem;
   fs::path folder = fs::weakly_canonical(binary, problem).parent_path();
-  for (int levels = 0; levels < 2 && !folder.empty(); ++levels) {
-    folder = folder.parent_path();
+  for (int levels = 0; levels < 3 && !folder.empty(); ++levels, folder = folder.parent_path()) {
     if (const fs::path found = folder / "share/yars" / name; fs::is_directory(found, problem))
       return fs::weakly_canonical(found, problem);
   }
@@ -27,12 +27,14 @@ std::optional<fs::path> folder_near(const fs::path& binary, std::string_view nam
 }  // namespace
 
 fs::path installed_folder(std::string_view name) {
-  std::error_code problem;
-  if (const auto found = folder_near(fs::read_symlink("/proc/self/exe", problem), name)) return *found;
+  // A library comes first: the program that loads it, such as Python, may belong to another installation. For a
+  // program's own code dladdr has the name that it was started by, which is no path when it came from PATH.
   Dl_info library{};
-  if (dladdr(reinterpret_cast<const void*>(&installed_folder), &library) == 0 || library.dli_fname == nullptr)
-    return {};
-  return folder_near(library.dli_fname, name).value_or(fs::path());
+  if (dladdr(reinterpret_cast<const void*>(&installed_folder), &library) != 0 && library.dli_fname != nullptr &&
+      fs::path(library.dli_fname).is_absolute())
+    if (auto found = folder_near(library.dli_fname, name)) return *std::move(found);
+  std::error_code problem;
+  return folder_near(fs::read_symlink("/proc/self/exe", problem), name).value_or(fs::path());
 }
 
 std::string installed_file(const std::string& name, const fs::path& folder) {

@@ -14,9 +14,9 @@
 
 namespace yars::file {
 
-// Folder PREFIX/share/yars/NAME of the installation that this code belongs to; empty: there is none. PREFIX is a
-// parent of the folder of the running program or, in a program of somebody else, of the shared library that holds this
-// code. So an installation can be moved. A build folder has the same form.
+// Folder PREFIX/share/yars/NAME of the installation that this code belongs to; empty: there is none. PREFIX is the
+// folder, or one of its two parents, of the shared library that holds this code, else of the running program. So an
+// installation can be moved. A build folder has the same form, and so has a Python package of a wheel.
 std::filesystem::path installed_folder(std::string_view name = "config");
 
 // Path of an installed file. A file in the current folder takes precedence. Else a name without a slash is searched in

@@ -90,7 +90,7 @@ class FolderWalk {
                     "check the folder above it");
       opened = Descriptor(::openat(current_.number(), step.c_str(), kOpen));
     }
-    struct stat status {};
+    struct stat status{};
     if (!opened || ::fstat(opened.number(), &status) != 0)
       return fail(step_path.string(), "a folder", error::reason_of(errno), "make it, or check the path");
     if (S_ISLNK(status.st_mode)) return follow(step_path, opened, status.st_uid);
@@ -139,7 +139,7 @@ Expected<Folder> Folder::make(const std::filesystem::path& path, Rights rights) 
 Expected<Folder> Folder::make_private(const std::filesystem::path& path) {
   auto folder = make(path, Rights::user_alone);
   if (!folder) return folder;
-  struct stat status {};
+  struct stat status{};
   if (::fstat(folder->descriptor(), &status) != 0)
     return fail(path.string(), "a folder", error::reason_of(errno), "make it, or check the path");
   if (status.st_uid != ::geteuid() && status.st_uid != 0 && ::geteuid() != 0)
@@ -159,14 +159,14 @@ namespace {
 
 // True if the descriptor has the file of this status open.
 bool is_open_file(int descriptor, const struct stat& there) {
-  struct stat here {};
+  struct stat here{};
   return ::fstat(descriptor, &here) == 0 && here.st_dev == there.st_dev && here.st_ino == there.st_ino;
 }
 
 }  // namespace
 
 bool Folder::is_at_path() const {
-  struct stat there {};
+  struct stat there{};
   return ::stat(path_.empty() ? "." : path_.c_str(), &there) == 0 && is_open_file(descriptor(), there);
 }
 
@@ -176,7 +176,7 @@ bool Folder::has_at_path(const std::string& name, int open_file) const {
 }
 
 std::optional<struct stat> Folder::status_of(const std::string& name) const {
-  struct stat status {};
+  struct stat status{};
   if (::fstatat(descriptor(), name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0) return std::nullopt;
   return status;
 }

@@ -38,7 +38,7 @@ std::string random_name() {
 
 // Mode of the file that a symbolic link points to; nullopt if the link is dangling.
 std::optional<mode_t> mode_of_link_target(const Folder& folder, const std::string& name) {
-  struct stat status {};
+  struct stat status{};
   if (::fstatat(folder.descriptor(), name.c_str(), &status, 0) != 0) return std::nullopt;
   return status.st_mode;
 }
@@ -271,7 +271,7 @@ Expected<void> LogFile::open_newest() {
     if (const auto found = unsuitable_log(*entry)) return fail(shown, "a log file of this user", *found, kAdvice);
   newest_ = Descriptor(::openat(folder_.descriptor(), name.c_str(),
                                 O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0600));
-  struct stat status {};
+  struct stat status{};
   if (!newest_ || ::fstat(newest_.number(), &status) != 0)
     return fail(shown, "a log file that can be written", error::reason_of(errno, "no folder for it"),
                 "check the folder and its rights");

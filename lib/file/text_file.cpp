@@ -27,7 +27,7 @@ constexpr std::ptrdiff_t kMaxLines = 10'000'000;
 
 std::optional<std::string> read_regular_file(const std::filesystem::path& path, std::size_t max_bytes) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC));
-  struct stat status {};
+  struct stat status{};
   if (!file || ::fstat(file.number(), &status) != 0) return std::nullopt;
   if (!S_ISREG(status.st_mode)) {
     errno = EINVAL;

@@ -65,7 +65,7 @@ struct MapGeometry {
 struct SyntheticArray {
   // Converts from a configuration with the sections receiver, antenna and high_resolution, such as RadarConfiguration.
   template <class Configuration>
-  requires requires(const Configuration& whole) { whole.high_resolution; }
+    requires requires(const Configuration& whole) { whole.high_resolution; }
   SyntheticArray(const Configuration& whole)
       : frequency_ghz(whole.receiver.frequency_ghz),
         azimuth_beamwidth_deg(whole.antenna.azimuth_beamwidth_deg),
@@ -125,7 +125,7 @@ struct MapLimits {
   // Converts from a configuration with the sections antenna, high_resolution and window_limits, such as
   // RadarConfiguration.
   template <class Configuration>
-  requires requires(const Configuration& whole) { whole.window_limits; }
+    requires requires(const Configuration& whole) { whole.window_limits; }
   MapLimits(const Configuration& whole)
       : antenna(whole.antenna), blind_zone_deg(whole.high_resolution.blind_zone_deg), windows(whole.window_limits) {}
 

@@ -65,7 +65,7 @@ struct Triangle {
 // Interpolates one coordinate (row or height) along the edges of a triangle, as a function of the column.
 class Edges {
  public:
-  HWY_INLINE Edges(const Triangle& triangle, Floats Corner::*coordinate)
+  HWY_INLINE Edges(const Triangle& triangle, Floats Corner::* coordinate)
       : triangle_(triangle),
         coordinate_(coordinate),
         long_slope_(slope(triangle.left, triangle.right)),
@@ -91,7 +91,7 @@ class Edges {
   }
 
   const Triangle& triangle_;
-  Floats Corner::*coordinate_;
+  Floats Corner::* coordinate_;
   Floats long_slope_, left_slope_, right_slope_;
 };
 

@@ -29,7 +29,7 @@ namespace yars::model::kernel {
 struct DopplerParameters {
   // Converts from a structure with these sections, such as radar::RadarConfiguration.
   template <class Configuration>
-  requires requires(const Configuration& whole) { whole.navigation; }
+    requires requires(const Configuration& whole) { whole.navigation; }
   DopplerParameters(const Configuration& whole)
       : scan_widths_deg(whole.scan_widths_deg),
         antenna(whole.antenna),

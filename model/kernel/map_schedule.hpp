@@ -38,7 +38,7 @@ struct PendingMap {
 struct MapParameters {
   // Converts from a structure with these sections, such as radar::RadarConfiguration.
   template <class Configuration>
-  requires requires(const Configuration& whole) { whole.window_limits; }
+    requires requires(const Configuration& whole) { whole.window_limits; }
   MapParameters(const Configuration& whole) : looks(whole.high_resolution.looks), array(whole), limits(whole) {}
 
   const std::vector<double>& looks;  // number of averaged looks: first ML1, last ML2

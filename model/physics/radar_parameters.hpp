@@ -25,7 +25,7 @@ namespace yars::model::physics {
 struct GeometryParameters {
   // Converts from radar::Fidelity.
   template <class Fidelity>
-  requires requires(const Fidelity& fidelity) { fidelity.posts_per_sample; }
+    requires requires(const Fidelity& fidelity) { fidelity.posts_per_sample; }
   GeometryParameters(const Fidelity& fidelity)
       : earth(fidelity.earth),
         earth_radius_factor(fidelity.earth_radius_factor),
@@ -41,7 +41,7 @@ struct GeometryParameters {
 // Parameters of one radar. Keeps references to the configuration that is passed to the constructor.
 struct RadarParameters {
   template <class Configuration>
-  requires requires(const Configuration& whole) { whole.high_resolution.looks; }
+    requires requires(const Configuration& whole) { whole.high_resolution.looks; }
   RadarParameters(const Configuration& whole)
       : ranges_nm(whole.ranges_nm),
         pulse_us(whole.pulse_us),

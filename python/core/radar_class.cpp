@@ -7,6 +7,7 @@
 
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
+#include "lib/file/file_search.hpp"
 #include "lib/parallel/thread_pool.hpp"
 #include "tools/command/command.hpp"
 #include "tools/patch/patch_setup.hpp"
@@ -158,6 +159,9 @@ std::string Radar::text() const {
 }
 
 void add_radar(py::module_& module) {
+  module.def(
+      "installed_file", [](const std::string& name) { return py::bytes(file::installed_file(name)); }, py::arg("name"),
+      "Path of a file that came with YARS and is named without a folder; any other path as it is given.");
   py::class_<Radar> type(module, "Radar");
   type.def("scan", &Radar::scan, py::arg("terrain").none(false), py::arg("scene").none(true), py::arg("words"))
       .def("patch", &Radar::patch, py::arg("terrain").none(false), py::arg("scene").none(true), py::arg("words"))

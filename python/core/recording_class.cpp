@@ -302,17 +302,10 @@ void add_recording(py::module_& module) {
       .def_property_readonly("first_tick", &Recording::first_tick)
       .def_property_readonly("last_tick", &Recording::last_tick)
       .def_property_readonly("cut_short", &Recording::cut_short)
-      .def("records",
-           [](Recording& self, const std::string& kind, Tick first, Tick last) {
-             return self.records(kind, {first, last});
-           })
-      .def("sweeps",
-           [](Recording& self, Tick first, Tick last) {
-             return self.sweeps({first, last});
-           })
-      .def("maps", [](Recording& self, Tick first, Tick last) {
-        return self.maps({first, last});
-      });
+      .def("records", [](Recording& self, const std::string& kind, Tick first,
+                         Tick last) { return self.records(kind, {first, last}); })
+      .def("sweeps", [](Recording& self, Tick first, Tick last) { return self.sweeps({first, last}); })
+      .def("maps", [](Recording& self, Tick first, Tick last) { return self.maps({first, last}); });
   seal(recording);
   module.def("open_recording", [](const std::string& path) { return std::make_unique<Recording>(path); });
   module.def("units_of", &Recording::units, py::arg("kind"));

@@ -240,7 +240,7 @@ class Radar(Held):
     """A radar: a configuration, and the pictures that it gives over a terrain.
 
     preset: 1996, draft, standard, fine or reference; None: that of the file, else standard.
-    config: a GUF file; None: the built-in APG-70. settings: GUF text with forms that go before those of the file, such
+    config: a GUF file, or the name of one that came with YARS, such as apg68.guf; None: the built-in APG-70. settings: GUF text with forms that go before those of the file, such
     as "( Sea :state 3 )". knobs: slots of the form Fidelity in lower case, such as samples=480, map_size=256,
     sub_beams=8. Errors: ValueError for a wrong value or name, yars.Error for the file. A Radar can be pickled.
 
@@ -260,7 +260,8 @@ class Radar(Held):
         if preset == "":
             raise ValueError(f"{where}: preset: expected {presets}, found an empty text")
         if config is not None:
-            config = absolute(path(f"{where}: config", config, "a path (str, bytes or os.PathLike) of a GUF file, or None"))
+            config = path(f"{where}: config", config, "a path (str, bytes or os.PathLike) of a GUF file, or None")
+            config = absolute(_core.installed_file(config))
             _check_text_file(config)
         settings = text(f"{where}: settings", settings, "GUF text, such as '( Sea :state 3 )'")
         for name in knobs:

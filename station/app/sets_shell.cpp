@@ -70,7 +70,7 @@ std::string text_of_seconds(double seconds) {
 // The last line that a process has written, for the page.
 std::string last_line(const file::Descriptor& log) {
   constexpr off_t kMostBytes = 1000;
-  struct stat status {};
+  struct stat status{};
   if (::fstat(log.number(), &status) != 0) return {};
   const off_t begin = std::max<off_t>(0, status.st_size - kMostBytes);
   std::string text(static_cast<std::size_t>(status.st_size - begin), '\0');

@@ -1,8 +1,7 @@
 // Visit, a template over the stream of a connection: it answers requests until the connection becomes a page or ends.
-// Plain and TLS streams have a source each, and Page (page-inl.hpp) two others: together they take two gigabytes to compile.
-// Inputs: requests. Outputs: answers with a status, and headers that keep a browser from doing more than it should.
-// Errors: see answer_of().
-// Threads: that of the server.
+// Plain and TLS streams have a source each, and Page (page-inl.hpp) two others: together they take two gigabytes to
+// compile. Inputs: requests. Outputs: answers with a status, and headers that keep a browser from doing more than it
+// should. Errors: see answer_of(). Threads: that of the server.
 #pragma once
 
 #include <boost/beast/core.hpp>

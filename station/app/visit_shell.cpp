@@ -65,9 +65,8 @@ Answer with_cookie(const Site& site, std::string_view path, const std::string& t
 // A tile of the map, later.
 std::optional<Answer> tile_later(Site& site, const MapTile& tile, std::function<void(Answer)> later) {
   const bool taken = site.map.request(tile, [&site, later = std::move(later)](std::shared_ptr<const std::string> png) {
-    boost::asio::post(site.context, [later, png] {
-      later({http::status::ok, *png, "image/png", "default-src 'none'", {}, {}});
-    });
+    boost::asio::post(site.context,
+                      [later, png] { later({http::status::ok, *png, "image/png", "default-src 'none'", {}, {}}); });
   });
   if (taken) return std::nullopt;
   return refusal(http::status::service_unavailable, "too many tiles are waited for");

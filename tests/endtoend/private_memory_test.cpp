@@ -24,7 +24,7 @@ struct Place {
 };
 
 Place place_of(const char* path) {
-  struct stat status {};
+  struct stat status{};
   return stat(path, &status) == 0 ? Place{status.st_dev, status.st_ino} : Place{};
 }
 

@@ -65,11 +65,11 @@ TEST_F(Supervision, OnlyTheOwnerMayReadTheLogFolder) {
   for (const auto* role : {"state-machine", "radar-model", "flight-model", "radar-display"}) {
     const auto log = logs_ / (std::string(role) + ".log");
     EXPECT_THAT(text_of_file(log), HasSubstr("info: ")) << log;
-    struct stat file {};
+    struct stat file{};
     ASSERT_EQ(stat(log.c_str(), &file), 0) << log;
     EXPECT_EQ(file.st_mode & 0777, 0600u) << log;
   }
-  struct stat folder {};
+  struct stat folder{};
   ASSERT_EQ(stat(logs_.c_str(), &folder), 0);
   EXPECT_EQ(folder.st_mode & 0777, 0700u);
   EXPECT_THAT(set_.output_of("start"), HasSubstr("Logs are in " + logs_.string()));

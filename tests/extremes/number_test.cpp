@@ -43,7 +43,7 @@ constexpr double kNonFinite[] = {kNan, -kNan, kInfinity, -kInfinity};
 template <class Record>
 struct Field {
   const char* name;
-  double Record::*position;
+  double Record::* position;
   bool may_be_missing = false;  // NaN is valid and means "no value"
 };
 
@@ -126,7 +126,7 @@ TEST(ExtremeNumbers, NanAndInfinityInAnyFieldAreRefusedWithTheFieldsName) {
 TEST(ExtremeNumbers, NanAndInfinityInANumberThatAnEventUsesAreRefused) {
   struct Row {
     databuffer::EventKind kind;
-    double InputEvent::*position;
+    double InputEvent::* position;
   };
   for (const Row row :
        {Row{databuffer::EventKind::tdc, &InputEvent::x}, Row{databuffer::EventKind::tdc, &InputEvent::y},

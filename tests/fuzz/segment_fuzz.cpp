@@ -51,7 +51,7 @@ class PlantedFile {
     YARS_REQUIRE(ftruncate(descriptor_, static_cast<off_t>(bytes)), ==, 0);
     const std::size_t length = std::min(front.size(), bytes);
     YARS_REQUIRE(pwrite(descriptor_, front.data(), length, 0), ==, static_cast<ssize_t>(length));
-    struct flock lock {};
+    struct flock lock{};
     lock.l_type = F_RDLCK;
     lock.l_whence = SEEK_SET;
     lock.l_len = 1;

@@ -54,7 +54,7 @@ class SecureFolder : public testing::Test {
   }
   // Permission bits of a path; a link is not followed.
   static unsigned mode_of(const std::filesystem::path& path) {
-    struct stat status {};
+    struct stat status{};
     return lstat(path.c_str(), &status) == 0 ? status.st_mode & 07777U : 0U;
   }
   static std::string content_of(const std::filesystem::path& path) {

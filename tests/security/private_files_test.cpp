@@ -63,10 +63,10 @@ TEST_F(PrivateFiles, ARecordingIntoAPipeThatNobodyReadsIsRefusedAtOnce) {
 }
 
 TEST_F(PrivateFiles, ADeviceUnderARecordingsNameKeepsItsMode) {
-  struct stat before {};
+  struct stat before{};
   ASSERT_EQ(stat("/dev/null", &before), 0);
   EXPECT_TRUE(RecordingWriter::create("/dev/null", {}));
-  struct stat after {};
+  struct stat after{};
   ASSERT_EQ(stat("/dev/null", &after), 0);
   EXPECT_EQ(after.st_mode, before.st_mode);
 }

@@ -84,7 +84,9 @@ TEST_F(SegmentName, ASegmentWithoutParticipantsIsNotJoinedThoughAReaderHasItMapp
   const auto reader = Segment::open_read_only(name_, kLayout);
   ASSERT_TRUE(reader);
   remove_name();
-  { const Segment leaving = std::move(*owner); }
+  {
+    const Segment leaving = std::move(*owner);
+  }
   ASSERT_EQ(nameless_files(test::segment_path(name_)).size(), 1u) << "the reader's file";
   auto next = open();
   ASSERT_TRUE(next);

@@ -65,7 +65,7 @@ TEST_F(SegmentTest, AFileWithoutASegmentIsRefusedWhileItIsLocked) {
   std::ofstream(path) << std::string(4096, 'x');
   ASSERT_EQ(chmod(path.c_str(), 0600), 0);
   const int descriptor = ::open(path.c_str(), O_RDWR | O_CLOEXEC);
-  struct flock lock {};
+  struct flock lock{};
   lock.l_type = F_RDLCK;
   lock.l_len = 1;
   ASSERT_EQ(fcntl(descriptor, F_OFD_SETLK, &lock), 0);

@@ -26,7 +26,7 @@ using testing::SharedMemory;
 using testing::wait_until;
 
 ino_t inode_at(const std::string& path) {
-  struct stat status {};
+  struct stat status{};
   return stat(path.c_str(), &status) == 0 ? status.st_ino : 0;
 }
 
@@ -40,16 +40,20 @@ TEST_F(SegmentTest, TheFirstCreatesOthersJoinAndTheLastUnlinks) {
   EXPECT_EQ(mark_in(second->memory()), kMark);
   mark_in(first->memory()) = 5;
   EXPECT_EQ(mark_in(second->memory()), 5u);
-  { const Segment leaving = std::move(*first); }
+  {
+    const Segment leaving = std::move(*first);
+  }
   EXPECT_EQ(files_of(name_).size(), 1u);
-  { const Segment leaving = std::move(*second); }
+  {
+    const Segment leaving = std::move(*second);
+  }
   EXPECT_TRUE(files_of(name_).empty());
 }
 
 TEST_F(SegmentTest, TheFileHasMode0600AndAllocatedMemory) {
   auto segment = open();
   ASSERT_TRUE(segment);
-  struct stat status {};
+  struct stat status{};
   ASSERT_EQ(stat(test::segment_path(name_).c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0600u);
   EXPECT_EQ(static_cast<std::uint64_t>(status.st_size), kLayout.size);

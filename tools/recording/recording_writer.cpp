@@ -31,7 +31,7 @@ error::Expected<file::NewFile> create_file(const std::shared_ptr<const file::Fol
 
 // Lock of the whole file that its writer holds until it closes the file.
 struct flock writer_lock() {
-  struct flock lock {};
+  struct flock lock{};
   lock.l_type = F_WRLCK;
   lock.l_whence = SEEK_SET;
   return lock;
@@ -42,7 +42,7 @@ constexpr off_t kMinFree_bytes = 1 << 20;  // free space required to resume, so 
 // Checks for kMinFree_bytes of free space after offset `at`, which must be the end of the file. Returns 0, or the errno
 // of the failure. Always returns 0 for a device.
 int check_free_space(int descriptor, std::uint64_t at) {
-  struct stat status {};
+  struct stat status{};
   if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return 0;
   const int problem = posix_fallocate(descriptor, static_cast<off_t>(at), kMinFree_bytes);
   const bool restored = ftruncate(descriptor, static_cast<off_t>(at)) == 0;

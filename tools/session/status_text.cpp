@@ -23,8 +23,7 @@ constexpr std::size_t kNotesShown = 10;  // the newest notes that the text shows
 // Text that other programs wrote, without characters that could control the terminal.
 std::string text(const ordered_json& value) {
   std::string words = value.get<std::string>();
-  std::replace_if(
-      words.begin(), words.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+  std::replace_if(words.begin(), words.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
   return words;
 }
 

@@ -31,7 +31,7 @@ struct Knob {
   bool of_scan, of_map;  // affects scans, affects patch maps
 };
 
-Setter whole_number(int Fidelity::*slot, int min, int max) {
+Setter whole_number(int Fidelity::* slot, int min, int max) {
   return [=](Fidelity& fidelity, std::string_view text) {
     const auto value = text::whole_number<int>(text);
     if (!value || *value < min || *value > max) return false;
@@ -40,7 +40,7 @@ Setter whole_number(int Fidelity::*slot, int min, int max) {
   };
 }
 
-Setter flag(bool Fidelity::*slot) {
+Setter flag(bool Fidelity::* slot) {
   return [=](Fidelity& fidelity, std::string_view text) {
     if (text != "true" && text != "false") return false;
     fidelity.*slot = text == "true";
@@ -49,7 +49,7 @@ Setter flag(bool Fidelity::*slot) {
 }
 
 template <class Choice>
-Setter choice(Choice Fidelity::*slot, std::array<std::string_view, 3> names) {
+Setter choice(Choice Fidelity::* slot, std::array<std::string_view, 3> names) {
   return [=](Fidelity& fidelity, std::string_view text) {
     const auto found = std::find(names.begin(), names.end(), text);
     if (found == names.end()) return false;

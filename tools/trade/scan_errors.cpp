@@ -99,8 +99,7 @@ double position_error_m(const RadarConfiguration& configuration, const OfflineSc
     const auto earth = model::physics::effective_earth(configuration.fidelity, geometry.apex, geometry.azimuth);
     model::physics::sample_distances(configuration.fidelity, earth, geometry, terrain, exact_m);
     // Samples without ground at their slant range get ground range 0.
-    std::replace_if(
-        exact_m.begin(), exact_m.end(), [](double value) { return std::isnan(value); }, 0.0);
+    std::replace_if(exact_m.begin(), exact_m.end(), [](double value) { return std::isnan(value); }, 0.0);
     std::vector<float> distance_m(exact_m.begin(), exact_m.end());
     distance_m.resize(distance_m.size() + model::terrain::kRunSlack, 0.0F);
     model::physics::sample_positions(geometry.apex, geometry.azimuth, geometry.range,

@@ -82,9 +82,8 @@ class AirfieldScene {
 
   void slab(const std::string& name, const SurfaceKind& kind, double x0, double x1, double y0, double y1,
             double z = kPaved_m) {
-    builder_.object(name, kind, [&](MeshBuilder& s) {
-      s.polygon({{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}});
-    });
+    builder_.object(name, kind,
+                    [&](MeshBuilder& s) { s.polygon({{x0, y0, z}, {x1, y0, z}, {x1, y1, z}, {x0, y1, z}}); });
   }
 
   void pave() {
@@ -224,9 +223,8 @@ class AirfieldScene {
   void embankments() {
     for (int part = 0; part < 8; ++part) {
       const double x = -1200 + 300 * part;
-      builder_.object("embankment", surface::kEarth, [&](MeshBuilder& s) {
-        s.bank({x, 260, 0}, {x + 290, 260, 0}, 16, 3, 5);
-      });
+      builder_.object("embankment", surface::kEarth,
+                      [&](MeshBuilder& s) { s.bank({x, 260, 0}, {x + 290, 260, 0}, 16, 3, 5); });
     }
   }
 

@@ -87,9 +87,8 @@ class HarbourScene {
   }
 
   void quays() {
-    builder_.object("quay", surface::kStone, [](MeshBuilder& s) {
-      s.box({0, -kQuayWidth_m / 2, 0}, kQuayLength_m, kQuayWidth_m, kQuayTop_m);
-    });
+    builder_.object("quay", surface::kStone,
+                    [](MeshBuilder& s) { s.box({0, -kQuayWidth_m / 2, 0}, kQuayLength_m, kQuayWidth_m, kQuayTop_m); });
     for (const double x : {-700.0, 700.0})
       builder_.object("pier", surface::kConcrete, [x](MeshBuilder& s) { s.box({x, -60, 0}, 24, 320, kQuayTop_m); });
     builder_.object("yard", surface::kAsphalt, [](MeshBuilder& s) {

@@ -81,8 +81,7 @@ struct CloseZipEntry {
 using ZipArchive = std::unique_ptr<zip_t, DiscardZip>;
 
 std::string printable(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, '?');
+  std::replace_if(text.begin(), text.end(), [](unsigned char letter) { return std::iscntrl(letter) != 0; }, '?');
   return text;
 }
 

@@ -4,13 +4,12 @@ docs/spec/pilots_interface.md#rule-2, #rule-3 and #rule-4."""
 import dataclasses
 import functools
 import math
-import os
 import pathlib
 import re
-import shutil
 import subprocess
 import tempfile
 
+from .. import programs
 from . import DatasetError, SpecError
 from .distributions import Choice, Fixed
 
@@ -39,14 +38,8 @@ class Limits:
 
 
 def command():
-    """The program `yars`: of $YARS_BIN, beside the package in a build tree, or of the path."""
-    here = pathlib.Path(__file__).absolute()  # in a build tree a link, which is not followed
-    places = [os.environ.get("YARS_BIN"), *(str(folder / "bin") for folder in here.parents[2:5])]
-    for place in filter(None, places):
-        path = pathlib.Path(place) / "yars"
-        if path.is_file() and os.access(path, os.X_OK):
-            return str(path)
-    found = shutil.which("yars")
+    """The program `yars`."""
+    found = programs.path_of("yars")
     if not found:
         raise DatasetError("expected the command yars, found none; install the package yars, or set YARS_BIN to the folder "
                            "of the programs")

@@ -39,9 +39,8 @@ static_assert(YARS_FIRST_PROCESS_BYTE == kFirstProcessByte && YARS_PROCESSES == 
 
 template <class Record>
 constexpr bool kValueMatches =
-    shm::LatestValue<Record>::state_offset() == 0 &&
-    shm::LatestValue<Record>::slots_offset() == YARS_LINE&& shm::LatestValue<Record>::slot_stride() ==
-        YARS_SLOT_STRIDE(sizeof(Record)) &&
+    shm::LatestValue<Record>::state_offset() == 0 && shm::LatestValue<Record>::slots_offset() == YARS_LINE &&
+    shm::LatestValue<Record>::slot_stride() == YARS_SLOT_STRIDE(sizeof(Record)) &&
     shm::LatestValue<Record>::kSlots == YARS_SLOTS &&
     sizeof(shm::LatestValue<Record>) == YARS_VALUE_SIZE(sizeof(Record));
 static_assert(kValueMatches<ClockState> && kValueMatches<Ownship> && kValueMatches<Nav>);

@@ -70,14 +70,14 @@ InputEvent event_of(EventKind kind, int argument, double x = 0.0, double y = 0.0
 }
 
 template <class Record>
-bool accepts(Record record, double Record::*field, double value) {
+bool accepts(Record record, double Record::* field, double value) {
   record.*field = value;
   return !validate(record);
 }
 
 // Expects that validation accepts both ends of the range, and refuses the next numbers beyond them and infinity.
 template <class Record>
-void expect_range(const Record& good, double Record::*field, double least, double most) {
+void expect_range(const Record& good, double Record::* field, double least, double most) {
   EXPECT_TRUE(accepts(good, field, least)) << least;
   EXPECT_TRUE(accepts(good, field, most)) << most;
   EXPECT_TRUE(accepts(good, field, least + kDenormal));
@@ -88,7 +88,7 @@ void expect_range(const Record& good, double Record::*field, double least, doubl
 }
 
 template <class Record>
-void expect_range_without_nan(const Record& good, double Record::*field, double least, double most) {
+void expect_range_without_nan(const Record& good, double Record::* field, double least, double most) {
   expect_range(good, field, least, most);
   EXPECT_FALSE(accepts(good, field, kNan));
   EXPECT_FALSE(accepts(good, field, -kNan));
@@ -183,7 +183,7 @@ TEST(Validation, WithoutAValidCursorItsPositionMayBeMissing) {
 
 TEST(Validation, EachSwitchIsLimitedToItsPositions) {
   struct Switch {
-    std::uint8_t RadarState::*field;
+    std::uint8_t RadarState::* field;
     int least, most;
   };
   for (const Switch& position :
@@ -406,7 +406,7 @@ ModelTick good_tick() {
 }
 
 // Expects a range of a number of the command in a tick.
-void expect_command_range(double RadarCommand::*field, double least, double most) {
+void expect_command_range(double RadarCommand::* field, double least, double most) {
   const auto is_valid = [field](double value) {
     ModelTick tick = good_tick();
     tick.command.flags = kCursorValid;
@@ -434,7 +434,7 @@ TEST(Validation, ATickIsRefusedForAnyFieldOfItsCommand) {
   tick.command.cursor_latitude_deg = kNan;
   EXPECT_EQ(validate(tick), std::nullopt) << "without kCursorValid";
   struct Switch {
-    std::uint8_t RadarCommand::*field;
+    std::uint8_t RadarCommand::* field;
     int most;
   };
   for (const Switch& position :
@@ -516,8 +516,8 @@ TEST(Validation, PatchMapRangesAreCheckedAndItsNumbersMustBeFinite) {
   expect_range_without_nan(good_map(), &PatchMap::apex_latitude_deg, -90.0, 90.0);
   expect_range_without_nan(good_map(), &PatchMap::apex_longitude_deg, -180.0, 180.0);
   expect_range_without_nan(good_map(), &PatchMap::distance_m, 0.0, 1e6);
-  for (double PatchMap::*field : {&PatchMap::elevation_msl_m, &PatchMap::apex_altitude_msl_m, &PatchMap::squint_deg,
-                                  &PatchMap::resolution_m, &PatchMap::formation_s, &PatchMap::window_nm}) {
+  for (double PatchMap::* field : {&PatchMap::elevation_msl_m, &PatchMap::apex_altitude_msl_m, &PatchMap::squint_deg,
+                                   &PatchMap::resolution_m, &PatchMap::formation_s, &PatchMap::window_nm}) {
     for (const double wrong : {kNan, kInfinity}) {
       PatchMap map = good_map();
       map.*field = wrong;

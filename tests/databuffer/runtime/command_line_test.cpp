@@ -138,7 +138,7 @@ TEST_F(Program, HelpHasKindLimitsAndDefaultOfEachOption) {
             "  --color {green,gray}        colours (default green)\n"
             "  --corner NUMBER x 2         [m] corner (else the origin)\n"
             "  --shade                     shades\n"
-            "  --light NUMBER              [deg] direction of the light (needs --shade; default 45)\n\n");
+            "  --light NUMBER              [deg] direction of the light (needs --shade; default 45)\n");
 }
 
 TEST_F(Program, HelpOfACommandIsTheTextOfItsOption) {

@@ -26,7 +26,7 @@ std::string text_of_file(const std::filesystem::path& path) {
 }
 
 mode_t mode_of(const std::filesystem::path& path) {
-  struct stat status {};
+  struct stat status{};
   return stat(path.c_str(), &status) == 0 ? status.st_mode & 07777 : 0;
 }
 

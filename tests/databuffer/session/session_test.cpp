@@ -336,7 +336,9 @@ TEST_F(SessionTest, TwoSessionsAreIndependent) {
 TEST_F(SessionTest, TheLastProcessToLeaveRemovesTheSegment) {
   {
     const Session first = open();
-    { const Session second = open(); }
+    {
+      const Session second = open();
+    }
     EXPECT_TRUE(file_exists());
   }
   EXPECT_FALSE(file_exists());

@@ -127,8 +127,7 @@ class KeptPicture : public ::testing::Test {
 
   // Flies for this number of sweeps, three to a picture. `lost` is true for the numbers of the sweeps that are lost.
   // Compares every `every`-th picture with a picture drawn from all sweeps.
-  void fly(
-      int sweeps, int every, const std::function<bool(int)>& lost = [](int) { return false; }) {
+  void fly(int sweeps, int every, const std::function<bool(int)>& lost = [](int) { return false; }) {
     for (int i = 0; i < sweeps; ++i) {
       const databuffer::Sweep sweep = flight_.sweep();
       if (!lost(i)) {

@@ -207,8 +207,7 @@ class OddState {
 using ContextState = std::map<std::string, std::vector<double>>;
 
 inline void add_numbers(ContextState& state) {
-#define YARS_STATE(name) \
-  { #name, name }
+#define YARS_STATE(name) {#name, name}
   constexpr std::array<std::pair<const char*, GLenum>, 61> kNames{{
       YARS_STATE(GL_DRAW_FRAMEBUFFER_BINDING),
       YARS_STATE(GL_READ_FRAMEBUFFER_BINDING),

@@ -147,7 +147,9 @@ TEST_F(HostDisplay, DrawsTheSameInAnUnusualStateAndRestoresTheState) {
   expect_unchanged("read_panel");
   radar_display.paint(600);
   radar_display.draw({620, 100, 600, 600});
-  { const Display another = this->radar_display(); }
+  {
+    const Display another = this->radar_display();
+  }
   expect_unchanged("construction and destruction of another display");
   canvas.bind();
   plain_reading();
@@ -332,8 +334,7 @@ TEST_F(HostDisplay, UpdateReadsThePatchMap) {
 // In a live session. A tour that was killed leaves its caption in the segment.
 TEST_F(HostDisplay, ACaptionIsShownWhileItsTourRuns) {
   const auto step = [&] {
-    SessionFeed feed(
-        *session_, false, [](const databuffer::Sweep&) {}, [](const auto&, auto) {});
+    SessionFeed feed(*session_, false, [](const databuffer::Sweep&) {}, [](const auto&, auto) {});
     feed.refresh(0);
     return feed.input().caption.step;
   };

@@ -37,7 +37,7 @@ std::string other_session(const FaultSet&) {
 // Fills /dev/shm with one file.
 void fill_memory() {
   const int file = open(kFiller, O_CREAT | O_WRONLY | O_CLOEXEC, 0600);
-  struct statvfs room {};
+  struct statvfs room{};
   if (statvfs("/dev/shm", &room) == 0)
     posix_fallocate(file, 0, static_cast<off_t>(room.f_bavail) * static_cast<off_t>(room.f_frsize));
   close(file);

@@ -100,7 +100,7 @@ void Watch::run(const std::string& session) {
   }
 }
 
-void Watch::note(std::uint64_t Verdict::*counter, const std::string& what) {
+void Watch::note(std::uint64_t Verdict::* counter, const std::string& what) {
   const std::scoped_lock lock(mutex_);
   ++(verdict_.*counter);
   if (verdict_.first.size() < kMaxFaultsReported) verdict_.first.push_back(what);

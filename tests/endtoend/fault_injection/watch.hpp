@@ -59,7 +59,7 @@ class Watch {
   void check_value(const Value& value, Memory& seen, const char* name, const Judge& judge);
   template <class Record>
   void witness(const Record& record, const char* name);
-  void note(std::uint64_t Verdict::*counter, const std::string& what);
+  void note(std::uint64_t Verdict::* counter, const std::string& what);
   void refuse(const databuffer::Refusal& reason, const char* name);
 
   std::atomic<bool> ending_ = false;

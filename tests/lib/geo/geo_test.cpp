@@ -11,13 +11,9 @@ namespace yars::geo {
 namespace {
 
 template <class Left, class Right>
-concept Addable = requires(Left left, Right right) {
-  left + right;
-};
+concept Addable = requires(Left left, Right right) { left + right; };
 template <class Left, class Right>
-concept Subtractable = requires(Left left, Right right) {
-  left - right;
-};
+concept Subtractable = requires(Left left, Right right) { left - right; };
 
 TEST(Length, OneNauticalMileIs1852Metres) {
   EXPECT_EQ(Length::nautical_miles(1.0).metres(), 1852.0);

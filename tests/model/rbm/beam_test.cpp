@@ -284,10 +284,11 @@ terrain::AnalyticTerrain::Height wall_between(std::vector<std::pair<double, doub
     const geo::GeodesicInverse path = geo::geodesic_inverse(test::kMidLatitude, position);
     const double distance_m = path.distance.metres(),
                  azimuth_deg = geo::wrapped_degrees(path.azimuth_at_start.degrees());
-    const bool wall = distance_m > 5000.0 && distance_m < 5300.0 &&
-                      std::any_of(sectors.begin(), sectors.end(), [&](const auto& sector) {
-                        return azimuth_deg > sector.first && azimuth_deg < sector.second;
-                      });
+    const bool wall =
+        distance_m > 5000.0 && distance_m < 5300.0 &&
+        std::any_of(
+            sectors.begin(), sectors.end(),
+            [&](const auto& sector) { return azimuth_deg > sector.first && azimuth_deg < sector.second; });
     return wall ? 900.0 : 0.0;
   };
 }

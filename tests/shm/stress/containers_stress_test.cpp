@@ -73,7 +73,7 @@ template <class Ring>
 void stress_ring() {
   SharedMemory<Ring> ring;
   using RingRecord = decltype([] {
-    if constexpr (requires(Ring & r, const VaryingRecord& v) { r.publish(v); })
+    if constexpr (requires(Ring& r, const VaryingRecord& v) { r.publish(v); })
       return VaryingRecord{};
     else
       return Record{};

@@ -322,7 +322,7 @@ TEST(Recording, SkipsABlockWhoseHeadDoesNotMatchItsBody) {
     return items;
   };
   EXPECT_GT(items_read_with(head), 0U);
-  for (std::uint32_t BlockHead::*claim : {&BlockHead::items, &BlockHead::raw_bytes})
+  for (std::uint32_t BlockHead::* claim : {&BlockHead::items, &BlockHead::raw_bytes})
     for (const std::uint32_t value : {0U, head.*claim - 1, head.*claim + 1, 0x7fffffU, 0xffffffffU}) {
       BlockHead claimed = head;
       claimed.*claim = value;
