@@ -1,18 +1,23 @@
-// Messages of a page.
-// Inputs: the text of a message, and the right of the page.
+// One page: its WebSocket.
+// Inputs: messages of the page; states, frames and answers for it.
 // Outputs: events of the pilot and commands of the instructor, as far as the page has the right.
-// Errors: a message that is none closes the connection, with a line in the log. A command that cannot be done is
-//   answered with the reason.
+// Errors: a message that is none, and too many messages, close the connection, with a line in the log. A command that
+//   cannot be done is answered with the reason.
 // Threads: that of the server.
 #pragma once
 
+#include <boost/beast/http/empty_body.hpp>
+#include <boost/beast/http/message.hpp>
 #include <memory>
 #include <string>
 
+#include "station/app/connection_shell.hpp"
 #include "station/app/site_shell.hpp"
 #include "station/page_message.hpp"
 
 namespace yars::station {
+
+using Request = boost::beast::http::request<boost::beast::http::empty_body>;
 
 // What a page wants and may do.
 struct PageWish {
@@ -20,8 +25,8 @@ struct PageWish {
   Right right = Right::none;
 };
 
-// Takes a message of a page: events for the session, or a command. Returns false if the connection is to be closed.
-bool take_message(Site& site, SessionFeed& feed, PagePilot& pilot, const std::shared_ptr<OpenPage>& page, Right right,
-                  const std::string& message);
+// Makes a connection whose request was allowed to the WebSocket of a page.
+void begin_page(Site& site, std::shared_ptr<SessionFeed> feed, PageWish wish, Connection connection, Counted counted,
+                Request request);
 
 }  // namespace yars::station

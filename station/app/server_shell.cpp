@@ -107,11 +107,7 @@ void Server::Work::accept() {
     if (!problem && site.connections < kMaxConnections) {
       error_code ignored;
       socket.set_option(tcp::no_delay(true), ignored);
-      PlainStream stream(std::move(socket));
-      if (tls)
-        begin_visit(site, TlsStream(std::move(stream), *tls));
-      else
-        begin_visit(site, std::move(stream));
+      begin_visit(site, tls ? Connection(std::move(socket), *tls) : Connection(std::move(socket)));
     }
     accept();
   });

@@ -1,10 +1,18 @@
 #include "station/app/visit_shell.hpp"
 
 #include <boost/asio/post.hpp>
-#include <boost/beast/http/message.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
 #include <boost/beast/websocket/rfc6455.hpp>
 #include <charconv>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "station/app/page_shell.hpp"
 
@@ -13,6 +21,14 @@ namespace yars::station {
 namespace {
 
 namespace http = boost::beast::http;
+
+struct Answer {
+  boost::beast::http::status status = boost::beast::http::status::ok;
+  std::string body;
+  std::string type = "text/plain; charset=utf-8";
+  std::string policy = "default-src 'none'";
+  std::string cookie, location;  // headers Set-Cookie and Location; empty: none
+};
 
 std::string_view view_of(boost::beast::string_view text) {
   return {text.data(), text.size()};
@@ -72,8 +88,8 @@ std::optional<Answer> tile_later(Site& site, const MapTile& tile, std::function<
   return refusal(http::status::service_unavailable, "too many tiles are waited for");
 }
 
-}  // namespace
-
+// What a request gets. nullopt: it is answered later, by `later`, in the thread of the server.
+// 400: a Host that is not this server's; 401: no token; 403: the page of another server; 404; 405; 503: too many tiles.
 std::optional<Answer> answer_of(Site& site, const Request& request, std::function<void(Answer)> later) {
   if (auto no = foreign(site, request)) return no;
   if (request.method() != http::verb::get && request.method() != http::verb::head)
@@ -101,6 +117,12 @@ std::optional<Answer> answer_of(Site& site, const Request& request, std::functio
   return refusal(http::status::not_found, "expected a page of the station");
 }
 
+// The feed and the rights for a request that wants to become a WebSocket; an answer if it may not.
+struct Upgrade {
+  std::shared_ptr<SessionFeed> feed;
+  PageWish wish;
+  std::optional<Answer> refusal;
+};
 Upgrade upgrade_of(Site& site, const Request& request) {
   Upgrade upgrade;
   const std::string_view path = view_of(request.target());
@@ -120,6 +142,84 @@ Upgrade upgrade_of(Site& site, const Request& request) {
       upgrade.refusal = refusal(http::status::not_found, feed.error().message());
   }
   return upgrade;
+}
+
+// A connection that asks for files and pictures, until it becomes a page or ends.
+class Visit : public std::enable_shared_from_this<Visit> {
+ public:
+  Visit(Site& site, Connection connection)
+      : site_(site), counted_(site.connections), connection_(std::move(connection)) {}
+
+  void begin() {
+    connection_.tcp().expires_after(kRequestTime);
+    connection_.begin([self = shared_from_this()](Problem problem) {
+      if (!problem) self->read();
+    });
+  }
+
+ private:
+  using Problem = boost::system::error_code;
+  static constexpr std::chrono::seconds kRequestTime{15};  // for a request to arrive and its answer to leave
+  static constexpr std::uint32_t kMaxHeaderBytes = 8192;
+
+  void read() {
+    parser_.emplace();
+    parser_->header_limit(kMaxHeaderBytes);
+    parser_->body_limit(0);
+    connection_.tcp().expires_after(kRequestTime);
+    http::async_read(connection_, buffer_, *parser_, [self = shared_from_this()](Problem problem, std::size_t) {
+      if (!problem) self->take(self->parser_->release());
+    });
+  }
+
+  void take(Request request) {
+    const bool head = request.method() == boost::beast::http::verb::head;
+    const bool keep = request.keep_alive();
+    const unsigned version = request.version();
+    if (boost::beast::websocket::is_upgrade(request)) {
+      Upgrade upgrade = upgrade_of(site_, request);
+      if (upgrade.refusal) return send(*upgrade.refusal, version, keep, head);
+      return begin_page(site_, std::move(upgrade.feed), upgrade.wish, std::move(connection_), std::move(counted_),
+                        std::move(request));
+    }
+    auto later = [self = shared_from_this(), version, keep, head](Answer answer) {
+      self->send(std::move(answer), version, keep, head);
+    };
+    if (auto answer = answer_of(site_, request, later)) send(std::move(*answer), version, keep, head);
+  }
+
+  void send(Answer given, unsigned version, bool keep_alive, bool head) {
+    auto answer = std::make_shared<http::response<http::string_body>>(given.status, version);
+    answer->set(http::field::content_type, given.type);
+    answer->set("Content-Security-Policy", given.policy);
+    answer->set("X-Content-Type-Options", "nosniff");
+    answer->set("Referrer-Policy", "no-referrer");
+    answer->set("Cross-Origin-Resource-Policy", "same-origin");
+    answer->set(http::field::cache_control, given.type == "image/png" ? "private, max-age=3600" : "no-cache");
+    if (!given.cookie.empty()) answer->set(http::field::set_cookie, given.cookie);
+    if (!given.location.empty()) answer->set(http::field::location, given.location);
+    answer->keep_alive(keep_alive);
+    answer->body() = std::move(given.body);
+    answer->prepare_payload();
+    if (head) answer->body().clear();
+    http::async_write(connection_, *answer, [self = shared_from_this(), answer](Problem problem, std::size_t) {
+      if (!problem && answer->keep_alive()) return self->read();
+      Problem ignored;
+      self->connection_.tcp().socket().shutdown(boost::asio::ip::tcp::socket::shutdown_send, ignored);
+    });
+  }
+
+  Site& site_;
+  Counted counted_;
+  Connection connection_;
+  boost::beast::flat_buffer buffer_{kMaxHeaderBytes + kMaxMessageBytes};
+  std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
+};
+
+}  // namespace
+
+void begin_visit(Site& site, Connection connection) {
+  std::make_shared<Visit>(site, std::move(connection))->begin();
 }
 
 }  // namespace yars::station
