@@ -107,7 +107,7 @@ function(yars_test folder)
     list(APPEND properties ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
   endif()
   if(ARG_LOCK)
-    list(APPEND properties RESOURCE_LOCK ${ARG_LOCK})
+    list(APPEND properties RESOURCE_LOCK ${ARG_LOCK} COST 1000)  # they begin first: one after the other they take longest
   endif()
   # One run of the program, or of each suite: a process for each of three thousand tests takes longer than what they test.
   set(runs)

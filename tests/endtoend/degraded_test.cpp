@@ -2,6 +2,8 @@
 #include <sys/stat.h>
 
 #include <chrono>
+#include <fstream>
+#include <iterator>
 #include <thread>
 
 #include "databuffer/session/session.hpp"
@@ -15,9 +17,22 @@ using ::testing::Not;
 
 class Degraded : public Supervision {
  protected:
+  // Kills all roles at one moment: the supervisor, which stands meanwhile, finds all of them dead, and the session is
+  // free.
   void kill_all() {
     const auto watch = set_.watch();
+    ::kill(set_.pid("start"), SIGSTOP);
     for (const auto& process : watch["processes"]) ::kill(process["pid"].get<int>(), SIGKILL);
+    for (const auto& process : watch["processes"])
+      EXPECT_TRUE(eventually([&] { return has_ended(process["pid"].get<int>()); }, kTimeout_s));
+    ::kill(set_.pid("start"), SIGCONT);
+  }
+  // True for a zombie, too, which has given back its locks.
+  static bool has_ended(int pid) {
+    std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
+    std::string text{std::istreambuf_iterator<char>(file), {}};
+    const std::size_t name_end = text.rfind(')');
+    return name_end == std::string::npos || text.substr(name_end, 3) == ") Z";
   }
   bool is_on_and_scans() {
     const auto first = set_.watch();
