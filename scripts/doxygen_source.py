@@ -76,9 +76,11 @@ def document(path):
     """Text of a Markdown file with Doxygen's commands for diagrams, labels and links."""
     def heading(match):
         anchor = slug(match[1])
-        if anchor in anchors:  # its own, or that of an earlier heading of the same words
+        if anchor in anchors:  # its own
             return match[0]
-        anchors.add(anchor)
+        earlier = headings.count(anchor)  # of the same words: Markdown viewers number them
+        headings.append(anchor)
+        anchor = f"{anchor}-{earlier}" if earlier else anchor
         return f"{match[0]} {{#{label(path, anchor)}}}"
 
     def target_of(link):
@@ -96,7 +98,7 @@ def document(path):
         return f"<code>{escaped(match[1])}</code>" if re.search(r"[\\']", match[1]) else match[0]
 
     text = path.read_text(encoding="utf-8")
-    anchors = set(re.findall(ANCHOR, text))
+    anchors, headings = set(re.findall(ANCHOR, text)), []
     for picture in re.findall(r"!\[[^\]]*\]\(([^)]+)\)", text):
         if not (path.parent / picture).is_file():
             sys.exit(f"{path}: expected the picture {picture}, found none; check the path")
