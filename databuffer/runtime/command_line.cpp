@@ -242,8 +242,23 @@ void CommandLine::before_callbacks(const std::function<void()>& call) {
   app_->parse_complete_callback(call);
 }
 
+namespace {
+
+constexpr const char* kHelpCommand = "help";
+
+bool is_help_command(const CLI::App* command) {
+  return command->get_name() == kHelpCommand;
+}
+
+// `path`: the command with those above it, as in "yars terrain info".
+void print_help(const CLI::App& command, const std::string& path) {
+  std::fputs(command.get_formatter()->make_help(&command, path, CLI::AppFormatMode::Normal).c_str(), stdout);
+}
+
+}  // namespace
+
 void CommandLine::add_help_command() {
-  Command help = subcommand("help", "print the help of a command");
+  Command help = subcommand(kHelpCommand, "print the help of a command");
   help.option("COMMAND", help_words_, "command, as in " + name_ + " help terrain info")
       .value_name("COMMAND")
       .otherwise("all commands");
@@ -254,11 +269,7 @@ void CommandLine::add_help_command() {
       path += (path.empty() ? "" : " ") + command->get_name();
       command = command_below(*command, word);
     }
-    std::fputs(
-        command->get_formatter()
-            ->make_help(command, (path.empty() ? "" : path + " ") + command->get_name(), CLI::AppFormatMode::Normal)
-            .c_str(),
-        stdout);
+    print_help(*command, (path.empty() ? "" : path + " ") + command->get_name());
   });
 }
 
@@ -294,13 +305,17 @@ std::optional<std::string> use_user_file(CLI::App& app) {
 
 bool asks_for_help(const std::vector<std::string>& words) {
   const auto asks = [](const std::string& word) { return word == "--help" || word == "-h" || word == "--version"; };
-  return std::ranges::any_of(words, asks) || (!words.empty() && words.front() == "help");
+  return std::ranges::any_of(words, asks) || (!words.empty() && words.front() == kHelpCommand);
 }
 
 }  // namespace
 
 std::optional<int> CommandLine::parse(int argc, char** argv) {
   const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (words.empty() && !app_->get_subcommands(is_help_command).empty()) {
+    print_help(*app_, name_);
+    return 0;
+  }
   // The fault waits: help does not depend on the file.
   if (const auto fault = use_user_file(*app_); fault && !asks_for_help(words)) {
     print_failure(name_, *fault);

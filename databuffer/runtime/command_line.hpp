@@ -88,7 +88,8 @@ class CommandLine : public Command {
   void version(const std::string& text);
   // Accepts the options of this command also after a subcommand.
   void accept_options_after_subcommands();
-  // Adds the subcommand `help COMMAND...`, which prints the help of a command.
+  // Adds the subcommand `help COMMAND...`, which prints the help of a command. Without any word, parse() then prints
+  // the help of the program with exit code 0.
   void add_help_command();
   // Sets a function that parse() calls after parsing and before the callbacks of subcommands.
   void before_callbacks(const std::function<void()>& call);

@@ -198,15 +198,17 @@ error::Expected<void> run_headless(databuffer::Session& session, const radar::Ra
 }
 
 struct WindowSize {
-  int picture = 0;  // [pixels] edge
+  std::optional<int> picture;  // [pixels] edge; nullopt: by the screen's height
   bool bezel = true;
 };
 
 error::Expected<void> run_window(databuffer::Session& session, const radar::RadarConfiguration& configuration,
                                  const databuffer::ProgramOptions& options, const WindowSize& size,
                                  std::optional<display::FramePublisher> publisher) {
-  auto window = display::gl::open_window("YARS " + configuration.name + " - " + options.session + "  (? for help)",
-                                         display::panel_edge(size.picture, size.bezel));
+  std::optional<int> edge;
+  if (size.picture) edge = display::panel_edge(*size.picture, size.bezel);
+  auto window =
+      display::gl::open_window("YARS " + configuration.name + " - " + options.session + "  (? for help)", edge);
   if (!window) return tl::unexpected(window.error());
   log::info("renderer " + display::gl::renderer_name());
   auto pilot = display::PilotInput::create(session, "radar-display");
@@ -247,7 +249,8 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Displ
   }
   if (display_options.headless)
     return run_headless(*session, *configuration, options, display_options, size, std::move(publisher));
-  return run_window(*session, *configuration, options, {size, !display_options.no_bezel}, std::move(publisher));
+  return run_window(*session, *configuration, options, {display_options.size, !display_options.no_bezel},
+                    std::move(publisher));
 }
 
 }  // namespace
@@ -280,7 +283,7 @@ int main(int argc, char** argv) {
            "also publish pictures in the session for other programs, with edges of at most 1024 pixels");
   app.option("--size", display_options.size, "[pixels] edge of the picture, without the bezel")
       .range(120, 4096)
-      .otherwise("the configuration's")
+      .otherwise("the configuration's; a window opens at two thirds of the screen's height")
       .in_user_file();
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, display_options); });
 }

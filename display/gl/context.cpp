@@ -280,9 +280,19 @@ error::Expected<std::unique_ptr<Window>> no_window() {
                      "use --headless --frames DIR");
 }
 
+// Width and height of a window of two thirds of the work area's height, at most its width [screen coordinates].
+int edge_on_screen() {
+  constexpr int kWithoutMonitor = 480;
+  int left = 0, top = 0, width = 0, height = 0;
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor(); monitor != nullptr)
+    glfwGetMonitorWorkarea(monitor, &left, &top, &width, &height);
+  const int edge = std::min(2 * height / 3, width);
+  return edge > 0 ? edge : kWithoutMonitor;
+}
+
 }  // namespace
 
-error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, int size) {
+error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, std::optional<int> size) {
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) {
     return error::fail("window", "a display in DISPLAY or WAYLAND_DISPLAY", "neither", "use --headless --frames DIR");
   }
@@ -291,10 +301,12 @@ error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, i
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  // Sizes of monitors include their scale.
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, size ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "yars-radar-display");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "yars-radar-display");
-  GLFWwindow* window = glfwCreateWindow(size, size, title.c_str(), nullptr, nullptr);
+  const int edge = size ? *size : edge_on_screen();
+  GLFWwindow* window = glfwCreateWindow(edge, edge, title.c_str(), nullptr, nullptr);
   if (window == nullptr) {
     auto failed = no_window();
     glfwTerminate();

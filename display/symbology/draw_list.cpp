@@ -12,8 +12,8 @@ namespace yars::display {
 
 namespace {
 
-// Strokes of a glyph on a grid of 8 columns and 12 rows. A point is a digit 0-8 for x and a letter a-m for y, upwards
-// from the base line. A blank ends a polyline.
+// Strokes of a glyph on a grid of 8 columns and 12 rows. A point is a digit 0-8 for x and a letter for y: a-m upwards
+// from the base line, n-p one to three rows below it. A blank ends a polyline.
 struct Glyph {
   char32_t code;
   std::string_view strokes;
@@ -67,8 +67,8 @@ constexpr std::array kGlyphs{
     Glyph{U'>', "1l7g1b"},
     Glyph{U'(', "3m1j1d3a", 4},
     Glyph{U')', "1m3j3d1a", 4},
-    Glyph{U',', "1c1a0b", 2},
-    Glyph{U';', "1c1a0b 1i1j", 2},
+    Glyph{U',', "1b1n0p", 2},
+    Glyph{U';', "1b1n0p 1i1j", 2},
     Glyph{U'\'', "1m1j", 2},
     Glyph{U'[', "3m0m0a3a", 4},
     Glyph{U']', "0m3m3a0a", 4},
@@ -122,7 +122,8 @@ void stroke_glyph(const Glyph& glyph, float left, StrokeSink& sink) {
       continue;
     }
     const float column = static_cast<float>(glyph.strokes[i] - '0');
-    const float row = static_cast<float>(glyph.strokes[i + 1] - 'a');
+    const char letter = glyph.strokes[i + 1];
+    const float row = static_cast<float>(letter <= 'm' ? letter - 'a' : 'm' - letter);
     if (count < kMaxPoints) points[count++] = {left + column * kColumn, -row * kRow};
     i += 2;
   }

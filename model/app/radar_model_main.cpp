@@ -15,6 +15,7 @@ using namespace yars;
 
 struct ModelOptions {
   std::string terrain;
+  std::string fidelity;        // name of a preset; empty: as configured
   std::optional<int> samples;  // nullopt: as configured
   bool standby = false;
 };
@@ -24,6 +25,7 @@ error::Expected<radar::RadarConfiguration> configure(const databuffer::ProgramOp
   auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return configuration;
   if (!model_options.terrain.empty()) configuration->terrain.directory = model_options.terrain;
+  if (!model_options.fidelity.empty()) configuration->fidelity = *radar::fidelity_preset(model_options.fidelity);
   if (model_options.samples) configuration->fidelity.samples = *model_options.samples;
   return configuration;
 }
@@ -124,6 +126,9 @@ int main(int argc, char** argv) {
       .value_name("DIR")
       .otherwise("the configuration's")
       .in_user_file();
+  app.option("--fidelity", model_options.fidelity, "preset")
+      .one_of({radar::fidelity_names().begin(), radar::fidelity_names().end()})
+      .otherwise("the configuration's");
   app.option("--samples", model_options.samples, "samples of a sweep")
       .range(1, radar::kMaxSamples)
       .otherwise("the configuration's");

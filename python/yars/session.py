@@ -363,7 +363,7 @@ def patch_map(yars: "str | pathlib.Path" = "yars", **options: typing.Any) -> "tu
         path = pathlib.Path(folder) / "map.f32"
         try:
             # --out comes first. So an option that lacks its value cannot take it.
-            done = subprocess.run([yars, "patch", "--out", str(path), *words], capture_output=True, text=True,
+            done = subprocess.run([yars, "patch", "--json", "--out", str(path), *words], capture_output=True, text=True,
                                   stdin=subprocess.DEVNULL)
         except OSError as problem:
             raise YarsError(f"{yars}: expected the program yars, found: {problem.strerror}; give yars=PATH") from None

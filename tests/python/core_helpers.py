@@ -29,7 +29,8 @@ def options(arguments):
 
 
 def command(*words, code=0, text=False):
-    done = subprocess.run([YARS, *words], capture_output=True, text=True, timeout=300, env={**os.environ, "YARS_USER_CONFIG": ""})
+    as_json = ["--json"] if words[0] in ("scan", "patch") and not text else []
+    done = subprocess.run([YARS, *words, *as_json], capture_output=True, text=True, timeout=300, env={**os.environ, "YARS_USER_CONFIG": ""})
     if done.returncode != code:
         raise AssertionError(f"yars {' '.join(words)}: {done.returncode}\n{done.stdout}{done.stderr}")
     if text:

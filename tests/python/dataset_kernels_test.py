@@ -90,7 +90,7 @@ class Values(Kernels):
             order = data[item]["parameters"]["order"]
             scene = next((self.out / "scenes").glob("*.flt"))
             run = subprocess.run(
-                [limits.command(), "patch", "--terrain", str(self.out / "terrain"), "--scene", scene_text(scene, None), f"--lat={order['latitude']!r}",
+                [limits.command(), "patch", "--json", "--terrain", str(self.out / "terrain"), "--scene", scene_text(scene, None), f"--lat={order['latitude']!r}",
                  f"--lon={order['longitude']!r}", f"--alt-ft={order['altitude_ft']!r}", f"--heading={order['heading']!r}",
                  f"--speed-kt={order['speed_kt']!r}", f"--target-lat={order['target_latitude']!r}", f"--target-lon={order['target_longitude']!r}",
                  "--window-nm=0.67", f"--looks={order['looks']}", "--size=64", "--seed=5", f"--map={order['map']}"],

@@ -145,6 +145,21 @@ def check_help(command):
         faults.append(f"help {command.words[1:]}: expected the text of --help, found {other}")
 
 
+def check_help_without_words():
+    """`yars` alone prints its help. Other programs do what they do by default."""
+    alone, asked = run(["yars"]), run(["yars", "--help"])
+    if alone.returncode != 0 or alone.stdout != asked.stdout or alone.stderr:
+        faults.append(f"yars: expected the text of --help and exit code 0, found {alone}")
+
+
+def check_fidelities(programs):
+    """The presets of the start script are those of the programs."""
+    found = {" ".join(command.words): entry.values for program in programs for command in program.walk()
+             for entry in command.options if "--fidelity" in entry.names}
+    if len({tuple(values) for values in found.values()}) != 1 or not {"yars-start", "radar-model", "yars scan"} <= set(found):
+        faults.append(f"--fidelity: expected the same presets everywhere, found {found}")
+
+
 def check_json(yars):
     found = [" ".join(command.words[1:]) for command in yars.walk()
              if any("--json" in entry.names for entry in command.options)]
@@ -160,7 +175,7 @@ def check_wrong_help():
             (["yars", "help", "scan", "more"], ["no further argument"], ["yars", "scan"]),
             (["yars", "scan", "--lat", "1", "--lat", "2"], ["--lat: expected the option once", "2 times"], ["yars", "scan"]),
             (["yars", "scan", "--rang-nm=40"], ["did you mean '--range-nm'?"], ["yars", "scan"]),
-            (["yars"], ["expected a command: ", "found none"], None),
+            (["yars", "--log-level", "off"], ["expected a command: ", "found none"], ["yars"]),
             (["yars", "scene", "image", "a", "--out", "a.png", "--window", "1", "2"], ["3 values", "found 2"],
              ["yars", "scene", "image"]),
             (["yars", "replay", "a", "--rate", "1", "--events"], ["expected no --", "found both"], ["yars", "replay"]),
@@ -195,6 +210,8 @@ def main():
         check_defaults(command)
         if program.words[0] == "yars":
             check_help(command)
+    check_help_without_words()
+    check_fidelities(programs)
     check_json(programs[0])
     check_wrong_help()
     check_events()

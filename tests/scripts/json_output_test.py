@@ -76,10 +76,13 @@ def offline():
     patch = ["patch", *place, "--target-lat", "36.6", "--target-lon", "-123.3", "--heading", "30", "--size", "32", "--force"]
     expect("patch", object_of(*patch, "--json").get("cpu_ms", 0) > 0)
     before = sorted(os.listdir("."))
-    nothing = object_of("scan", *place, "--samples", "32", "--out", "none", "--shadow", "none")
+    nothing = object_of("scan", *place, "--samples", "32", "--out", "none", "--shadow", "none", "--json")
     expect("scan --out none", nothing["hash"] == scan["hash"] and nothing["cpu_ms"] > 0, nothing)
-    object_of(*patch, "--out", "none")
+    object_of(*patch, "--out", "none", "--json")
     expect("--out none", sorted(os.listdir(".")) == before, os.listdir("."))
+    for words, begin, facts in ((["scan", *place, "--samples", "32"], "scan    ", scan), (patch, "map     ", object_of(*patch, "--json"))):
+        shown = run(*words).stdout
+        expect(words[:1], shown.startswith(begin) and f"hash    {facts['hash']}\n" in shown and " % " in shown, shown)
     object_of("trade", *place[:2], "--presets", "draft", "--repeat", "1", "--ruler-samples", "16", "--json")
 
 

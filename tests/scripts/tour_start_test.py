@@ -137,9 +137,28 @@ def it_goes_with_its_own_world_only(place):
     assert code == 2 and "autopilot" in text, text
 
 
+def a_fidelity_reaches_the_radar_model_alone(place):
+    code, text = place.run("--tour", "--fidelity", "draft")
+    models = place.lines("radar-model")
+    assert code == 0 and len(models) == 2 and all(line.endswith("--fidelity draft") for line in models), (text, models)
+    assert not any("--fidelity" in line for role in ("state-machine", "radar-display") for line in place.lines(role))
+    place.run("--tour")
+    assert "--fidelity" not in place.lines("radar-model")[0], place.lines("radar-model")
+
+
+def a_wrong_fidelity_is_refused_with_the_list(place):
+    place.options = ["--log-dir", ""]  # --frames belongs to the display
+    for words, expected in ((["--fidelity", "drat"], "expected one of 1996, draft, standard, fine, reference, found 'drat'; did you mean 'draft'?"),
+                            (["--fidelity", ""], "found an empty text"), (["--fidelity"], "expected a value, found nothing"),
+                            (["--fidelity", "fine", "--roles", "flight-model"], "expected radar-model among --roles")):
+        code, text = place.run(*words)
+        assert code == 2 and "yars-start: --fidelity: " in text and expected in text and text.count("\n") == 1, (words, text)
+        assert not place.log.exists(), words
+
+
 def main():
     for test in (two_radars_one_after_the_other, for_the_pilot, in_lockstep_each_part_is_as_long_as_its_tour,
-                 a_signal_ends_it_all, a_tour_that_fails_is_not_followed_by_the_next, it_goes_with_its_own_world_only):
+                 a_fidelity_reaches_the_radar_model_alone, a_wrong_fidelity_is_refused_with_the_list, a_signal_ends_it_all, a_tour_that_fails_is_not_followed_by_the_next, it_goes_with_its_own_world_only):
         with tempfile.TemporaryDirectory() as folder:
             test(Place(folder))
         print(f"{test.__name__}: ok", flush=True)

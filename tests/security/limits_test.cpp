@@ -229,9 +229,9 @@ std::string recording_with(std::uint32_t configuration_bytes) {
 }
 
 TEST_F(Limits, ARecordingsHeaderHoldsAtMost64KibibytesOfText) {
-  EXPECT_THAT(refusal_of(tools::recording::RecordingReader::open(write("a.yrec", recording_with(65'537)))),
+  EXPECT_THAT(refusal_of(tools::recording::RecordingReader::open(write("a.yars", recording_with(65'537)))),
               HasSubstr("longer paths"));
-  EXPECT_THAT(refusal_of(tools::recording::RecordingReader::open(write("b.yrec", recording_with(65'536)))),
+  EXPECT_THAT(refusal_of(tools::recording::RecordingReader::open(write("b.yars", recording_with(65'536)))),
               HasSubstr("cut short"));
 }
 

@@ -38,13 +38,13 @@ class PrivateFiles : public test::SecureFolder {
 };
 
 TEST_F(PrivateFiles, ARecordingHasMode0600WhateverTheUmask) {
-  const auto path = folder_ / "new.yrec";
+  const auto path = folder_ / "new.yars";
   ASSERT_TRUE(RecordingWriter::create(path, {}));
   EXPECT_EQ(mode_of(path), 0600U);
 }
 
 TEST_F(PrivateFiles, AFileOverwrittenByARecordingGetsMode0600) {
-  const auto path = write("old.yrec", "what was there before");
+  const auto path = write("old.yars", "what was there before");
   ASSERT_EQ(mode_of(path), 0666U);
   ASSERT_TRUE(RecordingWriter::create(path, {}, tools::recording::Existing::overwritten));
   EXPECT_EQ(mode_of(path), 0600U);
@@ -52,7 +52,7 @@ TEST_F(PrivateFiles, AFileOverwrittenByARecordingGetsMode0600) {
 
 TEST_F(PrivateFiles, ARecordingFollowsNoPlantedLink) {
   const auto victim = write("victim", "keep this");
-  const auto planted = link("flight.yrec", victim);
+  const auto planted = link("flight.yars", victim);
   EXPECT_THAT(refusal_of(RecordingWriter::create(planted, {})), HasSubstr("a symbolic link"));
   EXPECT_EQ(content_of(victim), "keep this");
   EXPECT_EQ(mode_of(victim), 0666U);

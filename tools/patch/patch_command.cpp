@@ -1,5 +1,6 @@
 // `yars patch`: computes one patch map in this process. Writes a picture or numbers to the file of --out, if given.
-// Prints one line of JSON with run times. Source of option names and JSON fields: docs/spec/commands.md#patch.
+// Prints what was computed, shares, run time and hash, or the same and more as JSON. Source of option names and JSON
+// fields: docs/spec/commands.md#patch.
 
 #include <algorithm>
 #include <array>
@@ -16,6 +17,7 @@
 #include "databuffer/runtime/program.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/parallel/thread_pool.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/hrm/patch_formation.hpp"
 #include "model/terrain/gdal/map_writer.hpp"
 #include "model/terrain/gdal/raster.hpp"
@@ -107,7 +109,7 @@ struct Timing {
 struct PatchCommandOptions : PatchOptions {
   PatchOutput output;
   int repeat = 1;
-  bool json = false;  // accepted, because all commands with facts have it; the summary is JSON without it, too
+  bool json = false;
 };
 
 Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& order,
@@ -139,6 +141,26 @@ void report_dark_pixels(const hrm::MapImage& image) {
                  100.0 * static_cast<double>(blind) / pixels);
   if (!seen && static_cast<double>(blind) < pixels)
     std::fprintf(stderr, "yars patch: nothing of the map is seen: it lies in shadow or beyond the horizon\n");
+}
+
+// Prints the summary for people.
+void print_text(const PatchCommandOptions& options, const nlohmann::ordered_json& line, const hrm::PatchOrder& order,
+                const hrm::MapImage& image) {
+  const auto percent = [&](auto&& has) {
+    return 100.0 * static_cast<double>(std::ranges::count_if(image.power, has)) /
+           static_cast<double>(image.power.size());
+  };
+  std::printf("map     %d x %d pixels, %g NM, preset %s, %s of scenes\n", image.size, image.size,
+              order.window.nautical_miles(), line["fidelity"].get<std::string>().c_str(),
+              text::counted(line["triangles"].get<std::size_t>(), "triangle").c_str());
+  std::printf("pixels  %.1f %% with an echo, %.1f %% without, %.1f %% in the blind zone\n",
+              percent([](float power) { return power > 0.0F; }), percent([](float power) { return power == 0.0F; }),
+              percent([](float power) { return power < 0.0F; }));
+  std::printf("time    %.1f ms on %s, median of %d; the radar takes %.1f s\n", line["kernel_ms"].get<double>(),
+              text::counted(line["threads"].get<std::size_t>(), "thread").c_str(), options.repeat,
+              line["formation_s"].get<double>());
+  std::printf("hash    %llu\n", line["hash"].get<unsigned long long>());
+  if (names_file(options.output.file)) std::printf("file    %s\n", text::printable(options.output.file).c_str());
 }
 
 void patch(const CommonOptions& common, const PatchCommandOptions& options) {
@@ -181,7 +203,7 @@ void patch(const CommonOptions& common, const PatchCommandOptions& options) {
   line["hash"] = picture_hash(patch_formation.picture());
   report_dark_pixels(patch_formation.image());
   if (names_file(options.output.file)) write_patch(options.output, order, patch_formation);
-  print_json(line);
+  options.json ? print_json(line) : print_text(options, line, order, patch_formation.image());
 }
 
 }  // namespace
@@ -201,7 +223,7 @@ void add_patch_command(databuffer::Command app, const CommonOptions& common) {
       .value_name("FILE");
   command.option("--pixels", options->output.pixels, "pixels of a .tif: video (8 bits) or power (32-bit float)")
       .one_of({"video", "power"});
-  add_json_flag(command, options->json, "the summary is always one JSON object");
+  add_json_flag(command, options->json);
   command.callback([options, &common] { patch(common, *options); });
 }
 

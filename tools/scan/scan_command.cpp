@@ -1,5 +1,6 @@
-// `yars scan`: computes one scan of the real beam map in this process. Writes a picture or numbers, and prints one line
-// of JSON with run times and hash. Source of option names and JSON fields: docs/spec/commands.md#scan.
+// `yars scan`: computes one scan of the real beam map in this process. Writes a picture or numbers, and prints what was
+// computed, shares, run time and hash, or the same and more as JSON. Source of option names and JSON fields:
+// docs/spec/commands.md#scan.
 
 #include <algorithm>
 #include <array>
@@ -22,6 +23,7 @@
 #include "lib/file/output_file.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/imageio/png.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/kernel/offline_scan.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "tools/command/command.hpp"
@@ -128,7 +130,7 @@ struct ScanCommandOptions : ScanOptions {
   std::string color = "green";
   std::optional<int> size;  // nullopt: as configured
   int repeat = 1;
-  bool json = false;  // accepted, because all commands with facts have it; the summary is JSON without it, too
+  bool json = false;
 };
 
 radar::RadarConfiguration configure(const CommonOptions& common, const ScanCommandOptions& options) {
@@ -225,6 +227,26 @@ nlohmann::ordered_json summary(std::span<const databuffer::Sweep> sweeps, const 
   return line;
 }
 
+// Prints the summary for people.
+void print_text(const ScanCommandOptions& options, const nlohmann::ordered_json& line,
+                std::span<const trade::RaySample> samples) {
+  const auto percent = [&](auto&& has) {
+    return 100.0 * static_cast<double>(std::ranges::count_if(samples, has)) / static_cast<double>(samples.size());
+  };
+  const auto is_void = [](const trade::RaySample& sample) { return std::isnan(sample.ground.elevation_m); };
+  std::printf("scan    %zu sweeps of %u samples, %g NM, preset %s\n", line["sweeps"].get<std::size_t>(),
+              line["samples"].get<unsigned>(), options.range_nm, line["fidelity"].get<std::string>().c_str());
+  std::printf("ground  %.1f %% lit, %.1f %% in shadow, %.1f %% without elevation\n",
+              percent([&](const trade::RaySample& sample) { return !is_void(sample) && sample.lit; }),
+              percent([&](const trade::RaySample& sample) { return !is_void(sample) && !sample.lit; }),
+              percent(is_void));
+  std::printf("time    %.1f ms on %s, median of %d\n", line["kernel_ms"].get<double>(),
+              text::counted(options.threads, "thread").c_str(), options.repeat);
+  std::printf("hash    %llu\n", line["hash"].get<unsigned long long>());
+  for (const std::string& file : {options.out, options.shadow})
+    if (names_file(file)) std::printf("file    %s\n", text::printable(file).c_str());
+}
+
 void scan(const CommonOptions& common, const ScanCommandOptions& options) {
   check_output(options);
   const radar::RadarConfiguration configuration = configure(common, options);
@@ -248,12 +270,15 @@ void scan(const CommonOptions& common, const ScanCommandOptions& options) {
   line["fidelity"] = configuration.fidelity.name;
   line["hash"] = model::kernel::scan_hash(work.sweeps());
   if (names_file(options.out)) write_result(options, configuration.view, work);
+  std::vector<trade::RaySample> samples;
+  if (names_file(options.shadow) || !options.json)
+    samples = trade::ray_samples(configuration, work.headers(), *terrain);
   if (names_file(options.shadow)) {
     std::ostringstream file;
-    write_shadow(file, work.headers(), trade::ray_samples(configuration, work.headers(), *terrain));
+    write_shadow(file, work.headers(), samples);
     write_text_file(options.shadow, file);
   }
-  print_json(line);
+  options.json ? print_json(line) : print_text(options, line, samples);
 }
 
 }  // namespace
@@ -278,7 +303,7 @@ void add_scan_command(databuffer::Command app, const CommonOptions& common) {
       .option("--shadow", options->shadow,
               "file: .csv with position, elevation and shadow of each sample; none: no file")
       .value_name("FILE");
-  add_json_flag(command, options->json, "the summary is always one JSON object");
+  add_json_flag(command, options->json);
   command.callback([options, &common] { scan(common, *options); });
 }
 

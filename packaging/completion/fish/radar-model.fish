@@ -26,5 +26,6 @@ complete -c radar-model -l log-dir -x -a '(__fish_complete_directories)' -d 'fol
 complete -c radar-model -l realtime -d 'lock memory, run the tick loop under SCHED_FIFO; a refusal is logged'
 complete -c radar-model -l cpus -x -d 'CPUs to run on, as in 2,3 or 2-3'
 complete -c radar-model -l terrain -x -a '(__fish_complete_directories)' -d 'folder of elevation cells: DTED, HGT, DED, packs, rasters'
+complete -c radar-model -l fidelity -x -a '1996 draft standard fine reference' -d 'preset'
 complete -c radar-model -l samples -x -d 'samples of a sweep'
 complete -c radar-model -l standby -d 'waits while another process or another computer of the session holds the role'

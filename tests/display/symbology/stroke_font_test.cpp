@@ -64,6 +64,22 @@ TEST(StrokeFont, ACapitalExtendsFromTheBaseLineToTheCapHeight) {
   EXPECT_FLOAT_EQ(bottom, 0.0F);
 }
 
+// The lowest point of a text, below the base line above 0.
+float lowest_of(std::string_view text) {
+  float lowest = -1.0F;
+  for (const auto& stroke : strokes_of(text))
+    for (const Point& point : stroke) lowest = std::max(lowest, point.y);
+  return lowest;
+}
+
+TEST(StrokeFont, AFullStopEndsOnTheBaseLineACommaAndASemicolonFarBelowIt) {
+  EXPECT_FLOAT_EQ(lowest_of("."), 0.0F);
+  for (const char* text : {",", ";"}) {
+    EXPECT_GE(lowest_of(text), 0.2F) << text;
+    EXPECT_LE(lowest_of(text), 0.3F) << text;
+  }
+}
+
 TEST(StrokeFont, LowerCaseIsDrawnAsUpperCaseButVIsAnArrow) {
   EXPECT_EQ(strokes_of("gain"), strokes_of("GAIN"));
   EXPECT_NE(strokes_of("v"), strokes_of("V"));

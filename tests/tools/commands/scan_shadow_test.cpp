@@ -82,7 +82,7 @@ TEST_P(ScanShadow, TheWallShadowsThePlainBehindItAndVoidsAreNeitherLitNorShadowe
   const std::string file = folder.path() / "shadow.csv";
   const auto run = scan(folder.path(), GetParam(), file);
   ASSERT_EQ(run.code, 0) << run.errors;
-  EXPECT_THAT(run.output, HasSubstr("\"samples\":240"));
+  EXPECT_THAT(run.output, HasSubstr(" sweeps of 240 samples"));
   const std::vector<Row> rows = rows_of(file);
   ASSERT_EQ(rows.size() % 240U, 0U);
   ASSERT_GT(rows.size(), 240U);
