@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""Data sets by the kernels of YARS: 640 chips of a town (YARS_TEST_CHIPS; 2,000 in scripts/test --full) have the same bytes from one worker, two workers, seven shards, and three Dask
+"""Data sets by the kernels of YARS: 640 chips of a town have the same bytes from one worker, two workers, seven shards, and three Dask
 workers, one of which is killed after each fifth of the blocks; the video's hash is that of `yars patch`. Needs yars._core.
+YARS_TEST_CHIPS: another number of chips; scripts/test --full makes 2,000.
 usage: dataset_kernels_test.py BIN [unittest options]   (BIN: folder of `yars`; PYTHONPATH: folder of the built package)"""
 import json
 import os
