@@ -197,6 +197,8 @@ error::Expected<void> run_headless(databuffer::Session& session, const radar::Ra
   return run_headless_lockstep(*loop, headless);
 }
 
+constexpr int kMaxPicture = 4096;  // [pixels] edge
+
 struct WindowSize {
   std::optional<int> picture;  // [pixels] edge; nullopt: by the screen's height
   bool bezel = true;
@@ -207,8 +209,10 @@ error::Expected<void> run_window(databuffer::Session& session, const radar::Rada
                                  std::optional<display::FramePublisher> publisher) {
   std::optional<int> edge;
   if (size.picture) edge = display::panel_edge(*size.picture, size.bezel);
-  auto window =
-      display::gl::open_window("YARS " + configuration.name + " - " + options.session + "  (? for help)", edge);
+  // A larger picture could not be published.
+  const int max_picture = publisher ? static_cast<int>(databuffer::kMaxFramePixels) : kMaxPicture;
+  auto window = display::gl::open_window("YARS " + configuration.name + " - " + options.session + "  (? for help)",
+                                         edge, display::panel_edge(max_picture, size.bezel));
   if (!window) return tl::unexpected(window.error());
   log::info("renderer " + display::gl::renderer_name());
   auto pilot = display::PilotInput::create(session, "radar-display");
@@ -282,7 +286,7 @@ int main(int argc, char** argv) {
   app.flag("--publish", display_options.publish,
            "also publish pictures in the session for other programs, with edges of at most 1024 pixels");
   app.option("--size", display_options.size, "[pixels] edge of the picture, without the bezel")
-      .range(120, 4096)
+      .range(120, kMaxPicture)
       .otherwise("the configuration's; a window opens at two thirds of the screen's height")
       .in_user_file();
   return databuffer::run_program(argc, argv, app, options, [&] { return run(options, display_options); });

@@ -292,7 +292,7 @@ int edge_on_screen() {
 
 }  // namespace
 
-error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, std::optional<int> size) {
+error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, std::optional<int> size, int max_size) {
   if (!is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")) {
     return error::fail("window", "a display in DISPLAY or WAYLAND_DISPLAY", "neither", "use --headless --frames DIR");
   }
@@ -305,7 +305,7 @@ error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, s
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, size ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "yars-radar-display");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "yars-radar-display");
-  const int edge = size ? *size : edge_on_screen();
+  const int edge = size ? *size : std::min(edge_on_screen(), max_size);
   GLFWwindow* window = glfwCreateWindow(edge, edge, title.c_str(), nullptr, nullptr);
   if (window == nullptr) {
     auto failed = no_window();

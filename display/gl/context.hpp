@@ -82,9 +82,9 @@ class Window : public Context {
 
 // Opens a window of the class "yars-radar-display" (WM_CLASS), with an icon. `size`: width and height of the window
 // [pixels at a scale of 1]; the scale of the monitor enlarges it. nullopt: two thirds of the height of the primary
-// monitor's work area, which is the monitor without panels and docks.
+// monitor's work area, which is the monitor without panels and docks, and at most `max_size`.
 // Errors: the environment has neither DISPLAY nor WAYLAND_DISPLAY, or no window with OpenGL 3.3 can be opened. The
 // error names the options with which radar-display needs no window.
-error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, std::optional<int> size);
+error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, std::optional<int> size, int max_size);
 
 }  // namespace yars::display::gl
