@@ -1,7 +1,9 @@
 // A set continues without power, input, frames, recording, flight model or clock, and reports each loss to the user.
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <thread>
@@ -17,14 +19,15 @@ using ::testing::Not;
 
 class Degraded : public Supervision {
  protected:
-  // Kills all roles at one moment: the supervisor, which stands meanwhile, finds all of them dead, and the session is
-  // free.
-  void kill_all() {
+  // Kills all roles and removes the segment while the supervisor stands: the set goes on in a fresh session. Without
+  // that it depends on who looks at the old segment, such as `yars watch`, whether the next roles find it in use.
+  void kill_all_and_the_segment() {
     const auto watch = set_.watch();
     ::kill(set_.pid("start"), SIGSTOP);
     for (const auto& process : watch["processes"]) ::kill(process["pid"].get<int>(), SIGKILL);
     for (const auto& process : watch["processes"])
       EXPECT_TRUE(eventually([&] { return has_ended(process["pid"].get<int>()); }, kTimeout_s));
+    EXPECT_TRUE(std::filesystem::remove("/dev/shm/yars." + std::to_string(::geteuid()) + "." + set_.session()));
     ::kill(set_.pid("start"), SIGCONT);
   }
   // True for a zombie, too, which has given back its locks.
@@ -49,7 +52,7 @@ TEST_F(Degraded, PowerOnIsSentUntilTheRadarIsOnAgain) {
   ASSERT_NO_FATAL_FAILURE(kill_and_wait_for_the_next("state-machine"));
   const int second = pid_of("state-machine");
   ::kill(second, SIGKILL);
-  kill_all();
+  kill_all_and_the_segment();
   EXPECT_TRUE(eventually([&] { return is_on_and_scans(); }, kTimeout_s)) << start_log() << set_.watch().dump();
   EXPECT_THAT(start_log(), HasSubstr("power-on is sent again"));
 }
