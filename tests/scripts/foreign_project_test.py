@@ -72,7 +72,7 @@ def unpacked(folder):
     for package in packages:
         must("dpkg-deb", "-x", package, folder / "root")
     python = must("dpkg-deb", "-f", packages[0])
-    expect("python3-yars recommends the programs of its own version", re.search(r"^Recommends: yars \(= [\d.]+-1\)", python, re.M), python)
+    expect("python3-yars recommends the programs of its own version", re.search(r"^Recommends: yars \(= [\d.]+-1(~\w+)?\)", python, re.M), python)
     package = packages[1]
     fields = must("dpkg-deb", "-f", package)
     files = must("dpkg-deb", "-c", package)
@@ -179,8 +179,9 @@ def check_symbols(prefix):
 def check_refusals(folder):
     """Where only the headers are installed, and another version."""
     prefix = installed(folder, PARTS[:1])
-    for number, (wanted, good) in enumerate((("0.2 REQUIRED COMPONENTS client", True), ("REQUIRED", True),
-                                             ("0.2 REQUIRED COMPONENTS display", False), ("0.1 REQUIRED", False),
+    major, minor = re.search(r"VERSION (\d+)\.(\d+)", (SOURCE / "CMakeLists.txt").read_text().partition("project(")[2]).groups()
+    for number, (wanted, good) in enumerate(((f"{major}.{minor} REQUIRED COMPONENTS client", True), ("REQUIRED", True),
+                                             (f"{major}.{minor} REQUIRED COMPONENTS display", False), ("0.1 REQUIRED", False),
                                              ("1.0 REQUIRED", False))):
         project = folder / f"wants_{number}"
         project.mkdir()
