@@ -100,8 +100,14 @@ TEST_F(Program, AMisspelledWordIsSaid) {
                  "prog draw: --color: expected green or gray, found 'grey'; did you mean 'gray'? See prog draw --help");
 }
 
+TEST_F(Program, WithoutAWordItPrintsItsHelp) {
+  EXPECT_EQ(run({"--help"}), 0);
+  const std::string help = output_;
+  EXPECT_EQ(run({}), 0);
+  EXPECT_EQ(output_, help);
+}
+
 TEST_F(Program, WhatIsMissingIsSaid) {
-  expect_refused({}, "prog: expected a command: help or draw, found none; see prog --help");
   expect_refused({"draw"}, "prog draw: expected FILE, found none; see prog draw --help");
   expect_refused({"draw", "a.png", "--width"},
                  "prog draw: --width: expected a whole number from 1 to 4096, found nothing; see prog draw --help");
