@@ -9,7 +9,7 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/config/ DESTINATION ${share}/config
 # Structures of the topics, for programs of others that join by DDS: docs/network.md. A component of its own: the build makes one.
 install(FILES ${PROJECT_SOURCE_DIR}/gateway/yars_network.idl ${PROJECT_BINARY_DIR}/generated/gateway/yars_records.idl
   DESTINATION ${share}/idl COMPONENT idl)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATCHING PATTERN "*.md" PATTERN "*.png" PATTERN "*.webp")
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${documents})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copyright)
 
