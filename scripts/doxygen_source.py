@@ -121,7 +121,7 @@ def main():
     shutil.rmtree(target, ignore_errors=True)
     for root in ROOTS:
         for path in sorted(root.rglob("*")) if root.is_dir() else [root]:
-            if path.suffix not in (*SOURCES, ".md", ".dot", ".png"):
+            if path.suffix not in (*SOURCES, ".md", ".dot", ".png", ".webp"):
                 continue
             copy = target / path
             copy.parent.mkdir(parents=True, exist_ok=True)
