@@ -62,7 +62,8 @@ endfunction()
 #   [PROGRAMS it runs] DEPENDS ...): one gtest binary from tests/FOLDER/*_test.cpp, those of its subfolders named, and its
 # support sources. ctest runs it as one test named FOLDER; with SUITES as one test FOLDER.SUITE for each suite.
 # ALONE: it has the machine to itself. LOCK: one at a time of the tests with this lock, beside others: those that run sets.
-# LONG: tests (a filter of gtest) that only scripts/test --full runs, as FOLDER.long with the label long.
+# LONG: tests that only scripts/test --full runs, as FOLDER.long with the label long; a filter of gtest, which knows * and ?
+# but no sets of letters.
 # COMPUTES: its own code takes long to run, so it is compiled with YARS_COMPUTING_TEST_FLAGS. SEPARATE: each source stays a
 # unit of its own with YARS_UNITY, because names in its sources are the same. OPENGL: it draws, so leaks are not looked for
 # (the search crashes now and then beside the threads of llvmpipe).
@@ -102,7 +103,8 @@ function(yars_test folder)
   if(NOT ARG_LABELS)
     set(ARG_LABELS ${folder})
   endif()
-  set(properties TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_ALONE})
+  # A filter that selects nothing is a mistake.
+  set(properties TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_ALONE} FAIL_REGULAR_EXPRESSION "0 tests from 0 test suites ran")
   if(ARG_OPENGL)
     list(APPEND properties ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
   endif()
@@ -119,6 +121,9 @@ function(yars_test folder)
       list(APPEND runs ${lines})
     endforeach()
     list(REMOVE_DUPLICATES runs)
+    string(REPLACE ".*" "" long_suites "${ARG_LONG}")
+    string(REPLACE ":" ";" long_suites "${long_suites}")
+    list(REMOVE_ITEM runs ${long_suites})  # those that are long as a whole
   endif()
   if(NOT runs)
     set(runs "*")

@@ -1,8 +1,10 @@
 #include "station/app/connection_shell.hpp"
 
-#include <boost/beast/ssl.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/beast/ssl/ssl_stream.hpp>
 #include <boost/beast/websocket/ssl.hpp>
 #include <boost/beast/websocket/teardown.hpp>
+#include <type_traits>
 
 namespace yars::station {
 

@@ -1,7 +1,10 @@
-// Connection of a browser: a TCP stream, plain or over TLS, behind one type. Programs over it, HTTP and WebSocket, are
-// thus compiled once; each kind of stream would take a gigabyte and half a minute of its own. It is an AsyncStream of
-// Boost.Beast. Handlers are called in the thread of the server, and never within the call that begins an operation. A
-// connection may be moved while no operation runs. Errors: those of the stream, for the handler.
+// Connection of a browser: a TCP stream, plain or over TLS, behind one type. So HTTP and WebSocket are compiled once.
+// It is an AsyncStream of Boost.Beast. It may be moved while no operation runs.
+// Inputs: the socket of an accepted connection; for TLS the context with the certificate.
+// Outputs: bytes that are read and written, through handlers. No handler is called within the call that began its
+//   operation.
+// Errors: those of the stream, for the handler.
+// Threads: that of the server.
 #pragma once
 
 #include <boost/asio/async_result.hpp>
@@ -35,7 +38,7 @@ class Connection {
   boost::beast::tcp_stream& tcp();
   // Handshake of TLS; of a plain stream there is none.
   void begin(Done done);
-  // Says goodbye and closes.
+  // Closes the connection; over TLS after its close_notify.
   void end(Done done);
 
   template <class Buffers, class Token>
@@ -57,7 +60,7 @@ class Connection {
         token, list_of<boost::asio::const_buffer>(buffers));
   }
 
-  // Called by Boost.Beast at the end of a WebSocket, and when its time is up.
+  // Boost.Beast calls the first at the end of a WebSocket, the second when its time is up.
   template <class Handler>
   friend void async_teardown(boost::beast::role_type, Connection& connection, Handler&& handler) {
     connection.end(kept<Done>(std::forward<Handler>(handler)));
@@ -76,7 +79,7 @@ class Connection {
   template <class Function, class Handler>
   static Function kept(Handler handler) {
     auto owner = std::make_shared<Handler>(std::move(handler));
-    return [owner](auto... results) { std::move (*owner)(results...); };
+    return [owner](auto... results) { (std::move(*owner))(results...); };
   }
   template <class Buffer, class Buffers>
   static std::vector<Buffer> list_of(const Buffers& buffers) {

@@ -25,7 +25,7 @@ struct PageWish {
   Right right = Right::none;
 };
 
-// Makes a connection whose request was allowed to the WebSocket of a page.
+// Turns a connection into the WebSocket of a page. Its request must have been allowed.
 void begin_page(Site& site, std::shared_ptr<SessionFeed> feed, PageWish wish, Connection connection, Counted counted,
                 Request request);
 

@@ -123,6 +123,7 @@ struct Upgrade {
   PageWish wish;
   std::optional<Answer> refusal;
 };
+
 Upgrade upgrade_of(Site& site, const Request& request) {
   Upgrade upgrade;
   const std::string_view path = view_of(request.target());

@@ -1,4 +1,4 @@
-// Requests of a browser, until its connection becomes a page's WebSocket or ends.
+// HTTP over one connection of a browser, until it ends or becomes the WebSocket of a page.
 // Inputs: requests. Outputs: answers with a status, and headers that keep a browser from doing more than it should.
 // Errors: a request that is not allowed gets a status from 400 to 503 and a line that says what was expected.
 // Threads: that of the server.
