@@ -1,8 +1,8 @@
-# yars_module(NAME [SUBFOLDERS ... | FOLDERS ...] [SHELLS] [SOURCES ...] [DEPENDS ...]): a library from the sources of this folder and
-# of the subfolders named, or of FOLDERS alone. Left out are *_main.cpp and *_command.cpp, which belong to programs, and
+# yars_module(NAME [SUBFOLDERS ... | FOLDERS ...] [SHELLS] [LIGHT] [SOURCES ...] [DEPENDS ...]): a library from the sources of this
+# folder and of the subfolders named, or of FOLDERS alone. LIGHT: it computes little (cmake/precompiled.cmake). Left out are *_main.cpp and *_command.cpp, which belong to programs, and
 # *_shell.cpp, which see segment, log and clock, unless SHELLS is said.
 function(yars_module name)
-  cmake_parse_arguments(ARG "SHELLS" "" "DEPENDS;SOURCES;SUBFOLDERS;FOLDERS" ${ARGN})
+  cmake_parse_arguments(ARG "SHELLS;LIGHT" "" "DEPENDS;SOURCES;SUBFOLDERS;FOLDERS" ${ARGN})
   set(folders ${ARG_FOLDERS})
   if(NOT folders)
     set(folders . ${ARG_SUBFOLDERS})
@@ -21,7 +21,7 @@ function(yars_module name)
     target_compile_features(${name} PUBLIC cxx_std_20)  # also for a host whose default is older
     target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(${name} PUBLIC ${ARG_DEPENDS})
-    yars_use_precompiled(${name} yars_precompiled)
+    yars_set_weight(${name} ${ARG_LIGHT})
     yars_unite(${name})
   else()
     add_library(${name} INTERFACE)
@@ -43,17 +43,14 @@ function(yars_app name)
   endif()
 endfunction()
 
-# yars_program(NAME [PRECOMPILED NAME] SOURCES ... DEPENDS ...): an executable in build/PRESET/bin, installed with the
+# yars_program(NAME [LIGHT] [PRECOMPILED NAME] SOURCES ... DEPENDS ...): an executable in build/PRESET/bin, installed with the
 # others. PRECOMPILED: headers of its own (yars_precompiled), for other flags than those of the build.
 function(yars_program name)
-  cmake_parse_arguments(ARG "" "PRECOMPILED" "DEPENDS;SOURCES" ${ARGN})
-  if(NOT ARG_PRECOMPILED)
-    set(ARG_PRECOMPILED yars_precompiled)
-  endif()
+  cmake_parse_arguments(ARG "LIGHT" "PRECOMPILED" "DEPENDS;SOURCES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
   target_compile_definitions(${name} PRIVATE YARS_VERSION="${PROJECT_VERSION}")
   target_link_libraries(${name} PRIVATE ${ARG_DEPENDS})
-  yars_use_precompiled(${name} ${ARG_PRECOMPILED})
+  yars_set_weight(${name} ${ARG_LIGHT} ${ARG_PRECOMPILED})
   yars_unite(${name})
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endfunction()

@@ -1,7 +1,10 @@
 // `scripts/start --fly-out`: live sets go on from a second of a recording. The recording of such a branch has the items
 // of the original up to that second, and plays across the joint.
+#include <unistd.h>
+
 #include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "lib/geo/geodesy.hpp"
@@ -40,20 +43,52 @@ std::vector<T> all_of(const std::vector<RecordingItem>& items) {
   return found;
 }
 
+// Folder of a recorded flight; it goes with this object.
+class Flight {
+ public:
+  Flight() { std::filesystem::create_directory(folder_); }
+  ~Flight() {
+    std::error_code ignored;
+    std::filesystem::remove_all(folder_, ignored);
+  }
+  Flight(const Flight&) = delete;
+  Flight& operator=(const Flight&) = delete;
+  std::filesystem::path terrain() const { return folder_ / "terrain"; }
+  std::filesystem::path route() const { return folder_ / "turn.route"; }
+  std::filesystem::path recording() const { return folder_ / "original.yars"; }
+
+ private:
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("yars-flight-" + std::to_string(::getpid()));
+};
+
 class FlyOut : public Supervision {
  protected:
-  // A flight of 11 s: the power, three buttons, and a turn that begins at about 8 s.
+  static void TearDownTestSuite() { flown_.reset(); }
+  // A copy of the flight's recording in this test's folder. The first test that asks for it flies.
   void record() {
-    const auto route = set_.folder() / "turn.route";
-    std::ofstream(route) << "37.4 -122.9 15000 480\n37.4 -122.858 15000 480\n37.9 -122.858 15000 480\n";
+    if (!flown_) {
+      ASSERT_NO_FATAL_FAILURE(fly());
+    }
+    terrain_ = flown_->terrain();
     original_ = set_.folder() / "original.yars";
-    start({"--record", original_.string()}, "route:" + route.string());
+    std::filesystem::copy_file(flown_->recording(), original_, std::filesystem::copy_options::overwrite_existing);
+  }
+  // A flight of 11 s: the power, three buttons, and a turn that begins at about 8 s.
+  void fly() {
+    auto flight = std::make_unique<Flight>();
+    std::filesystem::rename(terrain_, flight->terrain());
+    terrain_ = flight->terrain();
+    const auto route = flight->route();
+    std::ofstream(route) << "37.4 -122.9 15000 480\n37.4 -122.858 15000 480\n37.9 -122.858 15000 480\n";
+    start({"--record", flight->recording().string()}, "route:" + route.string());
     ASSERT_TRUE(
         set_.wait_until([](const auto& watch) { return watch["power"] == "OPR" && watch["sweeps"] > 50; }, kTimeout_s))
         << start_log();
     for (const char* event : {"pb 13", "pb 2", "elevation -4"}) ASSERT_EQ(set_.yars({"inject", event}).code, 0);
     ASSERT_TRUE(set_.wait_until([](const auto& watch) { return watch["sim_time"] > kAt_s + 2.0; }, kTimeout_s));
     ASSERT_EQ(end(), 0) << start_log();
+    flown_ = std::move(flight);
   }
   std::string session_of(const std::string& name) const { return set_.session() + "-" + name; }
   std::filesystem::path branch_of(const std::string& name) const { return set_.folder() / (name + ".yars"); }
@@ -81,6 +116,7 @@ class FlyOut : public Supervision {
   void expect_branch(const std::string& name);
 
   std::filesystem::path original_;
+  static inline std::unique_ptr<Flight> flown_;
 };
 
 void expect_continuous(const ModelTick& before, const ModelTick& after) {
@@ -199,14 +235,16 @@ TEST_F(FlyOut, ListsTheRecordingAndItsFlight) {
   EXPECT_EQ(one["file"], original_.string());
   EXPECT_GT(one["end_s"], kAt_s);
   EXPECT_EQ(one["terrain"], terrain_.string());
-  EXPECT_EQ(one["source"], "route:" + (set_.folder() / "turn.route").string());
+  EXPECT_EQ(one["source"], "route:" + flown_->route().string());
   EXPECT_EQ(one["sweeps"], false);
   EXPECT_EQ(one["can_fly_out"], true);
   EXPECT_EQ(one["writing"], false);
   EXPECT_EQ(one["cut_short"], false);
   // Without the route's file the aircraft flies on straight and level.
-  std::filesystem::remove(set_.folder() / "turn.route");
+  const std::filesystem::path kept = set_.folder() / "turn.route";
+  std::filesystem::rename(flown_->route(), kept);
   const auto at = run_program({"yars", "recordings", original_.string(), "--at", "9", "--json"});
+  std::filesystem::rename(kept, flown_->route());
   const auto fly_out = nlohmann::json::parse(at.output)["recordings"][0]["fly_out"];
   EXPECT_EQ(fly_out["continues"], false);
   EXPECT_TRUE(fly_out["source"].get<std::string>().starts_with("fixed:37.")) << fly_out;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The data set maker on Dask distributed: a scheduler and three workers, one of which is killed every few seconds, make the same files as
+"""The data set maker on Dask distributed: a scheduler and three workers, one of which is killed every two seconds, make the same files as
 one process. usage: dataset_dask_test.py BIN [unittest options]   (BIN: folder of `yars`)"""
 import os
 import pathlib
@@ -92,7 +92,7 @@ class Cluster:
 
 
 class Dask(Case):
-    count, block = 2000, 16
+    count, block = 800, 16
 
     def cluster(self, workers=3, **environment):
         folder = self.folder / "cluster"
@@ -101,11 +101,11 @@ class Dask(Case):
         self.addCleanup(cluster.close)
         return cluster
 
-    def test_a_worker_is_killed_every_five_seconds(self):
+    def test_a_worker_is_killed_every_two_seconds(self):
         cluster = self.cluster(FAKE_MAKER_S="0.4")
-        cluster.kill_every(5.0)
+        cluster.kill_every(2.0)
         done = self.run_it("--dask", cluster.address)
-        self.assertIn("2,000 items made", done.stdout)
+        self.assertIn("800 items made", done.stdout)
         self.assertGreaterEqual(cluster.kills, 2)
         self.assertEqual(tree(self.out), self.reference())
         self.assertTrue(wait_for(lambda: not hosts_of(self.out)), "a host process is left")
@@ -151,7 +151,7 @@ class Dask(Case):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
-        done = self.run_it("--dask", f"tcp://127.0.0.1:{port}", code=1)
+        done = self.run_it("--dask", f"tcp://127.0.0.1:{port}", code=1, environment={"DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT": "1s"})
         self.assertIn("expected a scheduler", done.stderr)
         self.assertFalse(self.out.exists())
         self.assertNotIn("Traceback", done.stderr)

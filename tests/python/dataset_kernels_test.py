@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Data sets by the kernels of YARS: 640 chips of a town have the same bytes from one worker, two workers, seven shards, and three Dask
+"""Data sets by the kernels of YARS: 320 chips of a town have the same bytes from one worker, two workers, seven shards, and three Dask
 workers, one of which is killed after each fifth of the blocks; the video's hash is that of `yars patch`. Needs yars._core.
-YARS_TEST_CHIPS: another number of chips; scripts/test --full makes 2,000.
+YARS_TEST_FULL: 2,000 chips, by scripts/test --full.
 usage: dataset_kernels_test.py BIN [unittest options]   (BIN: folder of `yars`; PYTHONPATH: folder of the built package)"""
 import json
 import os
@@ -38,7 +38,7 @@ MORE = "movers: [{count: {uniform: [0, 2]}, north_m: {uniform: [-300, 300]}}]\nw
 
 
 class Kernels(Case):
-    count, size, triangles, more = int(os.environ.get("YARS_TEST_CHIPS", "640")), 128, 10000, MORE
+    count, size, triangles, more = 2000 if "YARS_TEST_FULL" in os.environ else 320, 128, 10000, MORE
 
     def write_spec(self, name="specification.yaml", **changes):
         path = self.folder / name

@@ -9,6 +9,7 @@ import doctest
 import inspect
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -49,8 +50,8 @@ recording = yars.Recording("flight.yars")
 headers, sweeps = recording.sweeps(first_tick=100)
 rows = yars.trade(terrain, radar, presets="draft", repeat=1)
 '''
-FAULTS = ('yars.Radar("fast")', 'yars.Radar().scan("hills")', 'yars.Radar().scan(yars.Terrain(), range=3)', 'yars.Recording("f").records(3)',
-          'yars.Radar().patches(yars.Terrain(), [1, 2])')
+FAULTS = ('yars.Radar("fast")', 'yars.Radar().scan("hills")', 'yars.Radar().scan(yars.Terrain(), range=3)', 'yars.Recording("f").records(3)')
+FAULTS_OF_ARRAYS = ('yars.Radar().patches(yars.Terrain(), [1, 2])',)
 
 
 def stubbed(name):
@@ -108,19 +109,17 @@ class Stubs(unittest.TestCase):
         if not mypy:
             self.skipTest("mypy is not installed")
         with tempfile.TemporaryDirectory() as folder:
-            program = pathlib.Path(folder, "user.py")
+            pathlib.Path(folder, "user.py").write_text(PROGRAM + "\n".join(FAULTS + FAULTS_OF_ARRAYS) + "\n")
             environment = {**os.environ, "MYPYPATH": str(BUILD / "python"), "MYPY_CACHE_DIR": folder}
-
-            def check(text):
-                program.write_text(text)
-                done = subprocess.run([mypy, "--strict", "--follow-imports=silent", program.name], cwd=folder, capture_output=True, text=True,
-                                      timeout=300, env=environment)
-                return done.stdout + done.stderr
-
-            self.assertIn("Success", check(PROGRAM))
-            said = check("import yars\n" + "\n".join(FAULTS) + "\n")
-            for line in range(2, 2 + len(FAULTS)):
-                self.assertIn(f"user.py:{line}: error", said)
+            options, faults = ["--strict", "--follow-imports=silent"], FAULTS + FAULTS_OF_ARRAYS
+            if "YARS_TEST_FULL" not in os.environ:  # NumPy's types take mypy seven times as long as all else
+                options += ["--no-site-packages", "--ignore-missing-imports", "--allow-subclassing-any", "--no-warn-return-any"]
+                faults = FAULTS
+            done = subprocess.run([mypy, *options, "user.py"], cwd=folder, capture_output=True, text=True, timeout=300, env=environment,
+                                  check=False)
+            found = {int(line) for line in re.findall(r"^user\.py:(\d+): error", done.stdout, re.M)}
+            first = PROGRAM.count("\n") + 1
+            self.assertEqual(found, set(range(first, first + len(faults))), done.stdout + done.stderr)
 
 
 class Documents(unittest.TestCase):

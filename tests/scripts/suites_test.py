@@ -1,15 +1,18 @@
 #!/usr/bin/env python3
 """A suite of packages that YARS is not meant for is refused before anything is downloaded, by scripts/setup and scripts/check_fresh;
 --any-suite goes on. Programs that download are stand-ins here, and so is /etc/os-release, in a mount namespace.
+What scripts/setup installs on Ubuntu 24.04 is there in a version that YARS builds with, by packaging/ubuntu-24.04.tsv.
 
 usage: suites_test.py       ends with 77 and a word where it may not mount
 """
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
+UBUNTU = TOP / "packaging/ubuntu-24.04.tsv"
 STAND_IN = '#!/bin/sh\necho "$0 $*" >>"{log}"\n'
 
 
@@ -30,6 +33,27 @@ def run(folder, suite, *command):
     return done.returncode, done.stdout + done.stderr, log.read_text() if log.exists() else ""
 
 
+def number(version):
+    """The upstream part of a Debian version as numbers: 1:3.20-2 gives (3, 20)."""
+    upstream = re.sub(r"^\d+:", "", version)
+    return tuple(map(int, re.match(r"\d+(?:\.\d+)*", upstream).group().split(".")))
+
+
+def check_ubuntu(installed):
+    """Each package that scripts/setup installs on Ubuntu 24.04 has a row with version and source."""
+    rows = [line.split("\t") for line in UBUNTU.read_text().splitlines() if not line.startswith("#")]
+    assert all(len(row) == 4 and row[2] in ("main", "universe") and row[3].startswith("https://") for row in rows), rows
+    versions = {name: number(version) for name, version, _, _ in rows}
+    assert len(versions) == len(rows) and list(versions) == sorted(versions), "expected each name once, in order"
+    differing = (versions.keys() ^ installed) - {"npm"}  # which is not installed beside a Node.js of one's own
+    assert not differing, f"expected the packages of scripts/setup in {UBUNTU.name}, found in one of the two alone: {differing}"
+    lists = (TOP / "CMakeLists.txt").read_text()
+    cmake = re.search(r"cmake_minimum_required\(VERSION ([\d.]+)\)", lists).group(1)
+    boost = re.search(r"find_package\(Boost ([\d.]+)", lists).group(1)
+    for name, least in (("cmake", cmake), ("libboost-dev", boost), ("g++", "12"), ("python3", "3.11"), ("clang-format-19", "19")):
+        assert versions[name] >= number(least), f"{name}: expected {least} or later, found {versions[name]}"
+
+
 def main():
     if subprocess.run(["unshare", "--mount", "true"], capture_output=True, check=False).returncode != 0:
         print("skipped: expected the right to mount, found none; run as root")
@@ -46,6 +70,10 @@ def main():
         for suite in ("bookworm", "trixie", "noble"):
             code, text, calls = run(folder, suite, setup)
             assert code == 0 and "install" in calls, (suite, code, text, calls)
+        _, _, calls = run(folder, "noble", setup, "--test")
+        words = next(line for line in calls.splitlines() if " install " in line).split()[2:]
+        options = {word for at, word in enumerate(words) if word.startswith("-") or words[at - 1] == "-o"}
+        check_ubuntu(set(words) - options)
         code, text, calls = run(folder, "bookworm", fresh, "--suite", "woody")
         assert code == 1 and calls == "" and "found woody" in text and "bookworm trixie" in text, (code, text, calls)
         code, text, calls = run(folder, "bookworm", fresh, "--memory", "much")

@@ -16,7 +16,7 @@ from . import DatasetError
 from .run import HostProcess, check_answer
 
 MOST_TRIES = 30       # of a block, when workers die or host processes do
-CONNECT_WITHIN_S, WORKERS_WITHIN_S = 30, 60
+WORKERS_WITHIN_S = 60
 ANSWER_WITHIN_S = 30   # of a task that has ended
 SCHEDULER_BACK_S = 5.0  # a scheduler that is gone for so long ends the run
 TASKS_PER_THREAD = 4  # that wait at the scheduler
@@ -112,7 +112,7 @@ def connect(address):
         raise DatasetError("expected the Python package distributed for --dask, found none; install python3-distributed") from None
     logging.disable(logging.CRITICAL)  # Dask's log of this process: what matters of it becomes an error here
     try:
-        client = distributed.Client(address, timeout=CONNECT_WITHIN_S)
+        client = distributed.Client(address)  # waits as long as Dask's own settings say (distributed.comm.timeouts.connect)
     except (OSError, ValueError, TimeoutError) as error:
         raise DatasetError(f"--dask: expected a scheduler at {address}, found none: {error}; start dask-scheduler, or check the "
                            "address") from None

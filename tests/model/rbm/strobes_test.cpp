@@ -139,7 +139,7 @@ TEST(Strobes, OfStandardAreThoseOfTheReferenceWithinAHundredthOfADecibel) {
     Strobes standard(configuration);
     configuration.fidelity.algorithm = radar::Algorithm::reference;
     Strobes reference(configuration);
-    for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 3.7) {
+    for (double azimuth_deg = 0.0; azimuth_deg < 360.0; azimuth_deg += 11.3) {
       physics::SweepGeometry geometry = test::geometry_north(8000.0 + azimuth_deg, kStrobesRange_m, middle);
       geometry.apex = geo::geodesic_direct(middle, geo::Bearing::degrees(50.0), geo::Length::metres(azimuth_deg));
       geometry.azimuth = geo::Bearing::degrees(azimuth_deg);

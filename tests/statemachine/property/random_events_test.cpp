@@ -242,7 +242,7 @@ TEST_P(RandomEvents, KeepEveryInvariantAndAllowTheReturnToARunningRbm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEachRadar, RandomEvents,
-                         ::testing::Values(RandomRun{"", 1'000'000}, RandomRun{"apg68.guf", 400'000}),
+                         ::testing::Values(RandomRun{"", 500'000}, RandomRun{"apg68.guf", 200'000}),
                          [](const auto& run) { return std::string(run.index == 0 ? "Apg70" : "Apg68"); });
 
 // A cursor at rest may leave the display, because it stays on its ground point. A slewed cursor stays on the display.
