@@ -13,6 +13,10 @@
 #include <stdexcept>
 #include <thread>
 
+#include "databuffer/json/session_json.hpp"
+#include "databuffer/json/status_json.hpp"
+#include "databuffer/session/session.hpp"
+
 namespace yars::endtoend {
 
 namespace {
@@ -201,15 +205,18 @@ Finished ProcessSet::yars(std::vector<std::string> arguments, double timeout_s) 
 }
 
 bool ProcessSet::is_recorded() const {
-  const auto finished = yars({"status", "--json"});
-  if (!finished.output.starts_with('{')) return false;
-  const auto recorder = nlohmann::json::parse(finished.output)["recorder"];
-  return recorder.is_object() && recorder["writing"] == true;
+  const auto now = status();
+  return !now.is_null() && now["recorder"].is_object() && now["recorder"]["writing"] == true;
+}
+
+nlohmann::json ProcessSet::status() const {
+  const auto session = databuffer::Session::open_read_only(session_);
+  return session ? nlohmann::json(databuffer::status_json(*session, session_)) : nlohmann::json();
 }
 
 nlohmann::json ProcessSet::watch() const {
-  const auto finished = yars({"watch", "--json", "--once"});
-  return finished.code == 0 ? nlohmann::json::parse(finished.output) : nlohmann::json();
+  const auto session = databuffer::Session::open_read_only(session_);
+  return session ? nlohmann::json(databuffer::watch_object(*session)) : nlohmann::json();
 }
 
 bool ProcessSet::wait_until(const std::function<bool(const nlohmann::json&)>& condition, double timeout_s) const {

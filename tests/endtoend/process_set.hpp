@@ -62,7 +62,10 @@ class ProcessSet {
   Finished yars(std::vector<std::string> arguments, double timeout_s = 60.0) const;
   // True once the recorder of the session writes. As a process it is known some time before.
   bool is_recorded() const;
-  nlohmann::json watch() const;  // one object of `yars watch --json --once`; null when there is no session
+  // What `yars status --json` and `yars watch --json --once` print, without a process for each look; null when there is
+  // no session.
+  nlohmann::json status() const;
+  nlohmann::json watch() const;
   // Calls watch() until the condition holds. False after the timeout.
   bool wait_until(const std::function<bool(const nlohmann::json&)>& condition, double timeout_s = 60.0) const;
   bool segment_exists() const;

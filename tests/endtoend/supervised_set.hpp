@@ -65,11 +65,11 @@ class Supervision : public ::testing::Test {
   }
 
   std::string start_log() const { return set_.log_of("start"); }
-  nlohmann::json status() const {
-    const auto finished = set_.yars({"status", "--json"});
-    return finished.output.starts_with('{') ? nlohmann::json::parse(finished.output) : nlohmann::json();
+  nlohmann::json status() const { return set_.status(); }
+  std::string reasons() const {
+    const auto now = status();
+    return now.is_null() ? "no session" : now["health"]["reasons"].dump();
   }
-  std::string reasons() const { return status()["health"]["reasons"].dump(); }
   std::vector<std::string> faults() const { return faults_in(status()); }
   int pid_of(const std::string& role) const {
     const auto processes = set_.watch()["processes"];
