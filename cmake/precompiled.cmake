@@ -57,8 +57,10 @@ function(yars_unite target)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-  # A local name may equal a file-scope name of another source of the same unit: only locals are held against each other.
-  target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-shadow$<SEMICOLON>-Wshadow=local>)
+  # A local name may equal a file-scope name of another source of the same unit: only locals are held against each other,
+  # which Clang cannot.
+  target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-shadow$<SEMICOLON>-Wshadow=local>
+    $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-shadow>)
   get_target_property(sources ${target} SOURCES)
   foreach(source IN LISTS sources)
     cmake_path(ABSOLUTE_PATH source BASE_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE path)

@@ -125,7 +125,7 @@ TEST_P(UndeclaredVoid, IsComparedBeforeScaleAndUnit) {
   fields.scale = scale;
   fields.system = system;
   write_raster(folder.path() / "a.tif", fields,
-               [&](int row, int column) { return row == kBadRow ? number : hilly(row, column); });
+               [&, bad_m = number](int row, int column) { return row == kBadRow ? bad_m : hilly(row, column); });
   const auto reading = read_cell({folder.path() / "a.tif", CellFormat::raster}, {10, 20});
   ASSERT_TRUE(reading.has_value()) << reading.error().message();
   EXPECT_EQ(reading->impossible, 120U);
