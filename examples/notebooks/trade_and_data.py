@@ -65,7 +65,8 @@ print(chip["video"].shape, len(chip["boxes"]), "boxes,", chip["parameters"]["ord
 # Each picture: video in gray, shadow in blue, objects of the scenes in red. All of chip 29 lies behind a mountain.
 
 # %%
-figure, axes = pyplot.subplots(4, 8, figsize=(12, 6.6), constrained_layout=True)
+margins = {"left": 0.005, "right": 0.995, "bottom": 0.005, "top": 0.965, "wspace": 0.05, "hspace": 0.2}
+figure, axes = pyplot.subplots(4, 8, figsize=(12, 6.6), gridspec_kw=margins)
 for item, ax in enumerate(axes.flat):
     chip = data[item]
     picture = numpy.repeat(chip["video"][..., None] / 255.0, 3, axis=2)

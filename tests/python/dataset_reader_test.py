@@ -27,6 +27,8 @@ class Formats(Case):
         for item in (0, 20):
             self.assertEqual(group["object"][item].tolist(), data[item]["object"].tolist())
         self.assertEqual(group["shadow"].attrs["_ARRAY_DIMENSIONS"], ["item", "row", "column"])
+        about = json.loads((self.out / "chips.zarr/video/.zarray").read_text())["compressor"]
+        self.assertEqual(set(about), {"id", "cname", "clevel", "shuffle", "blocksize"})  # with numcodecs of any version
 
     def test_xarray_keeps_types_and_zeros(self):
         try:

@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 
+#include "model/scene/openflight/records.hpp"
 #include "tests/model/scene/support.hpp"
 #include "worldgen/scene/scene_builder.hpp"
 
@@ -30,6 +32,19 @@ TEST(Generator, MakesTheSameFileForTheSameRequest) {
     worldgen::SceneRequest other = order;
     other.seed = 4;
     EXPECT_NE(worldgen::generate_scene(order).file, worldgen::generate_scene(other).file);
+  }
+}
+
+// The last bits of GeographicLib's positions differ between its versions; the file does not.
+TEST(Generator, RoundsTheCornersToABillionthOfADegree) {
+  const auto file = worldgen::generate_scene({.triangles = 15'000, .seed = 2, .origin = {37.8, -122.6}}).file;
+  for (const std::size_t at : {openflight::header::kSouthLatitude, openflight::header::kWestLongitude,
+                               openflight::header::kNorthLatitude, openflight::header::kEastLongitude}) {
+    std::uint64_t bits = 0;
+    for (std::size_t i = 0; i < 8; ++i) bits = bits << 8U | std::to_integer<std::uint64_t>(file[at + i]);
+    const auto degrees = std::bit_cast<double>(bits);
+    EXPECT_GT(std::abs(degrees), 30.0) << at;
+    EXPECT_EQ(degrees, std::round(degrees * 1e9) / 1e9) << at;
   }
 }
 

@@ -1,5 +1,6 @@
 #include "worldgen/scene/openflight_writer.hpp"
 
+#include <cmath>
 #include <cstring>
 
 #include "lib/geo/frames.hpp"
@@ -14,14 +15,20 @@ namespace {
 constexpr std::size_t kGroupBytes = 44, kObjectBytes = 28, kLodBytes = 80, kSwitchBytes = 32, kMatrixBytes = 68;
 constexpr std::size_t kInstanceBytes = 8, kExternalBytes = 216, kMaterialBytes = 84, kPaletteHead = 8;
 
+// To 1e-9 degrees, a tenth of a millimetre: the last bits differ with the version of GeographicLib.
+geo::GeoPoint rounded(geo::GeoPoint point) {
+  constexpr double kSteps = 1e9;  // a degree
+  return {std::round(point.latitude_deg * kSteps) / kSteps, std::round(point.longitude_deg * kSteps) / kSteps};
+}
+
 }  // namespace
 
 OpenFlightWriter::OpenFlightWriter(std::optional<geo::GeoPoint> origin, std::int32_t revision)
     : origin_(origin), revision_(revision) {}
 
 void OpenFlightWriter::set_corners(geo::GeoPoint south_west, geo::GeoPoint north_east) {
-  south_west_ = south_west;
-  north_east_ = north_east;
+  south_west_ = rounded(south_west);
+  north_east_ = rounded(north_east);
 }
 
 void OpenFlightWriter::named(std::uint16_t opcode, const std::string& name, std::size_t bytes, RecordBuilder& record) {

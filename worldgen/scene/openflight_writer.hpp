@@ -94,7 +94,7 @@ class OpenFlightWriter {
   void begin_subfaces();
   void end_subfaces();
 
-  // Corners of the area that the scene covers.
+  // Corners of the area that the scene covers. They are rounded to 1e-9 degrees.
   void set_corners(geo::GeoPoint south_west, geo::GeoPoint north_east);
   // The whole file. Call once, at the end.
   std::vector<std::byte> take();

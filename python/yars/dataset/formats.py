@@ -55,6 +55,11 @@ def codec(name, array):
     return numcodecs.Blosc(cname=name, clevel=1, shuffle=_SHUFFLES.get(array, numcodecs.Blosc.NOSHUFFLE))
 
 
+def _config(encoder):
+    """What makes an encoder again, equal for all versions of numcodecs: 0.16 adds values that are not given."""
+    return {key: value for key, value in encoder.get_config().items() if value is not None}
+
+
 def zarr_metadata(plan, kinds):
     """{path: text} of the metadata of a Zarr group, version 2. `kinds`: types of the arrays."""
     files = {".zgroup": {"zarr_format": 2}, ".zattrs": {"description": "radar chips of YARS; see dataset.json"}}
@@ -62,7 +67,7 @@ def zarr_metadata(plan, kinds):
         encoder, kind = codec(plan.compression, name), np.dtype(kinds[name])
         files[f"{name}/.zarray"] = {
             "zarr_format": 2, "shape": [plan.count, plan.size, plan.size], "chunks": [plan.block, plan.size, plan.size],
-            "dtype": kind.str, "compressor": encoder and encoder.get_config(), "order": "C", "filters": None,
+            "dtype": kind.str, "compressor": encoder and _config(encoder), "order": "C", "filters": None,
             "fill_value": "NaN" if kind.kind == "f" else None}  # xarray takes a fill value for absent ones: 0 would be NaN
         files[f"{name}/.zattrs"] = {"_ARRAY_DIMENSIONS": ["item", "row", "column"], "units": UNITS[name], "long_name": MEANINGS[name]}
     files[".zmetadata"] = {"metadata": dict(files), "zarr_consolidated_format": 1}
