@@ -173,7 +173,8 @@ class BridgeScene {
       builder_.add_instance(kHouse, house_, pose(x, y, y < 0 ? 0 : 180));
     }
     while (!builder_.is_full()) {
-      const double x = (builder_.rng.below(2) == 0 ? -1.0 : 1.0) * builder_.rng.uniform(kHalf_m + 20, 1600);
+      const double side = builder_.rng.below(2) == 0 ? -1.0 : 1.0;
+      const double x = side * builder_.rng.uniform(kHalf_m + 20, 1600);
       const double y = builder_.rng.uniform(-1800, 1800);
       if (std::abs(y) > 45) builder_.add_instance(kTree, tree_, pose(x, y, 0, builder_.rng.uniform(0.7, 1.4)));
     }

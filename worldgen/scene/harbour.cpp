@@ -193,10 +193,11 @@ class HarbourScene {
         }
     for (int i = 0; i < 60 && !builder_.is_full(); ++i)
       builder_.add_instance(kTruck, truck_, pose(-420 + 14 * i, -48, 180.0 * builder_.rng.below(2)));
-    while (!builder_.is_full())
-      builder_.add_instance(kTree, tree_,
-                            pose(builder_.rng.uniform(-2000, 2000), builder_.rng.uniform(-2000, -560), 0,
-                                 builder_.rng.uniform(0.7, 1.4)));
+    while (!builder_.is_full()) {
+      const double scale = builder_.rng.uniform(0.7, 1.4);
+      const double y_m = builder_.rng.uniform(-2000, -560), x_m = builder_.rng.uniform(-2000, 2000);
+      builder_.add_instance(kTree, tree_, pose(x_m, y_m, 0, scale));
+    }
   }
 
   SceneBuilder& builder_;

@@ -110,9 +110,9 @@ class Town {
         const double at_x = x + (lot - 2) * 21.0 + builder_.rng.uniform(-1.5, 1.5);
         const double at_y = y + side * builder_.rng.uniform(15.0, 18.0);
         add_random_instance(kFirstHouse, kHouses, at_x, at_y, (row == 0 ? 0.0 : 180.0) + builder_.rng.uniform(-4, 4));
-        if (builder_.rng.below(2) == 0)
-          add_random_instance(kFirstTree, kTrees, at_x + builder_.rng.uniform(-8, 8),
-                              y + side * builder_.rng.uniform(3, 8), 0);
+        if (builder_.rng.below(2) != 0) continue;
+        const double behind_m = builder_.rng.uniform(3, 8), beside_m = builder_.rng.uniform(-8, 8);
+        add_random_instance(kFirstTree, kTrees, at_x + beside_m, y + side * behind_m, 0);
       }
   }
 
@@ -124,8 +124,10 @@ class Town {
   }
 
   void park(double x, double y) {
-    for (int tree = 0; tree < 30; ++tree)
-      add_random_instance(kFirstTree, kTrees, x + builder_.rng.uniform(-50, 50), y + builder_.rng.uniform(-28, 28), 0);
+    for (int tree = 0; tree < 30; ++tree) {
+      const double along_y_m = builder_.rng.uniform(-28, 28), along_x_m = builder_.rng.uniform(-50, 50);
+      add_random_instance(kFirstTree, kTrees, x + along_x_m, y + along_y_m, 0);
+    }
   }
 
   void cars(double x, double y) {
