@@ -17,7 +17,7 @@ import sys
 
 ROOTS = [pathlib.Path(root) for root in ("README.md", "HACKING.md", "CHANGELOG.md", "CONTRIBUTING.md", "ROADMAP.md", "SECURITY.md", "docs",
                                             "lib", "shm", "config", "databuffer", "model", "worldgen", "statemachine", "inputmonitor",
-                                            "display", "gateway", "tools", "python", "examples", "tests/gateway/lab/README.md")]
+                                            "display", "gateway", "tools", "python", "examples", "tests/README.md", "tests/gateway/lab/README.md")]
 SOURCES = (".hpp", ".h", ".cpp", ".c")
 ANCHOR = r'<a id="([^"]*)"></a>'
 

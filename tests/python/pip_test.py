@@ -31,7 +31,7 @@ ENVIRONMENT = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "YARS_BUILD_FOLD
                "PIP_DISABLE_PIP_VERSION_CHECK": "1", "PIP_NO_CACHE_DIR": "1", "LC_ALL": "C.UTF-8"}
 SCAN = """import yars
 scan = yars.Radar("draft").scan(yars.Terrain(), lat=37.8, lon=-122.5, alt_ft=15000, heading=30, range_nm=10, seed=7)
-print(scan.hash, yars.Radar(config="apg68.guf").name, yars.__file__)
+print(scan.hash, yars.Radar(config="apg68.guf").name, yars.__file__, sep="\\n")
 """
 
 
@@ -68,10 +68,10 @@ class Pip(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         scan = run(self.python, "-c", SCAN, folder=self.folder)
         self.assertEqual(scan.returncode, 0, scan.stderr)
-        return scan.stdout.split()
+        return scan.stdout.splitlines()
 
     def test_an_installation_makes_the_scan_of_the_build(self):
-        of_build = run("/usr/bin/python3", "-B", "-c", SCAN, folder=self.folder, PYTHONPATH=str(BUILD / "python")).stdout.split()
+        of_build = run("/usr/bin/python3", "-B", "-c", SCAN, folder=self.folder, PYTHONPATH=str(BUILD / "python")).stdout.splitlines()
         self.assertEqual(of_build[2], str(BUILD / "python/yars/__init__.py"))
         package = self.folder / f"v/lib/python{sys.version_info[0]}.{sys.version_info[1]}/site-packages/yars"
         self.assertEqual(self.installed("."), [*of_build[:2], str(package / "__init__.py")])

@@ -6,6 +6,7 @@ usage: completions_test.py
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -44,7 +45,7 @@ faults = []
 def bash(line, folder):
     name = line.split()[0]
     script = f"""
-      . {FOLDER}/bash/{name}
+      . {shlex.quote(str(FOLDER / "bash" / name))}
       compopt() {{ :; }}
       COMP_LINE='{line}' COMP_POINT={len(line)} COMPREPLY=()
       $(complete -p {name} | sed 's/.*-F \\([^ ]*\\) .*/\\1/')
@@ -77,7 +78,7 @@ def zsh(line, folder):
     setup.write_text(ZSH_SETUP.format(dump=pathlib.Path(folder, ".zcompdump"), out=out))
     script = f"""
       zmodload zsh/zpty
-      zpty one "FPATH={FOLDER}/zsh:$FPATH zsh -f -i"
+      zpty one {shlex.quote(f"FPATH={shlex.quote(str(FOLDER))}/zsh:$FPATH zsh -f -i")}
       zpty -w one ". {setup}"
       zpty -r -m one junk '*READY>*'
       zpty -w -n one $'{line}\\t'
@@ -93,7 +94,7 @@ def zsh(line, folder):
 
 
 def fish(line, folder):
-    script = f"source {FOLDER}/fish/{line.split()[0]}.fish; complete -C '{line}'"
+    script = f"source {shlex.quote(str(FOLDER))}/fish/{line.split()[0]}.fish; complete -C '{line}'"
     done = subprocess.run(["fish", "-c", script], capture_output=True, text=True, timeout=60, cwd=folder)
     # fish repeats the whole word: --out=a.guf, csv:a.guf.
     return {re.sub("^(--[a-z]+=|[a-z]+:(?=.))", "", row.split("\t")[0]).rstrip("/") for row in done.stdout.splitlines()}, done

@@ -4,6 +4,7 @@ import html
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -29,6 +30,14 @@ def source_files(suffix):
                 yield path.relative_to(ROOT)
 
 
+def filter_of(folder):
+    """A program for doxygen, which hands the name of a filter to the shell as it is: without a blank."""
+    program = pathlib.Path(folder, "filter")
+    program.write_text(f"#!/bin/sh\nexec {shlex.quote(sys.executable)} {shlex.quote(str(FILTER))} \"$@\"\n")
+    program.chmod(0o755)
+    return program
+
+
 @unittest.skipUnless(DOXYGEN, "no doxygen")
 class Pages(unittest.TestCase):
     @classmethod
@@ -40,7 +49,7 @@ class Pages(unittest.TestCase):
             shutil.copy(ROOT / file, source / file)
         settings = (ROOT / "docs" / "Doxyfile").read_text() + "".join(line + "\n" for line in (
             "HAVE_DOT = NO", "USE_MDFILE_AS_MAINPAGE =", "IMAGE_PATH =", "DOTFILE_DIRS =",
-            f'INPUT_FILTER = "{sys.executable} {FILTER} --filter"'))
+            f"INPUT_FILTER = {filter_of(cls.folder.name)} --filter"))
         cls.run_ = subprocess.run(["doxygen", "-"], input=settings, cwd=source, capture_output=True, text=True, timeout=100)
         cls.pages = pathlib.Path(cls.folder.name) / "html"
 

@@ -42,7 +42,8 @@ faults = []
 
 def run(*command, folder=None, **environment):
     return subprocess.run([str(word) for word in command], cwd=folder, env={**ENVIRONMENT, **environment},
-                          capture_output=True, text=True, timeout=240, check=False)
+                          capture_output=True, text=True, errors="surrogateescape",  # pkg-config escapes each byte
+                          timeout=240, check=False)
 
 
 def must(*command, folder=None, **environment):

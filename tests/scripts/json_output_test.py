@@ -6,6 +6,7 @@ usage: json_output_test.py BIN
 import json
 import os
 import pathlib
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -104,10 +105,10 @@ def progress():
     command = [str(BIN / "yars"), "terrain", "convert", "--in", "cells", "--out", "shown"]
     piped = subprocess.run(command, capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)
     expect("a pipe", "1/1" not in piped.stdout + piped.stderr and "\x1b" not in piped.stdout + piped.stderr, piped)
-    shown = subprocess.run(["script", "-qec", " ".join(command), "/dev/null"], capture_output=True, text=True, timeout=120,
+    shown = subprocess.run(["script", "-qec", shlex.join(command), "/dev/null"], capture_output=True, text=True, timeout=120,
                            stdin=subprocess.DEVNULL)
     expect("a terminal", "1/1  shown/w124/n36.dt0" in shown.stdout, shown)
-    info = f"{BIN}/yars terrain info cells --json"
+    info = shlex.join([str(BIN / "yars"), "terrain", "info", "cells", "--json"])
     for terminal, escapes in (("xterm", True), ("dumb", False)):
         shown = subprocess.run(["script", "-qec", f"{info} >/dev/null", "/dev/null"], capture_output=True, text=True,
                                timeout=120, stdin=subprocess.DEVNULL, env={**os.environ, "TERM": terminal})

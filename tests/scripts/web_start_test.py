@@ -102,8 +102,8 @@ def options_of_the_station_are_handed_to_it(place):
                        "--web-certificate", "/a/certificate.pem", "--web-key", "/a/key.pem", "--web-port", "1", "--web-port", "0"):
         assert place.of_station() == {"--listen=0.0.0.0", "--names=radar.example,radar", f"--tokens={place.folder}/tokens",
                                       "--certificate=/a/certificate.pem", "--key=/a/key.pem", "--port=0"}, place.lines("yars-station")
-    with place.running("--web-without-tls", "--web-tokens", "tokens"):
-        assert place.of_station() == {"--without-tls", f"--tokens={pathlib.Path.cwd()}/tokens"}, place.lines("yars-station")
+    with contextlib.chdir(place.folder), place.running("--web-without-tls", "--web-tokens", "tokens"):
+        assert place.of_station() == {"--without-tls", f"--tokens={place.folder}/tokens"}, place.lines("yars-station")
     with place.running():
         assert place.of_station() == set(), place.lines("yars-station")
 

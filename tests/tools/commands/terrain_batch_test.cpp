@@ -84,7 +84,7 @@ TEST_F(TerrainBatch, ConversionToHgtPackAndDtedInTurnKeepsPostsAndVoids) {
 
 TEST_F(TerrainBatch, ProgressOnATerminalNamesEachCellWrittenAndTheirNumber) {
   const std::string command =
-      YARS_BIN_DIR "/yars terrain convert --in " + in().string() + " --out " + out().string() + " >/dev/null";
+      "'" YARS_BIN_DIR "/yars' terrain convert --in " + in().string() + " --out " + out().string() + " >/dev/null";
   const auto shown = endtoend::run_tool({"script", "-qec", command, "/dev/null"});
   ASSERT_EQ(shown.code, 0) << shown.errors;
   EXPECT_THAT(shown.output, HasSubstr("1/2"));

@@ -54,7 +54,7 @@ TEST_F(TerrainCommands, InfoOfWholeCellsEndsWith0) {
 // excepted.
 TEST_F(TerrainCommands, ProgressIsOneLineOfTheTerminalThatIsRedrawn) {
   const std::string command =
-      "TERM=xterm " YARS_BIN_DIR "/yars terrain info --terrain " + tree().string() + " >/dev/null";
+      "TERM=xterm '" YARS_BIN_DIR "/yars' terrain info --terrain " + tree().string() + " >/dev/null";
   const Finished shown = endtoend::run_tool({"script", "-qec", command, "/dev/null"});
   EXPECT_EQ(shown.code, 0) << shown.errors;
   EXPECT_THAT(shown.output, HasSubstr("\r\033[K1 of 1 cells"));
