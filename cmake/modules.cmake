@@ -1,6 +1,6 @@
 # yars_module(NAME [SUBFOLDERS ... | FOLDERS ...] [SHELLS] [LIGHT] [SOURCES ...] [DEPENDS ...]): a library from the sources of this
-# folder and of the subfolders named, or of FOLDERS alone. LIGHT: it computes little (cmake/precompiled.cmake). Left out are *_main.cpp and *_command.cpp, which belong to programs, and
-# *_shell.cpp, which see segment, log and clock, unless SHELLS is said.
+# folder and of the subfolders named, or of FOLDERS alone. Left out are *_main.cpp and *_command.cpp, which belong to programs,
+# and *_shell.cpp, which see segment, log and clock, unless SHELLS is said. LIGHT: it computes little (cmake/precompiled.cmake).
 function(yars_module name)
   cmake_parse_arguments(ARG "SHELLS;LIGHT" "" "DEPENDS;SOURCES;SUBFOLDERS;FOLDERS" ${ARGN})
   set(folders ${ARG_FOLDERS})

@@ -21,11 +21,17 @@ function(yars_precompiled name)
   target_precompile_headers(${name} PRIVATE ${yars_precompiled_standard} ${ARG_HEADERS})
 endfunction()
 
-# Flags of LIGHT targets, which compute little: text, options, JSON. Their templates take a third less time to compile.
-set(yars_light_flags $<$<CONFIG:Release>:-O1>)
+# Flags of LIGHT targets in release. They compute little: text, options, JSON, single pictures. Their templates take a third
+# less time to compile.
+set(yars_light_flags)
+if(CMAKE_BUILD_TYPE STREQUAL "Release")
+  set(yars_light_flags -O1)
+endif()
 if(YARS_PRECOMPILED)
   yars_precompiled(yars_precompiled)
-  yars_precompiled(yars_precompiled_light FLAGS ${yars_light_flags})
+  if(yars_light_flags)
+    yars_precompiled(yars_precompiled_light FLAGS ${yars_light_flags})
+  endif()
 endif()
 
 # yars_use_precompiled(TARGET NAME): compiles TARGET with the headers of NAME where there are any.
@@ -39,7 +45,7 @@ endfunction()
 # that weight, or of NAME.
 function(yars_set_weight target light)
   set(headers yars_precompiled)
-  if(light)
+  if(light AND yars_light_flags)
     target_compile_options(${target} PRIVATE ${yars_light_flags})
     set(headers yars_precompiled_light)
   endif()

@@ -46,7 +46,10 @@ std::vector<T> all_of(const std::vector<RecordingItem>& items) {
 // Folder of a recorded flight; it goes with this object.
 class Flight {
  public:
-  Flight() { std::filesystem::create_directory(folder_); }
+  Flight() {
+    std::filesystem::remove_all(folder_);  // of a killed run with the same process id
+    std::filesystem::create_directory(folder_);
+  }
   ~Flight() {
     std::error_code ignored;
     std::filesystem::remove_all(folder_, ignored);

@@ -284,9 +284,7 @@ TEST_F(LiveSet, AutomaticFidelityObeysTheCoreShareAndReplays) {
   ASSERT_TRUE(eventually([&] { return set_.is_recorded(); }, 60.0)) << set_.log_of("recorder");
   set_.start("radar-model", {"radar-model", "--config", configuration});
   inject({"power opr", "elevation -3"});
-  const auto fidelity = [this] {
-    return nlohmann::json::parse(set_.yars({"status", "--json"}).output)["model"]["fidelity"].get<std::string>();
-  };
+  const auto fidelity = [this] { return set_.status()["model"]["fidelity"].get<std::string>(); };
   EXPECT_TRUE(eventually([&] { return fidelity() == "draft"; }, 20.0)) << fidelity();
   const std::uint64_t sweeps = set_.watch()["sweeps"];
   ASSERT_TRUE(set_.wait_until([&](const auto& watch) { return watch["sweeps"] > sweeps + 300; }));

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Facts about types and documents of the compiled names: stubs against the objects, docstrings, doctests, and a user's program
-under mypy where Debian's mypy is installed.
+under mypy where Debian's mypy is installed; with YARS_TEST_FULL against NumPy's types, too.
 
 usage: types_test.py BUILD     Skipped (code 77) where the build has no compiled part.
 """

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""A project of somebody else builds against an installed YARS and against the Debian packages, and its programs run: by
-find_package(yars), by pkg-config, and by `import yars`. The packages are unpacked where no compiler looks.
+"""A project of somebody else builds against an installed YARS, by pkg-config, and against the Debian packages, by
+find_package(yars) and `import yars`, and its programs run. With YARS_TEST_FULL each is built by each way. The packages are
+unpacked where no compiler looks.
 
 usage: foreign_project_test.py CMAKE BUILD CC CXX FLAGS     FLAGS: of the compilers, such as those of the sanitizers
 """

@@ -56,7 +56,7 @@ def codec(name, array):
 
 
 def _config(encoder):
-    """What makes an encoder again, equal for all versions of numcodecs: 0.16 adds values that are not given."""
+    """Settings that rebuild an encoder, without those that are None, which numcodecs 0.16 adds."""
     return {key: value for key, value in encoder.get_config().items() if value is not None}
 
 

@@ -234,8 +234,9 @@ TEST_P(RandomEvents, KeepEveryInvariantAndAllowTheReturnToARunningRbm) {
   // A run with only dead events, or with none, would test little.
   EXPECT_GT(dead, events / 10);
   EXPECT_LT(dead, events * 9 / 10);
-  // Over a million events, a map is shown after 1 event in 6, and 1 event in 530 designates a target. A run may stay
-  // for tens of thousands of events in states without maps. The counts of short runs therefore vary by a factor of 10.
+  // Measured over a million events: a map is shown after 1 event in 6, and 1 event in 530 designates a target. A run
+  // may stay for tens of thousands of events in states without maps. The counts of short runs therefore vary by a
+  // factor of 10.
   EXPECT_GT(patches, events / 100);
   EXPECT_GT(targets, events / 5000);
   EXPECT_GT(updates, events / 1000);
