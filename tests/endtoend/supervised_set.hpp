@@ -1,5 +1,5 @@
 // Fixture: a set that scripts/start supervises, over a plain at sea level. Helpers read the log of scripts/start and
-// the output of `yars status`.
+// the status of the set.
 #pragma once
 
 #include <gmock/gmock.h>
