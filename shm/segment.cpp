@@ -3,6 +3,7 @@
 #include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -30,17 +31,30 @@ using error::fail;
 // Maximum number of attempts to attach or create. An attempt that meets a leaving process pauses 1 ms. Leaving takes
 // far less than the resulting 2 s.
 constexpr int kAttempts = 2000;
-// Number of first attempts that tolerate a full /dev/shm. They give other creators 0.3 s to release their memory.
-constexpr int kMemoryAttempts = 300;
-constexpr std::size_t kParticipation = 0;  // byte that every participant read-locks
+// [ns] 2 s: time for which a full /dev/shm is tolerated, so that other creators can release their memory.
+constexpr std::int64_t kMemoryPatience_ns = 2'000'000'000;
+constexpr std::int64_t kMemoryPause_ns = 20'000'000;  // 20 ms: between two attempts with a full /dev/shm
+constexpr std::size_t kParticipation = 0;             // byte that every participant read-locks
 
 void step(const char* what) {
   if (creation_step != nullptr) creation_step(what);
 }
 
-void sleep_1ms() {
-  const timespec pause{0, 1'000'000};
+void sleep_ns(std::int64_t duration_ns) {
+  const timespec pause{0, static_cast<long>(duration_ns)};
   nanosleep(&pause, nullptr);
+}
+
+std::int64_t now_ns() {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+
+// False if /dev/shm would be too small without any other file.
+bool could_ever_hold(std::uint64_t bytes) {
+  struct statvfs space{};
+  return statvfs(kSegmentFolder, &space) != 0 || space.f_blocks == 0 || space.f_blocks * space.f_frsize >= bytes;
 }
 
 std::string file_name_of(const std::string& name) {
@@ -140,6 +154,25 @@ tl::unexpected<error::Error> describe_open_error(const std::string& file_name, i
       (there.st_uid == geteuid() ? "remove it" : "ask " + owner + " to remove it") + ", or choose another --session");
 }
 
+// Describes why there is no session of this name. Other users' files can be seen in /dev/shm, but not be opened.
+tl::unexpected<error::Error> describe_absence(const std::string& name) {
+  DIR* folder = opendir(kSegmentFolder);
+  std::optional<std::string> other;
+  while (const dirent* entry = folder != nullptr ? readdir(folder) : nullptr) {
+    const std::string_view found = entry->d_name;
+    if (!found.starts_with("yars.") || !found.ends_with("." + name)) continue;
+    const std::string_view user = found.substr(5, found.size() - 5 - name.size() - 1);
+    if (!user.empty() && user.find_first_not_of("0123456789") == std::string_view::npos) other = user;
+  }
+  if (folder != nullptr) closedir(folder);
+  if (other)
+    return fail("session " + name, "a running session of user " + std::to_string(geteuid()),
+                "none of that user, but one of user " + *other,
+                "run the command as user " + *other + ", or name another session with --session");
+  return fail("session " + name, "a running session", "none of that name",
+              "start it (scripts/start --session " + name + "), or name another with --session");
+}
+
 using Attempt = Expected<std::optional<SegmentFile>>;  // nullopt: try again
 
 // Attaches to the file with this name. A leftover (a file without any lock) is unlinked.
@@ -159,7 +192,7 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
   // Another process participates, or has write-locked the file: as the last participant that leaves, or because it
   // found the same leftover. While a write lock exists, the read lock fails.
   if (!file->lock(kParticipation, LockKind::read) || !file->is_at(path_of(file_name))) {
-    sleep_1ms();
+    sleep_ns(1'000'000);
     return std::nullopt;
   }
   const auto usable = file->map() ? check_layout(*file, file_name, layout)
@@ -213,8 +246,8 @@ Attempt create(const std::string& file_name, const LayoutIdentity& layout, Segme
   if (!linked) file->lock(kParticipation, LockKind::none);
   file->remove_temporary();
   step("temporary removed");
-  if (error == ENOSPC && memory_may_free) {
-    sleep_1ms();
+  if (error == ENOSPC && memory_may_free && could_ever_hold(layout.size)) {
+    sleep_ns(kMemoryPause_ns);
     return std::nullopt;
   }
   if (!built) return tl::unexpected(built.error());
@@ -247,14 +280,15 @@ Segment& Segment::operator=(Segment&& other) noexcept {
 Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& layout, Initialize initialize) {
   const std::string file_name = file_name_of(name);
   remove_dead_temporaries(file_name);
+  const std::int64_t begin_ns = now_ns();
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     Attempt joined = attach(file_name, layout);
     if (joined && !*joined) joined = rejoin(file_name, layout);
     if (!joined) return tl::unexpected(joined.error());
     if (*joined) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**joined), true, false}));
     // Programs that start together each build a segment, and only one of these segments gets the name. /dev/shm may
-    // have space for one segment but not for all. The first kMemoryAttempts attempts therefore tolerate ENOSPC.
-    Attempt made = create(file_name, layout, initialize, attempt < kMemoryAttempts);
+    // have space for one segment but not for all. For kMemoryPatience_ns ENOSPC is therefore tolerated.
+    Attempt made = create(file_name, layout, initialize, now_ns() - begin_ns < kMemoryPatience_ns);
     if (!made) return tl::unexpected(made.error());
     if (*made) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**made), true, true}));
   }
@@ -271,9 +305,7 @@ Expected<Segment> Segment::open_read_only(const std::string& name, const LayoutI
     if (file && !file->could_write_lock(kParticipation)) break;
     file.reset();
   }
-  if (!file)
-    return fail("session " + name, "a running session", "none of that name",
-                "start it (scripts/start --session " + name + "), or name another with --session");
+  if (!file) return describe_absence(name);
   if (const auto owned = check_owner(*file, file_name); !owned) return tl::unexpected(owned.error());
   if (file->could_write_lock(kParticipation))
     return fail("session " + name, "a running session", "a leftover: all its programs have died",

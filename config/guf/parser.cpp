@@ -1,11 +1,13 @@
 #include "config/guf/parser.hpp"
 
 #include <charconv>
+#include <cstdint>
 #include <new>
 #include <utility>
 
 #include "guf_lexer.hpp"
 #include "guf_parser.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::config {
 
@@ -143,8 +145,13 @@ std::string string_of(std::string_view text, const ScanState& state) {
       value += '\t';
     } else if (escaped == '"' || escaped == '\\') {
       value += escaped;
+    } else if (const auto byte =
+                   escaped == 'x' ? text::whole_number<std::uint8_t>(text.substr(i + 1, 2), 16) : std::nullopt;
+               byte && i + 3 < text.size()) {
+      value += static_cast<char>(*byte);
+      i += 2;
     } else {
-      reject(state.token, R"(one of \" \\ \n \t after a backslash)",
+      reject(state.token, R"(one of \" \\ \n \t \xHH after a backslash)",
              std::string("\\").append(printable({&escaped, 1})));
     }
   }

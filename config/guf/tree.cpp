@@ -5,6 +5,8 @@
 #include <cmath>
 #include <optional>
 
+#include "lib/text/plain_text.hpp"
+
 namespace yars::config {
 
 namespace {
@@ -42,16 +44,10 @@ std::string number_text(double value) {
 std::string quoted_text(const std::string& text) {
   std::string quoted = "\"";
   for (const char letter : text) {
-    if (letter == '\n') {
-      quoted += "\\n";
-    } else if (letter == '\t') {
-      quoted += "\\t";
-    } else {
-      if (letter == '"' || letter == '\\') quoted += '\\';
-      quoted += letter;
-    }
+    if (letter == '"' || letter == '\\') quoted += '\\';
+    quoted += letter;
   }
-  return quoted + "\"";
+  return text::printable(quoted) + "\"";
 }
 
 namespace {

@@ -92,7 +92,7 @@ static inline void yars_enter_table(yars_session* s, const char* program) {
 static inline int yars_is_session_name(const char* name) {
   const char* const allowed = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz-_";
   const size_t length = strlen(name);
-  return length >= 1 && length <= 40 && strspn(name, allowed) == length;
+  return length >= 1 && length <= 40 && name[0] != '-' && strspn(name, allowed) == length;
 }
 
 /* Fills s->error with why the session `name` cannot be joined, and what to do. Returns -1. */
@@ -110,7 +110,7 @@ static inline int yars_attach(yars_session* s, const char* name, const char* pro
   s->ownship_lane = s->input_lane = s->process = -1;
   s->descriptor = -1;
   if (!yars_is_session_name(name))
-    return yars_fail(s, "session", "expected 1 to 40 letters, digits, - or _ as its name");
+    return yars_fail(s, "session", "expected 1 to 40 letters, digits, - or _ as its name, and no - at the front");
   snprintf(s->path, sizeof s->path, "/dev/shm/yars.%u.%s", (unsigned)geteuid(), name);
   s->descriptor = open(s->path, O_RDWR | O_CLOEXEC | O_NOFOLLOW);
   if (s->descriptor < 0 && errno == ENOENT) return yars_fail_without_set(s, name, "no such session runs");

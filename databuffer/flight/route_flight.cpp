@@ -201,7 +201,7 @@ std::size_t RouteFlight::nearest_leg_end(geo::GeoPoint position) const {
 }
 
 FlightSample RouteFlight::step(geo::Duration dt) {
-  double remaining_s = forward_step(dt).seconds();
+  double remaining_s = std::min(forward_step(dt).seconds(), kMaxFlown.seconds());
   while (remaining_s > 0.0) {
     const double part_s = std::min(remaining_s, kMaxStep_s);
     advance(part_s);

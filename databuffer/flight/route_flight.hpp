@@ -55,6 +55,10 @@ inline constexpr double kAcceleration_mps2 = 2.0;  // limit of the rate of chang
 // speed. After the last waypoint of an open route the aircraft continues straight ahead.
 class RouteFlight final : public FlightModel {
  public:
+  // Flight of one step at most, whatever the clock says: a flight model that was held up for longer goes on from where
+  // the aircraft was after this time. The computation of this flight takes about 0.1 s.
+  static constexpr geo::Duration kMaxFlown = geo::Duration::seconds(600.0);
+
   explicit RouteFlight(Route route);
   FlightSample step(geo::Duration dt) override;
   void reset() override;

@@ -29,7 +29,7 @@ namespace {
 // Message of a value that an option does not take.
 std::string refusal(const CLI::Option& option, const std::string& found) {
   const auto values = fixed_values(option);
-  const std::string shown = found.empty() && !values.empty() ? "an empty one" : "'" + found + "'";
+  const std::string shown = found.empty() && !values.empty() ? "an empty one" : "'" + text::shortened(found) + "'";
   std::string text = "expected " + expected_value(option) + ", found " + shown;
   if (const std::string meant = text::did_you_mean(found, values); !meant.empty()) text += "; " + meant;
   return text;

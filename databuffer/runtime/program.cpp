@@ -39,6 +39,7 @@ std::optional<error::Error> arrange_cpus(const ProgramOptions& options) {
 }  // namespace
 
 void add_common_options(CommandLine& app, ProgramOptions& options, ProgramKind kind) {
+  options.kind = kind;
   const char* session = std::getenv("YARS_SESSION");
   const bool has_session = session != nullptr && *session != '\0';
   if (has_session) options.session = session;
@@ -98,6 +99,7 @@ int run_body(CommandLine& app, const ProgramOptions& options, const ProgramBody&
   try {
     set_private_umask();
     auto error = begin_program(app.name(), options);
+    if (options.kind == ProgramKind::role) end_soon_after_signals();
     // SIGPIPE is ignored, so that a role continues when the reader of its log has closed the pipe.
     std::signal(SIGPIPE, SIG_IGN);
     if (!error) {

@@ -15,10 +15,14 @@
 
 namespace yars::databuffer {
 
+// A command; a program that runs for the time of a session; such a program that also runs the tick loop.
+enum class ProgramKind : std::uint8_t { command, service, role };
+
 // Values of the options that all programs share; from `lockstep` on, of those that only roles have.
 struct ProgramOptions {
-  std::string session = "default";  // --session, else YARS_SESSION, else "default"
-  std::string config;               // --config; empty: built-in defaults
+  ProgramKind kind = ProgramKind::command;  // set by add_common_options()
+  std::string session = "default";          // --session, else YARS_SESSION, else "default"
+  std::string config;                       // --config; empty: built-in defaults
   std::string log_level = "info";
   std::string lockstep;   // --lockstep ROLE,ROLE,...[@END_TICK]; empty: no lockstep
   std::string log_dir;    // --log-dir DIR: also logs to DIR/PROGRAM.log; empty: no file
@@ -26,16 +30,14 @@ struct ProgramOptions {
   std::string cpus;       // --cpus 2,3: CPU affinity; empty: all
 };
 
-// A command; a program that runs for the time of a session; such a program that also runs the tick loop.
-enum class ProgramKind : std::uint8_t { command, service, role };
-
 // Adds --session, --config, --log-level and --version; for services and roles also --log-dir, --realtime and --cpus;
 // for roles --lockstep.
 void add_common_options(CommandLine& app, ProgramOptions& options, ProgramKind kind);
 
 // Main function of a program. Parses the command line, sets a private umask, starts the log, installs signal handlers
-// and runs the body. Returns the exit code. An error or exception of the body is printed as one line on standard error.
-// The exit code is then kExitUsage for a usage error, else kExitFailure. The name of `app` is the program's name.
+// and runs the body. A role ends within a second of SIGTERM, also in the midst of a body. Returns the exit code. An
+// error or exception of the body is printed as one line on standard error. The exit code is then kExitUsage for a usage
+// error, else kExitFailure. The name of `app` is the program's name.
 using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body);
 

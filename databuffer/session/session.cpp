@@ -25,7 +25,8 @@ bool name_is_valid(std::string_view name) {
     return (letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') ||
            letter == '_' || letter == '-';
   };
-  return !name.empty() && name.size() <= kMaxNameLength && std::all_of(name.begin(), name.end(), allowed);
+  return !name.empty() && !name.starts_with('-') && name.size() <= kMaxNameLength &&
+         std::all_of(name.begin(), name.end(), allowed);
 }
 
 void initialize(void* memory) {
@@ -43,8 +44,8 @@ tl::unexpected<error::Error> fail_read_only(std::string_view subject) {
 
 Expected<void> check_session_name(const std::string& name) {
   if (name_is_valid(name)) return {};
-  return tl::unexpected(error::Error{"session name", "1 to 40 letters, digits, '-' or '_'", "\"" + name + "\"",
-                                     "choose another --session", true});
+  return tl::unexpected(error::Error{"session name", "1 to 40 letters, digits, '-' or '_', and no '-' at the front",
+                                     "\"" + name + "\"", "choose another --session", true});
 }
 
 std::optional<std::size_t> counted_role(std::string_view name) {

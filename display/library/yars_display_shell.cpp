@@ -8,6 +8,7 @@
 #include "display/host/display.hpp"
 #include "display/library/yars_display.h"
 #include "display/symbology/bezel.hpp"
+#include "lib/text/plain_text.hpp"
 
 struct yars_display {
   yars::display::host::Display display;
@@ -37,6 +38,7 @@ int failed(const error::Error& error) {
 template <class Handle, class Work>
 int guarded(Handle* handle, const Work& work) noexcept {
   if (handle == nullptr) return failed(kNoDisplay);
+  const text::DecimalPoint numbers;
   try {
     return work(handle->display);
   } catch (const std::exception& exception) {
@@ -53,6 +55,7 @@ PanelView view_of(const yars_panel& panel) {
 }
 
 yars_display* attached(const char* session, const char* configuration, const char* program) {
+  const text::DecimalPoint numbers;
   auto display =
       Display::attach({text_or(session, "default"), text_or(configuration, ""), text_or(program, "host display")});
   if (display) return new yars_display{std::move(*display)};

@@ -11,8 +11,9 @@
 namespace yars::error {
 
 std::string Error::message() const {
-  std::string text = (subject.empty() ? "" : subject + ": ") + "expected " + expected + ", found " + found;
-  if (!action.empty()) text += "; " + action;
+  std::string text = (subject.empty() ? "" : text::shortened(subject) + ": ") + "expected " + expected + ", found " +
+                     text::shortened(found);
+  if (!action.empty()) text += "; " + text::shortened(action);
   return text::printable(text);
 }
 

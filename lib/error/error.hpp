@@ -20,8 +20,8 @@ struct Error {
   std::string action;      // what the user can do; may be empty
   bool bad_usage = false;  // true: a usage error (wrong command line), with exit code 2 instead of 1
 
-  // "SUBJECT: expected EXPECTED, found FOUND; ACTION" on one line; control characters are escaped. Without a subject or
-  // an action its part is left out.
+  // "SUBJECT: expected EXPECTED, found FOUND; ACTION" on one line; control characters are escaped, and parts of more
+  // than 500 bytes are cut. Without a subject or an action its part is left out.
   std::string message() const;
 };
 

@@ -314,4 +314,9 @@ Expected<void> LogFile::append(std::string_view text) {
   return {};
 }
 
+void occupy_standard_descriptors() {
+  for (int descriptor = STDIN_FILENO; descriptor <= STDERR_FILENO; ++descriptor)
+    if (::fcntl(descriptor, F_GETFD) < 0) ::open("/dev/null", O_RDONLY);
+}
+
 }  // namespace yars::file

@@ -121,4 +121,8 @@ class LogFile {
   std::size_t bytes_ = 0;  // size of the newest file
 };
 
+// Opens /dev/null in place of standard streams that are closed, so that no other file gets their numbers. A write to
+// such a stream still fails, because the descriptor is one for reading. Call it before any file is opened.
+void occupy_standard_descriptors();
+
 }  // namespace yars::file

@@ -101,6 +101,14 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
 }
 
+std::string shortened(std::string_view text) {
+  constexpr std::size_t kMost = 500;
+  if (text.size() <= kMost) return std::string(text);
+  std::string_view kept = text.substr(0, kMost);
+  kept.remove_suffix(unfinished_bytes(kept));
+  return std::string(kept) + "... (" + std::to_string(text.size()) + " bytes)";
+}
+
 std::vector<std::string_view> fields_of(std::string_view text, char separator) {
   std::vector<std::string_view> fields;
   while (true) {
@@ -153,6 +161,14 @@ std::string text_of_number(double value) {
   std::array<char, 32> buffer{};
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), result.ptr};
+}
+
+DecimalPoint::DecimalPoint() : before_(nullptr) {
+  static const locale_t plain = newlocale(LC_NUMERIC_MASK, "C", duplocale(LC_GLOBAL_LOCALE));
+  if (plain != nullptr) before_ = uselocale(plain);
+}
+DecimalPoint::~DecimalPoint() {
+  if (before_ != nullptr) uselocale(before_);
 }
 
 }  // namespace yars::text

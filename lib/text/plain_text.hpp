@@ -5,6 +5,7 @@
 #pragma once
 
 #include <charconv>
+#include <clocale>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -22,6 +23,9 @@ namespace yars::text {
 std::string printable(std::string_view text);
 // Like printable(), but line feeds and tabs are kept.
 std::string printable_lines(std::string_view text);
+// The text of someone else for a message: a longer one than 500 bytes is cut behind a character and ends with its
+// length, as in "xxx... (70000 bytes)".
+std::string shortened(std::string_view text);
 // Number of bytes, 0 to 3, of an incomplete UTF-8 character at the end of `text`.
 std::size_t unfinished_bytes(std::string_view text);
 
@@ -69,5 +73,18 @@ std::optional<Whole> whole_number(std::string_view word, int base = 10) {
 std::string counted(std::uint64_t count, std::string_view noun, std::string_view plural = {});
 // The shortest decimal text from which finite_number() returns the same value; `nan` or `inf` if it is not finite.
 std::string text_of_number(double value);
+
+// While it exists, the thread's numbers in text have a decimal point. For libraries: a host program may have set a
+// locale with a comma, which snprintf() and strtod() follow. Not copied; the last one made ends first.
+class DecimalPoint {
+ public:
+  DecimalPoint();
+  ~DecimalPoint();
+  DecimalPoint(const DecimalPoint&) = delete;
+  DecimalPoint& operator=(const DecimalPoint&) = delete;
+
+ private:
+  locale_t before_;
+};
 
 }  // namespace yars::text

@@ -175,8 +175,12 @@ TEST_F(SegmentTest, AFullDevShmIsAnErrorAndLeavesNothing) {
     }
     if (mount(nullptr, "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return kNotPermitted;
     if (mount("tmpfs", "/dev/shm", "tmpfs", 0, "size=256k,mode=1777") != 0) return kNotPermitted;
+    // A second attempt could not succeed.
+    static int attempts = 0;
+    creation_step = [](const char* what) { attempts += std::string_view(what) == "created" ? 1 : 0; };
     const auto refused = open();
-    if (refused) return 1;
+    creation_step = nullptr;
+    if (refused || attempts != 1) return 1;
     const std::string message = refused.error().message();
     std::fprintf(stderr, "%s\n", message.c_str());
     if (message.find("1048576 bytes of shared memory") == std::string::npos) return 2;
@@ -208,6 +212,16 @@ TEST_F(SegmentTest, CreationWaitsForMemoryThatOtherProgramsRelease) {
   const int code = child.wait();
   if (code == kNotPermitted) GTEST_SKIP() << "a mount namespace with a small /dev/shm is not permitted here";
   EXPECT_EQ(code, 0);
+}
+
+TEST_F(SegmentTest, ASessionOfAnotherUserIsNamed) {
+  const std::string other = "/dev/shm/yars." + std::to_string(geteuid() + 1) + "." + name_;
+  std::ofstream(other) << "a session";  // its name counts
+  const auto nothing = Segment::open_read_only(name_, kLayout);
+  std::filesystem::remove(other);
+  ASSERT_FALSE(nothing);
+  EXPECT_NE(nothing.error().message().find("but one of user " + std::to_string(geteuid() + 1)), std::string::npos)
+      << nothing.error().message();
 }
 
 constexpr uid_t kNobody = 65534;

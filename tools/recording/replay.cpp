@@ -335,7 +335,7 @@ void Player::use(const databuffer::Traffic& traffic) {
   if (world_) kernel().traffic(traffic);
 }
 
-void Player::use(const WorldState& world) {
+void Player::use(const databuffer::WorldState& world) {
   if (world_) kernel().world(world);
 }
 

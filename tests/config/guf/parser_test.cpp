@@ -159,6 +159,10 @@ TEST(GufWriter, NumbersReadBackEqual) {
 TEST(GufWriter, StringsReadBackEqual) {
   const std::string text = "tab\t, quote \", backslash \\, line\n, \xC3\xA4";
   EXPECT_EQ(value_as<std::string>(quoted_text(text)), text);
+  // Printed with escapes: what would control a terminal, and what is no UTF-8.
+  const std::string controls = "\x1b[31m, \xE2\x80\xAE, \xE2\x80\x8B, \x7f, \xff\xfe, \r";
+  EXPECT_EQ(value_as<std::string>(quoted_text(controls)), controls);
+  EXPECT_EQ(quoted_text("\x1b"), R"("\x1b")");
 }
 
 }  // namespace

@@ -90,6 +90,16 @@ TEST(RouteFlight, FollowsTheGeodesicOfALeg) {
   EXPECT_NEAR(near.metres(), 7'200.0 * 480.0 * 1852.0 / 3600.0 * 6'371e3 / (6'371e3 + 9'144.0), 500.0);
 }
 
+// After a clock that went ahead by years, the step has an end.
+TEST(RouteFlight, AStepFliesTenMinutesAtMost) {
+  RouteFlight minutes(corner_of(60.0, 480.0));
+  RouteFlight years(corner_of(60.0, 480.0));
+  const Ownship expected = minutes.step(RouteFlight::kMaxFlown).ownship;
+  const Ownship found = years.step(geo::Duration::seconds(1e9)).ownship;
+  EXPECT_EQ(found.latitude_deg, expected.latitude_deg);
+  EXPECT_EQ(found.longitude_deg, expected.longitude_deg);
+}
+
 TEST(RouteFlight, ATurnIsCoordinatedAndRollsOutOnTheNextLeg) {
   for (const double turn_deg : {-90.0, -45.0, 10.0, 30.0, 60.0, 90.0, 120.0}) {
     SCOPED_TRACE("turn " + std::to_string(turn_deg));

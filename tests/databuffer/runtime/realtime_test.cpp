@@ -1,9 +1,10 @@
-// Tests of the processors of a program (--cpus) and of its real-time priority.
+// Tests of the processors of a program (--cpus), of its real-time priority and of its end by a signal.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
 
 #include <atomic>
+#include <csignal>
 #include <thread>
 
 #include "databuffer/runtime/process.hpp"
@@ -84,6 +85,21 @@ TEST(Realtime, AnEndlessComputationDropsToNormalPriority) {
   ASSERT_TRUE(wait_until([&] { return *state != 0; }));
   if (*state == 2) GTEST_SKIP() << "no permission to use SCHED_FIFO";
   EXPECT_TRUE(wait_until([&] { return sched_getscheduler(child.pid()) == SCHED_OTHER; }));
+}
+
+TEST(Signals, ARoleEndsInTheMidstOfAnEndlessComputation) {
+  for (const int number : {SIGTERM, SIGINT}) {
+    SharedMemory<std::atomic<int>> state;
+    ChildProcess child([&] {
+      install_signal_handlers();
+      end_soon_after_signals();
+      *state = 1;
+      for (;;) state->load();
+    });
+    ASSERT_TRUE(wait_until([&] { return *state != 0; }));
+    child.send(number);
+    EXPECT_EQ(child.wait(), 0);
+  }
 }
 
 }  // namespace

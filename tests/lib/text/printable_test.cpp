@@ -47,5 +47,15 @@ TEST(Printable, AnErrorIsOneLineForAnyFileName) {
   EXPECT_EQ(error.message(), "evil\\n\\x1b[2J.dt1: expected a cell, found none");
 }
 
+TEST(Shortened, ALongTextIsCutBehindACharacterAndTellsItsLength) {
+  EXPECT_EQ(shortened(std::string(500, 'x')), std::string(500, 'x'));
+  EXPECT_EQ(shortened(std::string(70'000, 'x')), std::string(500, 'x') + "... (70000 bytes)");
+  std::string umlauts = "x";
+  for (int i = 0; i < 300; ++i) umlauts += "ä";
+  EXPECT_EQ(shortened(umlauts), umlauts.substr(0, 499) + "... (601 bytes)");
+  const error::Error error{std::string(70'000, 'a'), "a cell", std::string(70'000, 'b'), "", false};
+  EXPECT_LT(error.message().size(), 1'200U);
+}
+
 }  // namespace
 }  // namespace yars::text
