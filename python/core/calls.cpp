@@ -1,7 +1,11 @@
 #include "python/core/calls.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <atomic>
 #include <set>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -18,8 +22,46 @@ Signals::Signals()
                       PyThread_get_thread_ident()),
       next_(Clock::now() + kBetweenSignals) {}
 
+namespace {
+// Calls that run without the interpreter's lock, and those among them that come back to it.
+std::atomic<int> running_calls{0};
+std::atomic<int> returning_calls{0};
+thread_local int own_calls = 0;
+std::atomic<bool> python_ends{false};
+thread_local bool ends_python = false;  // this thread runs what atexit has registered
+
+// Other threads run on until the interpreter is taken down: they are told to stop, and awaited for a while.
+void end_calls() {
+  constexpr std::chrono::seconds kLongestWait{2};
+  constexpr std::chrono::milliseconds kPause{1};
+  ends_python = true;
+  python_ends = true;
+  const py::gil_scoped_release released;
+  const Clock::time_point end = Clock::now() + kLongestWait;
+  while (returning_calls > 0 || (running_calls > own_calls && Clock::now() < end)) std::this_thread::sleep_for(kPause);
+}
+}  // namespace
+
+ReleasedInterpreter::ReleasedInterpreter() : state_(PyEval_SaveThread()) {
+  ++running_calls;
+  ++own_calls;
+}
+
+ReleasedInterpreter::~ReleasedInterpreter() {
+  ++returning_calls;
+  if (python_ends && !ends_python) {
+    --running_calls;
+    --returning_calls;
+    while (true) ::pause();
+  }
+  PyEval_RestoreThread(state_);
+  --own_calls;
+  --running_calls;
+  --returning_calls;
+}
+
 bool Signals::ask() {
-  if (raised_) return false;
+  if (raised_ || (python_ends && !ends_python)) return false;
   if (!in_main_thread_ || Clock::now() < next_) return true;
   {
     const py::gil_scoped_acquire acquired;
@@ -97,10 +139,13 @@ void ObjectLock::after_fork_in_child() {
     left->push_back(std::exchange(one->mutex_, std::make_shared<std::timed_mutex>()));
     one->renew_();
   }
+  running_calls = own_calls;
+  returning_calls = 0;
   after_fork_in_parent();
 }
 
 void add_calls(py::module_& /*module*/) {
+  py::module_::import("atexit").attr("register")(py::cpp_function(&end_calls));
   py::module_::import("os").attr("register_at_fork")(
       py::arg("before") = py::cpp_function(&ObjectLock::before_fork),
       py::arg("after_in_parent") = py::cpp_function(&ObjectLock::after_fork_in_parent),

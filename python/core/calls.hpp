@@ -1,4 +1,5 @@
-// Calls without the interpreter's lock: signals while they run, and locks of objects that outlive fork().
+// Calls without the interpreter's lock: signals while they run, their end when Python ends, and locks of objects that
+// outlive fork().
 // Inputs: work that asks between its steps whether it goes on. Outputs: none; the work writes its own.
 // Threads: a signal is noticed by Python's main thread alone, so calls of other threads run to their end.
 // Errors: the exception of a signal's handler, such as KeyboardInterrupt.
@@ -11,6 +12,7 @@
 #include <optional>
 
 #include "lib/parallel/thread_pool.hpp"
+#include "lib/text/plain_text.hpp"
 #include "python/core/support.hpp"
 
 namespace yars::python {
@@ -35,12 +37,27 @@ class Signals {
   std::optional<py::error_already_set> raised_;
 };
 
+// The interpreter's lock is free while it exists, and numbers in text have a decimal point. When Python ends, a thread
+// may not take the lock any more: other threads than the one that ends then stop here for good, and the process ends
+// without them. Signals tell their work to stop.
+class ReleasedInterpreter {
+ public:
+  ReleasedInterpreter();
+  ~ReleasedInterpreter();
+  ReleasedInterpreter(const ReleasedInterpreter&) = delete;
+  ReleasedInterpreter& operator=(const ReleasedInterpreter&) = delete;
+
+ private:
+  PyThreadState* state_;
+  text::DecimalPoint numbers_;
+};
+
 // Calls work(goes_on) without the interpreter's lock. The work may throw parallel::Stopped if it does not go on.
 template <class Work>
 void without_interpreter(const Work& work) {
   Signals signals;
   try {
-    const py::gil_scoped_release released;
+    const ReleasedInterpreter released;
     work(signals.goes_on());
   } catch (const parallel::Stopped&) {
   }
@@ -70,7 +87,7 @@ class ObjectLock {
   std::function<void()> renew_;
 };
 
-// Registers what os.fork() calls.
+// Registers what os.fork() and the end of the interpreter call.
 void add_calls(py::module_& module);
 
 }  // namespace yars::python

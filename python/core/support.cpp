@@ -8,6 +8,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
 
 namespace yars::python {
@@ -45,6 +46,7 @@ void raise_value_error(const std::string& message) {
 
 void read_options(const std::string& name, const std::vector<std::string>& words,
                   const std::function<void(databuffer::Command)>& add_options) {
+  const text::DecimalPoint numbers;
   databuffer::CommandLine line("", name);
   add_options(line);
   if (const auto fault = line.read(words)) raise_value_error(*fault);

@@ -393,8 +393,8 @@ class Session:
             if not isinstance(given, str):
                 raise TypeError(f"yars.Session: {what}: expected a str, found {given!r}")
         shown = text_bytes("program", program[:23], 24)
-        if not re.fullmatch("[0-9A-Za-z_-]{1,40}", name):
-            raise Refused(f"session: expected 1 to 40 letters, digits, '-' or '_', found {name!a}")
+        if not re.fullmatch("[0-9A-Za-z_][0-9A-Za-z_-]{0,39}", name):
+            raise Refused(f"session: expected 1 to 40 letters, digits, '-' or '_', and no '-' at the front, found {name!a}")
         self.path = f"/dev/shm/yars.{os.geteuid()}.{name}"
         remedy = (f"start the set with --session {name}, or give the name of a session that runs "
                   "(`yars --session NAME status`)")

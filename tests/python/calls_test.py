@@ -7,6 +7,7 @@ import copy
 import os
 import pathlib
 import pickle
+import subprocess
 import threading
 import unittest
 
@@ -87,6 +88,41 @@ thread.join()
 print(codes)
 """, timeout=280)
         self.assertEqual(said, (f"{[0] * 12}\n", "", 0))
+
+
+class End(Folder):
+    def test_python_ends_while_daemon_threads_compute(self):
+        for preset in ("draft", "reference") * 4:
+            said = program(f"import threading, time, yars\nradar, terrain = yars.Radar({preset!r}, samples=200), yars.Terrain()\n"
+                           "begun = threading.Semaphore(0)\n"
+                           f"def compute():\n    begun.release()\n    while True: radar.scan(terrain, **{SCAN!r})\n"
+                           "for _ in range(3): threading.Thread(target=compute, daemon=True).start()\n"
+                           "for _ in range(3): begun.acquire()\ntime.sleep(0.1)\nprint('ends')")
+            self.assertEqual(said, ("ends\n", "", 0))
+
+    def test_what_atexit_calls_can_compute(self):
+        said = program("import atexit\natexit.register(lambda: print(radar.scan(terrain, **scan).hash > 0))\n"
+                       f"import yars\nradar, terrain, scan = yars.Radar('draft'), yars.Terrain(), {SCAN!r}")
+        self.assertEqual(said[1:], ("", 0))
+        self.assertIn("True", said[0])
+
+
+class Locales(Folder):
+    """A locale with a decimal comma, made here: a bare system has none."""
+
+    def test_numbers_have_points(self):
+        ascii_codes = "\n".join(f"<U{code:04X}> /x{code:02x} C{code}" for code in range(128))
+        (self.folder / "ascii").write_text(f"<code_set_name> ANSI_X3.4-1968\n<comment_char> %\n<escape_char> /\nCHARMAP\n{ascii_codes}\nEND CHARMAP\n")
+        (self.folder / "source").write_text('LC_NUMERIC\ndecimal_point ","\nthousands_sep ""\ngrouping -1\nEND LC_NUMERIC\n')
+        subprocess.run(["localedef", "-c", "-f", self.folder / "ascii", "-i", self.folder / "source", self.folder / "comma"],
+                       capture_output=True, check=False)  # it warns of categories that are not there, with code 1
+        before = "import locale; locale.setlocale(locale.LC_NUMERIC, 'comma'); assert locale.str(0.5) == '0,5'\n"
+        text = (f"import yars\nterrain = yars.Terrain()\nradar = yars.Radar('draft', core_share=0.25)\n"
+                f"print(radar.scan(terrain, **{SCAN!r}).hash, radar.patch(terrain, **{PATCH!r}).hash)\n"
+                f"try: radar.scan(terrain, **{dict(SCAN, range_nm=3.5)!r})\nexcept ValueError as fault: print(fault)")
+        os.environ["LOCPATH"] = str(self.folder)
+        self.addCleanup(os.environ.pop, "LOCPATH")
+        self.assertEqual(program(before + text), program(text))
 
 
 class Signals(Folder):

@@ -213,6 +213,17 @@ class Specification(Case):
         self.assertEqual(tree(self.out), self.reference())
         self.assertIn("count: 24", (self.out / "specification.yaml").read_text())
 
+    def test_a_damaged_copy_of_the_specification_is_made_again(self):
+        whole = self.reference()
+        self.run_it()
+        copy = self.out / "specification.yaml"
+        for damaged in (copy.read_bytes()[:40], b"", copy.read_bytes()[:-2] + b"x\n"):
+            copy.write_bytes(damaged)
+            done = self.run_it("--verify")
+            self.assertIn(f"warning: {copy} is made again: specification.yaml has another", done.stderr)
+            self.assertEqual(tree(self.out), whole)
+        self.assertEqual(self.run_it("--verify").stderr, "")
+
     def test_a_lost_or_damaged_description_is_made_again(self):
         whole = self.reference()
         self.run_it()

@@ -124,8 +124,20 @@ class Store:
             self._change(text, there)
             files.remove(self.path("specification.yaml"))
             files.write(self.path("dataset.json"), (json.dumps(about, indent=1) + "\n").encode())
-        if not os.path.exists(self.path("specification.yaml")):
-            files.write(self.path("specification.yaml"), self._given())
+        self._keep_specification()
+
+    def _keep_specification(self):
+        """Copies the specification where there is no whole copy. Another copy may be whole: of the same meaning, with other comments."""
+        name = "specification.yaml"
+        fault = self.unfit("specification", True)
+        if not fault:
+            return
+        there = files.read(self.path(name))
+        if there != self._given():
+            if there is not None:
+                warnings.warn(f"{self.path(name)} is made again: {fault}")
+            files.write(self.path(name), self._given())
+        self.note("specification", [name])
 
     def _given(self):
         return pathlib.Path(self.plan.path).read_bytes()

@@ -10,8 +10,15 @@ from .distributions import Choice, Fixed, LogUniform, Normal, Uniform
 from .keys import INFINITY, KEYS, children, number_text, value_text
 
 MOST_FAULTS = 20
+LONGEST_SHOWN = 500  # [characters] of a part of a message
 DISTRIBUTIONS = ("uniform", "log_uniform", "normal", "choice", "weighted")
 MISSING = object()
+
+
+def shown(text):
+    """A part of a message, which may have texts of the file: cut where it is long, and without control characters."""
+    cut = text[:LONGEST_SHOWN] + "..." if len(text) > LONGEST_SHOWN else text
+    return "".join(letter if letter.isprintable() else letter.encode("unicode_escape", "backslashreplace").decode() for letter in cut)
 
 
 def found(node):
@@ -41,13 +48,15 @@ class Reader:
             raise SpecError(f"{self.path}: expected YAML, found a fault: {' '.join(str(error).split())}") from None
         except RecursionError:
             raise SpecError(f"{self.path}: expected YAML, found too many levels") from None
+        except ValueError as error:  # of PyYAML: an escape beyond the last character
+            raise SpecError(f"{self.path}: expected YAML, found a fault: {error}") from None
 
     def where(self, node):
         return f"{self.path}:{node.start_mark.line + 1}"
 
     def fault(self, node, expected, what=None, action=""):
-        text = f"{self.where(node)}: expected {expected}, found {found(node) if what is None else what}"
-        self.faults.append(text + (f"; {action}" if action else ""))
+        text = f"{self.where(node)}: expected {shown(expected)}, found {shown(found(node) if what is None else what)}"
+        self.faults.append(text + (f"; {shown(action)}" if action else ""))
 
     def finish(self):
         if self.faults:
