@@ -14,8 +14,11 @@ bool is_digit(char character) {
 
 // An IPv4 address, or an IPv6 address in brackets. Browsers resolve no name for these.
 bool is_numeric_address(std::string_view name) {
-  if (name.starts_with('[')) return name.ends_with(']');
-  return !name.empty() && std::ranges::all_of(name, [](char letter) { return is_digit(letter) || letter == '.'; });
+  const bool in_brackets = name.starts_with('[') && name.ends_with(']');
+  if (in_brackets) name = name.substr(1, name.size() - 2);
+  return !name.empty() && std::ranges::all_of(name, [in_brackets](char letter) {
+    return is_digit(letter) || letter == '.' || (in_brackets && (letter == ':' || (letter >= 'a' && letter <= 'f')));
+  });
 }
 
 // Compares in a time that does not tell how much of the text is right.
@@ -26,6 +29,15 @@ bool equals_secret(std::string_view given, std::string_view secret) {
   return difference == 0;
 }
 
+// The last value of a list with commas, without blanks around it.
+std::string_view last_of(std::string_view list) {
+  const std::size_t comma = list.rfind(',');
+  if (comma != std::string_view::npos) list.remove_prefix(comma + 1);
+  while (list.starts_with(' ')) list.remove_prefix(1);
+  while (list.ends_with(' ')) list.remove_suffix(1);
+  return list;
+}
+
 // Cookies of a host are shared by all its ports. Each right has its own, so that a link of viewers replaces none of an
 // instructor.
 std::string cookie_name(Right right, const AccessRules& rules) {
@@ -34,17 +46,46 @@ std::string cookie_name(Right right, const AccessRules& rules) {
 
 }  // namespace
 
-bool is_allowed_host(std::string_view host, const AccessRules& rules) {
-  const std::string ending = ':' + std::to_string(rules.port);
-  if (!host.ends_with(ending)) return false;
-  const std::string_view name = host.substr(0, host.size() - ending.size());
-  constexpr std::array<std::string_view, 3> kLoopback{"127.0.0.1", "localhost", "[::1]"};
-  if (std::ranges::find(kLoopback, name) != kLoopback.end()) return true;
-  return !rules.loopback && (is_numeric_address(name) || std::ranges::find(rules.names, name) != rules.names.end());
+std::string lower_case(std::string_view text) {
+  std::string lower(text);
+  std::ranges::transform(lower, lower.begin(), [](char letter) {
+    return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter + 32) : letter;
+  });
+  return lower;
 }
 
-bool is_own_origin(std::string_view origin, std::string_view host, const AccessRules& rules) {
-  return origin == (rules.tls ? "https://" : "http://") + std::string(host);
+Origins origins_of(std::string_view host, std::string_view peer, const Forwarded& forwarded, const AccessRules& rules) {
+  Origins origins{lower_case(host), rules.tls, std::string(peer)};
+  if (!rules.behind_proxy) return origins;
+  if (const auto given = last_of(forwarded.host); !given.empty()) origins.host = lower_case(given);
+  if (const auto given = last_of(forwarded.proto); !given.empty()) origins.https = lower_case(given) == "https";
+  if (const auto given = last_of(forwarded.visitors); !given.empty()) origins.visitor = given;
+  return origins;
+}
+
+bool is_allowed_host(std::string_view host, const AccessRules& rules) {
+  const std::size_t colon = host.rfind(':');
+  std::string_view name = host;
+  if (colon != std::string_view::npos && !host.ends_with(']')) {
+    const std::string_view port = host.substr(colon + 1);
+    if (port.empty() || port.size() > 5 || !std::ranges::all_of(port, is_digit)) return false;
+    name = host.substr(0, colon);
+  }
+  return name == "localhost" || is_numeric_address(name) || std::ranges::find(rules.names, name) != rules.names.end();
+}
+
+bool is_own_origin(std::string_view origin, const Origins& origins) {
+  return lower_case(origin) == "https://" + origins.host ||
+         (!origins.https && lower_case(origin) == "http://" + origins.host);
+}
+
+bool is_host_name(std::string_view name) {
+  const auto allowed = [](char letter) {
+    return (letter >= 'a' && letter <= 'z') || (letter >= 'A' && letter <= 'Z') || is_digit(letter) || letter == '.' ||
+           letter == '-';
+  };
+  return !name.empty() && name.size() <= 253 && !name.starts_with('-') && !name.starts_with('.') &&
+         name.find("..") == std::string_view::npos && std::ranges::all_of(name, allowed);
 }
 
 Right right_of_token(std::string_view token, const AccessRules& rules) {
@@ -68,9 +109,9 @@ Right right_of_cookies(std::string_view cookies, const AccessRules& rules) {
   return right;
 }
 
-std::string cookie_of_token(std::string_view token, const AccessRules& rules) {
+std::string cookie_of_token(std::string_view token, const Origins& origins, const AccessRules& rules) {
   return cookie_name(right_of_token(token, rules), rules) + '=' + std::string(token) +
-         "; Path=/; HttpOnly; SameSite=Lax" + (rules.tls ? "; Secure" : "");
+         "; Path=/; HttpOnly; SameSite=Lax" + (origins.https ? "; Secure" : "");
 }
 
 std::string file_of_path(std::string_view path) {
@@ -118,10 +159,9 @@ std::string_view content_type_of(std::string_view file) {
   return "application/octet-stream";
 }
 
-std::string content_policy(std::string_view host, const AccessRules& rules) {
-  return "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self' " +
-         std::string(rules.tls ? "wss://" : "ws://") + std::string(host) +
-         "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+std::string content_policy(const Origins& origins) {
+  return "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self' ws://" +
+         origins.host + " wss://" + origins.host + "; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
 }
 
 }  // namespace yars::station

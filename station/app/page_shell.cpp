@@ -52,7 +52,8 @@ void carry_out(Site& site, SessionFeed& feed, const std::shared_ptr<OpenPage>& p
       const auto there = waiting.lock();
       if (!there) return;
       if (list.contains("problem")) return answer(*there, id, list["problem"].get<std::string>());
-      there->tell(text_of({{"answer", id}, {"problem", nullptr}, {"recordings", list["recordings"]}}));
+      there->tell(text_of(
+          {{"answer", id}, {"problem", nullptr}, {"recordings", list["recordings"]}, {"left_out", list["left_out"]}}));
     });
   feed.instructor.execute(message.command, [id, waiting = std::weak_ptr(page)](const error::Expected<void>& outcome) {
     if (const auto there = waiting.lock()) answer_outcome(*there, id, outcome);
@@ -89,8 +90,8 @@ bool take_message(Site& site, SessionFeed& feed, PagePilot& pilot, const std::sh
 
 class Page final : public OpenPage, public std::enable_shared_from_this<Page> {
  public:
-  Page(Site& site, std::shared_ptr<SessionFeed> feed, PageWish wish, Connection connection, Counted counted)
-      : site_(site), feed_(std::move(feed)), wish_(wish), counted_(std::move(counted)), socket_(std::move(connection)) {
+  Page(Site& site, std::shared_ptr<SessionFeed> feed, PageWish wish, Connection connection, PagePlace place)
+      : site_(site), feed_(std::move(feed)), wish_(wish), place_(std::move(place)), socket_(std::move(connection)) {
     ++shown();
   }
 
@@ -184,7 +185,7 @@ class Page final : public OpenPage, public std::enable_shared_from_this<Page> {
   Site& site_;
   std::shared_ptr<SessionFeed> feed_;
   PageWish wish_;
-  Counted counted_;
+  PagePlace place_;
   boost::beast::websocket::stream<Connection, false> socket_;  // without compression: pictures are PNG
   Request request_;
   boost::beast::flat_buffer buffer_;
@@ -198,9 +199,9 @@ class Page final : public OpenPage, public std::enable_shared_from_this<Page> {
 
 }  // namespace
 
-void begin_page(Site& site, std::shared_ptr<SessionFeed> feed, PageWish wish, Connection connection, Counted counted,
+void begin_page(Site& site, std::shared_ptr<SessionFeed> feed, PageWish wish, Connection connection, PagePlace place,
                 Request request) {
-  const auto page = std::make_shared<Page>(site, std::move(feed), wish, std::move(connection), std::move(counted));
+  const auto page = std::make_shared<Page>(site, std::move(feed), wish, std::move(connection), std::move(place));
   site.pages.push_back(page);
   page->begin(std::move(request));
 }

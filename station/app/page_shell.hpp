@@ -25,8 +25,8 @@ struct PageWish {
   Right right = Right::none;
 };
 
-// Turns a connection into the WebSocket of a page. Its request must have been allowed.
-void begin_page(Site& site, std::shared_ptr<SessionFeed> feed, PageWish wish, Connection connection, Counted counted,
+// Turns a connection into the WebSocket of a page. Its request must have been allowed. The page keeps its place.
+void begin_page(Site& site, std::shared_ptr<SessionFeed> feed, PageWish wish, Connection connection, PagePlace place,
                 Request request);
 
 }  // namespace yars::station

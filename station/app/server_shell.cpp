@@ -20,7 +20,8 @@ namespace asio = boost::asio;
 using boost::system::error_code;
 using tcp = asio::ip::tcp;
 
-constexpr std::chrono::milliseconds kLookInterval{5};  // at the segments
+constexpr std::chrono::milliseconds kLookInterval{5};   // at the segments
+constexpr std::chrono::milliseconds kAcceptPause{100};  // after a connection that could not be taken
 
 // Contents of the files of a folder by their names.
 error::Expected<std::map<std::string, std::string>> read_pages(const std::filesystem::path& pages) {
@@ -64,6 +65,7 @@ struct Server::Work {
 
   error::Expected<void> open();
   void accept();
+  void accept_later(const error_code& problem);
   void look();
 
   ServerSettings settings;
@@ -71,7 +73,7 @@ struct Server::Work {
   Site site;
   std::optional<asio::ssl::context> tls;
   tcp::acceptor acceptor{context};
-  asio::steady_timer timer{context};
+  asio::steady_timer timer{context}, pause{context};
   std::shared_ptr<SessionFeed> own_feed;  // present while no page is open, too
 };
 
@@ -93,7 +95,6 @@ error::Expected<void> Server::Work::open() {
                        "choose another (--web-port of the start script), or 0 for any free one");
   site.access = settings.access;
   site.access.port = acceptor.local_endpoint().port();
-  site.access.loopback = address.is_loopback();
   site.access.tls = tls.has_value();
   auto feed = site.feed_of(site.own_session);
   if (!feed) return tl::unexpected(feed.error());
@@ -104,12 +105,20 @@ error::Expected<void> Server::Work::open() {
 void Server::Work::accept() {
   acceptor.async_accept([this](error_code problem, tcp::socket socket) {
     if (problem == asio::error::operation_aborted) return;
-    if (!problem && site.connections < kMaxConnections) {
-      error_code ignored;
-      socket.set_option(tcp::no_delay(true), ignored);
-      begin_visit(site, tls ? Connection(std::move(socket), *tls) : Connection(std::move(socket)));
-    }
+    if (problem) return accept_later(problem);
+    error_code ignored;
+    socket.set_option(tcp::no_delay(true), ignored);
+    begin_visit(site, tls ? Connection(std::move(socket), *tls) : Connection(std::move(socket)));
     accept();
+  });
+}
+
+// Such as without free descriptors: the waiting connection would fail again at once.
+void Server::Work::accept_later(const error_code& problem) {
+  log::warning("a connection could not be taken: " + problem.message());
+  pause.expires_after(kAcceptPause);
+  pause.async_wait([this](error_code stopped) {
+    if (!stopped) accept();
   });
 }
 

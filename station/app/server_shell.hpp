@@ -3,8 +3,9 @@
 // Inputs: a folder of files; requests and messages of browsers; sessions and their sets.
 // Outputs: files, frames, states, answers; events of the pilot and commands of the instructor for the sessions.
 // Errors: a port that is taken, a certificate that cannot be read are Errors. A request that is not allowed gets a
-//   status from 400 to 405; a bad message closes its connection. Neither reaches others.
-// Limits: kMaxConnections; each client has one message on its way and then the newest frame and state, whatever was
+//   status from 400 to 431; a bad message closes its connection. Neither reaches others.
+// Limits: those of Places and Visits; each client has one message on its way and then the newest frame and state,
+// whatever was
 //   between; kMaxMessagesPerSecond from a client.
 // Threads: one, and that of the map.
 // Source: docs/station.md; RFC 9112 (HTTP/1.1), RFC 6455 (WebSocket), by Boost.Beast.

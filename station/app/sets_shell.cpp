@@ -92,10 +92,25 @@ std::string text_of_now() {
 
 }  // namespace
 
+struct SetsShell::Listing {
+  static constexpr std::size_t kMaxBytes = std::size_t{16} << 20;  // kMaxListed recordings with paths of any length
+  Listing(boost::asio::io_context& context, int file) : output(context, file) {}
+
+  boost::asio::posix::stream_descriptor output;
+  boost::asio::streambuf text{kMaxBytes};
+  int pid = 0;
+  std::vector<std::function<void(ordered_json)>> waiting;
+};
+
 SetsShell::SetsShell(boost::asio::io_context& context, SetSettings settings)
     : context_(context), settings_(std::move(settings)) {}
 
 SetsShell::~SetsShell() {
+  if (listing_ && listing_->pid > 0) ending_.push_back(listing_->pid);
+  for (const int pid : ending_) {
+    ::kill(pid, SIGKILL);
+    ::waitpid(pid, nullptr, 0);
+  }
   for (const StartedSet& set : sets_) signal(set, SIGTERM);
   for (const StartedSet& set : sets_)
     for (const Process& process : set.processes) ::waitpid(process.pid, nullptr, 0);
@@ -202,6 +217,7 @@ Expected<void> SetsShell::end(const std::string& session) {
 }
 
 bool SetsShell::look() {
+  std::erase_if(ending_, [](int pid) { return ::waitpid(pid, nullptr, WNOHANG) != 0; });
   for (StartedSet& set : sets_) {
     std::erase_if(set.processes, [&](const Process& process) {
       int status = 0;
@@ -237,32 +253,43 @@ bool SetsShell::has_session(const std::string& name) const {
 }
 
 void SetsShell::list_recordings(std::function<void(ordered_json)> then) {
-  struct Errand {
-    explicit Errand(boost::asio::io_context& context, int file) : output(context, file) {}
-    boost::asio::posix::stream_descriptor output;
-    boost::asio::streambuf text{1U << 22U};
-    int pid = 0;
-  };
   std::error_code ignored;
-  if (!std::filesystem::exists(settings_.recordings, ignored)) return then({{"recordings", ordered_json::array()}});
+  if (!std::filesystem::exists(settings_.recordings, ignored))
+    return then({{"recordings", ordered_json::array()}, {"left_out", 0}});
+  if (listing_) return listing_->waiting.push_back(std::move(then));
   std::array<int, 2> ends{};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) return then({{"problem", std::strerror(errno)}});
-  auto errand = std::make_shared<Errand>(context_, ends[0]);
-  errand->pid =
-      spawn({(settings_.programs / "yars").string(), "recordings", settings_.recordings.string(), "--json"}, ends[1]);
+  listing_ = std::make_unique<Listing>(context_, ends[0]);
+  listing_->waiting.push_back(std::move(then));
+  listing_->pid = spawn({(settings_.programs / "yars").string(), "recordings", settings_.recordings.string(),
+                         "--newest", std::to_string(kMaxListed), "--json"},
+                        ends[1]);
   ::close(ends[1]);
-  boost::asio::async_read(
-      errand->output, errand->text, [this, errand, then = std::move(then)](boost::system::error_code, std::size_t) {
-        ::waitpid(errand->pid, nullptr, 0);
-        const auto data = errand->text.data();
-        auto list =
-            ordered_json::parse(boost::asio::buffers_begin(data), boost::asio::buffers_end(data), nullptr, false);
-        if (!list.is_object() || !list.contains("recordings"))
-          return then({{"problem", "the recordings cannot be listed"}});
-        listed_.clear();
-        for (const auto& entry : list["recordings"]) listed_.insert(entry["file"].get<std::string>());
-        then(std::move(list));
-      });
+  if (listing_->pid < 0) return end_listing(false);
+  boost::asio::async_read(listing_->output, listing_->text, [this](boost::system::error_code problem, std::size_t) {
+    if (problem != boost::asio::error::operation_aborted) end_listing(problem == boost::asio::error::eof);
+  });
+}
+
+// Never waits for the process, which may write more than was read.
+void SetsShell::end_listing(bool whole) {
+  const std::unique_ptr<Listing> listing = std::move(listing_);
+  listing->output.close();
+  if (listing->pid > 0) {
+    if (!whole) ::kill(listing->pid, SIGKILL);
+    ending_.push_back(listing->pid);
+  }
+  const auto data = listing->text.data();
+  auto list =
+      whole ? ordered_json::parse(boost::asio::buffers_begin(data), boost::asio::buffers_end(data), nullptr, false)
+            : ordered_json();
+  if (!list.is_object() || !list.contains("recordings")) {
+    list = {{"problem", "the recordings cannot be listed"}};
+  } else {
+    listed_.clear();
+    for (const auto& entry : list["recordings"]) listed_.insert(entry["file"].get<std::string>());
+  }
+  for (const auto& then : listing->waiting) then(list);
 }
 
 }  // namespace yars::station

@@ -36,6 +36,7 @@ struct SetSettings {
 class SetsShell {
  public:
   static constexpr std::size_t kMaxSets = 6;
+  static constexpr int kMaxListed = 1000;  // recordings
 
   SetsShell(boost::asio::io_context& context, SetSettings settings);
   ~SetsShell();
@@ -50,8 +51,8 @@ class SetsShell {
   error::Expected<void> record();
   error::Expected<void> end(const std::string& session);
 
-  // Reads the recordings of the folder: `then` gets the object of `yars recordings --json`, or an object with
-  // "problem".
+  // Reads the newest kMaxListed recordings of the folder: `then` gets the object of `yars recordings --json`, or an
+  // object with "problem". Callers that come while a list is read get that list.
   void list_recordings(std::function<void(nlohmann::ordered_json)> then);
 
   // Collects processes that have ended. True if the list of sets has changed.
@@ -72,6 +73,8 @@ class SetsShell {
     std::vector<Process> processes;
     std::string ended;
   };
+  struct Listing;
+  void end_listing(bool whole);
   static error::Expected<Process> start(const std::vector<std::string>& command);
   error::Expected<void> check_file(const std::string& file) const;
   std::string new_session(const std::string& kind);
@@ -80,7 +83,9 @@ class SetsShell {
 
   boost::asio::io_context& context_;
   SetSettings settings_;
-  std::set<std::string> listed_;  // files of the last list
+  std::set<std::string> listed_;      // files of the last list
+  std::unique_ptr<Listing> listing_;  // the list that is read
+  std::vector<int> ending_;           // processes that look() collects when they have ended
   std::vector<StartedSet> sets_;
   int next_ = 1;
   bool changed_ = false;

@@ -1,5 +1,6 @@
 #include "station/app/site_shell.hpp"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 namespace yars::station {
@@ -8,6 +9,49 @@ Text sets_message(const SetsShell& sets) {
   const nlohmann::ordered_json message{{"sets", sets.sets()}};
   return std::make_shared<const std::string>(
       message.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
+}
+
+PagePlace::PagePlace(std::map<std::string, int>& counts, std::vector<std::string> names)
+    : counts_(&counts), names_(std::move(names)) {
+  for (const std::string& name : names_) ++counts[name];
+}
+
+PagePlace::~PagePlace() {
+  if (counts_ == nullptr) return;
+  for (const std::string& name : names_)
+    if (--(*counts_)[name] == 0) counts_->erase(name);
+}
+
+std::optional<PagePlace> Places::take(Right right, bool is_instructors, const std::string& address) {
+  const auto taken = [this](const std::string& name) {
+    const auto found = counts_.find(name);
+    return found == counts_.end() ? 0 : found->second;
+  };
+  const std::string of_address = "viewer at " + address;
+  const bool may_instruct = right == Right::instructor;
+  if (!(may_instruct && is_instructors) && taken("viewer") < kViewers && taken(of_address) < kViewersOfAddress)
+    return PagePlace(counts_, {"viewer", of_address});
+  if (may_instruct && taken("instructor") < kInstructors) return PagePlace(counts_, {"instructor"});
+  return std::nullopt;
+}
+
+std::string Places::text() {
+  return "at most " + std::to_string(kViewers) + " viewers, " + std::to_string(kViewersOfAddress) +
+         " of one address, and " + std::to_string(kInstructors) + " instructors";
+}
+
+void Visits::add(const std::shared_ptr<OpenVisit>& visit) {
+  std::erase_if(visits_, [](const std::weak_ptr<OpenVisit>& entry) { return entry.expired(); });
+  visits_.push_back(visit);
+  if (visits_.size() <= kMost) return;
+  const auto has_no_right = [](const std::weak_ptr<OpenVisit>& entry) {
+    const auto there = entry.lock();
+    return !there || !there->has_right();
+  };
+  auto chosen = std::find_if(visits_.begin(), visits_.end() - 1, has_no_right);
+  if (chosen == visits_.end() - 1) chosen = visits_.begin();
+  if (const auto there = chosen->lock()) there->close();
+  visits_.erase(chosen);
 }
 
 error::Expected<std::shared_ptr<SessionFeed>> Site::feed_of(const std::string& session) {

@@ -5,8 +5,10 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,7 +26,6 @@ class io_context;
 
 namespace yars::station {
 
-inline constexpr int kMaxConnections = 64;
 inline constexpr int kMaxMessagesPerSecond = 200;
 
 // One session: its display and its instructor.
@@ -47,19 +48,56 @@ class OpenPage {
   virtual void tell(Text text) = 0;
 };
 
-// Counts a connection while it lives.
-class Counted {
+// A place of a page, taken while it lives.
+class PagePlace {
  public:
-  explicit Counted(int& count) : count_(&count) { ++count; }
-  Counted(Counted&& other) noexcept : count_(std::exchange(other.count_, nullptr)) {}
-  Counted(const Counted&) = delete;
-  Counted& operator=(const Counted&) = delete;
-  ~Counted() {
-    if (count_ != nullptr) --*count_;
-  }
+  PagePlace(std::map<std::string, int>& counts, std::vector<std::string> names);
+  PagePlace(PagePlace&& other) noexcept
+      : counts_(std::exchange(other.counts_, nullptr)), names_(std::move(other.names_)) {}
+  PagePlace(const PagePlace&) = delete;
+  PagePlace& operator=(const PagePlace&) = delete;
+  PagePlace& operator=(PagePlace&&) = delete;
+  ~PagePlace();
 
  private:
-  int* count_;
+  std::map<std::string, int>* counts_;
+  std::vector<std::string> names_;
+};
+
+// Places for pages. Viewers cannot take those of instructors, and one computer not all those of viewers. An
+// instructor's page of the display takes a place of viewers, and where there is none one of instructors.
+class Places {
+ public:
+  static constexpr int kInstructors = 16;
+  static constexpr int kViewers = 48;
+  static constexpr int kViewersOfAddress = 32;
+
+  // `is_instructors`: the page is that of instructors. nullopt: there is none for this right, or none for this address.
+  std::optional<PagePlace> take(Right right, bool is_instructors, const std::string& address);
+  // "at most 48 viewers, 32 of one address, and 16 instructors"
+  static std::string text();
+
+ private:
+  std::map<std::string, int> counts_;  // by right, and of viewers by address
+};
+
+// A connection that is no page yet.
+class OpenVisit {
+ public:
+  virtual ~OpenVisit() = default;
+  virtual bool has_right() const = 0;
+  virtual void close() = 0;
+};
+
+// The connections that are no pages yet. For a new one that would be too many an old one is closed: one without a right
+// before one with a right, and the oldest of these. So nobody keeps others out with connections that only wait.
+class Visits {
+ public:
+  static constexpr std::size_t kMost = 64;
+  void add(const std::shared_ptr<OpenVisit>& visit);
+
+ private:
+  std::deque<std::weak_ptr<OpenVisit>> visits_;  // the oldest first
 };
 
 struct Site {
@@ -76,7 +114,8 @@ struct Site {
   std::string own_session;
   std::map<std::string, std::string> files;  // contents by name
   AccessRules access;
-  int connections = 0;
+  Places places;
+  Visits visits;
   std::vector<std::weak_ptr<OpenPage>> pages;
   std::map<std::string, std::weak_ptr<SessionFeed>> feeds;
   SetsShell sets;

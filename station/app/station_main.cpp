@@ -32,7 +32,7 @@ struct StationOptions {
   int port = 8096;
   std::string pages, start_script, terrain, source, recordings = "recordings";
   std::string listen = "127.0.0.1", names, tokens, certificate, key;
-  bool without_tls = false;
+  bool without_tls = false, without_tokens = false, behind_proxy = false;
 };
 
 // 128 random bits in hexadecimal digits.
@@ -47,7 +47,18 @@ std::string random_token() {
   return token;
 }
 
+// A file with secrets is for its owner, and for a group that has been given it; tokens for their owner alone.
+error::Expected<void> check_secret(const std::string& file, unsigned others) {
+  std::error_code problem;
+  const auto mode = static_cast<unsigned>(std::filesystem::status(file, problem).permissions());
+  if (problem || (mode & others) == 0) return {};
+  char digits[8];
+  std::snprintf(digits, sizeof digits, "%04o", mode & 0777U);
+  return error::fail(file, "a file that other users cannot read", "mode " + std::string(digits), "chmod 600 " + file);
+}
+
 error::Expected<void> read_tokens(const std::string& file, station::AccessRules& access) {
+  if (auto secret = check_secret(file, 077); !secret) return secret;
   const auto text = file::read_text_file(file);
   if (!text) return tl::unexpected(text.error());
   for (const text::NumberedLine& line : text::numbered_lines(*text)) {
@@ -61,16 +72,22 @@ error::Expected<void> read_tokens(const std::string& file, station::AccessRules&
                      "remove the file: a new one is made");
 }
 
-// Tokens of the file; a file that is not there is made, so that a station that starts again has the same.
+// Tokens of the file; a file that is not there is made, so that a station that starts again has the same. Without a
+// file they hold as long as this process.
 error::Expected<void> use_tokens(const std::string& file, station::AccessRules& access) {
   std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) return read_tokens(file, access);
+  if (!file.empty() && std::filesystem::exists(file, ignored)) return read_tokens(file, access);
   access.instructor_token = random_token();
   access.viewer_token = random_token();
+  if (file.empty()) return {};
   auto fresh = file::NewFile::create(file);  // for its owner alone, by the umask of run_program()
   if (!fresh) return tl::unexpected(fresh.error());
   fresh->write("instructor " + access.instructor_token + "\nviewer " + access.viewer_token + "\n");
   return fresh->finish();
+}
+
+std::vector<std::string_view> names_of(const StationOptions& options) {
+  return options.names.empty() ? std::vector<std::string_view>() : text::fields_of(options.names, ',');
 }
 
 bool is_loopback(const std::string& address) {
@@ -80,10 +97,16 @@ bool is_loopback(const std::string& address) {
 error::Expected<void> check_access(const StationOptions& options) {
   if (options.certificate.empty() != options.key.empty())
     return tl::unexpected(error::usage_error("--certificate", "--key with it", "one of both"));
+  if (options.without_tokens && !options.tokens.empty())
+    return tl::unexpected(error::usage_error("--without-tokens", "no --tokens with it", "both"));
+  for (const std::string_view name : names_of(options))
+    if (!station::is_host_name(name))
+      return tl::unexpected(error::usage_error("--names", "names of a computer with commas between, as radar.example",
+                                               "'" + std::string(name) + "'"));
   if (is_loopback(options.listen)) return {};
-  if (options.tokens.empty())
+  if (options.without_tokens)
     return tl::unexpected(error::usage_error("--listen " + options.listen,
-                                             "--tokens FILE with it, because others can reach the station", "none"));
+                                             "tokens, because others can reach the station", "--without-tokens"));
   if (options.certificate.empty() && !options.without_tls)
     return tl::unexpected(error::usage_error(
         "--listen " + options.listen,
@@ -129,12 +152,15 @@ error::Expected<station::ServerSettings> settings_of(const databuffer::ProgramOp
   if (settings.pages.empty()) settings.pages = file::installed_folder("station");
   settings.address = station_options.listen;
   settings.access.port = static_cast<std::uint16_t>(station_options.port);
-  for (const std::string_view name : text::fields_of(station_options.names, ','))
-    if (!name.empty()) settings.access.names.emplace_back(name);
-  if (!station_options.tokens.empty())
+  settings.access.behind_proxy = station_options.behind_proxy;
+  for (const std::string_view name : names_of(station_options))
+    settings.access.names.push_back(station::lower_case(name));
+  if (!station_options.without_tokens)
     if (auto used = use_tokens(station_options.tokens, settings.access); !used) return tl::unexpected(used.error());
   settings.certificate = station_options.certificate;
   settings.key = station_options.key;
+  if (!settings.key.empty())
+    if (auto secret = check_secret(settings.key, 007); !secret) return tl::unexpected(secret.error());
   const std::filesystem::path programs = std::filesystem::read_symlink("/proc/self/exe").parent_path();
   settings.sets = {options.session,
                    programs,
@@ -191,8 +217,7 @@ int main(int argc, char** argv) {
   databuffer::add_common_options(app, options, databuffer::ProgramKind::service);
   StationOptions station_options;
   app.option("--port", station_options.port, "port to listen at; 0: any free one").range(0, 65535);
-  app.option("--listen", station_options.listen, "address to listen at; 0.0.0.0: all, which needs --tokens")
-      .value_name("ADDRESS");
+  app.option("--listen", station_options.listen, "address to listen at; 0.0.0.0: all").value_name("ADDRESS");
   app.option("--names", station_options.names,
              "names of this computer in the addresses of the pages, with commas between")
       .value_name("NAMES")
@@ -200,7 +225,11 @@ int main(int argc, char** argv) {
   app.option("--tokens", station_options.tokens,
              "file with the tokens of instructors and viewers; made if it is not there")
       .value_name("FILE")
-      .otherwise("none are needed");
+      .otherwise("new ones at each start");
+  app.flag("--without-tokens", station_options.without_tokens,
+           "everybody who reaches the station is an instructor; at loopback only: every user of this computer");
+  app.flag("--behind-proxy", station_options.behind_proxy,
+           "believe X-Forwarded-Host, -Proto and -For; only where a proxy sets them");
   app.option("--certificate", station_options.certificate, "TLS certificate in PEM")
       .value_name("FILE")
       .otherwise("no TLS");

@@ -43,7 +43,9 @@ class Place:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
         self.log = self.folder / "log"
-        self.options = ["--log-dir", "", "--frames", self.folder / "frames"]
+        self.environment = {"XDG_CACHE_HOME": str(self.folder / "cache"), "YARS_TEST_LOG": str(self.log)}
+        self.session = f"tour-start-{os.getpid()}"
+        self.options = ["--session", self.session, "--log-dir", "", "--frames", self.folder / "frames"]
         for name in ("state-machine", "radar-model", "flight-model", "input-monitor", "radar-display"):
             self.write(f"bin/{name}", ROLE)
         self.write("bin/yars", YARS)
@@ -59,14 +61,14 @@ class Place:
         path.write_text(text)
         path.chmod(0o755)
 
-    def start(self, *arguments, code="0"):
+    def start(self, *arguments, code="0", options=None):
         environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
-        environment.update(XDG_CACHE_HOME=str(self.folder / "cache"), YARS_TEST_LOG=str(self.log), YARS_TEST_CODE=code)
-        self.log.unlink(missing_ok=True)
-        return subprocess.Popen([self.folder / "bin/yars-start", *self.options, *arguments], env=environment, stdin=subprocess.DEVNULL,
-                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        environment.update(self.environment, YARS_TEST_CODE=code)
+        return subprocess.Popen([self.folder / "bin/yars-start", *(options or self.options), *arguments], env=environment, text=True,
+                                start_new_session=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
     def run(self, *arguments, code="0"):
+        self.log.unlink(missing_ok=True)
         process = self.start(*arguments, code=code)
         text = process.communicate(timeout=WATCHDOG_S)[0]
         return process.returncode, text

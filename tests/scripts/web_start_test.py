@@ -42,17 +42,20 @@ class Place(tour_start_test.Place):
         self.write("bin/input-monitor", tour_start_test.ROLE.replace("  input-monitor*)", "  nothing*)"))
         (self.folder / "terrain").mkdir()
         self.frames = self.folder / "frames"
-        self.options = ["--log-dir", "", "--terrain", self.folder / "terrain"]
+        self.options = ["--session", self.session, "--log-dir", "", "--terrain", self.folder / "terrain"]
+        self.environment["XDG_STATE_HOME"] = str(self.folder / "state")
+        self.tokens = f"--tokens={self.folder}/state/yars/web-tokens"
 
     def of_station(self):
         """Options that yars-station got and others did not."""
-        return {word for word in self.lines("yars-station")[0].split() if "=" in word or word == "--without-tls"}
+        return {word for word in self.lines("yars-station")[0].split() if "=" in word or word.startswith("--without-") or word == "--behind-proxy"}
 
     @contextlib.contextmanager
     def running(self, *arguments):
         """The arguments of its supervisor and of radar-display; afterwards `text` is what it printed. Without options of the
         station's own, with --web."""
         is_said = any(str(word).startswith("--web-") for word in arguments)
+        self.log.unlink(missing_ok=True)
         process = self.start(*([] if is_said else ["--web"]), *arguments)
         try:
             deadline = time.monotonic() + WATCHDOG_S
@@ -97,7 +100,7 @@ def pictures_of_earlier_runs_are_not_counted(place):
 
 def options_of_the_station_are_handed_to_it(place):
     with place.running("--web-port", "8100"):
-        assert place.of_station() == {"--port=8100"}, place.lines("yars-station")
+        assert place.of_station() == {"--port=8100", place.tokens}, place.lines("yars-station")
     with place.running("--web-listen", "0.0.0.0", "--web-names", "radar.example,radar", "--web-tokens", place.folder / "tokens",
                        "--web-certificate", "/a/certificate.pem", "--web-key", "/a/key.pem", "--web-port", "1", "--web-port", "0"):
         assert place.of_station() == {"--listen=0.0.0.0", "--names=radar.example,radar", f"--tokens={place.folder}/tokens",
@@ -105,7 +108,10 @@ def options_of_the_station_are_handed_to_it(place):
     with contextlib.chdir(place.folder), place.running("--web-without-tls", "--web-tokens", "tokens"):
         assert place.of_station() == {"--without-tls", f"--tokens={place.folder}/tokens"}, place.lines("yars-station")
     with place.running():
-        assert place.of_station() == set(), place.lines("yars-station")
+        assert place.of_station() == {place.tokens}, place.lines("yars-station")
+    assert (place.folder / "state/yars").stat().st_mode & 0o077 == 0
+    with place.running("--web-without-tokens", "--web-behind-proxy"):
+        assert place.of_station() == {"--without-tokens", "--behind-proxy"}, place.lines("yars-station")
 
 
 def addresses_stand_on_lines_of_their_own(place):

@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import socket
 import ssl
@@ -14,6 +15,7 @@ import stat
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 import urllib.request
 
@@ -21,9 +23,11 @@ BIN = pathlib.Path(sys.argv.pop(1)).resolve()
 
 
 class Station:
-    """A running yars-station. `addresses`: as it printed them."""
+    """A running yars-station. `addresses`: as it printed them. Without tokens unless options name some."""
 
     def __init__(self, folder, *options):
+        options = (*options, *([] if "--tokens" in options or "--with-tokens" in options else ["--without-tokens"]))
+        options = [option for option in options if option != "--with-tokens"]
         self.session = f"access{os.getpid()}"
         self.process = subprocess.Popen([BIN / "yars-station", "--session", self.session, "--port", "0", "--log-level", "warning", *options],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder)
@@ -152,9 +156,9 @@ class Browser:
 
 class Options(unittest.TestCase):
     def test_beyond_loopback_needs_tokens_and_a_certificate(self):
-        code, text = refusal("--listen", "0.0.0.0")
+        code, text = refusal("--listen", "0.0.0.0", "--without-tokens")
         self.assertEqual(code, 2, text)
-        self.assertIn("expected --tokens FILE", text)
+        self.assertIn("expected tokens, because others can reach the station", text)
         code, text = refusal("--listen", "0.0.0.0", "--tokens", "tokens")
         self.assertEqual(code, 2, text)
         self.assertIn("--without-tls", text)
@@ -168,6 +172,23 @@ class Options(unittest.TestCase):
             code, text = refusal(*options)
             self.assertNotEqual(code, 0, options)
             self.assertIn(words, text)
+
+    def test_names_are_names_of_computers(self):
+        for names in ("a b", "radar.example,", "http://radar", "radar:80", "*"):
+            code, text = refusal("--names", names)
+            self.assertEqual(code, 2, text)
+            self.assertIn("expected names of a computer", text)
+
+    def test_secrets_that_others_can_read_are_refused(self):
+        with tempfile.TemporaryDirectory() as folder:
+            tokens, key = pathlib.Path(folder, "tokens"), pathlib.Path(folder, "key.pem")
+            tokens.write_text("instructor 0123456789abcdef\nviewer fedcba9876543210\n")
+            key.write_text("a key")
+            for file, mode, options in ((tokens, 0o640, ("--tokens", tokens)), (key, 0o604, ("--certificate", key, "--key", key))):
+                file.chmod(mode)
+                code, text = refusal(*map(str, options))
+                self.assertEqual(code, 1, text)
+                self.assertIn(f"expected a file that other users cannot read, found mode {mode:04o}; chmod 600 {file}", text)
 
     def test_a_file_without_tokens_is_refused(self):
         with tempfile.NamedTemporaryFile("w") as file:
@@ -212,7 +233,7 @@ class Tokens(unittest.TestCase):
     def test_an_address_with_a_token_gives_a_cookie_and_leaves_the_token_out(self):
         status, headers, _ = get(self.port, f"/instructor.html?token={self.tokens[1]}")
         self.assertEqual(status, 303)
-        self.assertEqual(headers["Location"], "/instructor.html")
+        self.assertEqual(headers["Location"], "instructor.html")
         self.assertIn("HttpOnly", headers["Set-Cookie"])
         cookie = headers["Set-Cookie"].split(";")[0]
         self.assertEqual(get(self.port, "/instructor.html", cookie)[0], 200)
@@ -257,6 +278,15 @@ class Tokens(unittest.TestCase):
     def test_hosts_are_addresses_in_numbers_and_the_names_that_were_given(self):
         for host, status in (("10.1.2.3", 200), ("radar.example", 200), ("evil.example", 400)):
             self.assertEqual(get(self.port, "/display.html", self.cookies[0], host=host)[0], status, host)
+
+    def test_refusals_say_what_to_do(self):
+        self.assertIn("--names NAME", get(self.port, "/display.html", host="evil.example")[2].decode())
+        connection = http.client.HTTPConnection("127.0.0.1", self.port, timeout=20)
+        connection.request("GET", "/display.html", headers={"Origin": "http://evil.example", "Cookie": self.cookies[1]})
+        answer = connection.getresponse()
+        self.assertEqual(answer.status, 403)
+        self.assertIn("X-Forwarded-Host with --behind-proxy", answer.read().decode())
+        connection.close()
 
     def test_only_sessions_of_the_station_are_shown(self):
         self.assertEqual(status_of(self.port, "/socket?session=other", self.cookies[1]), 404)
@@ -308,22 +338,106 @@ class Limits(unittest.TestCase):
         self.assertIn("one of run", page.answer(3))
         page.close()
 
-    def test_there_are_at_most_64_connections(self):
-        pages = [SocketOfPage(self.port) for _ in range(64)]
-        self.assertEqual({page.status for page in pages}, {101})
-        with self.assertRaises((OSError, IndexError)):
-            SocketOfPage(self.port)
-        pages.pop().close()
-        for _ in range(100):
-            try:
-                self.assertEqual(status_of(self.port, "/socket"), 101)
-                break
-            except (OSError, IndexError):
-                continue
-        else:
-            self.fail("expected room for a page after another has gone")
+    def test_connections_that_wait_keep_nobody_out(self):
+        waiting = [socket.create_connection(("127.0.0.1", self.port), timeout=20) for _ in range(200)]
+        page = SocketOfPage(self.port)
+        self.assertEqual((get(self.port, "/display.html")[0], page.status), (200, 101))
+        page.send({"do": "run", "id": 9})
+        self.assertIsNone(page.answer(9))
+        for one in (page, *waiting):
+            one.close()
+
+    def test_what_is_no_request_is_answered(self):
+        for request, status in ((b"no request\r\n\r\n", 400), (b"GET / HTTP/9.9\r\n\r\n", 400), (b"\x16\x03\x01\r\n\r\n", 400),
+                                (b"GET / HTTP/1.1\r\nX: " + b"x" * 20_000 + b"\r\n\r\n", 431),
+                                (b"POST / HTTP/1.1\r\nContent-Length: 5\r\n\r\n12345", 413)):
+            with socket.create_connection(("127.0.0.1", self.port), timeout=20) as asking:
+                asking.sendall(request)
+                self.assertEqual(asking.recv(100).split()[1:2], [str(status).encode()], request[:30])
+
+
+class Places(unittest.TestCase):
+    """Of pages: 48 for viewers, 32 of one address, 16 for instructors."""
+
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.station = Station(self.folder.name, "--with-tokens", "--behind-proxy")
+        self.cookies = [f"yars_station_{self.station.port}_{right}={re.search(r'token=(.*)', address).group(1)}"
+                        for right, address in zip(("viewer", "instructor"), self.station.addresses)]
+        self.addCleanup(self.folder.cleanup)
+        self.addCleanup(self.station.__exit__)
+
+    def viewers(self, count, address):
+        pages = [SocketOfPage(self.station.port, cookie=self.cookies[0] + f"\r\nX-Forwarded-For: {address}") for _ in range(count)]
+        for page in pages:
+            self.addCleanup(page.close)
+        return [page.status for page in pages]
+
+    def test_viewers_keep_no_instructor_out(self):
+        self.assertEqual(self.viewers(34, "10.0.0.1"), [101] * 32 + [503] * 2)
+        self.assertEqual(self.viewers(18, "10.0.0.2"), [101] * 16 + [503] * 2)
+        for _ in range(16):
+            page = SocketOfPage(self.station.port, cookie=self.cookies[1])
+            self.addCleanup(page.close)
+            self.assertEqual(page.status, 101)
+        self.assertEqual(status_of(self.station.port, "/socket?page=instructor", self.cookies[1]), 503)
+
+    def test_a_place_is_free_when_its_page_has_gone(self):
+        pages = [SocketOfPage(self.station.port, cookie=self.cookies[1]) for _ in range(16)]
         for page in pages:
             page.close()
+        deadline = time.monotonic() + 20
+        while status_of(self.station.port, "/socket?page=instructor", self.cookies[1]) != 101:
+            self.assertLess(time.monotonic(), deadline, "expected room for a page after the others have gone")
+
+    def test_a_proxy_says_where_its_visitors_are(self):
+        with socket.create_connection(("127.0.0.1", self.station.port), timeout=20) as asking:
+            asking.sendall((f"GET /display.html?token={self.cookies[0].partition('=')[2]} HTTP/1.1\r\nHost: inner:1\r\nConnection: close\r\n"
+                            "X-Forwarded-Host: localhost:9443\r\nX-Forwarded-Proto: https\r\n\r\n").encode())
+            answer = asking.makefile("rb").read().decode()
+        self.assertIn(" 303 ", answer.splitlines()[0])
+        self.assertIn("; Secure", answer)
+
+
+class Scarcity(unittest.TestCase):
+    """What there is too much of, and what there is none of."""
+
+    def test_of_a_long_list_the_newest_recordings_are_named(self):
+        with tempfile.TemporaryDirectory() as folder:
+            recordings = pathlib.Path(folder, "recordings")
+            recordings.mkdir()
+            for number in range(13_000):
+                (recordings / f"a recording with quite a long name, number {number:05}.yars").touch()
+            with Station(folder, "--recordings", str(recordings)) as station:
+                pages = [SocketOfPage(station.port) for _ in range(3)]
+                for page in pages:
+                    page.send({"do": "recordings", "id": 7})
+                for page in pages:
+                    answer = next(text for text in page.texts() if text.get("answer") == 7)
+                    self.assertEqual((answer["problem"], answer["left_out"]), (None, 12_000))
+                    page.close()
+                self.assertEqual(get(station.port, "/display.html")[0], 200)
+
+    def test_without_descriptors_connections_wait(self):
+        with tempfile.TemporaryDirectory() as folder, Station(folder) as station:
+            self.assertEqual(get(station.port, "/display.html")[0], 200)
+            # Some are free for what the station opens in the meantime.
+            used = len(os.listdir(f"/proc/{station.process.pid}/fd"))
+            limits = resource.prlimit(station.process.pid, resource.RLIMIT_NOFILE)
+            resource.prlimit(station.process.pid, resource.RLIMIT_NOFILE, (used + 4, limits[1]))
+            waiting = [socket.create_connection(("127.0.0.1", station.port), timeout=20) for _ in range(16)]
+            time.sleep(1.0)
+            self.assertLessEqual(len(os.listdir(f"/proc/{station.process.pid}/fd")), used + 4)
+            for one in waiting:
+                one.close()
+            resource.prlimit(station.process.pid, resource.RLIMIT_NOFILE, limits)
+            self.assertEqual(get(station.port, "/display.html")[0], 200)
+            station.process.terminate()
+            said = station.process.communicate()[1]
+        lines = [line for line in said.splitlines() if "could not be taken" in line]
+        self.assertGreater(len(lines), 0, said)
+        # One each 0.1 s at most, where a loop without a pause has thousands; repeated lines are counted in the last one.
+        self.assertLess(len(lines) + sum(int(count) for count in re.findall(r"and (\d+) more suppressed", said)), 200, said)
 
 
 @unittest.skipUnless(shutil.which("openssl"), "expected openssl, found none")

@@ -14,37 +14,65 @@ AccessRules local() {
 
 AccessRules open_to_all() {
   AccessRules rules = local();
-  rules.loopback = false;
   rules.names = {"radar.example"};
   rules.viewer_token = "0123456789abcdef";
   rules.instructor_token = "fedcba9876543210";
   return rules;
 }
 
-TEST(Access, OnlyNamesOfThisComputerAreHosts) {
-  for (const char* host : {"127.0.0.1:8096", "localhost:8096", "[::1]:8096"})
-    EXPECT_TRUE(is_allowed_host(host, local())) << host;
-  for (const char* host : {"", "127.0.0.1", "127.0.0.1:80960", "localhost.evil.example:8096", "evil.example:8096",
-                           "10.0.0.1:8096", ":8096"})
-    EXPECT_FALSE(is_allowed_host(host, local())) << host;
+Origins direct(std::string_view host, const AccessRules& rules) {
+  return origins_of(host, "10.0.0.9", {}, rules);
 }
 
-TEST(Access, AServerForOthersTakesAddressesInNumbersAndItsNames) {
-  for (const char* host : {"127.0.0.1:8096", "10.0.0.1:8096", "[fe80::1]:8096", "radar.example:8096"})
+// With any port: tunnels and containers map ports.
+TEST(Access, OnlyNamesThatLeadToThisComputerAreHosts) {
+  for (const char* host : {"127.0.0.1:8096", "localhost:8096", "[::1]:8096", "127.0.0.1", "localhost:9000",
+                           "10.0.0.1:8096", "127.0.0.2:80", "[fe80::1]"})
+    EXPECT_TRUE(is_allowed_host(host, local())) << host;
+  for (const char* host : {"", ":8096", "127.0.0.1:809600", "localhost:", "localhost:x", "localhost.evil.example:8096",
+                           "evil.example:8096", "10.0.0.1.evil.example:8096", "[evil]:80", "[]", "radar.example:8096"})
+    EXPECT_FALSE(is_allowed_host(host, local())) << host;
+  for (const char* host : {"radar.example", "radar.example:8096", "localhost"})
     EXPECT_TRUE(is_allowed_host(host, open_to_all())) << host;
-  for (const char* host : {"", ":8096", "10.0.0.1:80", "evil.example:8096", "10.0.0.1.evil.example:8096"})
-    EXPECT_FALSE(is_allowed_host(host, open_to_all())) << host;
+  EXPECT_TRUE(is_allowed_host(direct("Radar.Example:443", open_to_all()).host, open_to_all()));
 }
 
 TEST(Access, OnlyPagesOfThisServerAreOrigins) {
-  EXPECT_TRUE(is_own_origin("http://localhost:8096", "localhost:8096", local()));
+  const Origins plain = direct("localhost:8096", local());
+  for (const char* origin : {"http://localhost:8096", "https://localhost:8096", "http://LOCALHOST:8096"})
+    EXPECT_TRUE(is_own_origin(origin, plain)) << origin;
   for (const char* origin :
-       {"", "null", "https://localhost:8096", "http://localhost:80", "http://evil.example", "file://"})
-    EXPECT_FALSE(is_own_origin(origin, "localhost:8096", local())) << origin;
+       {"", "null", "http://localhost:80", "http://evil.example", "file://", "http://localhost:8096.evil"})
+    EXPECT_FALSE(is_own_origin(origin, plain)) << origin;
   AccessRules safe = local();
   safe.tls = true;
-  EXPECT_TRUE(is_own_origin("https://localhost:8096", "localhost:8096", safe));
-  EXPECT_FALSE(is_own_origin("http://localhost:8096", "localhost:8096", safe));
+  EXPECT_TRUE(is_own_origin("https://localhost:8096", direct("localhost:8096", safe)));
+  EXPECT_FALSE(is_own_origin("http://localhost:8096", direct("localhost:8096", safe)));
+}
+
+TEST(Access, HeadersOfAProxyAreBelievedWhereThereIsOne) {
+  const Forwarded forwarded{"evil.example, Radar.example", "http, https", "1.2.3.4, 10.0.0.7"};
+  const Origins alone = origins_of("127.0.0.1:8096", "10.0.0.9", forwarded, local());
+  EXPECT_EQ(alone.host, "127.0.0.1:8096");
+  EXPECT_FALSE(alone.https);
+  EXPECT_EQ(alone.visitor, "10.0.0.9");
+  AccessRules rules = open_to_all();
+  rules.behind_proxy = true;
+  const Origins behind = origins_of("127.0.0.1:8096", "127.0.0.1", forwarded, rules);
+  EXPECT_EQ(behind.host, "radar.example");
+  EXPECT_TRUE(behind.https);
+  EXPECT_EQ(behind.visitor, "10.0.0.7") << "what the visitor itself has sent comes before";
+  EXPECT_TRUE(is_own_origin("https://radar.example", behind));
+  EXPECT_FALSE(is_own_origin("http://radar.example", behind));
+  EXPECT_NE(cookie_of_token(rules.viewer_token, behind, rules).find("; Secure"), std::string::npos);
+  EXPECT_EQ(origins_of("Radar.example", "127.0.0.1", {}, rules).host, "radar.example");
+}
+
+TEST(Access, NamesOfHosts) {
+  for (const char* name : {"radar.example", "a", "my-host", "10.0.0.1"}) EXPECT_TRUE(is_host_name(name)) << name;
+  for (const char* name : {"", "-a", ".a", "a..b", "a b", "a:80", "*", "a/b", "ä"})
+    EXPECT_FALSE(is_host_name(name)) << name;
+  EXPECT_FALSE(is_host_name(std::string(254, 'a')));
 }
 
 TEST(Access, WithoutTokensEveryPageIsAnInstructors) {
@@ -62,7 +90,7 @@ TEST(Access, TokensGiveRights) {
 
 TEST(Access, CookiesCarryTheTokenOfThisPort) {
   const AccessRules rules = open_to_all();
-  const std::string cookie = cookie_of_token(rules.viewer_token, rules);
+  const std::string cookie = cookie_of_token(rules.viewer_token, direct("localhost:8096", rules), rules);
   EXPECT_NE(cookie.find("HttpOnly"), std::string::npos);
   EXPECT_NE(cookie.find("SameSite=Lax"), std::string::npos) << "with Strict a link in a web mail ends with 401";
   const std::string pair = cookie.substr(0, cookie.find(';'));
@@ -80,7 +108,7 @@ TEST(Access, CookiesCarryTheTokenOfThisPort) {
 TEST(Access, ACookieOfViewersReplacesNoneOfAnInstructor) {
   const AccessRules rules = open_to_all();
   const auto pair_of = [&](const std::string& token) {
-    const std::string cookie = cookie_of_token(token, rules);
+    const std::string cookie = cookie_of_token(token, direct("localhost:8096", rules), rules);
     return cookie.substr(0, cookie.find(';'));
   };
   const std::string viewer = pair_of(rules.viewer_token), instructor = pair_of(rules.instructor_token);
@@ -107,7 +135,7 @@ TEST(Access, PathsNameFilesOfOneFolder) {
 }
 
 TEST(Access, TheContentPolicyAllowsTheServerAlone) {
-  const std::string policy = content_policy("127.0.0.1:8096", local());
+  const std::string policy = content_policy(direct("127.0.0.1:8096", local()));
   EXPECT_NE(policy.find("default-src 'none'"), std::string::npos);
   EXPECT_EQ(policy.find("unsafe"), std::string::npos);
   EXPECT_NE(policy.find("ws://127.0.0.1:8096"), std::string::npos);

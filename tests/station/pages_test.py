@@ -86,7 +86,7 @@ def main():
             subprocess.run([binaries / "yars", "terrain", "generate", "--out", terrain, "--south=36", "--west=-123", "--level=0"], check=True,
                            stdout=subprocess.DEVNULL)
             process = subprocess.Popen([TOP / "scripts/start", "--bin", binaries, "--session", session, "--terrain", terrain, "--headless", "600",
-                                        "--no-frames", "--no-input", "--log-dir", "", "--web", "--web-port", str(port)],
+                                        "--no-frames", "--no-input", "--log-dir", "", "--web", "--web-port", str(port), "--web-without-tokens"],
                                        stdout=out, stderr=subprocess.STDOUT, cwd=name)
         try:
             done = subprocess.run(["node", script, address(log, process), binaries / "yars", session], cwd=folder, check=False, timeout=480)

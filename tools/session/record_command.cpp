@@ -1,6 +1,5 @@
 // `yars record`: records a session until Ctrl-C or the end of a lockstep run.
 
-#include <cstdio>
 #include <ctime>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -108,9 +107,9 @@ void print_summary(const Recorder& recorder, std::uint64_t bytes, const RecordOp
                        {"sweeps", recorder.sweeps()},
                        {"bytes", bytes},
                        {"refused", recorder.refused()}});
-  std::printf("%s, %s, %s in %s\n", text::counted(recorder.ticks(), "tick").c_str(),
-              text::counted(recorder.sweeps(), "sweep").c_str(), text::counted(bytes, "byte").c_str(),
-              options.file.c_str());
+  // For people, and no result: the recording is whole, also if nobody can read this.
+  log::info(text::counted(recorder.ticks(), "tick") + ", " + text::counted(recorder.sweeps(), "sweep") + ", " +
+            text::counted(bytes, "byte") + " in " + options.file);
 }
 
 // Text of a source with the path of its file made absolute.

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -34,6 +35,7 @@ struct RecordingsOptions {
   bool json = false;
   bool lines = false;  // for scripts/start: the facts of --at alone, NAME = VALUE
   std::optional<double> at_s;
+  std::optional<int> newest;  // of each folder
 };
 
 // Sim time [s] of a tick; a tick is 5 ms, so three decimals are exact.
@@ -134,7 +136,19 @@ bool may_be_recording(const std::filesystem::path& file) {
   return stream && magic == recording::file_magic();
 }
 
-// Recordings in a folder, by name; those of its subfolders are left out.
+// Removes all but the `count` files that were written last. Returns the number of removed files.
+std::size_t keep_newest(std::vector<std::filesystem::path>& files, std::size_t count) {
+  if (files.size() <= count) return 0;
+  std::vector<std::pair<std::filesystem::file_time_type, std::filesystem::path>> dated;
+  std::error_code gone;  // a file without a time counts as the oldest
+  for (auto& file : files) dated.emplace_back(std::filesystem::last_write_time(file, gone), std::move(file));
+  std::ranges::nth_element(dated, dated.begin() + static_cast<std::ptrdiff_t>(count), std::greater());
+  files.clear();
+  for (std::size_t i = 0; i < count; ++i) files.push_back(std::move(dated[i].second));
+  return dated.size() - count;
+}
+
+// Recordings in a folder; those of its subfolders are left out.
 std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   std::error_code code;
@@ -145,7 +159,6 @@ std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& fo
   if (code)
     throw_failure(
         {folder.string(), "a folder that can be read", error::reason_of(code.value()), "check the path", false});
-  std::ranges::sort(files);
   return files;
 }
 
@@ -156,13 +169,18 @@ class Listing {
   void add(const std::string& path) {
     std::error_code code;
     if (!std::filesystem::is_directory(path, code)) return add_file(path, true);
-    for (const auto& file : recordings_in(path)) add_file(file, false);
+    auto files = recordings_in(path);
+    if (options_->newest) left_out_ += keep_newest(files, static_cast<std::size_t>(*options_->newest));
+    std::ranges::sort(files);
+    for (const auto& file : files) add_file(file, false);
   }
   void print() const {
     if (options_->lines) return print_lines();
-    if (options_->json) return print_json({{"recordings", recordings_}, {"refused", refused_}});
+    if (options_->json)
+      return print_json({{"recordings", recordings_}, {"refused", refused_}, {"left_out", left_out_}});
     for (const ordered_json& one : recordings_) print_text(one);
     for (const ordered_json& one : refused_) log::warning("not listed: " + one["reason"].get<std::string>());
+    if (left_out_ > 0) std::printf("and %s that are older\n", text::counted(left_out_, "recording").c_str());
     if (recordings_.empty() && refused_.empty()) std::printf("no recordings\n");
   }
   // True if a file that the user named is no recording.
@@ -215,6 +233,7 @@ class Listing {
 
   const RecordingsOptions* options_;
   ordered_json recordings_ = ordered_json::array(), refused_ = ordered_json::array();
+  std::size_t left_out_ = 0;  // by --newest
   bool failed_ = false;
 };
 
@@ -243,6 +262,10 @@ void add_recordings_command(databuffer::Command app) {
       "[s] sim time: say where a live set goes on from there, and by which flight (--fly-out of the start script)");
   at.range(0.0, databuffer::kLatestSimTime_s).otherwise("none");
   command.flag("--lines", options->lines, "print the facts of --at as lines NAME = VALUE, for scripts").needs(at);
+  command.option("--newest", options->newest, "of each folder only so many recordings, those written last")
+      .value_name("NUMBER")
+      .range(1, 1'000'000)
+      .otherwise("all");
   add_json_flag(command, options->json);
   command.callback([options] { list(*options); });
 }

@@ -10,7 +10,7 @@ function __yars_path
             continue
         end
         switch $word
-            case --airfields --alt-ft --altitude-ft --at --await --band --base --cells-lat --cells-lon --channel --color --config --cross-section --csv --dask --east --edge --elevation --elevation-ft --fidelity --from --gain --heading --height-ft --in --keep --kind --knob --lat --level --lockstep --log-dir --log-level --lon --looks --map --markdown --name --north --origin --out --pixels --power --presets --radius-nm --range-nm --rate --reduction --repeat --restarted --ruler --ruler-samples --ruler-size --samples --scan-width --scene --scene-without --seed --seek --session --shadow --shard --size --source --south --speed --speed-kt --step --target-lat --target-lon --terrain --threads --time-s --to --top-ft --triangles --until --view --west --width --window-nm --without --workers
+            case --airfields --alt-ft --altitude-ft --at --await --band --base --cells-lat --cells-lon --channel --color --config --cross-section --csv --dask --east --edge --elevation --elevation-ft --fidelity --from --gain --heading --height-ft --in --keep --kind --knob --lat --level --lockstep --log-dir --log-level --lon --looks --map --markdown --name --newest --north --origin --out --pixels --power --presets --radius-nm --range-nm --rate --reduction --repeat --restarted --ruler --ruler-samples --ruler-size --samples --scan-width --scene --scene-without --seed --seek --session --shadow --shard --size --source --south --speed --speed-kt --step --target-lat --target-lon --terrain --threads --time-s --to --top-ft --triangles --until --view --west --width --window-nm --without --workers
                 set left 1
             case --from --to
                 set left 2
@@ -599,6 +599,7 @@ complete -c yars -n "__yars_at 'recordings'" -F
 complete -c yars -n "__yars_at 'recordings'" -s h -l help -d 'print this help'
 complete -c yars -n "__yars_at 'recordings'" -l at -x -d '[s] sim time: say where a live set goes on from there, and by which flight (--fly-out of the start script)'
 complete -c yars -n "__yars_at 'recordings'" -l lines -d 'print the facts of --at as lines NAME = VALUE, for scripts'
+complete -c yars -n "__yars_at 'recordings'" -l newest -x -d 'of each folder only so many recordings, those written last'
 complete -c yars -n "__yars_at 'recordings'" -l json -d 'print one JSON object in place of text'
 complete -c yars -n "__yars_at 'recordings'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'recordings'" -l config -r -F -d 'GUF configuration file'

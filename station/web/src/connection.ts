@@ -75,7 +75,7 @@ export class Connection {
 
   private open(): void {
     const query = `page=${this.page}${this.session ? `&session=${this.session}` : ""}`;
-    const socket = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/socket?${query}`);
+    const socket = new WebSocket(addressOf(`socket?${query}`));
     this.socket = socket;
     socket.binaryType = "arraybuffer";
     socket.onopen = () => {
@@ -93,6 +93,13 @@ export class Connection {
       this.wait_ms = Math.min(2 * this.wait_ms, LONGEST_WAIT_MS);
     };
   }
+}
+
+// Address of a WebSocket beside the page, which a proxy may have put below a path of its own.
+function addressOf(name: string): string {
+  const address = new URL(name, location.href);
+  address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
+  return address.href;
 }
 
 // The session that the address of the page names; empty: the station's own.

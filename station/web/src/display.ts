@@ -64,7 +64,7 @@ class DisplayPage {
   }
 
   private async showKeys(): Promise<void> {
-    const { keys } = await (await fetch("/theatre.json")).json() as Theatre;
+    const { keys } = await (await fetch("theatre.json")).json() as Theatre;
     for (const { keys: names, does } of keys) {
       const row = element<HTMLTableSectionElement>("keys").insertRow();
       row.insertCell().textContent = names;

@@ -65,7 +65,7 @@ class InstructorPage {
   }
 
   private async readTheatre(): Promise<void> {
-    this.theatre = await (await fetch("/theatre.json")).json() as Theatre;
+    this.theatre = await (await fetch("theatre.json")).json() as Theatre;
     this.map.show(this.theatre);
     this.showPlaces();
   }

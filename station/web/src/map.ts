@@ -278,7 +278,7 @@ export class TheatreMap {
     image = new Image();
     image.onload = () => this.redraw();
     image.onerror = () => this.tiles.delete(path); // asked again at the next drawing
-    image.src = `/${path}`;
+    image.src = path;
     this.tiles.set(path, image);
     if (this.tiles.size > TILE_MEMORY) this.tiles.delete(this.tiles.keys().next().value as string);
     return image;
@@ -289,7 +289,7 @@ export class TheatreMap {
     const { context, state } = this;
     if (!state) return;
     for (const patch of state.patches.slice(0, PATCHES_SHOWN).reverse()) {
-      const key = `/patch/${state.session}/${patch.id}.png`;
+      const key = `patch/${state.session}/${patch.id}.png`;
       let image = this.patches.get(key);
       if (!image) {
         image = new Image();

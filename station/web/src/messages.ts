@@ -87,7 +87,7 @@ export interface Recording {
   file: string; begin_s: number | null; end_s: number | null; bytes: number; sweeps: boolean; maps: boolean; can_fly_out: boolean;
   writing: boolean; cut_short: boolean; // cut short: nobody writes it, and no recorder closed it
 }
-export interface Answer { answer: number; problem: string | null; session?: string; recordings?: Recording[] }
+export interface Answer { answer: number; problem: string | null; session?: string; recordings?: Recording[]; left_out?: number }
 export interface Theatre {
   radar: string; fidelity: string;
   beacons: { name: string; lat: number; lon: number; code: number }[];

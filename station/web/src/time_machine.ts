@@ -47,8 +47,9 @@ export class TimeMachine {
     const known = this.recordings.find(({ file }) => file === this.chosen?.file);
     if (known) this.use(known);
     const focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset.file : undefined;
-    fill("recordings", JSON.stringify(this.recordings), () => this.recordings.length === 0 ? [document.createTextNode("No recordings yet: press Record in Set.")]
-      : this.recordings.map((recording) => this.rowOfRecording(recording)));
+    const older = answer.left_out ?? 0;
+    fill("recordings", JSON.stringify([this.recordings, older]), () => this.recordings.length === 0 ? [document.createTextNode("No recordings yet: press Record in Set.")]
+      : [...this.recordings.map((recording) => this.rowOfRecording(recording)), ...(older > 0 ? [document.createTextNode(`and ${older} older`)] : [])]);
     this.markChosen();
     if (focused !== undefined) this.choices().find(({ dataset }) => dataset.file === focused)?.focus({ preventScroll: true });
   }
