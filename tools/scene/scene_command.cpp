@@ -92,6 +92,7 @@ nlohmann::ordered_json describe(const std::string& file, const Model& model) {
                           {"north", extent.max.y}, {"lowest", extent.min.z}, {"highest", extent.max.z}};
   }
   report["external_files"] = model.files;
+  report["left_out"] = model.left_out;
   report["warnings"] = model.warnings;
   return report;
 }
@@ -131,23 +132,18 @@ void print(const nlohmann::ordered_json& report) {
                 e["highest"].get<double>());
   }
   for (const auto& file : report["external_files"]) std::printf("  with %s\n", file.get<std::string>().c_str());
+  for (const auto& sentence : report["left_out"]) std::printf("  left out: %s\n", sentence.get<std::string>().c_str());
   for (const auto& warning : report["warnings"]) std::printf("  warning: %s\n", warning.get<std::string>().c_str());
-}
-
-// File of a scene argument, which may have a position: FILE@LAT,LON,HDG. An existing file is never split at an '@'.
-std::string file_of(const std::string& text) {
-  std::error_code problem;
-  if (std::filesystem::exists(text, problem)) return text;
-  const auto scene = parse_scene(text);
-  return scene ? scene->file : text;
 }
 
 void report_files(const InfoOptions& options) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   NameFilter filter = name_filter(options.without);
-  std::size_t unreadable = 0;
+  std::size_t unreadable = 0, incomplete = 0;
   for (const std::string& text : options.files) {
-    const std::string file = file_of(text);
+    const auto scene = parse_scene(text);
+    if (!scene) throw_failure(error::usage_error(scene.error()));
+    const std::string& file = scene->file;
     const auto model = read_openflight(file, &filter);
     if (!model && options.files.size() == 1) throw_failure(model.error());
     if (!model) {
@@ -156,6 +152,7 @@ void report_files(const InfoOptions& options) {
       continue;
     }
     all.push_back(describe(file, *model));
+    incomplete += model->left_out.empty() ? 0 : 1;
     if (!options.json) print(all.back());
   }
   if (options.json) print_json({{"files", all}}, JsonLines::many);
@@ -164,6 +161,9 @@ void report_files(const InfoOptions& options) {
     throw CommandFailed{"expected OpenFlight files, found " + std::to_string(unreadable) + " of " +
                         std::to_string(options.files.size()) + " that cannot be read"};
   if (const auto problem = filter.unmatched_error("--without")) throw_failure(*problem);
+  if (incomplete > 0)
+    throw CommandFailed{"expected OpenFlight files that are read whole, found " + std::to_string(incomplete) + " of " +
+                        std::to_string(options.files.size()) + " with parts left out; see 'left out' above"};
 }
 
 }  // namespace
