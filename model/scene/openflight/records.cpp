@@ -32,8 +32,7 @@ std::string Record::raw_text(std::size_t offset, std::size_t max_length) const {
 
 std::string Record::text(std::size_t offset, std::size_t max_length) const {
   std::string text = raw_text(offset, max_length);
-  std::ranges::replace_if(
-      text, [](char letter) { return letter < 0x20 || letter > 0x7E; }, '?');
+  std::ranges::replace_if(text, [](char letter) { return letter < 0x20 || letter > 0x7E; }, '?');
   return text;
 }
 

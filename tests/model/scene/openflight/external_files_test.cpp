@@ -132,7 +132,7 @@ TEST_F(External, AMissingFileIsLeftOut) {
 // Paths of the machine on which the scene was made.
 TEST_F(External, APathOfAnotherMachineIsFoundByItsLastFoldersAndName) {
   const std::vector<std::string> references{"C:\\models\\town\\x.flt",   "c:x.flt",
-                                            "/srv/maker/town/x.flt",    "\\\\server\\share\\town\\x.flt",
+                                            "/srv/maker/town/x.flt",     "\\\\server\\share\\town\\x.flt",
                                             "../../../../../town/x.flt", "old/town/x.flt"};
   const auto beside = folder_.write(kScene + "x.flt", leaf());
   for (const std::string& reference : references) {
