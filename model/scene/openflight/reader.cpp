@@ -108,11 +108,11 @@ class ExternalFinder {
     const std::vector<fs::path> parts = last_parts(name.file);
     for (const fs::path& part : parts) {
       for (const fs::path& folder : folders)
-        if (auto file = existing(folder, part, outside)) return {*file, {}, true};
+        if (auto file = in_any_case(folder, part, outside)) return {*file, {}, true};
       // A bare name is too little to go by in the folders above.
       if (!part.has_parent_path()) continue;
       for (const fs::path& folder : parents_)
-        if (auto file = existing(folder, part, outside)) return {*file, {}, true};
+        if (auto file = in_any_case(folder, part, outside)) return {*file, {}, true};
     }
     return {{}, outside ? "lies outside the folder " + root_.string() : "is not there"};
   }
@@ -137,56 +137,84 @@ class ExternalFinder {
     return parts;
   }
 
-  // The regular file at `path`, seen from `folder`. `outside` becomes true for one outside the root.
+  // The file at `path`, seen from `folder`. `outside` becomes true if the path leads out of the root.
   std::optional<fs::path> existing(const fs::path& folder, const fs::path& path, bool& outside) {
     std::error_code code;
-    fs::path file = fs::weakly_canonical(folder / path, code);
+    const fs::path file = fs::weakly_canonical(folder / path, code);
     if (code) return std::nullopt;
     if (!is_below(file, root_)) {
       outside = true;
       return std::nullopt;
     }
-    if (!fs::exists(file, code)) file = fs::weakly_canonical(in_any_case(folder, path), code);
-    if (code || !is_below(file, root_) || !fs::is_regular_file(file, code)) return std::nullopt;
-    const bool may_be_read = is_below(file, home_) || lower_case(file.extension().string()) == ".flt";
-    return may_be_read ? std::optional(file) : std::nullopt;
+    if (fs::exists(file, code)) return usable(file, outside);
+    return path.is_absolute() ? in_any_case(path.root_path(), path.relative_path(), outside)
+                              : in_any_case(folder, path, outside);
   }
 
-  // The path with each name that is not there replaced by one that differs from it by case only.
-  fs::path in_any_case(const fs::path& folder, const fs::path& path) {
-    fs::path at = path.is_absolute() ? path.root_path() : folder;
-    for (const fs::path& name : path.relative_path()) {
-      std::error_code code;
-      fs::path next = fs::weakly_canonical(at / name, code);
-      if (!code && name != "." && name != ".." && is_below(at, root_) && !fs::exists(next, code)) {
-        const auto& names = names_in(at);
-        const auto like = names.find(lower_case(name.string()));
-        if (like != names.end()) next = at / like->second;
+  // The same, where names that differ by case only count as equal if no other is there. Most of these files are not
+  // there, so the names come from listings, which are read once.
+  std::optional<fs::path> in_any_case(const fs::path& folder, const fs::path& path, bool& outside) {
+    fs::path at = folder;
+    for (const fs::path& name : path) {
+      if (name == ".") continue;
+      if (name == "..") {
+        at = at.parent_path();
+        continue;
       }
-      at = std::move(next);
+      std::error_code code;
+      fs::path next = at / name;
+      if (is_below(at, root_)) {
+        const Listing& listing = listing_of(at);
+        const auto like = listing.names.find(lower_case(name.string()));
+        if (like != listing.names.end() && !std::ranges::binary_search(like->second, name))
+          next = at / like->second.front();
+        else if (like == listing.names.end() && (listing.whole || !fs::exists(next, code)))
+          return std::nullopt;
+      }
+      at = fs::weakly_canonical(next, code);
+      if (code) return std::nullopt;
     }
-    return at;
+    return usable(at, outside);
   }
 
-  // Names in a folder, by their lower case. Of equal ones the first of the alphabet.
-  const std::map<std::string, fs::path>& names_in(const fs::path& folder) {
-    constexpr std::size_t kMaxNamesListed = 100'000;
+  // The canonical path of a file, if that may be read.
+  std::optional<fs::path> usable(const fs::path& file, bool& outside) const {
+    std::error_code code;
+    if (!is_below(file, root_)) {
+      outside = true;
+      return std::nullopt;
+    }
+    const bool may_be_read = is_below(file, home_) || lower_case(file.extension().string()) == ".flt";
+    return may_be_read && fs::is_regular_file(file, code) ? std::optional(file) : std::nullopt;
+  }
+
+  // Names in a folder by their lower case, each list sorted.
+  struct Listing {
+    std::unordered_map<std::string, std::vector<fs::path>> names;
+    bool whole = true;
+  };
+  const Listing& listing_of(const fs::path& folder) {
+    constexpr std::size_t kMaxNamesListed = 200'000;
     const auto [known, is_new] = listed_.try_emplace(folder);
+    Listing& listing = known->second;
+    if (!is_new) return listing;
     std::error_code code;
     std::size_t count = 0;
-    for (fs::directory_iterator entry(folder, code), end; is_new && !code && entry != end; entry.increment(code)) {
-      if (++count > kMaxNamesListed) break;
+    for (fs::directory_iterator entry(folder, code), end; !code && entry != end && listing.whole;
+         entry.increment(code)) {
       const fs::path name = entry->path().filename();
-      const auto [like, added] = known->second.try_emplace(lower_case(name.string()), name);
-      if (!added && name < like->second) like->second = name;
+      listing.names[lower_case(name.string())].push_back(name);
+      listing.whole = ++count < kMaxNamesListed;
     }
-    return known->second;
+    listing.whole &= !code;  // a folder that may be entered but not listed
+    for (auto& [key, names] : listing.names) std::ranges::sort(names);
+    return listing;
   }
 
   fs::path home_;                  // folder of the first file
   fs::path root_;                  // no file is read from outside this folder
   std::vector<fs::path> parents_;  // folders above home_, up to root_
-  std::map<fs::path, std::map<std::string, fs::path>> listed_;
+  std::map<fs::path, Listing> listed_;
 };
 
 // The first file of a scene and its external files. Each file is read once.

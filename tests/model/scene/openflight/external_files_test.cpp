@@ -162,7 +162,8 @@ TEST_F(External, AnAbsolutePathInsideTheRootIsRead) {
 
 TEST_F(External, NamesDifferByCaseOnlyIfNothingElseIsThere) {
   folder_.write(kScene + "Parts/House.FLT", leaf(1));
-  EXPECT_EQ(model_of("PARTS\\house.flt").polygons, 1U);
+  for (const char* reference : {"PARTS\\house.flt", ".\\parts\\..\\Parts\\HOUSE.flt", "../MASTER/parts/house.flt"})
+    EXPECT_EQ(model_of(reference).polygons, 1U) << reference;
   folder_.write(kScene + "Parts/house.flt", leaf(2));
   const Model model = model_of("Parts/house.flt");
   ASSERT_EQ(model.kinds.size(), 1U);
@@ -242,6 +243,16 @@ TEST_F(External, RemarksOnAnExternalFileAreThoseOfTheScene) {
   const Model model = model_of("part.flt");
   EXPECT_THAT(model.left_out, ElementsAre(HasSubstr(fs::canonical(part).string() + ": faces with a surface material")));
   EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("bytes after the last record: 9")));
+}
+
+TEST_F(External, TooManyNamesAreRefused) {
+  ByteFile file;
+  file.push();
+  for (std::size_t i = 0; i <= kMaxNames; ++i) file.external(std::to_string(i));
+  file.pop();
+  const auto model = read_openflight(folder_.write(kScene + "master.flt", file.bytes()));
+  ASSERT_FALSE(model);
+  EXPECT_THAT(model.error().message(), HasSubstr("at most 65536 different external references"));
 }
 
 TEST(ExternalRoot, IsThreeFoldersAboveButNotTheRootOfTheFileSystem) {

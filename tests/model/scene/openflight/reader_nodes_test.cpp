@@ -254,6 +254,15 @@ TEST(LevelsOfDetail, OnlyRangesThatExcludeEachOtherAreLevelsOfOneObject) {
   }
 }
 
+// Small objects and those that are drawn from afar only, all beside each other: 4 * 10^8 pairs.
+TEST(LevelsOfDetail, OfTooManySiblingsAreRefused) {
+  ByteFile file;
+  file.push();
+  for (int i = 0; i < 40'000; ++i) file.level(i % 2 == 0 ? 5000 : 20, i % 2 == 0 ? 30 : 0, {1000.0 * i, 0, 0});
+  file.pop();
+  EXPECT_THAT(refusal(file), HasSubstr("pairs of levels of detail"));
+}
+
 TEST(LevelsOfDetail, ThatASwitchHidesReplaceNone) {
   ByteFile file;
   file.palette(kSquare);
