@@ -152,7 +152,9 @@ void check_unreadable(const Warn& warn, const std::string& subject, const char* 
 }  // namespace
 
 Warn warn_as(const char* command) {
-  return [command](const std::string& warning) { std::fprintf(stderr, "%s: %s\n", command, warning.c_str()); };
+  return [command](const std::string& warning) {
+    std::fprintf(stderr, "%s: %s\n", command, text::printable(warning).c_str());
+  };
 }
 
 void check_terrain_read(const Warn& warn, const std::string& folder, model::terrain::TerrainStore& store,

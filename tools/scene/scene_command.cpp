@@ -13,6 +13,7 @@
 
 #include "lib/geo/frames.hpp"
 #include "lib/radar/world.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"
@@ -116,7 +117,7 @@ void print_counts(const char* title, const nlohmann::ordered_json& counts) {
 }
 
 void print(const nlohmann::ordered_json& report) {
-  std::printf("%s\n  revision %.2f, unit %g m, origin %s\n", report["file"].get<std::string>().c_str(),
+  std::printf("%s\n  revision %.2f, unit %g m, origin %s\n", text::printable(report["file"].get<std::string>()).c_str(),
               report["revision"].get<int>() / 100.0, report["metres_per_unit"].get<double>(),
               origin_text(report["origin"]).c_str());
   if (!report["origin_in_name"].is_null())
@@ -131,9 +132,13 @@ void print(const nlohmann::ordered_json& report) {
                 e["east"].get<double>(), e["south"].get<double>(), e["north"].get<double>(), e["lowest"].get<double>(),
                 e["highest"].get<double>());
   }
-  for (const auto& file : report["external_files"]) std::printf("  with %s\n", file.get<std::string>().c_str());
-  for (const auto& sentence : report["left_out"]) std::printf("  left out: %s\n", sentence.get<std::string>().c_str());
-  for (const auto& warning : report["warnings"]) std::printf("  warning: %s\n", warning.get<std::string>().c_str());
+  const auto print_each = [&](const char* title, const char* field) {
+    for (const auto& sentence : report[field])
+      std::printf("  %s %s\n", title, text::printable(sentence.get<std::string>()).c_str());
+  };
+  print_each("with", "external_files");
+  print_each("left out:", "left_out");
+  print_each("warning:", "warnings");
 }
 
 void report_files(const InfoOptions& options) {
