@@ -184,10 +184,16 @@ SourcePointer open_automatic(const SourceContext& context, const std::vector<Sou
   return std::make_unique<SourceGroup>(std::move(sources));
 }
 
+// True for the path of something that exists. Such a path is never split at a comma.
+bool exists(std::string_view path) {
+  struct stat status{};
+  return ::stat(std::string(path).c_str(), &status) == 0;
+}
+
 // Splits FILE[,pilot].
 SourceChoice tour_choice(std::string_view text) {
   SourceChoice choice{SourceKind::tour, {}, {}};
-  choice.for_pilot = text.ends_with(kForPilot);
+  choice.for_pilot = text.ends_with(kForPilot) && !exists(text);
   if (choice.for_pilot) text.remove_suffix(kForPilot.size());
   choice.file = text;
   return choice;
@@ -196,7 +202,7 @@ SourceChoice tour_choice(std::string_view text) {
 // Splits PATH[,NAME] at the last comma. A comma before a slash is part of PATH, because NAME contains no slash.
 SourceChoice device_choice(std::string_view text) {
   const std::size_t comma = text.rfind(',');
-  if (comma == std::string_view::npos || text.find('/', comma) != std::string_view::npos)
+  if (comma == std::string_view::npos || text.find('/', comma) != std::string_view::npos || exists(text))
     return {SourceKind::device, std::string(text), {}};
   return {SourceKind::device, std::string(text.substr(0, comma)), std::string(text.substr(comma + 1))};
 }

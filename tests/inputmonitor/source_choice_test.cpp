@@ -3,8 +3,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
 
 namespace yars::inputmonitor {
 namespace {
@@ -32,6 +36,23 @@ TEST(SourceChoice, EachKindIsParsed) {
   const auto waiting = parse_source("tour:a,b.tour,pilot");
   EXPECT_EQ(waiting->file, "a,b.tour");
   EXPECT_TRUE(waiting->for_pilot);
+}
+
+TEST(SourceChoice, AnExistingPathIsNotSplitAtAComma) {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("yars_source_choice_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder);
+  for (const char* name : {"take-off,pilot", "stick,left"}) std::ofstream(folder / name) << "any";
+  const std::string tour = folder / "take-off,pilot", stick = folder / "stick,left";
+  EXPECT_EQ(parse_source("tour:" + tour)->file, tour);
+  EXPECT_FALSE(parse_source("tour:" + tour)->for_pilot);
+  EXPECT_EQ(parse_source("tour:" + tour + ",pilot")->file, tour);
+  EXPECT_TRUE(parse_source("tour:" + tour + ",pilot")->for_pilot);
+  EXPECT_EQ(parse_source("evdev:" + stick)->file, stick);
+  EXPECT_EQ(parse_source("evdev:" + stick)->map_name, "");
+  EXPECT_EQ(parse_source("evdev:" + stick + ",throttle")->file, stick);
+  EXPECT_EQ(parse_source("evdev:" + stick + ",throttle")->map_name, "throttle");
+  std::filesystem::remove_all(folder);
 }
 
 TEST(SourceChoice, AnythingElseIsBadUsage) {

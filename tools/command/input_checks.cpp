@@ -12,6 +12,7 @@
 #include "lib/radar/gimbal.hpp"
 #include "lib/radar/mission.hpp"
 #include "lib/radar/sensor.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/terrain/store/directory_store.hpp"
 
 namespace yars::tools {
@@ -151,7 +152,9 @@ void check_unreadable(const Warn& warn, const std::string& subject, const char* 
 }  // namespace
 
 Warn warn_as(const char* command) {
-  return [command](const std::string& warning) { std::fprintf(stderr, "%s: %s\n", command, warning.c_str()); };
+  return [command](const std::string& warning) {
+    std::fprintf(stderr, "%s: %s\n", command, text::printable(warning).c_str());
+  };
 }
 
 void check_terrain_read(const Warn& warn, const std::string& folder, model::terrain::TerrainStore& store,
@@ -171,6 +174,13 @@ void check_terrain_read(const Warn& warn, const std::string& folder, model::terr
 void check_scenes_read(const Warn& warn, model::scene::SceneStore& scenes) {
   for (const std::string& problem : scenes.take_problems()) warn(problem);
   check_unreadable(warn, "--scene", "scenes of the region", scenes.wanted().files, scenes.wanted().unreadable);
+}
+
+void fail_if_left_out(const std::vector<std::string>& left_out) {
+  if (!left_out.empty())
+    throw_failure({"--scene", "scenes that are read whole",
+                   text::counted(left_out.size(), "part") + " left out, named above",
+                   "repair the files, or leave the parts out with --scene-without", false});
 }
 
 }  // namespace yars::tools

@@ -7,6 +7,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "lib/error/error.hpp"
 #include "lib/radar/mapping.hpp"
@@ -50,5 +51,9 @@ Warn warn_as(const char* command);
 void check_terrain_read(const Warn& warn, const std::string& folder, model::terrain::TerrainStore& store,
                         model::terrain::TerrainStore* path_store = nullptr);
 void check_scenes_read(const Warn& warn, model::scene::SceneStore& scenes);
+
+// Throws CommandFailed with code 1 if something was left out of scenes (SceneStore::Wanted::left_out). Call after the
+// results are written.
+void fail_if_left_out(const std::vector<std::string>& left_out);
 
 }  // namespace yars::tools

@@ -40,6 +40,11 @@ class Theatre {
   ScanEnvironment prepare(const model::kernel::ScanRequest& request, const radar::Fidelity& fidelity, const Warn& warn);
   model::hrm::PatchEnvironment prepare(const model::hrm::PatchNeed& need, const Warn& warn);
 
+  // What the scenes of the last region lack of their files, one sentence each; see SceneStore::Wanted.
+  std::vector<std::string> left_out_of_scenes() const {
+    return scenes_ ? scenes_->wanted().left_out : std::vector<std::string>();
+  }
+
   // Scenes about a position; null: none.
   model::scene::SceneViewPointer scenes_near(geo::GeoPoint position, double radius_m, const Warn& warn);
   // Terrain of the cell that contains a position, at its finest level.

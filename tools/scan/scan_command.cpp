@@ -269,6 +269,8 @@ void scan(const CommonOptions& common, const ScanCommandOptions& options) {
   line["threads"] = options.threads;
   line["fidelity"] = configuration.fidelity.name;
   line["hash"] = model::kernel::scan_hash(work.sweeps());
+  const std::vector<std::string> left_out = theatre.left_out_of_scenes();
+  line["left_out"] = left_out;
   if (names_file(options.out)) write_result(options, configuration.view, work);
   std::vector<trade::RaySample> samples;
   if (names_file(options.shadow) || !options.json)
@@ -279,6 +281,8 @@ void scan(const CommonOptions& common, const ScanCommandOptions& options) {
     write_text_file(options.shadow, file);
   }
   options.json ? print_json(line) : print_text(options, line, samples);
+  std::fflush(stdout);
+  fail_if_left_out(left_out);
 }
 
 }  // namespace

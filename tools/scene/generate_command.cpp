@@ -23,14 +23,14 @@ SceneFile generate_scene_file(const SceneGenerateOptions& options, const paralle
   check_file_name("--out", options.out, {".flt"});
   worldgen::SceneRequest order{.triangles = options.triangles, .seed = options.seed, .origin = {}};
   order.kind = *worldgen::generated_kind(options.kind);
-  // parse_scene() reads FILE@LAT,LON,HDG. The option's name stands for the file.
-  const auto parsed = model::scene::parse_scene("--origin@" + options.origin);
-  if (!parsed)
-    throw CommandFailed{"--origin: expected LATITUDE,LONGITUDE or LATITUDE,LONGITUDE,HEADING in degrees, found '" +
-                            options.origin + "'",
-                        2};
+  const auto parsed = model::scene::parse_scene_position(options.origin);
+  if (!parsed) {
+    error::Error problem = parsed.error();
+    problem.subject = "--origin";
+    throw_failure(error::usage_error(std::move(problem)));
+  }
   order.origin = parsed->position;
-  if (std::ranges::count(options.origin, ',') == 2) order.heading_deg = parsed->heading_deg;
+  order.heading_deg = parsed->heading_deg;
   constexpr std::uint64_t kStep = 10'000;  // triangles per progress report
   Progress progress(options.triangles / kStep + 1);
   const worldgen::GeneratedScene made = worldgen::generate_scene(order, [&](std::uint64_t triangles) {

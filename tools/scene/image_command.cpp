@@ -15,6 +15,7 @@
 #include "model/scene/openflight/model.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/input_checks.hpp"
 #include "tools/command/output.hpp"
 
 namespace yars::tools {
@@ -216,6 +217,8 @@ void draw(const SceneImageOptions& options) {
   const auto model = model::scene::read_openflight(options.file, &filter);
   if (!model) throw_failure(model.error());
   if (const auto problem = filter.unmatched_error(options.file)) throw_failure(*problem);
+  for (const auto* sentences : {&model->warnings, &model->left_out})
+    for (const std::string& sentence : *sentences) warn_as("yars scene image")(options.file + ": " + sentence);
   PlanFrame frame = plan_frame(*model, options.width);
   if (!options.window.empty())
     frame = {options.window[0] - model->base.x, options.window[1] - model->base.y, options.window[2] / options.width,
@@ -223,6 +226,10 @@ void draw(const SceneImageOptions& options) {
   const PlanColors colors = options.material ? PlanColors::material : PlanColors::file;
   if (const auto written = imageio::write_png(options.out, draw_plan(*model, frame, colors)); !written)
     throw_failure(written.error());
+  if (!model->left_out.empty())
+    throw_failure({options.file, "a file that is read whole",
+                   text::counted(model->left_out.size(), "part") + " left out, named above",
+                   "repair the file, or leave the parts out with --without", false});
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "lib/geo/frames.hpp"
 #include "lib/radar/world.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"
@@ -92,6 +93,7 @@ nlohmann::ordered_json describe(const std::string& file, const Model& model) {
                           {"north", extent.max.y}, {"lowest", extent.min.z}, {"highest", extent.max.z}};
   }
   report["external_files"] = model.files;
+  report["left_out"] = model.left_out;
   report["warnings"] = model.warnings;
   return report;
 }
@@ -115,7 +117,7 @@ void print_counts(const char* title, const nlohmann::ordered_json& counts) {
 }
 
 void print(const nlohmann::ordered_json& report) {
-  std::printf("%s\n  revision %.2f, unit %g m, origin %s\n", report["file"].get<std::string>().c_str(),
+  std::printf("%s\n  revision %.2f, unit %g m, origin %s\n", text::printable(report["file"].get<std::string>()).c_str(),
               report["revision"].get<int>() / 100.0, report["metres_per_unit"].get<double>(),
               origin_text(report["origin"]).c_str());
   if (!report["origin_in_name"].is_null())
@@ -130,24 +132,23 @@ void print(const nlohmann::ordered_json& report) {
                 e["east"].get<double>(), e["south"].get<double>(), e["north"].get<double>(), e["lowest"].get<double>(),
                 e["highest"].get<double>());
   }
-  for (const auto& file : report["external_files"]) std::printf("  with %s\n", file.get<std::string>().c_str());
-  for (const auto& warning : report["warnings"]) std::printf("  warning: %s\n", warning.get<std::string>().c_str());
-}
-
-// File of a scene argument, which may have a position: FILE@LAT,LON,HDG. An existing file is never split at an '@'.
-std::string file_of(const std::string& text) {
-  std::error_code problem;
-  if (std::filesystem::exists(text, problem)) return text;
-  const auto scene = parse_scene(text);
-  return scene ? scene->file : text;
+  const auto print_each = [&](const char* title, const char* field) {
+    for (const auto& sentence : report[field])
+      std::printf("  %s %s\n", title, text::printable(sentence.get<std::string>()).c_str());
+  };
+  print_each("with", "external_files");
+  print_each("left out:", "left_out");
+  print_each("warning:", "warnings");
 }
 
 void report_files(const InfoOptions& options) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   NameFilter filter = name_filter(options.without);
-  std::size_t unreadable = 0;
+  std::size_t unreadable = 0, incomplete = 0;
   for (const std::string& text : options.files) {
-    const std::string file = file_of(text);
+    const auto scene = parse_scene(text);
+    if (!scene) throw_failure(error::usage_error(scene.error()));
+    const std::string& file = scene->file;
     const auto model = read_openflight(file, &filter);
     if (!model && options.files.size() == 1) throw_failure(model.error());
     if (!model) {
@@ -156,6 +157,7 @@ void report_files(const InfoOptions& options) {
       continue;
     }
     all.push_back(describe(file, *model));
+    incomplete += model->left_out.empty() ? 0 : 1;
     if (!options.json) print(all.back());
   }
   if (options.json) print_json({{"files", all}}, JsonLines::many);
@@ -164,6 +166,9 @@ void report_files(const InfoOptions& options) {
     throw CommandFailed{"expected OpenFlight files, found " + std::to_string(unreadable) + " of " +
                         std::to_string(options.files.size()) + " that cannot be read"};
   if (const auto problem = filter.unmatched_error("--without")) throw_failure(*problem);
+  if (incomplete > 0)
+    throw CommandFailed{"expected OpenFlight files that are read whole, found " + std::to_string(incomplete) + " of " +
+                        std::to_string(options.files.size()) + " with parts left out; see 'left out' above"};
 }
 
 }  // namespace

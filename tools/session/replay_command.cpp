@@ -20,6 +20,7 @@
 #include "lib/text/plain_text.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/input_checks.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/recording/branch.hpp"
 #include "tools/recording/recording_reader.hpp"
@@ -66,6 +67,14 @@ World open_world(const CommonOptions& common, const recording::RecordingHeader& 
   world.store = std::move(*store);
   world.scenes = std::move(*scenes);
   return world;
+}
+
+// Warns of the files that the kernel could not read, or not read whole.
+void report_problems(const World& world) {
+  const Warn warn = warn_as("yars replay");
+  for (const std::string& problem : world.store->take_problems()) warn(problem);
+  if (!world.scenes) return;
+  for (const std::string& problem : world.scenes->take_problems()) warn(problem);
 }
 
 std::string text_of_ticks(const recording::IndexEntry& block) {
@@ -137,6 +146,7 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
                                    {options.file, session, options.rate, options.seek_s, options.json});
       !played)
     throw_failure(played.error());
+  if (world) report_problems(*world);
   report_missing(reader, options.file);
 }
 
@@ -267,6 +277,7 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
     report_missing(reader, options.file);
     throw_failure(no_ticks(options.file));
   }
+  report_problems(world);
   print_json(run.result(reader));
   std::fflush(stdout);
   const auto& comparison = run.replay().comparison();

@@ -74,19 +74,30 @@ error::Expected<void> exclude(std::vector<radar::Scene>& scenes, const std::stri
 
 }  // namespace
 
+error::Expected<ScenePosition> parse_scene_position(const std::string& text) {
+  const auto values = numbers(text);
+  const bool valid = values && (values->size() == 2 || values->size() == 3) && std::abs((*values)[0]) <= 90.0 &&
+                     std::abs((*values)[1]) <= 360.0 && (values->size() == 2 || std::abs((*values)[2]) <= 360.0);
+  if (!valid)
+    return error::fail({}, "LATITUDE,LONGITUDE or LATITUDE,LONGITUDE,HEADING in degrees", "'" + text + "'",
+                       "write it as 37.5,-122.3,45");
+  ScenePosition found{{(*values)[0], geo::wrapped_degrees((*values)[1])}, std::nullopt};
+  if (values->size() == 3) found.heading_deg = (*values)[2];
+  return found;
+}
+
 error::Expected<radar::Scene> parse_scene(const std::string& text) {
   radar::Scene scene;
   const std::size_t at = text.rfind('@');
-  scene.file = text.substr(0, at);
-  if (at == std::string::npos) return scene;
-  const auto values = numbers(std::string_view(text).substr(at + 1));
-  const bool valid = values && (values->size() == 2 || values->size() == 3) && std::abs((*values)[0]) <= 90.0 &&
-                     std::abs((*values)[1]) <= 360.0 && (values->size() == 2 || std::abs((*values)[2]) <= 360.0);
-  if (!valid || scene.file.empty())
-    return error::fail(text, "FILE@LATITUDE,LONGITUDE or FILE@LATITUDE,LONGITUDE,HEADING in degrees",
+  std::error_code code;
+  scene.file = text.substr(0, at == std::string::npos || std::filesystem::exists(text, code) ? text.size() : at);
+  if (scene.file.size() == text.size()) return scene;
+  const auto position = parse_scene_position(text.substr(at + 1));
+  if (!position || scene.file.empty())
+    return error::fail(text, "an existing file, FILE@LATITUDE,LONGITUDE or FILE@LATITUDE,LONGITUDE,HEADING in degrees",
                        std::string("'").append(text, at) + "'", "write it as airfield.flt@37.5,-122.3,45");
-  scene.position = {(*values)[0], geo::wrapped_degrees((*values)[1])};
-  if (values->size() == 3) scene.heading_deg = (*values)[2];
+  scene.position = position->position;
+  scene.heading_deg = position->heading_deg.value_or(0.0);
   return scene;
 }
 

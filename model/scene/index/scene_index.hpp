@@ -20,8 +20,17 @@ struct Scene;
 
 namespace yars::model::scene {
 
+struct ScenePosition {
+  geo::GeoPoint position;
+  std::optional<double> heading_deg;  // true
+};
+
+// Parses `LAT,LON` or `LAT,LON,HDG` in degrees. The error has no subject.
+error::Expected<ScenePosition> parse_scene_position(const std::string& text);
+
 // Parses a scene argument: `FILE`, `FILE@LAT,LON` or `FILE@LAT,LON,HDG` in degrees; north and east are positive, HDG is
-// true. Errors: the text after the last '@' is not a position, or there is no text before the '@'.
+// true. The path of an existing file or folder is never split at an '@'.
+// Errors: the text after the last '@' is not a position, or there is no text before the '@'.
 error::Expected<radar::Scene> parse_scene(const std::string& text);
 
 // Parses `texts` by parse_scene() and adds the scenes. Then adds each of `names` (parts to leave out) to Scene::without

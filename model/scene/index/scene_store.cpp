@@ -102,7 +102,7 @@ error::Expected<std::unique_ptr<SceneStore>> SceneStore::open(const std::vector<
   auto index = index_scenes(scenes, problems);
   if (!index) return tl::unexpected(index.error());
   auto store = std::unique_ptr<SceneStore>(new SceneStore(std::move(*index), std::move(ground), options));
-  store->without_position_ = problems.size();
+  store->not_indexed_ = problems;
   store->problems_ = std::move(problems);
   return store;
 }
@@ -130,9 +130,12 @@ SceneViewPointer SceneStore::prepare(const terrain::TerrainRegion& region) {
   const std::size_t most = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMaxThreads);
   for (std::span<const std::size_t> rest = absent; !rest.empty(); rest = rest.subspan(std::min(most, rest.size())))
     changed |= load(rest.first(std::min(most, rest.size())));
-  wanted_ = {hits.size() + without_position_, without_position_};
-  for (const GridIndex::Hit& hit : hits)
-    if (scenes_[hit.disc].unreadable) ++wanted_.unreadable;
+  wanted_ = {hits.size() + not_indexed_.size(), not_indexed_.size(), not_indexed_};
+  for (const GridIndex::Hit& hit : hits) {
+    const Resident& scene = scenes_[hit.disc];
+    if (scene.unreadable) ++wanted_.unreadable;
+    wanted_.left_out.insert(wanted_.left_out.end(), scene.left_out.begin(), scene.left_out.end());
+  }
   while (resident_bytes_ > options_.resident_limit_bytes && drop_longest_unused()) changed = true;
   if (changed) make_view();
   return view_;
@@ -169,9 +172,14 @@ std::optional<SceneStore::Loading> SceneStore::begin_load(std::size_t number, er
   const IndexedScene& scene = index_[number];
   if (!model) {
     resident.unreadable = true;
-    problems_.push_back(model.error().message() + "; the scene is left out");
+    resident.left_out = {model.error().message() + "; the scene is left out"};
+    problems_.push_back(resident.left_out.front());
     return std::nullopt;
   }
+  resident.left_out.clear();
+  for (const std::string& sentence : model->left_out)
+    resident.left_out.push_back(scene.file.string() + ": " + sentence);
+  problems_.insert(problems_.end(), resident.left_out.begin(), resident.left_out.end());
   for (const std::string& warning : model->warnings) problems_.push_back(scene.file.string() + ": " + warning);
   const auto objects = static_cast<std::uint32_t>(model->objects.size());
   // A scene that is loaded again reuses the numbers of its objects. If its file now has more objects than at any

@@ -75,23 +75,28 @@ class SceneStore {
   // Returns the previous view if no scene was loaded or dropped.
   SceneViewPointer prepare(const terrain::TerrainRegion& region);
 
-  // Returns the problems since the last call, one sentence each: unreadable files, and warnings about files.
+  // Returns the problems since the last call, one sentence each: unreadable files, what is left out of files, and
+  // warnings about files.
   std::vector<std::string> take_problems();
 
   // Number of files whose scenes overlap the last prepared region, and how many of these files are unreadable.
   // A file that could not be indexed counts in both numbers in every region, because its position is unknown.
+  // `left_out`: what the view of the region lacks of these files, one sentence each. It stays when a region is prepared
+  // again, unlike the problems.
   struct Wanted {
     std::size_t files = 0, unreadable = 0;
+    std::vector<std::string> left_out;
   };
-  Wanted wanted() const { return wanted_; }
+  const Wanted& wanted() const { return wanted_; }
 
  private:
   struct Resident {
     std::shared_ptr<const PlacedScene> placed;
     std::uint64_t last_use = 0;  // value of prepares_ when a region last overlapped the scene
     bool unreadable = false;
-    std::uint32_t first_object = 0;  // first index in objects_; kept when the scene is dropped
-    std::uint32_t objects = 0;       // number of reserved indices: the maximum number of objects at any load
+    std::vector<std::string> left_out;  // of the file; all of it if it is unreadable
+    std::uint32_t first_object = 0;     // first index in objects_; kept when the scene is dropped
+    std::uint32_t objects = 0;          // number of reserved indices: the maximum number of objects at any load
   };
 
   SceneStore(std::vector<IndexedScene> index, std::unique_ptr<terrain::TerrainStore> ground, SceneStoreOptions options);
@@ -114,8 +119,8 @@ class SceneStore {
   KindTable kinds_;
   std::vector<SceneObject> objects_;
   std::uint64_t resident_bytes_ = 0;
-  std::uint64_t prepares_ = 0;        // number of calls of prepare(), the clock of Resident::last_use
-  std::size_t without_position_ = 0;  // files that could not be indexed
+  std::uint64_t prepares_ = 0;            // number of calls of prepare(), the clock of Resident::last_use
+  std::vector<std::string> not_indexed_;  // problems of the files that could not be indexed, one each
   Wanted wanted_;
   std::uint64_t generation_ = 0;
   SceneViewPointer view_;

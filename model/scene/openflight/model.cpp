@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "lib/error/error.hpp"
 #include "lib/geo/frames.hpp"
@@ -153,27 +152,33 @@ bool is_valid_position(Vector3 position) {
 
 class Flattener {
  public:
-  Flattener(const NodeTree& tree, std::string subject, const LoadExternal& load, FlattenLimits limits,
-            NameFilter* filter)
-      : tree_(tree), subject_(std::move(subject)), load_(load), limits_(limits), filter_(filter) {
+  Flattener(const NodeTree& tree, std::string subject, const LoadExternal& load, FlattenOptions options)
+      : tree_(tree),
+        subject_(std::move(subject)),
+        load_(load),
+        limits_(options.limits),
+        filter_(options.filter),
+        first_node_(options.first_node),
+        remarks_(tree.remarks) {
     model_.header = tree.header;
     model_.counts = tree.counts;
-    for (const std::string& warning : tree.warnings) warnings_.add(warning);
     model_.objects.emplace_back();
     for (const SurfaceKind& kind : tree.kinds) kind_numbers_.push_back(kinds_.number_of(kind));
+    if (first_node_ != 0) return;
     // As many as without copies and two-sided faces.
     model_.vertices.reserve(tree.corners.size());
     model_.triangles.reserve(tree.corners.size() / 2);
   }
 
   error::Expected<Model> run() {
-    if (const auto done = visit(0, Transform{}, 0, 0); !done) return tl::unexpected(done.error());
+    if (const auto done = visit(first_node_, Transform{}, 0, 0); !done) return tl::unexpected(done.error());
     if (invalid_ > 0)
-      warnings_.add("polygons with coordinates that are not numbers or exceed 10,000 km: " + std::to_string(invalid_) +
-                    "; they are left out");
+      remarks_.left_out.add("polygons with coordinates that are not numbers or exceed 10,000 km: " +
+                            std::to_string(invalid_) + "; they are left out");
     if (degenerate_ > 0)
-      warnings_.add("triangles without area: " + std::to_string(degenerate_) + "; they are left out");
-    model_.warnings = warnings_.take();
+      remarks_.warnings.add("triangles without area: " + std::to_string(degenerate_) + "; they are left out");
+    model_.warnings = remarks_.warnings.take();
+    model_.left_out = remarks_.left_out.take();
     model_.kinds = kinds_.kinds();
     return std::move(model_);
   }
@@ -200,8 +205,9 @@ class Flattener {
     return {};
   }
 
-  Done visit_once(const Node& node, const Transform& transform, std::uint32_t object, int depth) {
+  Done visit_once(const Node& node, const Transform& above, std::uint32_t object, int depth) {
     if (auto done = count_visits(1); !done) return done;
+    const Transform transform = node.pose == kNone ? above : above * tree_.matrices[node.pose];
     if (node.kind == NodeKind::object) {
       if (auto done = check_objects(1); !done) return done;
       object = static_cast<std::uint32_t>(model_.objects.size());
@@ -211,8 +217,8 @@ class Flattener {
     if (node.kind == NodeKind::instance) {
       const auto definition = tree_.definitions.find(node.instance);
       if (definition == tree_.definitions.end()) {
-        warnings_.add("an instance of definition " + std::to_string(node.instance) +
-                      ", which the file does not have; the instance is left out");
+        remarks_.left_out.add("an instance of definition " + std::to_string(node.instance) +
+                              ", which the file does not have; the instance is left out");
         return {};
       }
       if (auto done = visit(definition->second, transform, object, depth + 1); !done) return done;
@@ -223,24 +229,14 @@ class Flattener {
   }
 
   Done visit_children(const Node& node, const Transform& transform, std::uint32_t object, int depth) {
-    double finest_m = std::numeric_limits<double>::infinity();
-    for (std::uint32_t child = node.first_child; child != kNone; child = tree_.nodes[child].next_sibling)
-      if (tree_.nodes[child].kind == NodeKind::level_of_detail)
-        finest_m = std::min(finest_m, tree_.nodes[child].switch_out_m);
     std::uint32_t position = 0;
     for (std::uint32_t child = node.first_child; child != kNone; child = tree_.nodes[child].next_sibling, ++position) {
-      const Node& below = tree_.nodes[child];
-      if (below.kind == NodeKind::level_of_detail && below.switch_out_m > finest_m) continue;
-      if (node.kind == NodeKind::switch_node && !is_chosen(node, position)) continue;
+      if (tree_.nodes[child].is_coarser) continue;
+      if (!shows(node, position)) continue;
       if (auto done = visit(child, transform, object, depth + 1); !done) return done;
       if (node.first_child_only) break;
     }
     return {};
-  }
-
-  static bool is_chosen(const Node& choice, std::uint32_t position) {
-    if (choice.switch_mask.empty()) return true;
-    return position / 32 < choice.switch_mask.size() && (choice.switch_mask[position / 32] >> position % 32 & 1U) != 0;
   }
 
   Done count_visits(std::size_t more) {
@@ -377,7 +373,8 @@ class Flattener {
   FlattenLimits limits_;
   NameFilter* filter_;
   Model model_;
-  WarningList warnings_;
+  std::uint32_t first_node_;
+  Remarks remarks_;
   KindTable kinds_;
   std::vector<std::uint16_t> kind_numbers_;  // for each entry of NodeTree::kinds: its index into kinds_
   std::size_t visits_ = 0;
@@ -390,8 +387,8 @@ class Flattener {
 }  // namespace
 
 error::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
-                               FlattenLimits limits, NameFilter* filter) {
-  return Flattener(tree, subject, load, limits, filter).run();
+                               FlattenOptions options) {
+  return Flattener(tree, subject, load, options).run();
 }
 
 }  // namespace yars::model::scene

@@ -56,9 +56,10 @@ struct Model {
   std::vector<ModelTriangle> triangles;
   std::vector<std::string> objects;  // names of the objects; object 0 has the faces outside objects, and no name
   std::vector<SurfaceKind> kinds;
-  std::uint64_t polygons = 0;      // polygons that gave triangles, each instance counted
-  std::vector<std::string> files;  // paths of the external files, in the order in which they were read
-  std::vector<std::string> warnings;
+  std::uint64_t polygons = 0;         // polygons that gave triangles, each instance counted
+  std::vector<std::string> files;     // paths of the external files, in the order in which they were read
+  std::vector<std::string> warnings;  // Remarks::warnings, of external files too
+  std::vector<std::string> left_out;  // Remarks::left_out, of external files too
 };
 
 inline constexpr float kSubfaceLift_m = 0.02F;  // height of a subface above its face, per subface level
@@ -77,13 +78,19 @@ struct FlattenLimits {
 // Loader of external files: returns the model of a file, or null to omit the file.
 using LoadExternal = std::function<error::Expected<std::shared_ptr<const Model>>(const std::string& name)>;
 
-// Flattens a node tree: applies transforms, expands instances and replications, and omits the nodes that `filter`
-// matches (null: omits none). Selects the sibling levels of detail with the minimum switch-out distance (the finest),
-// the current mask of a switch, and the first frame of an animation. A two-sided polygon gives triangles for each side.
-// `subject`: name of the file in errors.
+struct FlattenOptions {
+  FlattenLimits limits{};
+  NameFilter* filter = nullptr;  // names to leave out; null: none
+  std::uint32_t first_node = 0;  // only this node, with its own transform but without those above it; 0: the whole tree
+};
+
+// Flattens a node tree: applies transforms, expands instances and replications, and omits the nodes that the filter
+// matches. Selects the current mask of a switch, and the first frame of an animation. Degrees of freedom have their
+// current pose. A two-sided polygon gives triangles for each side. `subject`: name of the file in errors.
+// Of the levels of detail of an object only the finest is shown (mark_coarser_levels()).
 // Errors: errors of `load`, exceeded limits, nesting deeper than kMaxNodeDepth, an external file placed more than
 // 10,000 km from the origin.
 error::Expected<Model> flatten(const NodeTree& tree, const std::string& subject, const LoadExternal& load,
-                               FlattenLimits limits = {}, NameFilter* filter = nullptr);
+                               FlattenOptions options = {});
 
 }  // namespace yars::model::scene

@@ -21,8 +21,55 @@ void WarningList::add(std::string warning) {
 }
 
 std::vector<std::string> WarningList::take() {
-  if (further_ > 0) texts_.push_back("further warnings: " + std::to_string(further_));
+  if (further_ > 0) texts_.push_back("further sentences like these: " + std::to_string(further_));
   return std::move(texts_);
+}
+
+bool shows(const Node& node, std::uint32_t position) {
+  if (node.kind != NodeKind::switch_node || node.switch_mask.empty()) return true;
+  return position / 32 < node.switch_mask.size() && (node.switch_mask[position / 32] >> position % 32 & 1U) != 0;
+}
+
+namespace {
+
+// Relative rounding of switch distances, which some programs store as float before they write them.
+constexpr double kSwitchRounding = 1e-6;
+constexpr std::size_t kMaxLevelPairs = 256'000'000;  // compared in one file; bounds the time to some seconds
+
+// Marks those of `siblings`, which are levels of detail, that a finer one replaces. Adds to `pairs` the compared ones.
+void mark_coarser_siblings(NodeTree& tree, std::vector<std::uint32_t>& siblings, std::size_t& pairs) {
+  const auto level_of = [&](std::uint32_t node) -> const LevelOfDetail& { return tree.levels[tree.nodes[node].level]; };
+  const auto end_m = [&](std::uint32_t node) { return level_of(node).switch_in_m; };
+  std::ranges::stable_sort(siblings, {}, end_m);
+  for (const std::uint32_t coarse : siblings) {
+    const LevelOfDetail& level = level_of(coarse);
+    bool& is_coarser = tree.nodes[coarse].is_coarser;
+    // Backwards: the next finer level of the object ends where this one begins.
+    auto fine = std::ranges::upper_bound(siblings, level.switch_out_m * (1.0 + kSwitchRounding), {}, end_m);
+    while (fine != siblings.begin() && !is_coarser && pairs++ < kMaxLevelPairs) {
+      --fine;
+      is_coarser = *fine != coarse && length(level_of(*fine).centre - level.centre) < level.switch_out_m;
+    }
+  }
+}
+
+}  // namespace
+
+error::Expected<void> mark_coarser_levels(NodeTree& tree, const std::string& subject) {
+  std::vector<std::uint32_t> siblings;
+  std::size_t pairs = 0;
+  for (const Node& node : tree.nodes) {
+    if (node.first_child_only) continue;
+    siblings.clear();
+    std::uint32_t position = 0;
+    for (std::uint32_t child = node.first_child; child != kNone; child = tree.nodes[child].next_sibling, ++position)
+      if (tree.nodes[child].level != kNone && shows(node, position)) siblings.push_back(child);
+    mark_coarser_siblings(tree, siblings, pairs);
+    if (pairs > kMaxLevelPairs)
+      return error::fail(subject, "at most " + std::to_string(kMaxLevelPairs) + " pairs of levels of detail to compare",
+                         "more", "put the levels of each object into a group of their own");
+  }
+  return {};
 }
 
 namespace {
@@ -152,60 +199,6 @@ std::optional<error::Error> NameFilter::unmatched_error(const std::string& subje
                                     : std::to_string(seen_.size()) + " names exist; the most similar are " +
                                           closest_names(names.front(), seen_),
                       false};
-}
-
-namespace {
-
-std::optional<double> metres_per_unit(int code) {
-  switch (code) {
-    case 0:
-      return 1.0;
-    case 1:
-      return 1000.0;
-    case 4:
-      return 0.3048;
-    case 5:
-      return 0.0254;
-    case 8:
-      return geo::kMetresPerNauticalMile;
-    default:
-      return std::nullopt;
-  }
-}
-
-// Position from two fields; nullopt if absent, out of range, or exactly 0, 0.
-std::optional<geo::GeoPoint> position_at(const Record& record, std::size_t latitude_at, std::size_t longitude_at) {
-  const double latitude_deg = record.number_or<double>(latitude_at, 0.0);
-  const double longitude_deg = record.number_or<double>(longitude_at, 0.0);
-  if (!(std::abs(latitude_deg) <= 90.0) || !(std::abs(longitude_deg) <= 360.0)) return std::nullopt;
-  if (latitude_deg == 0.0 && longitude_deg == 0.0) return std::nullopt;
-  return geo::GeoPoint{latitude_deg, geo::wrapped_degrees(longitude_deg)};
-}
-
-}  // namespace
-
-error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject) {
-  const std::optional<Record> record = record_at(bytes, 0);
-  if (!record || record->opcode() != kHeader || !record->has(header::kRevision, 4))
-    return error::fail(subject, "an OpenFlight file, which begins with a header record", "other bytes",
-                       "give a .flt file of OpenFlight 14 to 16.5");
-  Header found;
-  found.revision = *record->number<std::int32_t>(header::kRevision);
-  // Programs write revision 14.2 as 1420, as 142 or only as 14. 14 is read as 14.0.
-  while (found.revision > 0 && found.revision < 1000) found.revision *= 10;
-  if (found.revision < header::kOldestRevision || found.revision > header::kNewestRevision)
-    return error::fail(subject, "OpenFlight revision 1400 to 1650", std::to_string(found.revision),
-                       "save it as OpenFlight 16");
-  const int units = record->number_or<std::uint8_t>(header::kUnits, 0);
-  const std::optional<double> scale = metres_per_unit(units);
-  if (!scale)
-    return error::fail(subject, "units 0 (m), 1 (km), 4 (ft), 5 (in) or 8 (NM)", std::to_string(units),
-                       "save it in metres");
-  found.metres_per_unit = *scale;
-  found.origin = position_at(*record, header::kOriginLatitude, header::kOriginLongitude);
-  found.south_west = position_at(*record, header::kSouthLatitude, header::kWestLongitude);
-  found.north_east = position_at(*record, header::kNorthLatitude, header::kEastLongitude);
-  return found;
 }
 
 }  // namespace yars::model::scene

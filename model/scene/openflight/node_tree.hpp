@@ -11,6 +11,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/mat4x4.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -79,6 +80,24 @@ class KindTable {
   std::map<std::tuple<std::uint8_t, std::uint16_t, std::uint32_t>, std::uint16_t> numbers_;
 };
 
+// Sentences about a scene: each text once, at most kMaxWarnings texts, then the number of further ones.
+inline constexpr std::size_t kMaxWarnings = 100;
+class WarningList {
+ public:
+  void add(std::string warning);
+  std::vector<std::string> take();
+
+ private:
+  std::vector<std::string> texts_;
+  std::size_t further_ = 0;
+};
+
+// What a reader has to say about a file that it has read.
+struct Remarks {
+  WarningList warnings;  // what is unusual; the model has all surfaces of the file
+  WarningList left_out;  // what the file has, or refers to, and the model has not
+};
+
 // The following types describe a file as stored, before nodes are selected, transformed and instantiated. FileCounts
 // includes all levels of detail, and hidden faces.
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFU;  // index that refers to nothing
@@ -88,6 +107,7 @@ enum class NodeKind : std::uint8_t { group, object, level_of_detail, switch_node
 struct Node {
   NodeKind kind = NodeKind::group;
   bool first_child_only = false;   // animation: only the first frame is used
+  bool is_coarser = false;         // level of detail: a finer one of the same object replaces it
   std::uint16_t replications = 0;  // further copies of the node, each moved by the matrix
   std::uint16_t instance = 0;      // number of the definition that an instance refers to
   std::uint32_t first_child = kNone;
@@ -96,9 +116,17 @@ struct Node {
   std::uint32_t first_face = kNone;
   std::uint32_t last_face = kNone;
   std::uint32_t matrix = kNone;            // index into NodeTree::matrices
-  double switch_out_m = 0.0;               // level of detail: drawn from this viewing distance on
-  std::string name;                        // for an external reference, the file name
+  std::uint32_t level = kNone;             // level of detail: index into NodeTree::levels
+  std::uint32_t pose = kNone;              // degree of freedom: index into NodeTree::matrices; applies before `matrix`
+  std::string name;                        // for an external reference, the file name as in the file
   std::vector<std::uint32_t> switch_mask;  // switch_node: one bit per child, 1: shown; empty: all shown
+};
+
+// Viewing distances between which a level of detail is drawn. They count from `centre`, in the frame of the node above.
+struct LevelOfDetail {
+  double switch_in_m = std::numeric_limits<double>::infinity();  // drawn below this distance
+  double switch_out_m = 0.0;                                     // drawn from this distance on; below switch_in_m
+  Vector3 centre;
 };
 
 struct TreeVertex {
@@ -145,22 +173,19 @@ struct NodeTree {
   std::vector<std::uint32_t> corners;  // indices into vertices
   std::vector<TreeVertex> vertices;
   std::vector<Transform> matrices;
+  std::vector<LevelOfDetail> levels;
   std::vector<SurfaceKind> kinds;
   std::map<std::uint16_t, std::uint32_t> definitions;  // from the number of an instance definition to its node
-  std::vector<std::string> warnings;                   // one per problem, without the file's name
+  Remarks remarks;                                     // without the file's name
 };
 
-// Warnings of a scene: each text once, at most kMaxWarnings texts, then the number of further warnings.
-inline constexpr std::size_t kMaxWarnings = 100;
-class WarningList {
- public:
-  void add(std::string warning);
-  std::vector<std::string> take();
+// True if a switch shows its child at `position`, counted from 0. Any other node shows all its children.
+bool shows(const Node& node, std::uint32_t position);
 
- private:
-  std::vector<std::string> texts_;
-  std::size_t further_ = 0;
-};
+// Sets Node::is_coarser. A level of detail is a coarser one of the object of its sibling if it is drawn only from where
+// the sibling ends, and not from the sibling's centre. Nodes that a switch or an animation does not show do not count.
+// Error: a file with so many siblings that they cannot be compared. `subject`: name of the file in errors.
+error::Expected<void> mark_coarser_levels(NodeTree& tree, const std::string& subject);
 
 // Filter of the names of objects, groups, switches, levels of detail and external files. A node with a matching name is
 // left out with everything below it. `*` matches any characters, `?` one character. Case is ignored.
@@ -190,10 +215,5 @@ class NameFilter {
   std::vector<Excluded> excluded_;
   std::set<std::string> seen_;  // names of nodes, for suggestions in errors
 };
-
-// Parses the header record: revision, unit, origin, covered area. A position of exactly 0, 0 counts as absent, because
-// some files without a position have 0, 0. `bytes` may end after the header. Errors: not a header record, a revision
-// outside 14 to 16.5, an unknown unit.
-error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject);
 
 }  // namespace yars::model::scene

@@ -1,10 +1,11 @@
 #include "model/scene/openflight/parser.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "lib/geo/frames.hpp"
+#include "lib/text/plain_text.hpp"
+#include "model/scene/openflight/node_records.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 #include "model/scene/openflight/records.hpp"
 #include "model/scene/openflight/surface_records.hpp"
@@ -26,18 +27,25 @@ error::Expected<NodeTree> TreeParser::parse() {
   current_.node = 0;
   for (;;) {
     const auto record = stream_.next();
+    if (!record && is_complete()) {
+      tree_.remarks.warnings.add("bytes after the last record: " + std::to_string(stream_.rest().size()) +
+                                 "; they are ignored");
+      break;
+    }
     if (!record) return tl::unexpected(record.error());
     if (!*record) break;
     if (const auto done = dispatch(**record); !done) return tl::unexpected(done.error());
   }
   if (!levels_.empty())
-    tree_.warnings.emplace_back("the file ends inside " + std::to_string(levels_.size()) + " open levels");
+    tree_.remarks.left_out.add("the file ends inside " + text::counted(levels_.size(), "open level") +
+                               "; what followed is missing");
   if (surfaces_.unknown_codes() > 0)
-    tree_.warnings.emplace_back("faces with a surface material code beyond 31: " +
-                                std::to_string(surfaces_.unknown_codes()) + "; they count as faces without a code");
+    tree_.remarks.left_out.add("faces with a surface material code beyond 31: " +
+                               std::to_string(surfaces_.unknown_codes()) + "; they count as faces without a code");
   tree_.counts.materials = surfaces_.colors().materials();
   tree_.counts.hidden_faces = surfaces_.hidden_faces();
   tree_.kinds = surfaces_.kinds();
+  if (const auto done = mark_coarser_levels(tree_, subject_); !done) return tl::unexpected(done.error());
   return std::move(tree_);
 }
 
@@ -114,7 +122,19 @@ TreeParser::Done TreeParser::pop() {
                        "the file is damaged; fetch it again");
   current_ = levels_.back();
   levels_.pop_back();
+  closed_level_ = true;
+  closed_tree_ |= levels_.empty() && current_.node == 0 && current_.face == kNone && current_.mesh < 0;
   return {};
+}
+
+// A file that is truncated ends inside a level, or in the palettes before the first one. A file without a level below
+// its header has its nodes side by side, and a piece of one more may follow: there, only padding counts as none.
+bool TreeParser::is_complete() const {
+  constexpr std::size_t kHeadBytes = 4;  // of a record
+  if (!levels_.empty() || !closed_level_) return false;
+  const std::span<const std::byte> rest = stream_.rest();
+  return closed_tree_ || rest.size() < kHeadBytes ||
+         std::ranges::all_of(rest, [](std::byte byte) { return byte == std::byte{0}; });
 }
 
 // The following functions parse nodes (groups, objects, switches, references), and transforms of nodes and faces.
@@ -157,8 +177,9 @@ TreeParser::Done TreeParser::add_node(const Record& record) {
       });
     case kExternalReference:
       ++tree_.counts.external_references;
-      return new_node(NodeKind::external).map([&] { tree_.nodes.back().name = record.text(4, 200); });
+      return new_node(NodeKind::external).map([&] { tree_.nodes.back().name = record.raw_text(4, 200); });
     case kDegreeOfFreedom:
+      return add_degree_of_freedom(record);
     case kBinarySeparatingPlane:
     case kRoadSegment:
     case kClipRegion:
@@ -199,23 +220,26 @@ TreeParser::Done TreeParser::add_group(const Record& record) {
 TreeParser::Done TreeParser::add_level_of_detail(const Record& record) {
   ++tree_.counts.levels_of_detail;
   return add_named(record, NodeKind::level_of_detail).map([&] {
-    const double switch_out = record.number_or<double>(24, 0.0);
-    tree_.nodes.back().switch_out_m = std::isfinite(switch_out) ? switch_out * tree_.header.metres_per_unit : 0.0;
+    LevelOfDetail level = level_of_detail_of(record, tree_.header.metres_per_unit);
+    const auto flags = record.number_or<std::uint32_t>(level_of_detail::kFlags, 0);
+    if ((flags & level_of_detail::kCentreOfPrevious) != 0 && !tree_.levels.empty())
+      level.centre = tree_.levels.back().centre;
+    tree_.nodes.back().level = static_cast<std::uint32_t>(tree_.levels.size());
+    tree_.levels.push_back(level);
+  });
+}
+
+TreeParser::Done TreeParser::add_degree_of_freedom(const Record& record) {
+  return add_named(record, NodeKind::group).map([&] {
+    const auto pose = pose_of(record, tree_.header.metres_per_unit);
+    if (!pose || *pose == Transform(1.0)) return;
+    tree_.nodes.back().pose = static_cast<std::uint32_t>(tree_.matrices.size());
+    tree_.matrices.push_back(*pose);
   });
 }
 
 TreeParser::Done TreeParser::add_switch(const Record& record) {
-  constexpr std::size_t kCurrentAt = 16, kMasksAt = 20, kWordsAt = 24, kFirstWordAt = 28;
-  return add_named(record, NodeKind::switch_node).map([&] {
-    const std::size_t current = record.number_or<std::uint32_t>(kCurrentAt, 0);
-    const std::size_t words = record.number_or<std::uint32_t>(kWordsAt, 0);
-    if (current >= record.number_or<std::uint32_t>(kMasksAt, 0)) return;
-    for (std::size_t word = 0; word < words; ++word) {
-      const auto mask = record.number<std::uint32_t>(kFirstWordAt + 4 * (current * words + word));
-      if (!mask) break;
-      tree_.nodes.back().switch_mask.push_back(*mask);
-    }
-  });
+  return add_named(record, NodeKind::switch_node).map([&] { tree_.nodes.back().switch_mask = switch_mask_of(record); });
 }
 
 TreeParser::Done TreeParser::add_definition(const Record& record) {
@@ -250,24 +274,16 @@ TreeParser::Done TreeParser::move_face_to_own_node() {
 }
 
 TreeParser::Done TreeParser::add_matrix(const Record& record) {
-  constexpr std::size_t kNumbers = 16;
-  std::array<double, kNumbers> m{};
-  for (std::size_t i = 0; i < kNumbers; ++i) {
-    m[i] = static_cast<double>(record.number_or<float>(4 + 4 * i, i % 5 == 0 ? 1.0F : 0.0F));
-    if (!std::isfinite(m[i]))
-      return error::fail(subject_, "a matrix of finite numbers", "NaN or infinity", "the file is damaged");
-  }
+  const std::optional<Transform> matrix = matrix_of(record, tree_.header.metres_per_unit);
+  if (!matrix) return error::fail(subject_, "a matrix of finite numbers", "NaN or infinity", "the file is damaged");
   if (is_loose_face())
     if (auto done = move_face_to_own_node(); !done) return done;
   if (current_.node == kNone || is_loose_face()) return {};
-  // The file's matrix acts on row vectors, so its rows are the columns of Transform.
-  Transform matrix(m[0], m[1], m[2], 0, m[4], m[5], m[6], 0, m[8], m[9], m[10], 0, 0, 0, 0, 1);
-  matrix[3] = glm::dvec4(tree_.header.metres_per_unit * Vector3(m[12], m[13], m[14]), 1.0);
   if (tree_.nodes[current_.node].matrix == kNone) {
     tree_.nodes[current_.node].matrix = static_cast<std::uint32_t>(tree_.matrices.size());
-    tree_.matrices.push_back(matrix);
+    tree_.matrices.push_back(*matrix);
   } else {
-    tree_.matrices[tree_.nodes[current_.node].matrix] = matrix;
+    tree_.matrices[tree_.nodes[current_.node].matrix] = *matrix;
   }
   return {};
 }

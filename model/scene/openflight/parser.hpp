@@ -1,8 +1,9 @@
-// Parser of one OpenFlight file, revisions 14 to 16.5, into a node tree. The parser opens no other file.
+// Parser of one OpenFlight file, revisions 14 to 16.7, into a node tree. The parser opens no other file.
 // Skipped: textures, lights, sounds, extensions, all masks of a switch but the current one, and the transform records
 // 76-82 and 94 (record 49 has their product).
 // Wireframes and faces that stand for lights are omitted. Hidden faces are omitted, too; FileCounts::hidden_faces is
 // the number of hidden faces.
+// Bytes after the last record, such as padding, are a warning.
 // Errors: no header, unknown revision or unit, truncated records, more pop records than push records, a corner without
 // a vertex, a damaged mesh record, a matrix with NaN or infinity, an exceeded limit (constants below; records.hpp).
 // Source: docs/spec/formats.md#openflight.
@@ -61,6 +62,8 @@ class TreeParser {
   tl::unexpected<error::Error> too_many(std::size_t limit, const std::string& what);
   Done push();
   Done pop();
+  // True if the rest of the file, which is no whole record, lies after the last record of a complete tree.
+  bool is_complete() const;
 
   Done new_node(NodeKind kind, bool attached = true);
   void link_child(std::uint32_t parent, std::uint32_t child);
@@ -68,6 +71,7 @@ class TreeParser {
   Done add_named(const Record& record, NodeKind kind);
   Done add_group(const Record& record);
   Done add_level_of_detail(const Record& record);
+  Done add_degree_of_freedom(const Record& record);
   Done add_switch(const Record& record);
   Done add_definition(const Record& record);
   void set_name(const Record& record);
@@ -101,6 +105,8 @@ class TreeParser {
   std::uint32_t previous_face_ = kNone;  // face before the newest face in the list of the same node
   int skipped_ = 0;                      // nesting depth of extensions and attributes
   int subface_level_ = 0;
+  bool closed_level_ = false;  // a level of records has ended
+  bool closed_tree_ = false;   // the level below the header has ended: all nodes are read
   std::vector<MeshState> meshes_;
 };
 

@@ -1,5 +1,7 @@
 #include "model/scene/openflight/records.hpp"
 
+#include <algorithm>
+
 #include "lib/text/plain_text.hpp"
 
 namespace yars::model::scene {
@@ -18,13 +20,19 @@ bool is_continuation(std::span<const std::byte> bytes, std::size_t at) {
 
 }  // namespace
 
-std::string Record::text(std::size_t offset, std::size_t max_length) const {
+std::string Record::raw_text(std::size_t offset, std::size_t max_length) const {
   std::string text;
   for (std::size_t i = offset; i < bytes_.size() && text.size() < max_length; ++i) {
-    const auto letter = std::to_integer<unsigned char>(bytes_[i]);
+    const char letter = std::to_integer<char>(bytes_[i]);
     if (letter == 0) break;
-    text.push_back(letter >= 0x20 && letter < 0x7F ? static_cast<char>(letter) : '?');
+    text.push_back(letter);
   }
+  return text;
+}
+
+std::string Record::text(std::size_t offset, std::size_t max_length) const {
+  std::string text = raw_text(offset, max_length);
+  std::ranges::replace_if(text, [](char letter) { return letter < 0x20 || letter > 0x7E; }, '?');
   return text;
 }
 

@@ -2,7 +2,7 @@
 // Format: big-endian; u16 opcode, u16 length of the record, fields. Offsets count from the opcode, in bytes.
 // Errors: a record shorter than 4 bytes, a record that extends beyond the end of the file, a record that is longer than
 // 256 MiB with its continuations. Nothing is read outside the given bytes.
-// Source: docs/spec/formats.md#openflight; OpenFlight Scene Description Database Specification, revisions 14 to 16.5.
+// Source: docs/spec/formats.md#openflight; OpenFlight Scene Description Database Specification, revisions 14 to 16.7.
 #pragma once
 
 #include <array>
@@ -76,8 +76,9 @@ inline constexpr std::size_t kNameAt = 4, kNameBytes = 8;  // name field of node
 namespace header {
 inline constexpr std::size_t kRevision = 12, kUnits = 62, kFlags = 64, kVertexStorage = 126, kDatabaseOrigin = 128;
 inline constexpr std::size_t kSouthLatitude = 188, kWestLongitude = 196, kNorthLatitude = 204, kEastLongitude = 212;
-inline constexpr std::size_t kOriginLatitude = 220, kOriginLongitude = 228, kBytes = 324;
-inline constexpr std::int32_t kOldestRevision = 1400, kNewestRevision = 1650;
+inline constexpr std::size_t kOriginLatitude = 220, kOriginLongitude = 228;
+inline constexpr std::size_t kBytes = 324;  // length in revision 16.0; others have 308 to 328 bytes and more
+inline constexpr std::int32_t kOldestRevision = 1400, kNewestRevision = 1670;
 }  // namespace header
 
 // Offsets in a face record, and values of its fields. In a mesh record the fields lie kMeshShift bytes further.
@@ -89,6 +90,19 @@ inline constexpr std::uint32_t kNoColor = 1U << 30, kPacked = 1U << 28, kHidden 
 inline constexpr std::uint8_t kSolidOneSided = 0, kSolidTwoSided = 1, kSurround = 4;
 inline constexpr std::uint8_t kLitFaceColor = 2;
 }  // namespace face
+
+// Viewing distances from the centre between which a level of detail is drawn.
+namespace level_of_detail {
+inline constexpr std::size_t kSwitchIn = 16, kSwitchOut = 24, kFlags = 36, kCentre = 40;
+inline constexpr std::uint32_t kCentreOfPrevious = 1U << 31;  // the centre is that of the level before
+}  // namespace level_of_detail
+
+// Local axes of a degree of freedom, and the current values of its translation, rotation and scale along them.
+namespace degree_of_freedom {
+inline constexpr std::size_t kOrigin = 16, kPointOnX = 40, kPointInXY = 64;
+inline constexpr std::size_t kX = 168, kY = 136, kZ = 104, kPitch = 200, kRoll = 232, kYaw = 264;
+inline constexpr std::size_t kScaleX = 360, kScaleY = 328, kScaleZ = 296;
+}  // namespace degree_of_freedom
 
 namespace vertex {
 inline constexpr std::size_t kFlags = 6, kX = 8, kY = 16, kZ = 24, kNormal = 32;
@@ -140,6 +154,8 @@ class Record {
   }
   // Text up to a zero byte, `max_length` characters or the record's end. Characters outside printable ASCII become '?'.
   std::string text(std::size_t offset, std::size_t max_length) const;
+  // The same with all characters as they are: for names of files.
+  std::string raw_text(std::size_t offset, std::size_t max_length) const;
 
  private:
   std::size_t start_ = 0;
@@ -154,6 +170,8 @@ class RecordStream {
 
   // The next record, valid until the next call; nullopt at the end of the file.
   error::Expected<std::optional<Record>> next();
+  // The bytes from the end of the last whole record on.
+  std::span<const std::byte> rest() const { return bytes_.subspan(at_); }
 
  private:
   error::Expected<std::optional<Record>> single();

@@ -41,6 +41,7 @@ struct Columns {
   std::size_t present = 0;
   std::size_t wrong_sums = 0;
   std::size_t partial = 0;
+  std::size_t bytes_after = 0;  // after the last record of a complete cell
 };
 
 std::string_view text_of(std::span<const std::byte> bytes) {
@@ -158,6 +159,11 @@ error::Expected<Columns> find_columns(std::span<const std::byte> data, const Hea
       return error::fail(subject, complete ? "nothing after the last column record" : "a whole " + at(),
                          text::counted(rest.size(), "byte"), "the file is truncated or damaged; fetch it again");
     };
+    // Padding, or what else a transfer added. A further record of a column replaces that column.
+    if (found.present == seen.size() && std::to_integer<std::uint8_t>(rest[0]) != dted::kRecordSentinel) {
+      found.bytes_after = rest.size();
+      break;
+    }
     if (rest.size() < kRecordHeadBytes) return truncated();
     const std::size_t column = memory::big_endian<std::uint16_t>(rest.data() + 4);
     const int first_row = memory::big_endian<std::uint16_t>(rest.data() + 6);
@@ -235,6 +241,7 @@ std::vector<std::string> warnings_of(const Columns& found, const Header& header,
   count("columns with a wrong checksum: ", found.wrong_sums, "; their heights are kept");
   count("absent columns: ", static_cast<std::size_t>(header.columns) - found.present, "; they are void");
   count("partial columns: ", found.partial, "; their missing posts are void");
+  count("bytes after the last column record: ", found.bytes_after, "; they are ignored");
   if (twos_complement) warnings.emplace_back("negative heights are in two's complement, not in sign-magnitude");
   return warnings;
 }

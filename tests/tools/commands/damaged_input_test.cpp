@@ -1,5 +1,5 @@
 // Commands with damaged or missing input. If none of the input can be read: exit code 1 and a message. If a part can be
-// read: exit code 0 and the number of unreadable files.
+// read: a result and the number of unreadable files; exit code 0 for terrain, 1 for scenes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,11 +12,13 @@
 #include "tests/endtoend/process_set.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
 #include "tests/model/terrain/sampling/rough_cell.hpp"
+#include "worldgen/scene/openflight_writer.hpp"
 
 namespace yars {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
@@ -145,8 +147,9 @@ TEST(DamagedInput, UnreadableFilesOfASceneFolderAreCounted) {
   write_text(folder.path() / "text.flt", "no scene");
   for (const std::string command : {"scan", "patch"}) {
     const auto part = view(command, {"--scene", folder.path()});
-    EXPECT_EQ(part.code, 0) << command << part.errors;
+    EXPECT_EQ(part.code, 1) << command << part.errors;
     EXPECT_THAT(part.errors, AllOf(HasSubstr("text.flt"), HasSubstr("1 of 2 scenes of the region cannot be read")));
+    EXPECT_THAT(part.output, HasSubstr("hash")) << "the picture is made";
   }
   fs::remove(folder.path() / "whole.flt");
   for (const std::string command : {"scan", "patch"}) {
@@ -164,6 +167,54 @@ TEST(DamagedInput, SceneInfoReportsReadableFilesAndFailsForUnreadableFiles) {
   EXPECT_EQ(run.code, 1);
   EXPECT_THAT(run.output, HasSubstr("whole.flt"));
   EXPECT_THAT(run.errors, HasSubstr("1 of 2 that cannot be read"));
+}
+
+// A scene whose external file is missing: the commands name it, in text and in JSON, and fail after their result.
+TEST(DamagedInput, WhatIsLeftOutOfASceneIsNamedAndFailsAfterTheResult) {
+  const test::TemporaryFolder folder;
+  worldgen::OpenFlightWriter writer(geo::GeoPoint{37.55, -120.97});
+  writer.external("hangar.flt", {});
+  const std::vector<std::byte> bytes = writer.take();
+  const fs::path file = folder.path() / "whole.flt";
+  write_text(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  const std::string image = folder.path() / "plan.png";
+  const auto run = [](std::vector<std::string> words) {
+    words.insert(words.begin(), "yars");
+    return endtoend::run_program(words);
+  };
+  for (const auto& done : {run({"scene", "info", file}), run({"scene", "info", file, "--json"}),
+                           view("scan", {"--scene", file, "--json"}), view("patch", {"--scene", file, "--json"})}) {
+    EXPECT_EQ(done.code, 1) << done.errors;
+    EXPECT_THAT(done.output, HasSubstr("external file hangar.flt is not there"));
+    EXPECT_THAT(done.output, AnyOf(HasSubstr("left out: "), HasSubstr("\"left_out\": ["), HasSubstr("\"left_out\":[")));
+    EXPECT_THAT(done.errors, HasSubstr("left out"));
+  }
+  for (const std::string command : {"scan", "patch"}) {
+    const auto text = view(command, {"--scene", file});
+    EXPECT_EQ(text.code, 1) << command;
+    EXPECT_THAT(text.output, HasSubstr("hash")) << command;
+    EXPECT_THAT(text.errors, HasSubstr("external file hangar.flt is not there")) << command;
+  }
+  const auto drawn = run({"scene", "image", file, "--out", image});
+  EXPECT_EQ(drawn.code, 1);
+  EXPECT_TRUE(fs::exists(image));
+  EXPECT_THAT(drawn.errors, HasSubstr("external file hangar.flt is not there"));
+  EXPECT_EQ(run({"scene", "info", file, "--without", "hangar.flt"}).code, 0) << "the user leaves it out";
+}
+
+// The path of an existing file is never split at an '@'.
+TEST(Scenes, AFileWithAnAtSignInItsNameIsRead) {
+  const test::TemporaryFolder folder;
+  const fs::path named = folder.path() / "base@37.6,-121.flt";
+  fs::copy_file(airfield(folder.path()), named);
+  for (const std::string command : {"scan", "patch"}) {
+    EXPECT_EQ(view(command, {"--scene", named}).code, 0) << command;
+    EXPECT_EQ(view(command, {"--scene", named.string() + "@37.55,-120.97"}).code, 0) << command;
+  }
+  EXPECT_EQ(endtoend::run_program({"yars", "scene", "info", named}).code, 0);
+  const auto missing = view("scan", {"--scene", folder.path() / "base@north.flt"});
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_THAT(missing.errors, HasSubstr("expected an existing file, FILE@LATITUDE,LONGITUDE"));
 }
 
 }  // namespace

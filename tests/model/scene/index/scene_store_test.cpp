@@ -252,6 +252,30 @@ TEST(SceneStore, ReadsOnlyScenesThatOverlapTheRegion) {
   EXPECT_EQ(after_failure, view);
 }
 
+// What is left out of the scenes of a region is known as long as they are shown, unlike problems, which are told once.
+TEST(SceneStore, KnowsWhatTheViewOfARegionLacks) {
+  const Folder folder;
+  worldgen::OpenFlightWriter writer(kOrigin);
+  writer.external("gone.flt", {});
+  std::vector<std::byte> bytes = writer.take();
+  bytes.resize(bytes.size() + 5);  // a warning, which is no loss
+  folder.write("a.flt", bytes);
+  folder.write("no_position.flt", box_and_road(std::nullopt));
+  std::vector<std::byte> cut = box_and_road(kOrigin);
+  cut.resize(cut.size() - 3);
+  folder.write("cut.flt", cut);
+  const auto store = store_of({scene_of(folder.path())}, terrain::flat(0));
+  for (int time = 0; time < 2; ++time) {
+    store->prepare({kOrigin, 1000, 0});
+    EXPECT_THAT(store->wanted().left_out,
+                testing::UnorderedElementsAre(HasSubstr("scene with a position"), HasSubstr("gone.flt is not there"),
+                                              HasSubstr("truncated")));
+    EXPECT_EQ(store->take_problems().size(), time == 0 ? 4U : 0U);
+  }
+  store->prepare({offset(kOrigin, 90, 300'000), 1000, 0});
+  EXPECT_THAT(store->wanted().left_out, testing::ElementsAre(HasSubstr("scene with a position")));
+}
+
 // A store of a.flt at kOrigin and b.flt at `other`, in which only one scene stays resident.
 auto store_of_two(const Folder& folder, geo::GeoPoint other) {
   return store_of(
@@ -388,6 +412,11 @@ TEST(SceneSource, ReadsFilePositionAndHeading) {
   EXPECT_EQ(scene->position.longitude_deg, -122.25);
   EXPECT_EQ(scene->heading_deg, 45);
   EXPECT_TRUE(std::isnan(parse_scene("airfield.flt")->position.latitude_deg));
+  const Folder folder;
+  const std::string named = folder.write("a@37.5,-122.flt", {}).string();
+  EXPECT_EQ(parse_scene(named)->file, named);
+  EXPECT_EQ(parse_scene(named + "@1,2")->file, named);
+  EXPECT_EQ(parse_scene(named + "@1,2")->position.latitude_deg, 1);
   EXPECT_FALSE(parse_scene("airfield.flt@north"));
   EXPECT_FALSE(parse_scene("airfield.flt@95,0"));
   EXPECT_FALSE(parse_scene("@1,2"));

@@ -3,6 +3,8 @@
 // with a continuation.
 #pragma once
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "lib/geo/frames.hpp"
@@ -15,9 +17,10 @@ namespace yars::model::scene {
 // Builds a file record by record, including records that worldgen::OpenFlightWriter does not write.
 class ByteFile {
  public:
-  // Writes the header. `units`: code of the unit of length.
-  explicit ByteFile(std::int32_t revision = 1600, int units = 0) {
-    out_.begin(openflight::kHeader, openflight::header::kBytes);
+  // Writes the header. `units`: code of the unit of length. `header_bytes`: length of its record.
+  explicit ByteFile(std::int32_t revision = 1600, int units = 0,
+                    std::size_t header_bytes = openflight::header::kBytes) {
+    out_.begin(openflight::kHeader, header_bytes);
     out_.put(openflight::header::kRevision, revision);
     out_.put(openflight::header::kUnits, static_cast<std::uint8_t>(units));
   }
@@ -74,6 +77,26 @@ class ByteFile {
     if (bytes >= 36) out_.put(32, code);
     if (bytes >= 48) out_.put(44, flags);
   }
+  // Level of detail: viewing distances in the file's unit.
+  void level(double switch_in, double switch_out, Vector3 centre = {}, std::uint32_t flags = 0) {
+    out_.begin(openflight::kLevelOfDetail, 80);
+    out_.put(16, switch_in);
+    out_.put(24, switch_out);
+    out_.put(36, flags);
+    for (int axis = 0; axis < 3; ++axis) out_.put(40 + 8 * static_cast<std::size_t>(axis), centre[axis]);
+  }
+  // Degree of freedom with the local axes of its parent, at `origin`; the numbers at the offsets are its current pose.
+  void degree_of_freedom(Vector3 origin, const std::vector<std::pair<std::size_t, double>>& pose) {
+    out_.begin(openflight::kDegreeOfFreedom, 384);
+    const Vector3 x{1, 0, 0}, xy{1, 1, 0};
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::size_t at = 8 * static_cast<std::size_t>(axis);
+      out_.put(16 + at, origin[axis]);
+      out_.put(40 + at, origin[axis] + x[axis]);
+      out_.put(64 + at, origin[axis] + xy[axis]);
+    }
+    for (const auto& [offset, value] : pose) out_.put(offset, value);
+  }
   void put_u32(std::size_t offset, std::uint32_t value) { out_.put(offset, value); }
   void corners(const std::vector<std::uint32_t>& vertices) {
     out_.begin(openflight::kVertexList, 4 + 4 * vertices.size());
@@ -109,6 +132,12 @@ class ByteFile {
     out_.put<std::uint16_t>(6, 2);
     out_.put(8, static_cast<std::uint32_t>(indices.size()));
     for (std::size_t i = 0; i < indices.size(); ++i) out_.put(12 + 2 * i, indices[i]);
+  }
+  // A square of the palette kSquare in a level of its own.
+  void square_below() {
+    push();
+    polygon({0, 1, 2, 3});
+    pop();
   }
   void append(const std::vector<std::byte>& bytes) {
     out_.bytes().insert(out_.bytes().end(), bytes.begin(), bytes.end());

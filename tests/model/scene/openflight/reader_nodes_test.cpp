@@ -1,6 +1,7 @@
-// The reader: effect of nodes on their children, meshes, external files.
+// The reader: effect of nodes on their children, levels of detail, degrees of freedom, meshes.
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 
 #include "lib/geo/frames.hpp"
@@ -171,7 +172,7 @@ TEST(Instances, WithoutADefinitionGiveAWarning) {
   file.push();
   file.instance(9);
   file.pop();
-  EXPECT_THAT(read(file).warnings, ElementsAre(HasSubstr("definition 9")));
+  EXPECT_THAT(read(file).left_out, ElementsAre(HasSubstr("definition 9")));
 }
 
 // 1000 copies of one object in each of 200 instances: 200,000 objects without a triangle.
@@ -195,11 +196,11 @@ TEST(Warnings, WithEqualTextAppearOnceAndFurtherWarningsAreCounted) {
   for (std::uint16_t number = 1; number <= 300; ++number)
     for (int i = 0; i < 3; ++i) file.instance(number);
   file.pop();
-  const auto warnings = read(file).warnings;
+  const auto warnings = read(file).left_out;
   ASSERT_EQ(warnings.size(), kMaxWarnings + 1);
   EXPECT_THAT(warnings[0], HasSubstr("definition 1,"));
   EXPECT_THAT(warnings[1], HasSubstr("definition 2,"));
-  EXPECT_EQ(warnings.back(), "further warnings: 600");
+  EXPECT_EQ(warnings.back(), "further sentences like these: 600");
 }
 
 TEST(LevelsOfDetail, TheFinestIsShown) {
@@ -214,6 +215,132 @@ TEST(LevelsOfDetail, TheFinestIsShown) {
   ASSERT_EQ(model.polygons, 1U);
   EXPECT_EQ(model.kinds[model.triangles[0].kind].material, 2);
   EXPECT_EQ(model.counts.faces, 2U);
+}
+
+// Ranges of sibling levels and their centres; the numbers of those that are shown.
+struct Siblings {
+  std::vector<std::array<double, 3>> levels;  // switch-in and switch-out distance, x of the centre
+  std::vector<std::size_t> shown;
+};
+
+TEST(LevelsOfDetail, OnlyRangesThatExcludeEachOtherAreLevelsOfOneObject) {
+  const std::vector<Siblings> cases{
+      {{{2000, 0, 0}, {1500, 0, 50}, {8000, 30, 100}, {5000, 20, 150}, {3000, 10, 200}, {9000, 1, 250}},
+       {0, 1, 2, 3, 4, 5}},                                                      // six buildings
+      {{{500, 0, 0}, {500, 0, 100}, {2000, 500, 0}, {2000, 500, 100}}, {0, 1}},  // two with two levels each
+      {{{9000, 3000, 0}, {3000, 800, 0}, {800, 100, 0}}, {2}},                   // none is drawn from 0
+      {{{1000, 0, 0}, {3000, 900, 0}}, {0, 1}},                                  // ranges overlap
+      {{{25, 0, 0}, {8000, 30, 100}}, {0, 1}},                                   // the farther is seen from the nearer
+      {{{800.0000001, 0, 0}, {4000, 800, 0.5}}, {0}},                            // rounding; centres of the geometry
+      {{{0, 0, 0}, {1000, 0, 0}, {4000, 1000, 0}}, {0, 1}},                      // the first has no range
+      {{{0, 800, 0}, {800, 4000, 0}}, {0}}};                                     // in and out exchanged
+  for (const Siblings& siblings : cases) {
+    ByteFile file;
+    file.palette(kSquare);
+    file.push();
+    for (std::size_t i = 0; i < siblings.levels.size(); ++i) {
+      const auto& [in, out, x] = siblings.levels[i];
+      file.level(in, out, {x, 0, 0});
+      file.push();
+      file.polygon({0, 1, 2, 3}, static_cast<std::int16_t>(i + 1));
+      file.pop();
+    }
+    file.pop();
+    const Model model = read(file);
+    std::vector<std::size_t> shown;
+    for (std::size_t i = 0; i < model.triangles.size(); i += 2)
+      shown.push_back(model.kinds[model.triangles[i].kind].material - std::size_t{1});
+    EXPECT_EQ(shown, siblings.shown) << "case " << (&siblings - cases.data());
+  }
+}
+
+// Small objects and those that are drawn from afar only, all beside each other: 4 * 10^8 pairs.
+TEST(LevelsOfDetail, OfTooManySiblingsAreRefused) {
+  ByteFile file;
+  file.push();
+  for (int i = 0; i < 40'000; ++i) file.level(i % 2 == 0 ? 5000 : 20, i % 2 == 0 ? 30 : 0, {1000.0 * i, 0, 0});
+  file.pop();
+  EXPECT_THAT(refusal(file), HasSubstr("pairs of levels of detail"));
+}
+
+TEST(LevelsOfDetail, ThatASwitchHidesReplaceNone) {
+  ByteFile file;
+  file.palette(kSquare);
+  file.push();
+  file.node(openflight::kSwitch, "s", 32);
+  file.put_u32(20, 1);
+  file.put_u32(24, 1);
+  file.put_u32(28, 0b10);
+  file.push();
+  file.level(1000, 0);
+  file.square_below();
+  file.level(5000, 1000);
+  file.square_below();
+  file.pop();
+  file.pop();
+  EXPECT_EQ(read(file).polygons, 1U);
+}
+
+TEST(LevelsOfDetail, TakeTheCentreOfTheLevelBeforeIfTheirFlagSaysSo) {
+  for (const bool previous : {false, true}) {
+    ByteFile file;
+    file.palette(kSquare);
+    file.push();
+    file.level(100, 0, {500, 0, 0});
+    file.square_below();
+    file.level(5000, 100, {0, 0, 0}, previous ? openflight::level_of_detail::kCentreOfPrevious : 0);
+    file.square_below();
+    file.pop();
+    EXPECT_EQ(read(file).polygons, previous ? 1U : 2U);
+  }
+}
+
+// Extent of the square from (0, 0) to (10, 10) below a degree of freedom.
+Model posed(Vector3 origin, const std::vector<std::pair<std::size_t, double>>& pose, int units = 0) {
+  ByteFile file(1600, units);
+  file.palette(kSquare);
+  file.push();
+  file.degree_of_freedom(origin, pose);
+  file.square_below();
+  file.pop();
+  return read(file);
+}
+
+TEST(DegreesOfFreedom, HaveTheirCurrentTranslation) {
+  const Model model = posed({}, {{168, 50.0}, {136, -3.0}, {104, 2.0}}, 4);
+  EXPECT_NEAR(position_of(model, 0).x, 50 * 0.3048, 1e-5);
+  EXPECT_NEAR(position_of(model, 0).y, -3 * 0.3048, 1e-5);
+  EXPECT_NEAR(position_of(model, 0).z, 2 * 0.3048, 1e-5);
+}
+
+TEST(DegreesOfFreedom, TurnAndScaleAboutTheirOrigin) {
+  // A quarter turn about the corner (10, 0) with twice the length along x: (0, 0) becomes (10, -20).
+  const Model model = posed({10, 0, 0}, {{264, 90.0}, {360, 2.0}});
+  EXPECT_NEAR(position_of(model, 1).x, 10, 1e-5);
+  EXPECT_NEAR(position_of(model, 1).y, 0, 1e-5);
+  EXPECT_NEAR(position_of(model, 0).x, 10, 1e-5);
+  EXPECT_NEAR(position_of(model, 0).y, -20, 1e-5);
+}
+
+// OpenSceneGraph's order: yaw first, then roll, then pitch. (10, 0, 0) becomes (0, 10, 0) by the yaw, stays there in
+// the roll about y, and becomes (0, 0, 10) by the pitch about x.
+TEST(DegreesOfFreedom, TurnByYawThenRollThenPitch) {
+  const Model model = posed({}, {{264, 90.0}, {232, 90.0}, {200, 90.0}});
+  EXPECT_NEAR(position_of(model, 1).x, 0, 1e-5);
+  EXPECT_NEAR(position_of(model, 1).y, 0, 1e-5);
+  EXPECT_NEAR(position_of(model, 1).z, 10, 1e-5);
+}
+
+TEST(DegreesOfFreedom, WithoutAPoseStandAsModelled) {
+  const Model model = posed({3, 4, 5}, {});
+  EXPECT_EQ(position_of(model, 1).x, 10);
+  ByteFile file;
+  file.palette(kSquare);
+  file.push();
+  file.node(openflight::kDegreeOfFreedom, "short", 12);
+  file.square_below();
+  file.pop();
+  EXPECT_EQ(position_of(read(file), 1).x, 10);
 }
 
 TEST(Switches, ShowTheChildrenInTheirMask) {
@@ -285,54 +412,6 @@ TEST(Levels, ExtensionsAreSkippedWithTheirContent) {
   file.plain(openflight::kPopExtension);
   file.pop();
   EXPECT_THAT(read(file).triangles, IsEmpty());
-}
-
-TEST(ExternalFiles, AreReadInTheirOwnUnitsAndTransformed) {
-  const Folder folder;
-  ByteFile child(1600, 4);  // feet
-  child.palette(kSquare);
-  child.push();
-  child.polygon({0, 1, 2, 3}, 9);
-  child.pop();
-  folder.write("parts/child.flt", child.bytes());
-  worldgen::OpenFlightWriter parent(std::nullopt);
-  parent.external("parts\\child.flt", translation({100, 0, 0}));
-  parent.external("parts/child.flt<all>", translation({200, 0, 0}));
-  const auto model = read_openflight(folder.write("parent.flt", parent.take()));
-  ASSERT_TRUE(model) << model.error().message();
-  EXPECT_EQ(model->polygons, 2U);
-  EXPECT_EQ(model->files.size(), 1U);
-  EXPECT_EQ(model->counts.external_references, 2U);
-  EXPECT_NEAR(position_of(*model, 1).x, 103.048, 1e-4);
-  EXPECT_NEAR(position_of(*model, 4).x, 200, 1e-4);
-}
-
-TEST(ExternalFiles, ThatReferToTheirParentAreLeftOut) {
-  const Folder folder;
-  worldgen::OpenFlightWriter a(std::nullopt), b(std::nullopt);
-  a.face(square(0, 0, 1), kTestKind);
-  a.external("b.flt", {});
-  b.face(square(0, 0, 1), kTestKind);
-  b.external("a.flt", {});
-  const auto first = folder.write("a.flt", a.take());
-  folder.write("b.flt", b.take());
-  const auto model = read_openflight(first);
-  ASSERT_TRUE(model);
-  EXPECT_EQ(model->polygons, 2U);
-  EXPECT_THAT(model->warnings, ElementsAre(HasSubstr("leads back to itself")));
-}
-
-TEST(ExternalFiles, OutsideTheFolderOrMissingAreLeftOut) {
-  const Folder folder;
-  worldgen::OpenFlightWriter inner(std::nullopt), outer(std::nullopt);
-  outer.face(square(0, 0, 1), kTestKind);
-  folder.write("outer.flt", outer.take());
-  inner.external("../outer.flt", {});
-  inner.external("nowhere.flt", {});
-  const auto model = read_openflight(folder.write("sub/inner.flt", inner.take()));
-  ASSERT_TRUE(model);
-  EXPECT_THAT(model->triangles, IsEmpty());
-  EXPECT_THAT(model->warnings, ElementsAre(HasSubstr("outside the folder"), HasSubstr("is not there")));
 }
 
 }  // namespace

@@ -47,6 +47,54 @@ TEST(Records, ALengthBelowFourIsRefused) {
   EXPECT_THAT(refusal(file), HasSubstr("one with a stated length of 3 bytes"));
 }
 
+// The bytes after the level below the header, if they are no record.
+std::vector<std::byte> followed_by(std::size_t count, std::byte value) {
+  ByteFile file;
+  file.palette(kSquare);
+  file.square_below();
+  file.bytes().insert(file.bytes().end(), count, value);
+  return file.bytes();
+}
+
+TEST(Records, BytesAfterTheLastRecordAreAWarning) {
+  for (const std::size_t count : {1, 3, 4, 7, 2048})
+    for (const std::byte value : {std::byte{0}, std::byte{0xA5}, std::byte{0xFF}}) {
+      const auto model = read_openflight(followed_by(count, value), "test.flt");
+      ASSERT_TRUE(model) << model.error().message();
+      EXPECT_EQ(model->polygons, 1U);
+      EXPECT_THAT(model->warnings, ElementsAre(HasSubstr("after the last record")));
+      EXPECT_THAT(model->warnings[0], HasSubstr("last record: " + std::to_string(count)));
+      EXPECT_THAT(model->left_out, IsEmpty());
+    }
+}
+
+TEST(Records, AFileCutAnywhereBeforeItsLastRecordIsRefusedOrSaysWhatIsMissing) {
+  const std::vector<std::byte> whole = followed_by(0, {});
+  for (std::size_t bytes = 1; bytes < whole.size(); ++bytes) {
+    const auto model = read_openflight(std::span(whole).first(bytes), "test.flt");
+    const bool has_nodes = bytes > openflight::header::kBytes + 8 + 4 * 40;
+    EXPECT_FALSE(model && has_nodes && model->left_out.empty()) << bytes;
+  }
+}
+
+// A file whose nodes lie beside its header, with no level around them.
+TEST(Records, PaddingAfterNodesBesideTheHeaderIsAWarningAndAPieceOfARecordIsRefused) {
+  const auto file = [] {
+    ByteFile made;
+    made.palette(kSquare);
+    made.group("a");
+    made.square_below();
+    return made;
+  };
+  ByteFile padded = file();
+  padded.bytes().resize(padded.bytes().size() + 500);
+  EXPECT_THAT(read(padded).warnings, ElementsAre(HasSubstr("bytes after the last record: 500")));
+  ByteFile cut = file();
+  cut.group("b");
+  cut.bytes().resize(cut.bytes().size() - 1);
+  EXPECT_THAT(refusal(cut), HasSubstr("truncated"));
+}
+
 TEST(Header, HasRevisionUnitAndOrigin) {
   worldgen::OpenFlightWriter writer(geo::GeoPoint{37.5, -122.3});
   const Model model = scene::read(writer);
@@ -57,14 +105,31 @@ TEST(Header, HasRevisionUnitAndOrigin) {
   EXPECT_EQ(model.header.origin->longitude_deg, -122.3);
 }
 
-TEST(Header, RevisionsOutside1400To1650AreRefused) {
-  for (const std::int32_t revision : {1300, 1651, -5, 0}) {
+TEST(Header, RevisionsOutside1400To1670AreRefused) {
+  for (const std::int32_t revision : {1300, 1671, -5, 0}) {
     ByteFile file(revision);
-    EXPECT_THAT(refusal(file), HasSubstr("expected OpenFlight revision 1400 to 1650"));
+    EXPECT_THAT(refusal(file), HasSubstr("expected OpenFlight revision 1400 to 1670"));
   }
-  for (const std::int32_t revision : {1400, 142, 14, 1541, 1650}) {
+  for (const std::int32_t revision : {1400, 142, 14, 1541, 1650, 1660, 1670}) {
     ByteFile file(revision);
     EXPECT_TRUE(read_openflight(file.bytes(), "test.flt"));
+  }
+}
+
+// Revisions and programs write headers of other lengths; a CDB asks for 328 bytes.
+TEST(Header, OfAnyLengthIsReadAloneAsWithTheWholeFile) {
+  const Folder folder;
+  for (const std::size_t bytes : {240, 304, 308, 324, 328, 400, 65'532}) {
+    ByteFile file(1600, 4, bytes);
+    file.palette(kSquare);
+    file.square_below();
+    const auto path = folder.write(std::to_string(bytes) + ".flt", file.bytes());
+    const auto header = read_openflight_header(path);
+    const auto model = read_openflight(path);
+    ASSERT_TRUE(header) << header.error().message();
+    ASSERT_TRUE(model) << model.error().message();
+    EXPECT_EQ(header->metres_per_unit, 0.3048);
+    EXPECT_EQ(model->polygons, 1U);
   }
 }
 
@@ -125,7 +190,7 @@ TEST(Faces, WithAMaterialCodeAbove31HaveNoMaterial) {
   file.pop();
   const Model model = read(file);
   EXPECT_EQ(model.kinds[0].material, 0);
-  EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("code beyond 31: 1")));
+  EXPECT_THAT(model.left_out, ElementsAre(HasSubstr("code beyond 31: 1")));
 }
 
 TEST(Faces, ThatAreHiddenOrLinesOrLightsAreLeftOut) {
@@ -190,7 +255,7 @@ TEST(Faces, WithNaNInTheirCornersAreLeftOut) {
   file.pop();
   const Model model = read(file);
   EXPECT_THAT(model.triangles, IsEmpty());
-  EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("not numbers")));
+  EXPECT_THAT(model.left_out, ElementsAre(HasSubstr("not numbers")));
 }
 
 TEST(Faces, CornersOutsideThePaletteAreRefused) {

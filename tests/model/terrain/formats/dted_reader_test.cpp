@@ -261,10 +261,20 @@ TEST(DtedReader, EveryTruncationIsRefusedOrLacksCompleteColumns) {
   }
 }
 
-TEST(DtedReader, BytesAfterTheLastColumnAreNamed) {
-  std::vector<std::byte> longer = test::small_dted().bytes();
-  longer.push_back(std::byte{0});
-  const auto reading = parse_dted(longer, "longer.dt0", kDtedCorner);
+TEST(DtedReader, BytesAfterTheLastColumnAreAWarningUnlessTheyBeginARecord) {
+  const std::vector<std::byte> complete = test::small_dted().bytes();
+  for (const std::size_t count : {1, 3, 500}) {
+    std::vector<std::byte> longer = complete;
+    longer.resize(complete.size() + count);
+    const auto reading = parse_dted(longer, "longer.dt0", kDtedCorner);
+    ASSERT_TRUE(reading) << reading.error().message();
+    EXPECT_THAT(reading->warnings,
+                testing::Contains(HasSubstr("after the last column record: " + std::to_string(count))));
+    EXPECT_FALSE(reading->damaged);
+  }
+  std::vector<std::byte> piece = complete;
+  piece.push_back(std::byte{0xAA});
+  const auto reading = parse_dted(piece, "longer.dt0", kDtedCorner);
   ASSERT_FALSE(reading);
   EXPECT_THAT(reading.error().message(), HasSubstr("nothing after the last column record, found 1 byte;"));
 }
