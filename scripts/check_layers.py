@@ -116,7 +116,7 @@ SYSTEM_HEADERS = {
     "arpa/": ["databuffer/app", "gateway/checks", "gateway/dds", "tests"],
     "netinet/": ["databuffer/app", "gateway/checks", "gateway/dds", "tests"],
     "openssl/": ["gateway/checks", "gateway/dds"],
-    "net/": ["gateway/checks"],
+    "net/": ["databuffer/app", "gateway/checks"],
     "sys/mman.h": ["lib/memory", "shells", "shm"],
     "gdal.h": ["model/terrain/gdal", "tests"],
     "gdal_utils.h": ["tests"],

@@ -1,5 +1,6 @@
 #include "databuffer/app/udp_socket_shell.hpp"
 
+#include <net/if.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "databuffer/session/session.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
 
@@ -29,22 +31,74 @@ constexpr int kQueue_bytes = 256 * 1024;
 // limit or negative. Such an age counts as 0.
 constexpr std::int64_t kMaxPacketAge_ns = 60'000'000'000;
 
-error::Expected<sockaddr_in> resolve(const std::string& host, std::uint16_t port) {
-  addrinfo hints{};
-  hints.ai_family = AF_INET;
-  hints.ai_socktype = SOCK_DGRAM;
-  addrinfo* found = nullptr;
-  if (const int problem = getaddrinfo(host.c_str(), nullptr, &hints, &found); problem != 0 || found == nullptr)
-    return error::fail("--source", "a host by name or IPv4 address", "'" + host + "': " + gai_strerror(problem));
-  sockaddr_in address{};
-  std::memcpy(&address, found->ai_addr, sizeof address);
-  freeaddrinfo(found);
-  address.sin_port = htons(port);
-  return address;
+// An address of either family.
+struct Address {
+  sockaddr_storage storage{};
+  socklen_t size = 0;
+  sockaddr* get() { return reinterpret_cast<sockaddr*>(&storage); }
+  const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&storage); }
+  int family() const { return storage.ss_family; }
+};
+
+// The text before and after '%'.
+struct ZonedHost {
+  std::string host, zone;
+};
+ZonedHost split_zone(const std::string& host) {
+  const std::size_t percent = std::min(host.find('%'), host.size());
+  return {host.substr(0, percent), host.substr(std::min(percent + 1, host.size()))};
 }
 
-Sender sender_of(const sockaddr_in& address) {
-  return {ntohl(address.sin_addr.s_addr), ntohs(address.sin_port)};
+// IPv4 comes first: a name such as localhost may have both. `flags`: of getaddrinfo().
+error::Expected<Address> resolve(const std::string& host, std::uint16_t port, int flags = 0) {
+  int problem = 0;
+  for (const int family : {AF_INET, AF_INET6}) {
+    addrinfo hints{};
+    hints.ai_family = family;
+    hints.ai_socktype = SOCK_DGRAM;
+    hints.ai_flags = flags;
+    addrinfo* found = nullptr;
+    const std::string name = family == AF_INET ? split_zone(host).host : host;
+    problem = getaddrinfo(name.c_str(), std::to_string(port).c_str(), &hints, &found);
+    if (problem != 0 || found == nullptr) continue;
+    Address address;
+    std::memcpy(&address.storage, found->ai_addr, found->ai_addrlen);
+    address.size = found->ai_addrlen;
+    freeaddrinfo(found);
+    return address;
+  }
+  return error::fail("--source", "a host by name or address", "'" + host + "': " + gai_strerror(problem));
+}
+
+Sender sender_of(const Address& address) {
+  std::array<char, NI_MAXHOST> host{};
+  std::array<char, NI_MAXSERV> port{};
+  if (getnameinfo(address.get(), address.size, host.data(), host.size(), port.data(), port.size(),
+                  NI_NUMERICHOST | NI_NUMERICSERV) != 0)
+    return {};
+  return {host.data(), text::whole_number<std::uint16_t>(port.data()).value_or(0)};
+}
+
+bool is_multicast(const Address& address) {
+  if (address.family() == AF_INET)
+    return IN_MULTICAST(ntohl(reinterpret_cast<const sockaddr_in*>(&address.storage)->sin_addr.s_addr));
+  return IN6_IS_ADDR_MULTICAST(&reinterpret_cast<const sockaddr_in6*>(&address.storage)->sin6_addr);
+}
+
+// Joins a group on the interface `zone`; an empty one is the system's choice. False: errno has the reason.
+bool join_group(int descriptor, const Address& group, const std::string& zone) {
+  const unsigned interface = zone.empty() ? 0 : if_nametoindex(zone.c_str());
+  if (!zone.empty() && interface == 0) return false;
+  if (group.family() == AF_INET) {
+    ip_mreqn request{};
+    request.imr_multiaddr = reinterpret_cast<const sockaddr_in*>(&group.storage)->sin_addr;
+    request.imr_ifindex = static_cast<int>(interface);
+    return setsockopt(descriptor, IPPROTO_IP, IP_ADD_MEMBERSHIP, &request, sizeof request) == 0;
+  }
+  ipv6_mreq request{};
+  request.ipv6mr_multiaddr = reinterpret_cast<const sockaddr_in6*>(&group.storage)->sin6_addr;
+  request.ipv6mr_interface = interface;
+  return setsockopt(descriptor, IPPROTO_IPV6, IPV6_JOIN_GROUP, &request, sizeof request) == 0;
 }
 
 std::int64_t realtime_ns() {
@@ -56,23 +110,21 @@ std::int64_t realtime_ns() {
 }  // namespace
 
 std::string text_of(const Sender& sender) {
-  std::string text;
-  for (const int shift : {24, 16, 8, 0})
-    text.append(text.empty() ? "" : ".").append(std::to_string(sender.address >> shift & 255U));
-  return text + ':' + std::to_string(sender.port);
+  const bool is_ipv6 = sender.address.find(':') != std::string::npos;
+  return (is_ipv6 ? '[' + sender.address + ']' : sender.address) + ':' + std::to_string(sender.port);
 }
 
 struct UdpSocket::State {
   int descriptor = -1;
   Sender endpoint;
   bool one_host = false;  // only datagrams from the peer's address are delivered
-  sockaddr_in peer{};
+  Address peer;
   std::uint32_t kernel_drops = 0;  // last value of the kernel's drop counter, which wraps at 2^32
   std::uint64_t dropped = 0;
 
   struct Slot {
     std::array<std::byte, kMaxDatagram_bytes> bytes;
-    sockaddr_in from;
+    Address from;
     iovec span;
     alignas(cmsghdr) std::array<std::byte, 128> control;
   };
@@ -86,8 +138,8 @@ struct UdpSocket::State {
     if (descriptor >= 0) close(descriptor);
   }
 
-  error::Expected<void> open() {
-    descriptor = socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  error::Expected<void> open(int family) {
+    descriptor = socket(family, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
     if (descriptor < 0) return error::fail("UDP", "a socket", std::strerror(errno));
     const int yes = 1;
     // Failures of setsockopt are ignored. Without SO_TIMESTAMPNS the arrival time is the time of the read; without
@@ -105,8 +157,8 @@ struct UdpSocket::State {
       slot.span = {slot.bytes.data(), slot.bytes.size()};
       msghdr& header = headers[i].msg_hdr;
       header = {};
-      header.msg_name = &slot.from;
-      header.msg_namelen = sizeof slot.from;
+      header.msg_name = &slot.from.storage;
+      header.msg_namelen = sizeof slot.from.storage;
       header.msg_iov = &slot.span;
       header.msg_iovlen = 1;
       header.msg_control = slot.control.data();
@@ -144,17 +196,23 @@ error::Expected<UdpSocket> UdpSocket::listen(const std::string& host, std::uint1
   auto address = resolve(host, port);
   if (!address) return tl::unexpected(address.error());
   auto state = std::make_unique<State>();
-  if (auto opened = state->open(); !opened) return tl::unexpected(opened.error());
-  if (bind(state->descriptor, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0) {
-    const std::string subject = "UDP " + text_of(sender_of(*address));
+  if (auto opened = state->open(address->family()); !opened) return tl::unexpected(opened.error());
+  const std::string subject = "UDP " + text_of(sender_of(*address));
+  const bool is_group = is_multicast(*address);
+  const int yes = 1;
+  if (is_group) setsockopt(state->descriptor, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  if (bind(state->descriptor, address->get(), address->size) != 0) {
     if (errno == EADDRINUSE)
       return error::fail(subject, "a free port", "a port on which another program listens",
                          "end that program (ss -ulpn names it), or choose another port in both programs");
     return error::fail(subject, "an address of this machine", std::strerror(errno));
   }
-  sockaddr_in bound{};
-  socklen_t size = sizeof bound;
-  getsockname(state->descriptor, reinterpret_cast<sockaddr*>(&bound), &size);
+  if (is_group && !join_group(state->descriptor, *address, split_zone(host).zone))
+    return error::fail(subject, "a multicast group that can be joined", std::strerror(errno),
+                       "name the network's interface: " + split_zone(host).host + "%eth0 (ip link lists them)");
+  Address bound;
+  bound.size = sizeof bound.storage;
+  getsockname(state->descriptor, bound.get(), &bound.size);
   state->endpoint = sender_of(bound);
   return UdpSocket(std::move(state));
 }
@@ -163,7 +221,7 @@ error::Expected<UdpSocket> UdpSocket::open_to_peer(const std::string& host, std:
   auto address = resolve(host, port);
   if (!address) return tl::unexpected(address.error());
   auto state = std::make_unique<State>();
-  if (auto opened = state->open(); !opened) return tl::unexpected(opened.error());
+  if (auto opened = state->open(address->family()); !opened) return tl::unexpected(opened.error());
   state->peer = *address;
   state->endpoint = sender_of(*address);
   state->one_host = true;
@@ -181,6 +239,7 @@ void UdpSocket::receive(std::size_t max_count, const DatagramHandler& take) {
     for (int i = 0; i < count; ++i) {
       auto& slot = state_->slots[static_cast<std::size_t>(i)];
       auto& header = state_->headers[static_cast<std::size_t>(i)];
+      slot.from.size = header.msg_hdr.msg_namelen;
       const Sender from = sender_of(slot.from);
       const std::int64_t age_ns = state_->read_control(header.msg_hdr, wall_ns);
       if (state_->one_host && from.address != state_->endpoint.address) continue;
@@ -194,12 +253,9 @@ void UdpSocket::receive(std::size_t max_count, const DatagramHandler& take) {
 // Connects the socket to `sender`; the kernel then discards new datagrams of all other senders. sendto() with an
 // address still works.
 void UdpSocket::receive_only_from(const Sender& sender) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(sender.address);
-  address.sin_port = htons(sender.port);
   // If connect() fails, the socket continues to accept all senders.
-  static_cast<void>(connect(state_->descriptor, reinterpret_cast<const sockaddr*>(&address), sizeof address));
+  if (const auto address = resolve(sender.address, sender.port, AI_NUMERICHOST))
+    static_cast<void>(connect(state_->descriptor, address->get(), address->size));
 }
 
 void UdpSocket::receive_from_all() {
@@ -210,7 +266,7 @@ void UdpSocket::receive_from_all() {
 
 bool UdpSocket::send(std::span<const std::byte> datagram) {
   const auto sent = sendto(state_->descriptor, datagram.data(), datagram.size(), MSG_DONTWAIT | MSG_NOSIGNAL,
-                           reinterpret_cast<const sockaddr*>(&state_->peer), sizeof state_->peer);
+                           state_->peer.get(), state_->peer.size);
   return sent == static_cast<ssize_t>(datagram.size());
 }
 

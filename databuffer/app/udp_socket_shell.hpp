@@ -1,4 +1,4 @@
-// Non-blocking UDP socket (IPv4) with arrival times.
+// Non-blocking UDP socket (IPv4 or IPv6) with arrival times.
 // Inputs: datagrams from any sender (listen), or from one host (open_to_peer).
 // Outputs: datagrams in the order of arrival, with sender and arrival time.
 // Units: arrival time [ns] of CLOCK_MONOTONIC, from the kernel's receive stamp, else from the time of the read.
@@ -20,11 +20,13 @@ namespace yars::databuffer {
 // datagram is truncated to this length, which no decoder accepts.
 inline constexpr std::size_t kMaxDatagram_bytes = 16'385;
 
-std::string text_of(const bridges::Sender& sender);  // "127.0.0.1:5500"
+std::string text_of(const bridges::Sender& sender);  // "127.0.0.1:5500", "[::1]:5500"
 
 class UdpSocket {
  public:
-  // Listens on an address of this machine; port 0 picks any free port. A port in use is an error.
+  // Listens on an address of this machine; port 0 picks any free port. A port in use is an error. `host` may be a
+  // multicast group, "GROUP" or "GROUP%INTERFACE", which is joined; several programs of a machine may listen to a
+  // group.
   static error::Expected<UdpSocket> listen(const std::string& host, std::uint16_t port);
   // Makes a socket that sends to one address and receives from that host only.
   static error::Expected<UdpSocket> open_to_peer(const std::string& host, std::uint16_t port);

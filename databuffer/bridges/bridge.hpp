@@ -20,7 +20,7 @@
 namespace yars::databuffer::bridges {
 
 struct Sender {
-  std::uint32_t address = 0;  // IPv4 in host byte order: the first number is the highest byte
+  std::string address;  // IPv4 or IPv6 in numbers, as in 127.0.0.1 or fe80::1%eth0
   std::uint16_t port = 0;
   friend bool operator==(const Sender&, const Sender&) = default;
 };

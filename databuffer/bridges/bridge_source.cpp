@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "databuffer/bridges/flight_simulators.hpp"
 #include "lib/text/plain_text.hpp"
@@ -20,24 +21,70 @@ std::optional<std::string> RefusalNotes::refused(const std::string& reason, geo:
   return unreported == 0 ? reason : reason + " (and " + std::to_string(unreported) + " more refused before)";
 }
 
+DisBridge::DisBridge(const std::optional<EntityId>& aircraft, std::optional<std::uint8_t> exercise, geo::Geoid geoid)
+    : geoid_(std::move(geoid)),
+      exercise_(exercise),
+      exercise_is_configured_(exercise.has_value()),
+      aircraft_(aircraft),
+      configured_(aircraft.has_value()) {
+  tell(geoid_.has_data() ? "altitudes are above mean sea level by the geoid " + geoid_.name()
+                         : "no grid of a geoid is installed (geographiclib-get-geoids egm96-5): heights above the "
+                           "ellipsoid are taken as altitudes above mean sea level, up to 107 m off");
+}
+
 error::Expected<std::optional<ExternalSample>> DisBridge::receive(memory::Bytes datagram, geo::Duration now) {
-  if (is_other_pdu(datagram)) return std::nullopt;
-  const auto state = decode_entity_state(datagram);
+  std::optional<ExternalSample> newest;
+  std::optional<error::Error> fault;
+  for (const memory::Bytes pdu : pdus_of(datagram)) {
+    auto sample = receive_pdu(pdu, now);
+    if (!sample && !fault) fault = sample.error();
+    if (sample && *sample) newest = **std::move(sample);
+  }
+  if (!newest && fault) return tl::unexpected(*std::move(fault));
+  return newest;
+}
+
+// Exercises share networks. PDUs of another one are no fault.
+bool DisBridge::is_of_exercise(const EntityState& state, geo::Duration now) {
+  if (exercise_ && !exercise_is_configured_ && now - exercise_heard_ > kEntityTimeout) {
+    tell("exercise " + std::to_string(*exercise_) + " has been silent for 12 s: the next one heard counts");
+    exercise_.reset();
+    other_exercises_.reset();
+  }
+  if (!exercise_) {
+    exercise_ = state.exercise;
+    tell("exercise " + std::to_string(state.exercise) + ", the first one heard");
+  }
+  if (state.exercise == *exercise_) {
+    exercise_heard_ = now;
+    return true;
+  }
+  if (!other_exercises_[state.exercise])
+    tell("exercise " + std::to_string(state.exercise) +
+         " is heard too and left out; `exercise=" + std::to_string(state.exercise) + "` in --source chooses it");
+  other_exercises_.set(state.exercise);
+  return false;
+}
+
+error::Expected<std::optional<ExternalSample>> DisBridge::receive_pdu(memory::Bytes pdu, geo::Duration now) {
+  if (is_other_pdu(pdu)) return std::nullopt;
+  const auto state = decode_entity_state(pdu, geoid_);
   if (!state) return tl::unexpected(state.error());
+  if (!is_of_exercise(*state, now)) return std::nullopt;
   if (!configured_ && aircraft_ && now - last_report_ > kEntityTimeout) release_aircraft("has been silent for 12 s");
   const bool flies = state->kind == EntityKind::platform && state->domain == EntityDomain::air;
   if (!aircraft_ && flies && !state->deactivated) {
     aircraft_ = state->id;
     order_ = StampOrder(kDisStampPeriod);
     traffic_.forget(state->id);
-    log_message_ = log_message_.value_or("") + (log_message_ ? "; " : "") + "the aircraft is entity " +
-                   text_of(state->id) + ", the first air platform received";
+    tell("the aircraft is entity " + text_of(state->id) + ", the first air platform received");
   }
   if (state->id != aircraft_) {
     if (const auto reason = traffic_.update(*state, now)) return error::fail("dis", "traffic without fault", *reason);
     return std::nullopt;
   }
-  if (const auto reason = order_.order_fault(state->stamp)) return error::fail("dis", "a newer report", *reason);
+  if (const auto reason = state->stamp ? order_.order_fault(*state->stamp) : std::nullopt)
+    return error::fail("dis", "a newer report", *reason);
   last_report_ = now;
   if (state->deactivated) {
     if (!configured_) release_aircraft("was deactivated");
@@ -49,9 +96,13 @@ error::Expected<std::optional<ExternalSample>> DisBridge::receive(memory::Bytes 
   return sample;
 }
 
+void DisBridge::tell(const std::string& news) {
+  log_message_ = log_message_ ? *log_message_ + "; " + news : news;
+}
+
 void DisBridge::release_aircraft(std::string_view why) {
-  log_message_ = "entity " + text_of(*aircraft_) + " " + std::string(why) +
-                 ": the next air platform received becomes the aircraft";
+  tell("entity " + text_of(*aircraft_) + " " + std::string(why) +
+       ": the next air platform received becomes the aircraft");
   aircraft_.reset();
 }
 
@@ -82,9 +133,13 @@ Text parts_of(std::string_view text) {
 
 Expected<BridgeSource> parse_address(const Text& text, std::string_view form, bool requests_data) {
   const std::size_t colon = text.address.rfind(':');
-  const bool has_host = colon != std::string_view::npos;
+  const bool has_host = colon != std::string_view::npos && !text.address.ends_with(']');
   const auto port = text::whole_number<std::uint16_t>(has_host ? text.address.substr(colon + 1) : text.address);
-  const std::string_view host = has_host ? text.address.substr(0, colon) : kDefaultHost;
+  std::string_view host = has_host ? text.address.substr(0, colon) : kDefaultHost;
+  const bool in_brackets = host.starts_with('[') && host.ends_with(']');
+  if (in_brackets) host = host.substr(1, host.size() - 2);
+  if (host.find_first_of("[]") != std::string_view::npos || (!in_brackets && host.find(':') != std::string_view::npos))
+    return bad_usage(std::string(form) + ", an IPv6 address in brackets", text.whole);
   if (!port || host.empty() || (requests_data && (!has_host || *port == 0))) return bad_usage(form, text.whole);
   return BridgeSource{nullptr, std::string(text.kind), std::string(host), *port, requests_data};
 }
@@ -130,20 +185,28 @@ Expected<BridgeSource> open_xplane(const Text& text) {
 }
 
 Expected<BridgeSource> open_dis(const Text& text) {
-  constexpr std::string_view kForm = "dis:[HOST:]PORT[,SITE,APP,ENTITY], each 0 to 65535";
+  constexpr std::string_view kForm =
+      "dis:[HOST:]PORT[,SITE,APP,ENTITY][,exercise=N], each number 0 to 65535, the exercise to 255";
   auto source = parse_address(text, kForm, false);
   if (!source) return source;
+  auto fields = text.rest.empty() ? std::vector<std::string_view>() : text::fields_of(text.rest, ',');
+  std::optional<std::uint8_t> exercise;
+  constexpr std::string_view kExercise = "exercise=";
+  if (!fields.empty() && fields.back().starts_with(kExercise)) {
+    exercise = text::whole_number<std::uint8_t>(fields.back().substr(kExercise.size()));
+    if (!exercise) return bad_usage(kForm, text.whole);
+    fields.pop_back();
+  }
   std::optional<EntityId> aircraft;
-  if (!text.rest.empty()) {
-    const auto numbers = text::fields_of(text.rest, ',');
-    if (numbers.size() != 3) return bad_usage(kForm, text.whole);
-    const auto site = text::whole_number<std::uint16_t>(numbers[0]),
-               application = text::whole_number<std::uint16_t>(numbers[1]),
-               entity = text::whole_number<std::uint16_t>(numbers[2]);
+  if (!fields.empty()) {
+    if (fields.size() != 3) return bad_usage(kForm, text.whole);
+    const auto site = text::whole_number<std::uint16_t>(fields[0]),
+               application = text::whole_number<std::uint16_t>(fields[1]),
+               entity = text::whole_number<std::uint16_t>(fields[2]);
     if (!site || !application || !entity) return bad_usage(kForm, text.whole);
     aircraft = EntityId{*site, *application, *entity};
   }
-  source->bridge = std::make_unique<DisBridge>(aircraft);
+  source->bridge = std::make_unique<DisBridge>(aircraft, exercise, geo::Geoid());
   return source;
 }
 

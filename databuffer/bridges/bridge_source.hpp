@@ -5,6 +5,7 @@
 // Source: docs/spec/formats.md#flight-models, docs/attach.md.
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <string_view>
 
 #include "databuffer/bridges/bridge.hpp"
+#include "lib/geo/geodesy.hpp"
 #include "lib/geo/quantity.hpp"
 
 namespace yars::databuffer::bridges {
@@ -32,13 +34,15 @@ class RefusalNotes {
   std::optional<geo::Duration> written_;
 };
 
-// Aircraft and traffic of a DIS exercise. One entity is the aircraft, and all others are traffic. The aircraft is
-// the configured entity. Without a configured entity it is the first air platform received. If that platform is
-// deactivated or silent for kEntityTimeout, the next air platform received becomes the aircraft.
+// Aircraft and traffic of one DIS exercise: the configured one, or the first that is heard, until that has been silent
+// for kEntityTimeout. One entity is the aircraft, and all others are traffic. The aircraft is the configured entity.
+// Without a configured entity it is the first air platform received. If that platform is deactivated or silent for
+// kEntityTimeout, the next air platform received becomes the aircraft.
 class DisBridge final : public Bridge {
  public:
-  explicit DisBridge(const std::optional<EntityId>& aircraft) : aircraft_(aircraft), configured_(aircraft) {}
+  DisBridge(const std::optional<EntityId>& aircraft, std::optional<std::uint8_t> exercise, geo::Geoid geoid);
 
+  // The newest sample of the aircraft in the datagram. Without one the first fault of its PDUs, if there is one.
   error::Expected<std::optional<ExternalSample>> receive(memory::Bytes datagram, geo::Duration now) override;
   bool has_traffic() const override { return true; }
   std::vector<TrackedEntity> traffic(geo::Duration now) const override { return traffic_.at(now); }
@@ -48,8 +52,16 @@ class DisBridge final : public Bridge {
   bool allows_many_senders() const override { return true; }
 
  private:
+  error::Expected<std::optional<ExternalSample>> receive_pdu(memory::Bytes pdu, geo::Duration now);
+  bool is_of_exercise(const EntityState& state, geo::Duration now);
   void release_aircraft(std::string_view why);
+  void tell(const std::string& news);
 
+  geo::Geoid geoid_;
+  std::optional<std::uint8_t> exercise_;
+  bool exercise_is_configured_;
+  geo::Duration exercise_heard_;      // last report of the exercise
+  std::bitset<256> other_exercises_;  // that the log has named
   std::optional<EntityId> aircraft_;
   bool configured_;            // true: the user configured aircraft_, so no other entity becomes the aircraft
   geo::Duration last_report_;  // last report of the aircraft
@@ -60,10 +72,11 @@ class DisBridge final : public Bridge {
 
 // Result of parsing `--source`:
 //   flightgear:[HOST:]PORT        jsbsim:[HOST:]PORT[,COLUMN,COLUMN...]
-//   xplane:HOST:PORT              dis:[HOST:]PORT[,SITE,APP,ENTITY]
-// HOST is the local address to listen on. The default 127.0.0.1 excludes other machines; 0.0.0.0 accepts all. With
-// xplane, HOST is the machine that runs X-Plane. PORT is 1 to 65535, or 0 for any free port when listening.
-// COLUMNs are named as in JSBSim's label line.
+//   xplane:HOST:PORT              dis:[HOST:]PORT[,SITE,APP,ENTITY][,exercise=N]
+// HOST is the local address to listen on: a name, an IPv4 address, or an IPv6 address in brackets. The default
+// 127.0.0.1 excludes other machines; 0.0.0.0 and [::] accept all. A multicast group, as 239.1.2.3 or 239.1.2.3%eth0, is
+// joined. With xplane, HOST is the machine that runs X-Plane. PORT is 1 to 65535, or 0 for any free port when
+// listening. COLUMNs are named as in JSBSim's label line.
 struct BridgeSource {
   std::unique_ptr<Bridge> bridge;
   std::string name;  // KIND, such as "jsbsim"

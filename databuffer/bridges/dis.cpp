@@ -18,7 +18,7 @@ namespace {
 using geo::Vector3;
 
 // Offsets of the fields [bytes].
-constexpr std::size_t kVersion = 0, kType = 2, kStamp = 4, kLength = 8;
+constexpr std::size_t kVersion = 0, kExercise = 1, kType = 2, kStamp = 4, kLength = 8;
 constexpr std::size_t kSite = 12, kApplication = 14, kEntity = 16, kParameters = 19, kKind = 20, kDomain = 21;
 constexpr std::size_t kVelocity = 36, kLocation = 48, kOrientation = 72, kAppearance = 84, kAlgorithm = 88;
 constexpr std::size_t kAcceleration = 104, kBodyRates = 116;
@@ -122,7 +122,7 @@ LocalAttitude attitude_in(const geo::LocalTangentFrame& local, const BodyAxes& a
           std::atan2(-right_up, -down_up) / geo::kRadiansPerDegree};
 }
 
-error::Expected<ExternalSample> sample_of(memory::Bytes packet, const Motion& motion) {
+error::Expected<ExternalSample> sample_of(memory::Bytes packet, const Motion& motion, const geo::Geoid& geoid) {
   const auto position = geo::geodetic_from_ecef(motion.location);
   const geo::LocalTangentFrame local(position.point, position.height);
   const BodyAxes axes = axes_of(motion.orientation);
@@ -140,7 +140,7 @@ error::Expected<ExternalSample> sample_of(memory::Bytes packet, const Motion& mo
   const Vector3 velocity = ned_from_reported(motion.velocity);
   const Reading reading{position.point.latitude_deg,
                         position.point.longitude_deg,
-                        position.height.metres(),
+                        geoid.altitude(position.point, position.height).metres(),
                         attitude.heading_deg,
                         attitude.pitch_deg,
                         attitude.roll_deg,
@@ -159,7 +159,8 @@ error::Expected<ExternalSample> sample_of(memory::Bytes packet, const Motion& mo
   }
   Vector3 acceleration;
   if (algorithm.accelerates) acceleration = ned_from_reported(floats_at(packet, kAcceleration));
-  auto sample = checked_sample("dis", reading, rates, acceleration);
+  const std::string source = "dis/" + (geoid.has_data() ? geoid.name() : std::string("ellipsoid"));
+  auto sample = checked_sample(source, reading, rates, acceleration);
   if (sample && algorithm.turns()) sample->turn_radps = ned_from_body(floats_at(packet, kBodyRates));
   return sample;
 }
@@ -178,19 +179,35 @@ bool is_other_pdu(memory::Bytes packet) {
          memory::big_endian<std::uint16_t>(packet, kLength) == packet.size();
 }
 
-error::Expected<EntityState> decode_entity_state(memory::Bytes packet) {
+std::vector<memory::Bytes> pdus_of(memory::Bytes datagram) {
+  std::vector<memory::Bytes> pdus;
+  while (datagram.size() >= kHeaderBytes) {
+    const std::size_t length = memory::big_endian<std::uint16_t>(datagram, kLength);
+    if (length < kHeaderBytes || length > datagram.size()) break;
+    pdus.push_back(datagram.first(length));
+    datagram = datagram.subspan(length);
+  }
+  constexpr std::size_t kAlignment = 8;  // [bytes] to which senders of bundles may pad
+  const bool is_padding = datagram.size() < kAlignment &&
+                          std::ranges::all_of(datagram, [](std::byte byte) { return byte == std::byte{0}; });
+  if (pdus.empty() || !is_padding) pdus.push_back(datagram);
+  return pdus;
+}
+
+error::Expected<EntityState> decode_entity_state(memory::Bytes packet, const geo::Geoid& geoid) {
   if (auto fault = fault_of(packet)) return tl::unexpected(std::move(*fault));
   const auto motion = motion_of(packet);
   if (!motion) return tl::unexpected(motion.error());
-  auto sample = sample_of(packet, *motion);
+  auto sample = sample_of(packet, *motion, geoid);
   if (!sample) return tl::unexpected(sample.error());
   EntityState state;
+  state.exercise = memory::big_endian<std::uint8_t>(packet, kExercise);
   state.id = {memory::big_endian<std::uint16_t>(packet, kSite), memory::big_endian<std::uint16_t>(packet, kApplication),
               memory::big_endian<std::uint16_t>(packet, kEntity)};
   state.kind = static_cast<EntityKind>(memory::big_endian<std::uint8_t>(packet, kKind));
   state.domain = static_cast<EntityDomain>(memory::big_endian<std::uint8_t>(packet, kDomain));
-  state.stamp = geo::Duration::seconds(static_cast<double>(memory::big_endian<std::uint32_t>(packet, kStamp) >> 1U) *
-                                       kStampUnit_s);
+  if (const auto stamp = memory::big_endian<std::uint32_t>(packet, kStamp) >> 1U; stamp != 0)
+    state.stamp = geo::Duration::seconds(static_cast<double>(stamp) * kStampUnit_s);
   const auto appearance = memory::big_endian<std::uint32_t>(packet, kAppearance);
   state.frozen = (appearance & kFrozenBit) != 0U;
   state.deactivated = (appearance & kDeactivatedBit) != 0U;
@@ -215,7 +232,7 @@ std::optional<std::string> EntityTable::update(const EntityState& state, geo::Du
     found = entries_.try_emplace(state.id).first;
   }
   Entry& entry = found->second;
-  if (const auto reason = entry.order.order_fault(state.stamp))
+  if (const auto reason = state.stamp ? entry.order.order_fault(*state.stamp) : std::nullopt)
     return "no newer report of entity " + text_of(state.id) + ": " + *reason;
   if (state.deactivated) {
     entries_.erase(found);

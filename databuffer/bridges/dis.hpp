@@ -1,13 +1,13 @@
 // Entity State PDUs (protocol data units) of a DIS exercise (Distributed Interactive Simulation): decoder, table of
 // entities, and surface traffic.
-// Inputs: datagrams of IEEE 1278.1 (1995, 1998, 2012) of any exercise, big-endian; 144 bytes, and 16 bytes for each
-// articulation parameter.
+// Inputs: datagrams of IEEE 1278.1 (1995, 1998, 2012), big-endian, of one PDU or several behind each other; 144 bytes,
+// and 16 bytes for each articulation parameter.
 // Outputs: position, attitude and velocity by entity, dead reckoned (extrapolated); a Traffic record.
 // Frame: location is ECEF (Earth-centred, Earth-fixed) [m]. Orientation is three successive turns from the ECEF to the
 // body axes: psi about z, theta about y, phi about x [rad]. Velocity [m/s] is in ECEF axes, or in body axes for dead
 // reckoning algorithms 6 to 9.
-// Accuracy: height above the ellipsoid is used as altitude above mean sea level (docs/conventions.md). The height of
-// mean sea level above the ellipsoid, -107 m to +86 m, is neglected.
+// Accuracy: a location has a height above the ellipsoid. With the grid of a geoid it becomes an altitude above mean sea
+// level; without one it is taken as such, -107 m to +86 m off (docs/conventions.md).
 // Errors: a malformed PDU, or a value out of range, is refused with a reason.
 // Source: docs/spec/formats.md#dis.
 #pragma once
@@ -43,17 +43,25 @@ enum class EntityDomain : std::uint8_t { other = 0, land = 1, air = 2, surface =
 inline constexpr geo::Duration kDisStampPeriod = geo::Duration::seconds(3600.0);
 
 struct EntityState {
+  std::uint8_t exercise = 0;
   EntityId id;
   EntityKind kind = EntityKind::other;
   EntityDomain domain = EntityDomain::other;
-  geo::Duration stamp;       // [0, kDisStampPeriod): time past the hour, or since the sender's start
+  // [0, kDisStampPeriod): time past the hour, or since the sender's start; nullopt: the sender states none (0), and the
+  // order of arrival counts.
+  std::optional<geo::Duration> stamp;
   bool frozen = false;       // the entity does not move until a PDU without this flag
   bool deactivated = false;  // the entity has left the exercise
   ExternalSample sample;     // rates and acceleration are zero unless the dead reckoning algorithm uses them
 };
 
-// Decodes one PDU. The length field must equal the length of the datagram.
-error::Expected<EntityState> decode_entity_state(memory::Bytes packet);
+// The PDUs of a datagram by their length fields. What is left at its end and is no PDU is the last element, which no
+// decoder accepts; fewer than 8 zero bytes are padding.
+std::vector<memory::Bytes> pdus_of(memory::Bytes datagram);
+
+// Decodes one PDU. The length field must equal the length of the packet. The source of the sample is "dis/" and the
+// name of the geoid, or "dis/ellipsoid" without its data.
+error::Expected<EntityState> decode_entity_state(memory::Bytes packet, const geo::Geoid& geoid);
 
 // True for a well-formed PDU of a type other than Entity State, which is ignored without a refusal.
 bool is_other_pdu(memory::Bytes packet);

@@ -3,6 +3,7 @@
 #include <GeographicLib/Constants.hpp>
 #include <GeographicLib/Geodesic.hpp>
 #include <GeographicLib/GeodesicLine.hpp>
+#include <GeographicLib/Geoid.hpp>
 #include <GeographicLib/MagneticModel.hpp>
 #include <algorithm>
 #include <cmath>
@@ -294,6 +295,33 @@ double MagneticField::variation_deg(GeoPoint point, HeightAboveEllipsoid height,
   field(std::clamp(year, field.MinTime(), field.MaxTime()), point.latitude_deg, point.longitude_deg, height.metres(),
         east, north, up);
   return std::atan2(east, north) / kRadiansPerDegree;
+}
+
+struct Geoid::Grid {
+  Grid(const std::string& name, const std::string& folder) : heights(name, folder, true, true) {}
+  GeographicLib::Geoid heights;  // in memory as a whole
+};
+
+Geoid::Geoid(const std::string& folder) {
+  for (const char* name : {"egm2008-5", "egm96-5", "egm96-15"}) {
+    try {
+      grid_ = std::make_unique<Grid>(name, folder);
+      name_ = name;
+      return;
+    } catch (const std::exception& problem) {
+      // GeographicLib throws when the file of a grid is missing or damaged.
+      if (problem_.empty()) problem_ = problem.what();
+    }
+  }
+}
+
+Geoid::Geoid(Geoid&&) noexcept = default;
+Geoid& Geoid::operator=(Geoid&&) noexcept = default;
+Geoid::~Geoid() = default;
+
+AltitudeMsl Geoid::altitude(GeoPoint point, HeightAboveEllipsoid height) const {
+  const double geoid_m = grid_ ? grid_->heights(point.latitude_deg, point.longitude_deg) : 0.0;
+  return AltitudeMsl::metres(height.metres() - geoid_m);
 }
 
 }  // namespace yars::geo

@@ -1,4 +1,4 @@
-// Geodesy on WGS84: geodesics, azimuthal equidistant projection, magnetic variation.
+// Geodesy on WGS84: geodesics, azimuthal equidistant projection, magnetic variation, height of mean sea level.
 // Inputs: latitude and longitude in degrees; azimuths, distances and heights as types of quantity.hpp.
 // Outputs: positions, distances, azimuths; plane points in metres; magnetic variation in degrees.
 // Frame: transforms are named target-from-source; docs/conventions.md fixes axes, zeros and signs.
@@ -147,6 +147,30 @@ class MagneticField {
   struct Model;
   std::unique_ptr<Model> model_;
   std::string problem_;
+};
+
+// Height of mean sea level above the ellipsoid by a grid of a geoid, such as EGM96 or EGM2008. The grid must be
+// installed. Debian packages only the program that downloads grids, geographiclib-get-geoids.
+class Geoid {
+ public:
+  // The first installed grid of EGM2008 and then EGM96, of 5 minutes of arc or the next coarser one; its memory is at
+  // most 20 MB. An empty `folder` selects GeographicLib's folder of geoids. Without a usable grid has_data() is false
+  // and problem() has the reason.
+  explicit Geoid(const std::string& folder = {});
+  Geoid(Geoid&&) noexcept;
+  Geoid& operator=(Geoid&&) noexcept;
+  ~Geoid();
+
+  bool has_data() const { return grid_ != nullptr; }
+  const std::string& problem() const { return problem_; }
+  const std::string& name() const { return name_; }  // such as "egm96-5"; empty without data
+  // Without data the height above the ellipsoid is taken as the altitude: -107 m to +86 m off.
+  AltitudeMsl altitude(GeoPoint point, HeightAboveEllipsoid height) const;
+
+ private:
+  struct Grid;
+  std::unique_ptr<Grid> grid_;
+  std::string name_, problem_;
 };
 
 }  // namespace yars::geo

@@ -8,7 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   using namespace yars::databuffer;
   using namespace yars::databuffer::bridges;
   const auto bytes = std::as_bytes(std::span(data, size));
-  DisBridge bridge(std::nullopt);
+  DisBridge bridge(std::nullopt, std::nullopt, yars::geo::Geoid("/nowhere"));
   const auto take = [&bridge](std::span<const std::byte> datagram) {
     const auto sample = bridge.receive(datagram, yars::geo::Duration::seconds(1.0));
     if (sample && *sample) fly_on(**sample);

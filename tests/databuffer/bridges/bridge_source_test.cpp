@@ -40,6 +40,26 @@ TEST(BridgeSource, ADisAddressMayNameTheEntity) {
     EXPECT_FALSE(open_bridge(text)) << text;
 }
 
+TEST(BridgeSource, ADisAddressMayNameTheExercise) {
+  for (const char* text : {"dis:3000,exercise=0", "dis:3000,1,2,3,exercise=255", "dis:239.1.2.3:3000,exercise=7"})
+    EXPECT_TRUE(open_bridge(text)) << text;
+  for (const char* text :
+       {"dis:3000,exercise=256", "dis:3000,exercise=", "dis:3000,exercise=-1", "dis:3000,exercise=1,1,2,3"})
+    EXPECT_FALSE(open_bridge(text)) << text;
+}
+
+TEST(BridgeSource, AHostMayBeAnIpv6AddressOrAGroup) {
+  for (const auto& [text, host] :
+       {std::pair{"dis:[::1]:3000", "::1"}, std::pair{"dis:[ff02::1%eth0]:3000,1,2,3", "ff02::1%eth0"},
+        std::pair{"flightgear:[::]:0", "::"}, std::pair{"dis:239.1.2.3%lo:3000", "239.1.2.3%lo"}}) {
+    const auto source = open_bridge(text);
+    ASSERT_TRUE(source) << source.error().message();
+    EXPECT_EQ(source->host, host);
+  }
+  for (const char* text : {"dis:::1:3000", "dis:[::1]", "dis:[::1:3000", "dis:[]:3000", "dis:[[::1]]:3000"})
+    EXPECT_FALSE(open_bridge(text)) << text;
+}
+
 TEST(BridgeSource, AJsbsimAddressMayNameTheColumns) {
   EXPECT_TRUE(open_bridge(
       "jsbsim:1138,Time,lat-geod-deg,long-gc-deg,h-sl-ft,phi-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,v-down-fps"));
@@ -68,7 +88,7 @@ TEST(BridgeSource, OnlyExternalProgramsAreBridges) {
 
 TEST(SenderGate, ASecondSenderIsAdmittedAfterHalfASecondOfSilence) {
   SenderGate gate;
-  const Sender first{0x7f000001, 1000}, second{0x7f000001, 1001};
+  const Sender first{"127.0.0.1", 1000}, second{"127.0.0.1", 1001};
   EXPECT_TRUE(gate.admits(second, seconds(0)));
   EXPECT_TRUE(gate.taken(first, seconds(0)));
   EXPECT_FALSE(gate.taken(first, seconds(0.1)));

@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 constexpr geo::Duration kNow = geo::Duration::seconds(50.0);
 
 std::string dis_refusal(const PacketBytes& packet) {
-  const auto state = decode_entity_state(packet);
+  const auto state = decode_entity_state(packet, no_geoid());
   return state ? "accepted" : state.error().message();
 }
 
@@ -40,7 +40,7 @@ TEST(Dis, AnAirPlatformDecodesToItsFlight) {
   EXPECT_EQ(state.domain, EntityDomain::air);
   EXPECT_NEAR(state.stamp.seconds(), 100.0, 1e-5);
   expect_the_flight(state.sample.ownship);
-  EXPECT_STREQ(state.sample.ownship.source, "dis");
+  EXPECT_STREQ(state.sample.ownship.source, "dis/ellipsoid");
 }
 
 TEST(Dis, VelocityInBodyAxesIsRotatedToNorthEastDown) {
@@ -75,7 +75,7 @@ TEST(Dis, BodyAxesAlgorithmsSelectAccelerationAndTurn) {
     PacketBytes packet = with(packet_of("dis/air_body_axes.bin"), 88, algorithm);
     put(packet, 104, 5.0F, std::endian::big);
     put(packet, 116, 0.1F, std::endian::big);  // roll rate [rad/s]: about the forward axis
-    const auto state = decode_entity_state(packet);
+    const auto state = decode_entity_state(packet, no_geoid());
     ASSERT_TRUE(state) << state.error().message();
     expect_the_flight(state->sample.ownship);
     const geo::Vector3 acceleration = (algorithm >= 8 ? 5.0 : 0.0) * forward;
@@ -121,9 +121,10 @@ TEST(Dis, InvalidNumbersAndPositionsAreRefused) {
 }
 
 TEST(DisBridge, TheFirstAirPlatformIsTheAircraftAndIsLogged) {
-  DisBridge bridge(std::nullopt);
+  DisBridge bridge(std::nullopt, std::nullopt, no_geoid());
+  EXPECT_THAT(bridge.take_log_message().value_or(""), HasSubstr("no grid of a geoid"));
   EXPECT_FALSE(*bridge.receive(packet_of("dis/ship.bin"), kNow));
-  EXPECT_FALSE(bridge.take_log_message());
+  EXPECT_THAT(bridge.take_log_message().value_or(""), HasSubstr("exercise 1, the first one heard"));
   const auto sample = bridge.receive(packet_of("dis/air.bin"), kNow);
   ASSERT_TRUE(sample && *sample);
   expect_the_flight((*sample)->ownship);
@@ -134,7 +135,7 @@ TEST(DisBridge, TheFirstAirPlatformIsTheAircraftAndIsLogged) {
 // Without an acceleration ExternalFlight would estimate one from the report before the freeze, and the aircraft would
 // drift backwards.
 TEST(DisBridge, AFrozenAircraftHasNeitherVelocityNorAcceleration) {
-  DisBridge bridge(std::nullopt);
+  DisBridge bridge(std::nullopt, std::nullopt, no_geoid());
   constexpr std::uint32_t kFrozen = 1U << 21U;
   const auto sample = bridge.receive(with(packet_of("dis/air.bin"), 84, kFrozen), kNow);
   ASSERT_TRUE(sample && *sample);
@@ -144,7 +145,7 @@ TEST(DisBridge, AFrozenAircraftHasNeitherVelocityNorAcceleration) {
 }
 
 TEST(DisBridge, OnlyTheConfiguredEntityIsTheAircraft) {
-  DisBridge bridge(EntityId{1, 2, 10});
+  DisBridge bridge(EntityId{1, 2, 10}, std::nullopt, no_geoid());
   EXPECT_FALSE(*bridge.receive(packet_of("dis/air.bin"), kNow));
   EXPECT_TRUE(*bridge.receive(packet_of("dis/truck.bin"), kNow));
   ASSERT_EQ(bridge.traffic(kNow).size(), 1U);
@@ -152,7 +153,7 @@ TEST(DisBridge, OnlyTheConfiguredEntityIsTheAircraft) {
 }
 
 TEST(DisBridge, OtherEntitiesAreTrafficWithTheirDomain) {
-  DisBridge bridge(std::nullopt);
+  DisBridge bridge(std::nullopt, std::nullopt, no_geoid());
   for (const char* name : {"dis/air.bin", "dis/ship.bin", "dis/truck.bin"})
     ASSERT_TRUE(bridge.receive(packet_of(name), kNow)) << name;
   const auto traffic = bridge.traffic(kNow);
@@ -163,7 +164,7 @@ TEST(DisBridge, OtherEntitiesAreTrafficWithTheirDomain) {
 }
 
 TEST(DisBridge, OtherPdusAreIgnoredWithoutAnError) {
-  DisBridge bridge(std::nullopt);
+  DisBridge bridge(std::nullopt, std::nullopt, no_geoid());
   PacketBytes fire(96);
   put<std::uint8_t>(fire, 0, 6, std::endian::big);
   put<std::uint8_t>(fire, 2, 2, std::endian::big);
@@ -174,7 +175,7 @@ TEST(DisBridge, OtherPdusAreIgnoredWithoutAnError) {
 }
 
 TEST(DisBridge, RepeatedAndOlderReportsAreRefused) {
-  DisBridge bridge(std::nullopt);
+  DisBridge bridge(std::nullopt, std::nullopt, no_geoid());
   EXPECT_TRUE(*bridge.receive(packet_of("dis/air_version_7.bin"), kNow));
   EXPECT_FALSE(bridge.receive(packet_of("dis/air_version_7.bin"), kNow)) << "the same again";
   EXPECT_FALSE(bridge.receive(packet_of("dis/air.bin"), kNow)) << "a second older";
@@ -198,7 +199,7 @@ bool flies(DisBridge& bridge, const PacketBytes& packet, geo::Duration now) {
 }
 
 TEST(DisBridge, ADeactivatedAircraftIsReplacedByTheNextAirPlatform) {
-  DisBridge bridge(std::nullopt);
+  DisBridge bridge(std::nullopt, std::nullopt, no_geoid());
   EXPECT_TRUE(flies(bridge, report_of(7, 1000), kNow));
   EXPECT_FALSE(flies(bridge, report_of(8, 1000), kNow)) << "traffic, while entity 7 is the aircraft";
   bridge.take_log_message();
@@ -210,7 +211,7 @@ TEST(DisBridge, ADeactivatedAircraftIsReplacedByTheNextAirPlatform) {
 }
 
 TEST(DisBridge, AnAircraftSilentForTwelveSecondsIsReplaced) {
-  DisBridge bridge(std::nullopt);
+  DisBridge bridge(std::nullopt, std::nullopt, no_geoid());
   EXPECT_TRUE(flies(bridge, report_of(7, 1000), kNow));
   const auto later = kNow + geo::Duration::seconds(11.0);
   EXPECT_FALSE(flies(bridge, report_of(8, 1000), later));
@@ -220,12 +221,72 @@ TEST(DisBridge, AnAircraftSilentForTwelveSecondsIsReplaced) {
 }
 
 TEST(DisBridge, TheConfiguredAircraftIsNotReplaced) {
-  DisBridge bridge(EntityId{1, 2, 7});
+  DisBridge bridge(EntityId{1, 2, 7}, std::nullopt, no_geoid());
   EXPECT_TRUE(flies(bridge, report_of(7, 1000), kNow));
   EXPECT_FALSE(flies(bridge, report_of(7, 2000, true), kNow));
   const auto later = kNow + geo::Duration::seconds(100.0);
   EXPECT_FALSE(flies(bridge, report_of(8, 1000), later));
   EXPECT_TRUE(flies(bridge, report_of(7, 90'000'000), later));
+}
+
+PacketBytes joined(const std::vector<PacketBytes>& parts) {
+  PacketBytes all;
+  for (const PacketBytes& part : parts) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+TEST(DisBridge, ADatagramMayHaveSeveralPdus) {
+  for (const std::size_t padding : {0U, 4U}) {
+    DisBridge bridge(std::nullopt, std::nullopt, no_geoid());
+    const auto sample = bridge.receive(joined({packet_of("dis/ship.bin"), packet_of("dis/air_articulated.bin"),
+                                               packet_of("dis/truck.bin"), PacketBytes(padding)}),
+                                       kNow);
+    ASSERT_TRUE(sample) << sample.error().message();
+    EXPECT_TRUE(*sample);
+    EXPECT_EQ(bridge.traffic(kNow).size(), 2U);
+  }
+}
+
+TEST(DisBridge, OfADamagedBundleTheWholePdusCount) {
+  DisBridge bridge(std::nullopt, std::nullopt, no_geoid());
+  PacketBytes cut = packet_of("dis/truck.bin");
+  cut.resize(100);
+  const auto sample = bridge.receive(joined({packet_of("dis/air.bin"), cut}), kNow);
+  ASSERT_TRUE(sample);
+  EXPECT_TRUE(*sample);
+  const auto fault = bridge.receive(joined({packet_of("dis/ship.bin"), cut}), kNow);
+  EXPECT_FALSE(fault) << "without the aircraft the fault is told";
+  EXPECT_EQ(bridge.traffic(kNow).size(), 1U);
+}
+
+TEST(DisBridge, OfSeveralExercisesTheFirstOneHeardCounts) {
+  DisBridge bridge(std::nullopt, std::nullopt, no_geoid());
+  EXPECT_TRUE(flies(bridge, report_of(7, 1000), kNow));
+  bridge.take_log_message();
+  for (const std::uint32_t stamp : {1000U, 2000U})
+    EXPECT_FALSE(flies(bridge, with<std::uint8_t>(report_of(8, stamp), 1, 9), kNow));
+  EXPECT_TRUE(bridge.traffic(kNow).empty());
+  const std::string told = bridge.take_log_message().value_or("");
+  EXPECT_THAT(told, HasSubstr("exercise 9 is heard too and left out"));
+  EXPECT_EQ(told.find("heard too"), told.rfind("heard too")) << "told once";
+  const auto later = kNow + geo::Duration::seconds(12.5);
+  EXPECT_TRUE(flies(bridge, with<std::uint8_t>(report_of(8, 3000), 1, 9), later)) << "the first exercise has ended";
+}
+
+TEST(DisBridge, AConfiguredExerciseStays) {
+  DisBridge bridge(std::nullopt, 9, no_geoid());
+  EXPECT_FALSE(flies(bridge, report_of(7, 1000), kNow));
+  EXPECT_TRUE(flies(bridge, with<std::uint8_t>(report_of(8, 1000), 1, 9), kNow));
+  EXPECT_FALSE(flies(bridge, report_of(7, 2000), kNow + geo::Duration::seconds(100.0)));
+}
+
+TEST(DisBridge, AStampOfZeroIsNone) {
+  DisBridge bridge(std::nullopt, std::nullopt, no_geoid());
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(flies(bridge, report_of(7, 0), kNow));
+    EXPECT_FALSE(flies(bridge, report_of(8, 0), kNow));
+  }
+  EXPECT_EQ(bridge.traffic(kNow).size(), 1U);
 }
 
 }  // namespace

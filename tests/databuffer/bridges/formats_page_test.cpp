@@ -138,7 +138,7 @@ TEST(FormatsPage, APduByTheTableOfDisDecodes) {
                                     std::pair{"rate z", 0.0}})
     packet.set(name, value);
   EXPECT_TRUE(packet.is_complete());
-  const auto state = decode_entity_state(packet.bytes());
+  const auto state = decode_entity_state(packet.bytes(), no_geoid());
   ASSERT_TRUE(state) << state.error().message();
   EXPECT_EQ(text_of(state->id), "1,2,3");
   EXPECT_EQ(state->kind, EntityKind::platform);

@@ -152,8 +152,8 @@ TEST(Jsbsim, BrokenLinesAreRefusedWithTheReason) {
 
 // Labels apply to their sender alone. Those of the other sender have latitude and roll (phi) swapped.
 TEST(Jsbsim, LabelsApplyOnlyToTheirSender) {
-  const Sender jsbsim{0x7f000001, 5000};
-  const Sender other_sender{0x7f000001, 6000};
+  const Sender jsbsim{"127.0.0.1", 5000};
+  const Sender other_sender{"127.0.0.1", 6000};
   JsbsimBridge bridge;
   bridge.set_sender(jsbsim);
   sample_from(bridge, kLabels);
@@ -169,19 +169,19 @@ TEST(Jsbsim, LabelsApplyOnlyToTheirSender) {
   ASSERT_TRUE(after);
   EXPECT_NEAR(after->ownship.latitude_deg, before->ownship.latitude_deg, 0.01);
   EXPECT_NEAR(after->ownship.roll_deg, before->ownship.roll_deg, 5.0);
-  bridge.set_sender({0x7f000001, 7000});
+  bridge.set_sender({"127.0.0.1", 7000});
   EXPECT_THAT(refusal_from(bridge, lines[3]), HasSubstr("labels first")) << "a third sender has no labels";
 }
 
 TEST(Jsbsim, AFloodOfSendersWithLabelsDoesNotDisplaceTheFlyingSender) {
-  const Sender jsbsim{0x7f000001, 5000};
+  const Sender jsbsim{"127.0.0.1", 5000};
   JsbsimBridge bridge;
   bridge.set_sender(jsbsim);
   sample_from(bridge, kLabels);
   const auto lines = lines_of(text_of_packet("jsbsim/flight.txt"));
   ASSERT_TRUE(sample_from(bridge, lines[1]));
   for (std::uint16_t port = 6000; port < 6100; ++port) {
-    bridge.set_sender({0x7f000001, port});
+    bridge.set_sender({"127.0.0.1", port});
     sample_from(bridge, kLabels);
   }
   bridge.set_sender(jsbsim);

@@ -36,9 +36,14 @@ inline PacketBytes packet_of(const std::string& name) {
   return bytes_of(text_of_packet(name));
 }
 
+// Heights above the ellipsoid are then taken as altitudes.
+inline geo::Geoid no_geoid() {
+  return geo::Geoid("/nowhere");
+}
+
 // The entity that a DIS packet reports.
 inline EntityState state_of(const std::string& name) {
-  return decode_entity_state(packet_of(name)).value();
+  return decode_entity_state(packet_of(name), no_geoid()).value();
 }
 
 inline geo::Duration seconds(double value) {
