@@ -196,18 +196,20 @@ void add_cultures(DirectoryIndex& index, file::FolderNames& names) {
 }
 
 // A sentence about an elevation file in a form that is not read from a folder.
-std::string unread_form(const std::filesystem::path& path) {
+std::string unread_form(const std::filesystem::path& path, ElevationKind kind) {
   return error::Error{path.string(), "DTED, HGT, DED, a pack or a raster by its name", "a name of another form",
-                      "read it with `yars terrain convert --in FILE --out DIR`, or make a GeoTIFF of it with "
-                      "gdal_translate",
+                      kind == ElevationKind::convertible
+                          ? "read it with `yars terrain convert --in FILE --out DIR`"
+                          : "unpack it, give it the ending of its form, or make a GeoTIFF of it with gdal_translate",
                       false}
       .message();
 }
 
 // Adds the cells of a file to `candidates`, or its problem to `problems`.
 void add_file(const std::filesystem::path& path, Candidates& candidates, std::vector<std::string>& problems) {
-  if (elevation_kind(path) == ElevationKind::other_form) {
-    problems.push_back(unread_form(path));
+  const ElevationKind kind = elevation_kind(path);
+  if (kind == ElevationKind::convertible || kind == ElevationKind::foreign) {
+    problems.push_back(unread_form(path, kind));
     return;
   }
   auto cells = cells_in_file(path);

@@ -93,8 +93,9 @@ ElevationKind elevation_kind(const std::filesystem::path& path) {
     return ElevationKind::readable;
   if (extension_of(path) == ".hgt") return ElevationKind::unplaced;
   if (has_one_of(path, kArchives)) return ElevationKind::archive;
-  if (has_one_of(path, kConvertible) || has_one_of(path, kForeign)) return ElevationKind::other_form;
-  return corner_in_name(name) && !has_one_of(path, kBeside) ? ElevationKind::other_form : ElevationKind::none;
+  if (has_one_of(path, kConvertible)) return ElevationKind::convertible;
+  const bool foreign = has_one_of(path, kForeign) || (corner_in_name(name) && !has_one_of(path, kBeside));
+  return foreign ? ElevationKind::foreign : ElevationKind::none;
 }
 
 namespace {

@@ -51,11 +51,12 @@ struct NamedCell {
 std::optional<NamedCell> cell_named(const std::string& folder, const std::string& file);
 
 enum class ElevationKind : std::uint8_t {
-  none,       // no elevation by its name
-  readable,   // cells_in_file() reads it
-  archive,    // .zip, .gz: cells_in_file() reads it if there is HGT in it
-  unplaced,   // a name of HGT that states no cell
-  other_form  // elevation by its name, in a form that is not read from a folder
+  none,         // no elevation by its name
+  readable,     // cells_in_file() reads it
+  archive,      // .zip, .gz: cells_in_file() reads it if there is HGT in it
+  unplaced,     // a name of HGT that states no cell
+  convertible,  // elevation by its name; not read from a folder, but as a file of its own, through GDAL
+  foreign       // elevation by its name, in a form that is not read
 };
 ElevationKind elevation_kind(const std::filesystem::path& path);
 
