@@ -207,7 +207,10 @@ void FormReader::warn_unread(const Slot& slot, const Form& form, const KnownForm
 
 void FormReader::read_slot(const SlotSchema& schema, const Value& value, const std::string& form) {
   const bool used = is_used(schema);
-  if (!used && !unused_) warn(value.where, std::string(":").append(schema.name) + " of " + form + " is read, not used");
+  if (!used && !unused_) {
+    warn(value.where, std::string(":").append(schema.name) + " of " + form + " is read, not used" +
+                          (schema.instead.empty() ? "" : ": " + std::string(schema.instead)));
+  }
   const bool outer = std::exchange(unused_, unused_ || !used);
   if (const auto* kind = std::get_if<FormSlot>(&schema.binding)) {
     read_forms(schema, *kind, value, form);

@@ -79,7 +79,8 @@ FormSchema lat_long() {
 }  // namespace
 
 std::vector<FormSchema> value_forms() {
-  const SlotSchema alpha = fraction_slot("alpha", {}, "0 = transparent, 1 = opaque");
+  SlotSchema alpha = fraction_slot("alpha", {}, "0 = transparent, 1 = opaque");
+  alpha.instead = "all colours are opaque";
   const auto black = [](ConfigurationBuilder& builder) { builder.color = {}; };
   const auto pure_red = [](ConfigurationBuilder& builder) { builder.hue = {0.0, 1.0, 1.0}; };
   const auto convert = [](ConfigurationBuilder& builder) {
@@ -171,13 +172,21 @@ std::vector<SlotSchema> view_slots() {
            .purpose = "bottom and top edge of the display, relative to the aircraft; 1 = the selected range"}};
 }
 
+constexpr std::string_view kMapFills = "a map fills the display; windows of SarMode are its sizes";
+
 std::vector<SlotSchema> unused_view_slots() {
-  return {{.name = "width", .lowest = -4, .highest = 4, .binding = SpanSlot{}, .purpose = "left and right edge"},
+  return {{.name = "width",
+           .lowest = -4,
+           .highest = 4,
+           .binding = SpanSlot{},
+           .purpose = "left and right edge",
+           .instead = kMapFills},
           {.name = "height",
            .lowest = -4,
            .highest = 4,
            .binding = SpanSlot{nullptr, nullptr, false},
-           .purpose = "bottom and top edge"}};
+           .purpose = "bottom and top edge",
+           .instead = kMapFills}};
 }
 
 std::optional<ConstraintViolation> check_square(const ConfigurationBuilder& builder) {
@@ -188,43 +197,48 @@ std::optional<ConstraintViolation> check_square(const ConfigurationBuilder& buil
 }
 
 FormSchema window() {
-  return {
-      .name = "Window",
-      .purpose = "the window of the display",
-      .slots = {{.name = "width",
-                 .unit = "pixels",
-                 .lowest = 64,
-                 .highest = 4096,
-                 .binding = IntegerSlot{YARS_FIELD(radar.view.size_pixels)},
-                 .purpose = "width of the display"},
-                {.name = "height",
-                 .unit = "pixels",
-                 .lowest = 64,
-                 .highest = 4096,
-                 .binding = IntegerSlot{YARS_FIELD(window_height_pixels)},
-                 .purpose = "height of the display, equal to the width"},
-                {.name = "colorIndex",
-                 .lowest = 0,
-                 .highest = 4095,
-                 .binding = IntegerSlot{},
-                 .purpose = "first entry in the colour map of the 1996 display"},
-                {.name = "colors",
-                 .binding =
-                     FormSlot{{"rgb", "rgba", "hsv", "hsva"},
-                              {},
-                              true,
-                              [](ConfigurationBuilder& builder) { builder.radar.view.colors.video = builder.color; }},
-                 .purpose = "colours of the video from dark to bright; only the last is used",
-                 .same_as = "video of ColorScheme"},
-                {.name = "cmode", .binding = ChoiceSlot{kColourModes}, .purpose = "colour mode of the 1996 display"},
-                {.name = "bmode",
-                 .binding = ChoiceSlot{kBufferModes},
-                 .purpose = "buffer mode of the 1996 display",
-                 .old_name = "mode"},
-                {.name = "scheme",
-                 .binding = FormSlot{{"ColorScheme"}, {"ColorScheme"}},
-                 .purpose = "the colours of the display"}},
-      .check = check_square};
+  return {.name = "Window",
+          .purpose = "the window of the display",
+          .slots = {{.name = "width",
+                     .unit = "pixels",
+                     .lowest = 64,
+                     .highest = 4096,
+                     .binding = IntegerSlot{YARS_FIELD(radar.view.size_pixels)},
+                     .purpose = "width of the display"},
+                    {.name = "height",
+                     .unit = "pixels",
+                     .lowest = 64,
+                     .highest = 4096,
+                     .binding = IntegerSlot{YARS_FIELD(window_height_pixels)},
+                     .purpose = "height of the display, equal to the width"},
+                    {.name = "colorIndex",
+                     .lowest = 0,
+                     .highest = 4095,
+                     .binding = IntegerSlot{},
+                     .purpose = "first entry in the colour map of the 1996 display",
+                     .instead = "scheme has the colours"},
+                    {.name = "colors",
+                     .binding = FormSlot{{"rgb", "rgba", "hsv", "hsva"},
+                                         {},
+                                         true,
+                                         [](ConfigurationBuilder& builder) {
+                                           builder.radar.view.colors.video = builder.color;
+                                         }},
+                     .purpose = "colours of the video from dark to bright; only the last is used",
+                     .same_as = "video of ColorScheme"},
+                    {.name = "cmode",
+                     .binding = ChoiceSlot{kColourModes},
+                     .purpose = "colour mode of the 1996 display",
+                     .instead = "OpenGL has no colour map; scheme has the colours"},
+                    {.name = "bmode",
+                     .binding = ChoiceSlot{kBufferModes},
+                     .purpose = "buffer mode of the 1996 display",
+                     .instead = "the display draws into two buffers",
+                     .old_name = "mode"},
+                    {.name = "scheme",
+                     .binding = FormSlot{{"ColorScheme"}, {"ColorScheme"}},
+                     .purpose = "the colours of the display"}},
+          .check = check_square};
 }
 
 }  // namespace

@@ -22,6 +22,11 @@ std::optional<ConstraintViolation> check_widths_against_gimbal(const Configurati
                              number_text(widest_deg) + " deg"};
 }
 
+// What places the aircraft, in place of slots of System.
+constexpr std::string_view kPlacedBySource =
+    "flight-model places the aircraft, as --source fixed:37.3,-122.6,15000,90,400 does (latitude, longitude, ft, deg, "
+    "kn)";
+
 // Slots at positions 1 to 11, in the order of the 1996 report.
 std::vector<SlotSchema> reported_slots() {
   return {
@@ -57,31 +62,36 @@ std::vector<SlotSchema> reported_slots() {
        .lowest = 1,
        .highest = 1000,
        .binding = NumberSlot{},
-       .purpose = "updates of the 1996 main loop"},
+       .purpose = "updates of the 1996 main loop",
+       .instead = "all programs step by ticks of 5 ms"},
       {.name = "latitude",
        .unit = "deg",
        .lowest = -90,
        .highest = 90,
        .binding = AngleSlot{nullptr, true},
-       .purpose = "position of the radar at start"},
+       .purpose = "position of the radar at start",
+       .instead = kPlacedBySource},
       {.name = "longitude",
        .unit = "deg",
        .lowest = -180,
        .highest = 180,
        .binding = AngleSlot{nullptr, false},
-       .purpose = "position of the radar at start"},
+       .purpose = "position of the radar at start",
+       .instead = kPlacedBySource},
       {.name = "altitude",
        .unit = "ft",
        .lowest = -1500,
        .highest = 100'000,
        .binding = NumberSlot{},
-       .purpose = "height of the radar at start"},
+       .purpose = "height of the radar at start",
+       .instead = kPlacedBySource},
       {.name = "heading",
        .unit = "deg",
        .lowest = -360,
        .highest = 360,
        .binding = NumberSlot{},
-       .purpose = "heading of the radar at start"},
+       .purpose = "heading of the radar at start",
+       .instead = kPlacedBySource},
   };
 }
 

@@ -32,6 +32,7 @@ std::vector<SlotSchema> mode_slots(const Names& displays, const Names& antennas,
        .highest = 4096,
        .binding = samples,
        .purpose = "samples of a sweep",
+       .instead = samples.of != nullptr ? "" : "samples of RealBeamMode and SarMode",
        .same_as = samples.of != nullptr ? "samples of Fidelity" : ""}};
 }
 
@@ -49,7 +50,8 @@ FormSchema real_beam_mode() {
                                .lowest = 0.01,
                                .highest = 100,
                                .binding = NumberSlot{},
-                               .purpose = "sweeps of the 1996 scan; here the tick and the antenna rate determine them"},
+                               .purpose = "sweeps of the 1996 scan",
+                               .instead = "a sweep a tick of 5 ms, at maxRates of AntennaServo"},
                               {.name = "scanWidths",
                                .unit = "deg",
                                .lowest = 1,
@@ -107,7 +109,8 @@ FormSchema sar_mode() {
                                .lowest = 1,
                                .highest = 200'000,
                                .binding = ListSlot{nullptr, 1, 16},
-                               .purpose = "patch sizes of 1996 by range; replaced by windows"},
+                               .purpose = "patch sizes of 1996 by range",
+                               .instead = "windows, in NM, which the pilot selects"},
                               {.name = "windows",
                                .unit = "NM",
                                .lowest = 0.1,

@@ -13,6 +13,10 @@ namespace yars::config {
 
 namespace {
 
+constexpr std::string_view kStatedByFiles =
+    "elevation files state their place and their heights; path names their folder";
+constexpr std::string_view kByScan = "files are read as far as the range, and as fine as samples of Fidelity";
+
 // Slots of Database and of the forms that extend it. Only MgDbase uses the position, because elevation files contain
 // their positions.
 std::vector<SlotSchema> database_slots(AngleSlot latitude = {nullptr, true}, AngleSlot longitude = {nullptr, false}) {
@@ -21,30 +25,35 @@ std::vector<SlotSchema> database_slots(AngleSlot latitude = {nullptr, true}, Ang
            .lowest = -90,
            .highest = 90,
            .binding = latitude,
-           .purpose = "centre of the database"},
+           .purpose = "centre of the database",
+           .instead = kStatedByFiles},
           {.name = "longitude",
            .unit = "deg",
            .lowest = -180,
            .highest = 180,
            .binding = longitude,
-           .purpose = "centre of the database"},
+           .purpose = "centre of the database",
+           .instead = kStatedByFiles},
           {.name = "elevation",
            .unit = "ft",
            .lowest = -1500,
            .highest = 30'000,
            .binding = NumberSlot{},
-           .purpose = "elevation of the centre of the database"},
+           .purpose = "elevation of the centre of the database",
+           .instead = "the ground has the heights of its files; heights of Scene says where a scene stands"},
           {.name = "samples",
            .lowest = 1,
            .highest = 65'536,
            .binding = IntegerSlot{},
-           .purpose = "samples of the database of 1996"},
+           .purpose = "samples of the database of 1996",
+           .instead = kByScan},
           {.name = "range",
            .unit = "m",
            .lowest = 0,
            .highest = 1e7,
            .binding = NumberSlot{},
-           .purpose = "radius of the database of 1996"}};
+           .purpose = "radius of the database of 1996",
+           .instead = kByScan}};
 }
 
 SlotSchema path_slot() {

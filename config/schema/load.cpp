@@ -330,14 +330,28 @@ error::Expected<radar::RadarConfiguration> load_program_configuration(const std:
   return std::move(loaded->radar);
 }
 
-error::Expected<radar::NetworkSettings> load_network(const std::filesystem::path& path) {
-  if (path.empty()) return radar::NetworkSettings{};
-  auto loaded = load_configuration(path);
-  if (!loaded) return tl::unexpected(loaded.error());
-  for (const auto& warning : loaded->warnings) log::warning(warning);
-  if (loaded->network) return std::move(*loaded->network);
-  return error::fail(path.string(), "a form Network, as ( Network :interfaces `( \"eth0\" ) )", "none",
-                     "add it; docs/configuration/network.md has its slots");
+error::Expected<ProgramNetwork> load_network(const std::filesystem::path& network,
+                                             const std::filesystem::path& configuration) {
+  auto whole = load_configuration(configuration);
+  if (!whole) return tl::unexpected(whole.error());
+  for (const auto& warning : whole->warnings) log::warning(warning);
+  ProgramNetwork loaded{{}, std::move(whole->radar), {}};
+  if (whole->network) {
+    loaded.network = std::move(*whole->network);
+    loaded.source = configuration.string();
+  }
+  if (network.empty()) return loaded;
+  auto own = load_configuration(network);
+  if (!own) return tl::unexpected(own.error());
+  for (const auto& warning : own->warnings) log::warning(warning);
+  if (!own->network)
+    return error::fail(network.string(), "a form Network, as ( Network :interfaces `( \"eth0\" ) )", "none",
+                       "add it; docs/configuration/network.md has its slots");
+  if (!loaded.source.empty())
+    log::warning("the form Network of " + loaded.source + " is not used: " + network.string() + " has one");
+  loaded.network = std::move(*own->network);
+  loaded.source = network.string();
+  return loaded;
 }
 
 error::Expected<ConvertedConfiguration> convert_configuration(const fs::path& path, const fs::path& folder) {

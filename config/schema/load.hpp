@@ -35,9 +35,18 @@ error::Expected<LoadedConfiguration> load_configuration_text(std::string_view te
 // Like load_configuration(), but writes the warnings to the log.
 error::Expected<radar::RadarConfiguration> load_program_configuration(const std::filesystem::path& path);
 
-// The form Network of a file, which may have other forms too. Writes the warnings to the log. An empty path gives the
-// defaults. Errors: those of load_configuration(), and a file without the form.
-error::Expected<radar::NetworkSettings> load_network(const std::filesystem::path& path);
+// A configuration, and the form Network of the gateway of this computer.
+struct ProgramNetwork {
+  radar::NetworkSettings network;
+  radar::RadarConfiguration radar;
+  std::string source;  // the file that has the form; empty: none has it, and `network` has the defaults
+};
+
+// The configuration of `configuration`, and the form Network of `network`, a file of its own; if that path is empty,
+// that of the configuration, and without one the defaults. Writes the warnings of both files to the log.
+// Errors: those of load_configuration(), and a file `network` without the form.
+error::Expected<ProgramNetwork> load_network(const std::filesystem::path& network,
+                                             const std::filesystem::path& configuration = {});
 
 // A configuration as one GUF file: the message syntax is translated, included files are inserted, and old names are
 // replaced.

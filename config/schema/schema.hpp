@@ -206,6 +206,7 @@ struct SlotSchema {
   double highest = std::numeric_limits<double>::infinity();
   Binding binding{};
   std::string_view purpose{};
+  std::string_view instead{};   // for a slot that is not used: what does its work, or why nothing has to
   std::string_view same_as{};   // the slot that is printed instead of this one
   std::string_view old_name{};  // spelling of 1996, accepted with a warning
   bool before_others = false;   // read before the other slots of its form

@@ -85,7 +85,8 @@ namespace {
 // Remark for the manual: the slot has the same effect as another slot, or is not used. Empty: no remark applies.
 std::string use_of(const FormSchema& form, const SlotSchema& slot) {
   if (!slot.same_as.empty()) return "; the same as " + std::string(slot.same_as);
-  return is_used(slot) || form.part_of_value ? "" : "; read, not used";
+  if (is_used(slot) || form.part_of_value) return "";
+  return slot.instead.empty() ? "; read, not used" : "; read, not used: " + std::string(slot.instead);
 }
 
 // Default of a slot as text. Empty: the slot contains forms, is unused, has an unknown default (NaN), or its form is

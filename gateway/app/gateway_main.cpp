@@ -111,19 +111,21 @@ error::Expected<bool> join(const databuffer::ProgramOptions& options, Joining& j
 }
 
 error::Expected<void> run(const databuffer::ProgramOptions& options, const GatewayOptions& gateway_options) {
-  auto settings = config::load_network(gateway_options.network);
-  if (!settings) return tl::unexpected(settings.error());
-  if (settings->name.empty()) settings->name = gateway::checks::host_name();
-  auto peers = check(*settings);
+  auto loaded = config::load_network(gateway_options.network, options.config);
+  if (!loaded) return tl::unexpected(loaded.error());
+  radar::NetworkSettings& settings = loaded->network;
+  radar::RadarConfiguration& configuration = loaded->radar;
+  log::info(loaded->source.empty() ? "no form Network: this computer alone, over the loopback interface"
+                                   : "form Network of " + loaded->source);
+  if (settings.name.empty()) settings.name = gateway::checks::host_name();
+  auto peers = check(settings);
   if (!peers) return tl::unexpected(peers.error());
-  auto configuration = config::load_program_configuration(options.config);
-  if (!configuration) return tl::unexpected(configuration.error());
-  if (!gateway_options.terrain.empty()) configuration->terrain.directory = gateway_options.terrain;
-  Joining joining{std::move(*settings), std::move(*peers), {}, {}};
+  if (!gateway_options.terrain.empty()) configuration.terrain.directory = gateway_options.terrain;
+  Joining joining{std::move(settings), std::move(*peers), {}, {}};
   joining.identity.name = joining.settings.name;
   joining.identity.priority = static_cast<std::uint32_t>(joining.settings.priority);
-  joining.identity.configuration_hash = configuration_hash(*configuration);
-  joining.identity.terrain_hash = terrain_hash(configuration->terrain.directory);
+  joining.identity.configuration_hash = configuration_hash(configuration);
+  joining.identity.terrain_hash = terrain_hash(configuration.terrain.directory);
   for (;;) {
     const auto again = join(options, joining);
     if (!again) return tl::unexpected(again.error());
@@ -141,7 +143,7 @@ int main(int argc, char** argv) {
   GatewayOptions gateway_options;
   app.option("--network", gateway_options.network, "GUF file with the form Network: peers, interfaces, domain")
       .value_name("FILE")
-      .otherwise("this computer alone, over the loopback interface");
+      .otherwise("that of the configuration, else this computer alone, over the loopback interface");
   app.option("--terrain", gateway_options.terrain, "folder of elevation cells, compared with that of other computers")
       .value_name("DIR")
       .otherwise("the configuration's");

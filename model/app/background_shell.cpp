@@ -28,6 +28,7 @@ TerrainLoader::TerrainLoader(std::unique_ptr<terrain::TerrainStore> store, bool 
     : store_(std::move(store)), synchronous_(synchronous) {
   // An empty region gives an empty view at once, so view() is never null.
   view_ = store_->prepare({});
+  collect_problems();
   if (!synchronous_) thread_ = std::thread([this] { serve(); });
 }
 
@@ -72,8 +73,14 @@ std::vector<std::string> TerrainLoader::take_problems() {
   return std::exchange(problems_, {});
 }
 
+std::vector<std::string> TerrainLoader::take_notes() {
+  const std::scoped_lock lock(mutex_);
+  return std::exchange(notes_, {});
+}
+
 void TerrainLoader::collect_problems() {
   for (auto& problem : store_->take_problems()) problems_.push_back(std::move(problem));
+  for (auto& note : store_->take_notes()) notes_.push_back(std::move(note));
 }
 
 void TerrainLoader::serve() {

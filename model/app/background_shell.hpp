@@ -47,22 +47,24 @@ class TerrainLoader {
   bool has_loaded(const terrain::TerrainRegion& region) const;
   // Latest view; empty at first, never null.
   terrain::TerrainViewPointer view() const;
-  // Problems with cells since the last call; each cell is named once.
+  // Problems with cells since the last call; each cell is named once. Then notes about how cells are taken.
   std::vector<std::string> take_problems();
+  std::vector<std::string> take_notes();
 
  private:
   void serve();
-  void collect_problems();  // moves problems from the store to problems_; called in the thread that calls prepare()
+  // Moves problems and notes from the store to problems_ and notes_. Called in the thread that calls prepare().
+  void collect_problems();
 
   std::unique_ptr<terrain::TerrainStore> store_;
   bool synchronous_;
-  mutable std::mutex mutex_;  // with a thread: guards pending_, view_, loaded_region_, problems_ and ending_
+  mutable std::mutex mutex_;  // with a thread: guards pending_, view_, loaded_region_, problems_, notes_ and ending_
   std::condition_variable wake_;
   std::optional<terrain::TerrainRegion> pending_;
   std::optional<terrain::TerrainRegion> requested_;
   terrain::TerrainViewPointer view_;
   std::optional<terrain::TerrainRegion> loaded_region_;  // that view_ has in its detail
-  std::vector<std::string> problems_;
+  std::vector<std::string> problems_, notes_;
   bool ending_ = false;
   std::thread thread_;
 };

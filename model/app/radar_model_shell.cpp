@@ -252,6 +252,7 @@ void RadarModelShell::run_kernel(bool may_wait) {
     if (may_wait) await_ground(need.region);
   }
   note_problems(terrain_->take_problems());
+  for (const std::string& note : terrain_->take_notes()) log::warning(note);
   note_problems(scenes_->take_problems());
   const auto view = terrain_->view();
   tick_.terrain_generation = view->generation();

@@ -56,7 +56,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   bytes.resize(bytes.size() * (256U - data[1]) / 256U);
   fuzz::MemoryFile& file = zipped ? zip : gzip;
   file.write(bytes);
-  const int posts = model::terrain::compressed_hgt_posts(file.path());
+  const int posts = model::terrain::compressed_hgt_grid(file.path(), {36, -122}).rows;
+  if (const auto cells = model::terrain::packed_hgt_files(file.path()))
+    for (const model::terrain::CellCorner corner : cells->cells)
+      YARS_REQUIRE(model::terrain::slot_of(corner), <, model::terrain::kCellRows * model::terrain::kCellColumns);
   YARS_REQUIRE((posts == 0 || posts == 1201 || posts == 3601), ==, true);
   const auto reading = model::terrain::read_compressed_hgt(file.path(), {36, -122});
   if (reading) YARS_REQUIRE((reading->cell.rows() == 1201 || reading->cell.rows() == 3601), ==, true);

@@ -28,6 +28,7 @@ YARS = """#!/bin/bash
 while [ "${1#--}" != "$1" ]; do shift 2; done
 case "$1 $2" in
   "config user"|"config check") ;;
+  "config print") cat "$3" ;;
   "status --json") [ -e "$YARS_TEST_LOG.joined" ] && grep -q ^gateway "$YARS_TEST_LOG" && { echo '{"network": {"joined": true}}'; exit 3; } ;;
   *) exit 1 ;;
 esac
@@ -93,6 +94,19 @@ def roles_without_a_network(place):
     assert "--standby" not in place.log.read_text()
 
 
+def a_form_in_the_configuration_is_a_network(place):
+    config = place.folder / "network_in_config.guf"
+    config.write_text('( Apg70 )\n( Network\n  :interfaces `( "lo" ) )\n')
+    text = place.run_until(2, "--roles", "radar-model", "--config", str(config), network=False)
+    assert place.begun() == ["gateway", "radar-model"], place.begun()
+    assert f"--config {config} --network {config}" in place.lines("gateway")[0], place.lines("gateway")
+    assert "The configuration has a form Network" in text, text
+    place.log.unlink()
+    config.write_text("( Apg70 )\n")
+    place.run_until(1, "--roles", "radar-model", "--config", str(config), network=False)
+    assert place.begun() == ["radar-model"], place.begun()
+
+
 def a_limit_without_a_display(place):
     code, text = place.run("--roles", "flight-model", "--headless", "0.5")
     assert code == 0 and "they run for 0.5 s\n" in text, text
@@ -147,8 +161,8 @@ def a_build_without_a_gateway(place):
 
 
 def main():
-    for test in (the_gateway_is_first_and_last, roles_without_a_network, a_limit_without_a_display, a_display_alone,
-                 a_gateway_that_does_not_join_is_not_waited_for_for_ever, a_gateway_that_refuses_its_file_ends_the_set,
+    for test in (the_gateway_is_first_and_last, roles_without_a_network, a_form_in_the_configuration_is_a_network,
+                 a_limit_without_a_display, a_display_alone, a_gateway_that_does_not_join_is_not_waited_for_for_ever, a_gateway_that_refuses_its_file_ends_the_set,
                  lockstep_names_the_roles_of_all_computers, what_is_refused, a_build_without_a_gateway):
         with tempfile.TemporaryDirectory() as folder:
             test(Place(folder))

@@ -138,7 +138,7 @@ TEST_F(Limits, AZipThatStatesMoreThanACellIsRefused) {
   zip_t* archive = zip_open(path.c_str(), ZIP_CREATE, &code);
   zip_file_add(archive, "N36W122.hgt", zip_source_buffer(archive, zeros.data(), zeros.size(), 0), 0);
   ASSERT_EQ(zip_close(archive), 0);
-  EXPECT_THAT(refusal_of(terrain::read_compressed_hgt(path, kCorner)), HasSubstr("2884802 or 25934402 bytes"));
+  EXPECT_THAT(refusal_of(terrain::read_compressed_hgt(path, kCorner)), HasSubstr("3601 x 3601 posts (25934402 bytes)"));
 }
 
 TEST_F(Limits, EachOfTheTwoFilesOfAPackIsAtMost256MebibytesLong) {

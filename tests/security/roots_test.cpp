@@ -173,11 +173,12 @@ TEST_F(SceneRoots, ALinkOutOfAFolderOfScenesIsReportedAndOtherScenesAreUsed) {
 class TerrainRoots : public Roots {
  protected:
   terrain::DirectoryIndex index() {
-    auto found = terrain::index_directory(folder_ / "terrain", &problems_);
+    auto found = terrain::index_directory(folder_ / "terrain", &sentences_);
     EXPECT_TRUE(found) << found.error().message();
     return found ? *found : terrain::DirectoryIndex{};
   }
-  std::vector<std::string> problems_;
+  terrain::FileSentences sentences_;
+  const std::vector<std::string>& problems_ = sentences_.problems;
 };
 
 TEST_F(TerrainRoots, ACellThatIsALinkOutOfTheDirectoryIsReportedAndOtherCellsAreUsed) {
@@ -218,8 +219,8 @@ TEST_F(TerrainRoots, ALinkOutAsASideFileOrAsCultureIsReported) {
 
 TEST_F(TerrainRoots, PipesUnderTheNamesOfCellsDoNotHangTheIndex) {
   write("terrain/w122/n36.dt1", "a cell");
-  for (const char* name :
-       {"w122/n37.dt1", "w122/n38.jp2", "N39W122.hgt", "N40W122.hgt.gz", "N41W122.hgt.zip", "any.ded"})
+  for (const char* name : {"w122/n37.dt1", "w122/n38.jp2", "N39W122.hgt", "N40W122.hgt.gz", "N41W122.hgt.zip",
+                           "any.ded", "any.dt1", "any.zip", "any.gz", "N42W122.7z", "w122/n43.smc.png"})
     fifo(std::string("terrain/") + name);
   EXPECT_THAT(index(), ::testing::SizeIs(::testing::Ge(1U)));
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -159,10 +160,16 @@ Warn warn_as(const char* command) {
 
 void check_terrain_read(const Warn& warn, const std::string& folder, model::terrain::TerrainStore& store,
                         model::terrain::TerrainStore* path_store) {
-  std::vector<std::string> problems = store.take_problems();
-  for (std::string& problem : path_store == nullptr ? std::vector<std::string>() : path_store->take_problems())
-    if (std::find(problems.begin(), problems.end(), problem) == problems.end()) problems.push_back(std::move(problem));
-  for (const std::string& problem : problems) warn(problem);
+  std::set<std::string> warned;
+  const auto warn_once = [&](const std::vector<std::string>& sentences) {
+    for (const std::string& sentence : sentences)
+      if (warned.insert(sentence).second) warn(sentence);
+  };
+  for (model::terrain::TerrainStore* const one : {&store, path_store}) {
+    if (one == nullptr) continue;
+    warn_once(one->take_problems());
+    warn_once(one->take_notes());
+  }
   for (model::terrain::TerrainStore* const one : {path_store, &store})
     if (auto* const files = dynamic_cast<model::terrain::DirectoryTerrainStore*>(one)) files->report_again();
   const auto* const directory = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(&store);

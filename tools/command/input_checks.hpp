@@ -41,9 +41,9 @@ using Warn = std::function<void(const std::string&)>;
 // Prints warnings on standard error. `command`: prefix of each line, such as "yars scan".
 Warn warn_as(const char* command);
 
-// Both check_..._read functions warn of each problem of reading. They then count the files of the region, the ground
-// that the last prepare() has loaded. If some of these files are unreadable, they say how many. If all are unreadable,
-// they throw CommandFailed with code 1.
+// Both check_..._read functions warn of each problem of reading; that of terrain warns of notes, too. They then count
+// the files of the region, the ground that the last prepare() has loaded. If some of these files are unreadable, they
+// say how many. If all are unreadable, they throw CommandFailed with code 1.
 
 // Call after prepare() of the stores. `folder`: terrain folder, for messages. `path_store`: optional second store of
 // the same folder, for the ground between aircraft and map. Problems of this store are printed, but do not make the

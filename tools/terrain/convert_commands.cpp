@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -13,7 +14,9 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "lib/file/output_file.hpp"
 #include "lib/text/plain_text.hpp"
+#include "model/scene/index/scene_store.hpp"
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/formats/culture.hpp"
@@ -76,10 +79,11 @@ error::Expected<std::filesystem::path> write_output(const TerrainOutput& output,
 }
 
 // Batch conversion of elevation cells: reads the cells of a folder or file and writes each cell below the folder `out`.
-// Copies the culture file of each cell. If the input has none, an older culture file in the output is removed. Prints
-// the total sizes; on a terminal also a line for each written cell. The input is never overwritten.
-// Errors: a cell that cannot be read or written is reported as a problem. A cell with an unreadable culture is not
-// written. The batch continues; the command fails at the end.
+// Copies the culture file of each cell. If the input has none, an older culture file in the output is removed. Copies
+// the files of the folder's scenes. Prints the total sizes; on a terminal also a line for each written cell. The input
+// is never overwritten.
+// Errors: a cell that cannot be read or written, or has no height, is reported as a problem. A cell with an unreadable
+// culture is not written. The batch continues; the command fails at the end.
 
 struct TerrainBatch {
   std::string command;  // subcommand, for error messages
@@ -144,20 +148,27 @@ bool lies_in(const std::filesystem::path& inner, const std::filesystem::path& ou
   return !relative.empty() && *relative.begin() != "..";
 }
 
-error::Expected<DirectoryIndex> index_of(const TerrainBatch& batch, std::vector<std::string>& problems) {
+error::Expected<DirectoryIndex> index_of(const TerrainBatch& batch, FileSentences& unused) {
   if (!std::filesystem::is_directory(batch.in)) return index_file(batch.in);
   if (lies_in(batch.out, batch.in))
     return tl::unexpected(error::Error{"yars terrain " + batch.command, "--out outside of --in",
                                        batch.out + " inside of " + batch.in,
                                        "give another folder: the input is never overwritten", true});
-  return index_directory(batch.in, &problems);
+  return index_directory(batch.in, &unused);
 }
 
 error::Expected<std::filesystem::path> convert_cell(const TerrainBatch& batch, const CellFile& file, CellCorner corner,
-                                                    AllReadingNotes& notes) {
+                                                    AllReadingNotes& notes, std::size_t& empty) {
   const auto reading = read_cell(file, corner, batch.reduction);
   if (!reading) return tl::unexpected(reading.error());
   notes.add(file.path, *reading);
+  if (reading->cell.voids() == reading->cell.post_count()) {
+    ++empty;
+    notes.add_problem(error::Error{file.path.string(), "a cell with heights",
+                                   text::counted(reading->cell.post_count(), "post") + " without any",
+                                   "see whether its no-data value is right; the cell is written as void", false}
+                          .message());
+  }
   const std::filesystem::path target = std::filesystem::path(batch.out) / batch.name(corner, reading->cell);
   std::error_code code;
   if (std::filesystem::equivalent(target, file.path, code))
@@ -174,8 +185,9 @@ namespace {
 
 // Result of a batch.
 struct BatchTotals {
-  std::size_t cells = 0;   // of the input
-  std::size_t failed = 0;  // cells that were not written
+  std::size_t cells = 0;        // of the input
+  std::size_t failed = 0;       // cells that were not written
+  std::size_t scene_files = 0;  // copied
   std::uintmax_t bytes_in = 0;
   std::uintmax_t bytes_out = 0;
   std::vector<std::string> files;  // written
@@ -189,34 +201,72 @@ std::string megabytes(std::uintmax_t bytes) {
   return text.data();
 }
 
-void print_totals(const BatchTotals& totals, const std::vector<std::string>& problems, bool json) {
-  for (const std::string& problem : problems) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+void print_totals(const BatchTotals& totals, const AllReadingNotes& notes, bool json) {
+  for (const std::string& problem : notes.problems()) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+  for (const std::string& note : notes.notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
   const std::size_t written = totals.cells - totals.failed;
   if (json)
     return print_json({{"cells", written},
                        {"bytes_in", totals.bytes_in},
                        {"bytes_out", totals.bytes_out},
                        {"files", totals.files},
-                       {"problems", problems}});
+                       {"scene_files", totals.scene_files},
+                       {"problems", notes.problems()},
+                       {"notes", notes.notes()}});
   std::printf("%s, %s to %s, ratio %.2f\n", text::counted(written, "cell").c_str(), megabytes(totals.bytes_in).c_str(),
               megabytes(totals.bytes_out).c_str(), totals.ratio());
+  if (totals.scene_files > 0) std::printf("%s copied\n", text::counted(totals.scene_files, "scene file").c_str());
+}
+
+// Copies the scenes that stand on the ground of the input's folder, with the files beside them. Returns the number of
+// copied files. `failed` receives a sentence for each file that is not copied.
+std::size_t copy_scenes(const TerrainBatch& batch, std::vector<std::string>& failed) {
+  namespace fs = std::filesystem;
+  const fs::path from = fs::path(batch.in) / model::scene::kTerrainScenes;
+  std::error_code code;
+  if (!fs::is_directory(from, code)) return 0;
+  const fs::path root = fs::weakly_canonical(batch.in, code);
+  std::size_t copied = 0;
+  fs::recursive_directory_iterator entry(from, code);
+  for (const fs::recursive_directory_iterator end; !code && entry != end; entry.increment(code)) {
+    const fs::path& path = entry->path();
+    std::error_code ignored;
+    if (entry->is_directory(ignored)) continue;
+    if (links_outside(path, root)) {
+      failed.push_back(error::Error{path.string(), "a file inside " + root.string(), "a link that leads out",
+                                    "copy the file into the folder", false}
+                           .message());
+      continue;
+    }
+    const auto bytes = read_file(path, std::numeric_limits<std::size_t>::max());
+    const auto written =
+        bytes ? file::write_file_and_folders(fs::path(batch.out) / path.lexically_relative(batch.in), *bytes)
+              : tl::unexpected(bytes.error());
+    if (written)
+      ++copied;
+    else
+      failed.push_back(written.error().message());
+  }
+  if (code) failed.push_back(from.string() + ": " + error::reason_of(code.value()));
+  return copied;
 }
 
 }  // namespace
 
 void run_terrain_batch(const TerrainBatch& batch) {
   check_folder_name("--out", batch.out);
-  std::vector<std::string> unusable;
-  const auto index = index_of(batch, unusable);
+  FileSentences unused;
+  const auto index = index_of(batch, unused);
   if (!index) throw_failure(index.error());
+  std::size_t left_out = unused.problems.size();
   AllReadingNotes notes;
-  for (const std::string& file : unusable) notes.add_problem(file);
+  notes.add(std::move(unused));
   BatchTotals totals;
   totals.cells = index->size();
   Progress progress(index->size());
   std::set<std::filesystem::path> files;  // input files already in bytes_in; a file may hold several cells
   for (const auto& [slot, file] : *index) {
-    const auto written = convert_cell(batch, file, corner_of_slot(slot), notes);
+    const auto written = convert_cell(batch, file, corner_of_slot(slot), notes, left_out);
     if (!written) {
       notes.add_problem(written.error().message());
       ++totals.failed;
@@ -229,15 +279,19 @@ void run_terrain_batch(const TerrainBatch& batch) {
     totals.files.push_back(written->string());
     progress.done(written->string() + "  " + megabytes(bytes));
   }
-  print_totals(totals, notes.sentences(), batch.json);
+  FileSentences scenes;
+  totals.scene_files = copy_scenes(batch, scenes.problems);
+  left_out += scenes.problems.size();
+  notes.add(std::move(scenes));
+  print_totals(totals, notes, batch.json);
   if (totals.failed > 0)
     throw CommandFailed{"yars terrain " + batch.command + ": expected all cells to be written, found " +
                             std::to_string(totals.failed) + " of " + std::to_string(totals.cells) +
                             " that were not; see the problems",
                         1};
-  if (!unusable.empty())
+  if (left_out > 0)
     throw CommandFailed{"yars terrain " + batch.command + ": expected all files to be used, found " +
-                            std::to_string(unusable.size()) + " that could not be; see the problems",
+                            std::to_string(left_out) + " that could not be; see the problems",
                         1};
 }
 

@@ -1,16 +1,19 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/world.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/terrain/formats/cell_reading.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 
 namespace yars::tools {
 
@@ -23,7 +26,13 @@ struct ProfileOptions {
   std::vector<double> from_deg;  // latitude, longitude; north and east positive
   std::vector<double> to_deg;
   double step_m = 100.0;
+  bool json = false;
 };
+
+void print_sentences(const model::terrain::FileSentences& sentences) {
+  for (const std::string& problem : sentences.problems) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+  for (const std::string& note : sentences.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
+}
 
 // True if latitude is in [-90, 90] and longitude in [-360, 360]. False for NaN.
 bool on_the_earth(const std::vector<double>& position_deg) {
@@ -59,6 +68,29 @@ void report_outside(const ProfileOptions& options, const CoveredArea& covered, l
   std::fprintf(stderr, "yars terrain profile: %s\n", error.message().c_str());
 }
 
+struct ProfileSample {
+  double distance_m = 0.0;
+  geo::GeoPoint position;
+  double elevation_m = 0.0;  // [m MSL] NaN: void
+
+  nlohmann::ordered_json json() const {
+    return {{"distance_m", distance_m},
+            {"latitude_deg", position.latitude_deg},
+            {"longitude_deg", position.longitude_deg},
+            {"elevation_m",
+             std::isnan(elevation_m) ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(elevation_m)}};
+  }
+
+  // The elevation of a void is an empty field.
+  void print() const {
+    std::printf("%.1f,%.7f,%.7f,", distance_m, position.latitude_deg, position.longitude_deg);
+    if (std::isnan(elevation_m))
+      std::printf("\n");
+    else
+      std::printf("%.2f\n", elevation_m);
+  }
+};
+
 void profile(const ProfileOptions& options) {
   if (!on_the_earth(options.from_deg) || !on_the_earth(options.to_deg))
     throw_failure({"terrain profile", "latitudes in [-90, 90] and longitudes in [-360, 360] degrees", "a value outside",
@@ -72,27 +104,29 @@ void profile(const ProfileOptions& options) {
   const auto steps = static_cast<long>(std::ceil(length_m / options.step_m));
   const CoveredArea covered(options.terrain.directory);
   long outside = 0;
-  std::printf("distance_m,latitude_deg,longitude_deg,elevation_m\n");
+  nlohmann::ordered_json samples = nlohmann::ordered_json::array();
+  if (!options.json) std::printf("distance_m,latitude_deg,longitude_deg,elevation_m\n");
   for (long step = 0; step <= steps; ++step) {
     const double distance_m = std::min(length_m, static_cast<double>(step) * options.step_m);
     const geo::GeoPoint position = ray.position(geo::Length::metres(distance_m));
     const geo::GeoPoint ground = covered.placed(position);
     if (!covered.contains(ground)) ++outside;
-    const double elevation_m = (*store)->prepare({ground, 0.0})->elevation_m(ground);
-    std::printf("%.1f,%.7f,%.7f,", distance_m, position.latitude_deg, position.longitude_deg);
-    // The elevation of a void is an empty field.
-    if (std::isnan(elevation_m))
-      std::printf("\n");
+    const ProfileSample sample{distance_m, position, (*store)->prepare({ground, 0.0})->elevation_m(ground)};
+    if (options.json)
+      samples.push_back(sample.json());
     else
-      std::printf("%.2f\n", elevation_m);
+      sample.print();
   }
+  const model::terrain::FileSentences found{(*store)->take_problems(), (*store)->take_notes()};
+  if (options.json)
+    print_json({{"samples", std::move(samples)}, {"problems", found.problems}, {"notes", found.notes}},
+               JsonLines::many);
   std::fflush(stdout);
-  const auto problems = (*store)->take_problems();
-  for (const std::string& problem : problems) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+  print_sentences(found);
   if (outside > 0) report_outside(options, covered, outside, steps + 1);
-  if (!problems.empty())
-    throw CommandFailed{"yars terrain profile: expected undamaged files, found " + std::to_string(problems.size()) +
-                            " problems; see above",
+  if (!found.problems.empty())
+    throw CommandFailed{"yars terrain profile: expected undamaged files, found " +
+                            text::counted(found.problems.size(), "problem") + "; see above",
                         1};
 }
 
@@ -106,6 +140,7 @@ void add_terrain_profile(databuffer::Command terrain) {
   command.option("--from", options->from_deg, "[deg] latitude and longitude").values(2).required();
   command.option("--to", options->to_deg, "[deg] latitude and longitude").values(2).required();
   command.option("--step", options->step_m, "[m] between samples").range(0.1, 1e6);
+  add_json_flag(command, options->json);
   command.callback([options] { profile(*options); });
 }
 
@@ -132,8 +167,7 @@ void dump(const DumpOptions& options) {
   const auto reading = read_cell(file->second, corner);
   if (!reading) throw_failure(reading.error());
   ReadingNotes notes;
-  for (const std::string& sentence : notes.take_new(file->second.path, *reading))
-    std::fprintf(stderr, "problem: %s\n", sentence.c_str());
+  print_sentences(notes.take_new(file->second.path, *reading));
   const Cell& cell = reading->cell;
   const int decimals = cell.unit_m() < 1.0 ? 1 : 0;
   std::printf("latitude_deg,longitude_deg,elevation_m\n");

@@ -61,13 +61,14 @@ std::optional<Culture> culture_of(const TerrainImageOptions& options, const Cell
 // Reads and paints the cells one by one, so that only one cell is in memory.
 void draw(const TerrainImageOptions& options) {
   check_file_name("--out", options.out, {".png"});
-  std::vector<std::string> unusable;
-  const auto index = index_directory(options.directory, &unusable);
+  FileSentences unused;
+  const auto index = index_directory(options.directory, &unused);
   if (!index) throw_failure(index.error());
   const MapFrame frame = frame_of(options, *index);
   imageio::Image image = blank_map(frame);
-  for (const std::string& problem : unusable) std::fprintf(stderr, "problem: %s\n", problem.c_str());
-  std::size_t failed = unusable.size();
+  std::size_t failed = unused.problems.size();
+  AllReadingNotes notes;
+  notes.add(std::move(unused));
   std::size_t painted = 0;
   for (const auto& [slot, file] : *index) {
     if (!overlap(corner_of_slot(slot), frame)) continue;
@@ -77,10 +78,13 @@ void draw(const TerrainImageOptions& options) {
       ++failed;
       continue;
     }
+    notes.add(file.path, *reading);
     const std::optional<Culture> culture = culture_of(options, file, corner_of_slot(slot), failed);
     paint_cell(reading->cell, culture ? &*culture : nullptr, frame, image);
     ++painted;
   }
+  for (const std::string& problem : notes.problems()) std::fprintf(stderr, "problem: %s\n", problem.c_str());
+  for (const std::string& note : notes.notes()) std::fprintf(stderr, "note: %s\n", note.c_str());
   if (painted + failed == 0)
     throw_failure({options.directory, "cells in the region that is drawn",
                    "none: the folder covers " + coverage_text(*index),

@@ -119,13 +119,22 @@ struct Totals {
   }
 };
 
+// The other rasters that are parts of a cell as its file is, without those that only have posts on its edges.
+std::vector<std::string> others_of(const CellFile& file) {
+  std::vector<std::string> others;
+  if (file.is_part())
+    for (const std::filesystem::path& other : file.others) others.push_back(other.string());
+  return others;
+}
+
 void print_cell(CellCorner corner, const CellStatistics& cell, const CellFile& file) {
   const bool empty = cell.voids == cell.posts;
-  std::printf("%5d %6d %6d x %-5d %7s %7s %8zu %7.2f  %s\n", corner.south_deg, corner.west_deg, cell.columns, cell.rows,
-              empty ? "void" : height_text(cell.lowest_m).c_str(), empty ? "void" : height_text(cell.highest_m).c_str(),
-              cell.voids,
+  const std::size_t others = others_of(file).size();
+  std::printf("%5d %6d %6d x %-5d %7s %7s %8zu %7.2f  %s%s\n", corner.south_deg, corner.west_deg, cell.columns,
+              cell.rows, empty ? "void" : height_text(cell.lowest_m).c_str(),
+              empty ? "void" : height_text(cell.highest_m).c_str(), cell.voids,
               100.0 * static_cast<double>(cell.sea) / static_cast<double>(std::max<std::size_t>(1, cell.posts)),
-              file.path.c_str());
+              file.path.c_str(), others == 0 ? "" : (" and " + text::counted(others, "other")).c_str());
 }
 
 nlohmann::ordered_json cell_json(CellCorner corner, const CellStatistics& cell, const CellFile& file) {
@@ -138,7 +147,8 @@ nlohmann::ordered_json cell_json(CellCorner corner, const CellStatistics& cell, 
           {"highest_m", empty ? ordered_json(nullptr) : ordered_json(cell.highest_m)},
           {"voids", cell.voids},
           {"sea_posts", cell.sea},
-          {"file", file.path.string()}};
+          {"file", file.path.string()},
+          {"others", others_of(file)}};
 }
 
 // Reads all cells of a directory and prints one line for each, then totals and problems; or all as one JSON object.
@@ -146,12 +156,12 @@ nlohmann::ordered_json cell_json(CellCorner corner, const CellStatistics& cell, 
 class Inspection {
  public:
   Inspection(const std::string& directory, bool json) : json_(json) {
-    std::vector<std::string> unusable;
-    auto index = index_directory(directory, &unusable);
+    FileSentences unused;
+    auto index = index_directory(directory, &unused);
     if (!index) throw_failure(index.error());
     index_ = std::move(*index);
-    for (std::string& file : unusable) notes_.add_problem(std::move(file));
-    failed_ = unusable.size();
+    failed_ = unused.problems.size();
+    notes_.add(std::move(unused));
   }
 
   void run() {
@@ -160,10 +170,13 @@ class Inspection {
     for (const auto& [slot, file] : index_) inspect_cell(slot, file);
     publish_progress("");
     if (json_) {
-      print_json({{"cells", cells_}, {"total", totals_.json()}, {"problems", notes_.sentences()}}, JsonLines::many);
+      print_json(
+          {{"cells", cells_}, {"total", totals_.json()}, {"problems", notes_.problems()}, {"notes", notes_.notes()}},
+          JsonLines::many);
     } else {
       if (totals_.cells > 0) totals_.print();
-      for (const std::string& problem : notes_.sentences()) std::printf("problem: %s\n", problem.c_str());
+      for (const std::string& problem : notes_.problems()) std::printf("problem: %s\n", problem.c_str());
+      for (const std::string& note : notes_.notes()) std::printf("note: %s\n", note.c_str());
     }
     std::fflush(stdout);
     if (failed_ > 0)
@@ -177,7 +190,7 @@ class Inspection {
   void survey_rasters() {
     std::set<std::filesystem::path> rasters;
     for (const auto& [slot, file] : index_)
-      if (file.format == CellFormat::raster) rasters.insert(file.path);
+      if (file.format == CellFormat::raster && !file.is_part()) rasters.insert(file.path);
     for (const auto& path : rasters) {
       const auto progress = [&](double fraction) {
         publish_progress(path.string() + "  " + std::to_string(std::lround(100 * fraction)) + " %");
@@ -188,15 +201,17 @@ class Inspection {
         continue;
       }
       if (!*found) continue;
-      notes_.add_file(path, (*found)->warnings, (*found)->impossible);
+      notes_.add_file(path, (*found)->notes, (*found)->impossible);
+      // A cell that may hold the floor of the sea beside land is read as a cell, which finds that out.
       for (const gdal::RasterCellStatistics& cell : (*found)->cells)
-        surveyed_[{path, slot_of({cell.south_deg, cell.west_deg})}] = statistics_of(cell);
+        if (!(cell.lowest_m < kLowLand_m && cell.highest_m > 0.0F))
+          surveyed_[{path, slot_of({cell.south_deg, cell.west_deg})}] = statistics_of(cell);
     }
   }
 
   void inspect_cell(std::size_t slot, const CellFile& file) {
     const CellCorner corner = corner_of_slot(slot);
-    if (const auto known = surveyed_.find({file.path, slot}); known != surveyed_.end())
+    if (const auto known = surveyed_.find({file.path, slot}); known != surveyed_.end() && !file.is_part())
       return add_cell(corner, known->second, file);
     if (const auto unreadable = unreadable_.find(file.path); unreadable != unreadable_.end()) {
       if (reported_.insert(file.path).second) notes_.add_problem(unreadable->second);

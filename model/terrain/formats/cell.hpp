@@ -27,6 +27,12 @@ struct CellCorner {
   friend bool operator==(CellCorner, CellCorner) = default;
 };
 
+// Numbers of rows and columns; zeros: not known.
+struct GridSize {
+  int rows = 0;
+  int columns = 0;
+};
+
 // Index of a cell in a table of all cells of the earth (a slot): row by row from the south-west. corner_of_slot() is
 // the inverse.
 constexpr std::size_t slot_of(CellCorner corner) {

@@ -1,7 +1,10 @@
 #include "model/terrain/formats/cell_reading.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <system_error>
@@ -35,6 +38,74 @@ void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::
     impossible += count;
   }
   if (impossible > 0) warnings.push_back(impossible_heights_warning(impossible));
+}
+
+namespace {
+
+// Counts where the ground crosses the level of the sea, along rows and columns of posts.
+class Shores {
+ public:
+  // A row or column up to its last post.
+  struct Line {
+    int side = 0;   // of the last post that is not at 0 m: 1 above, -1 below the sea
+    int zeros = 0;  // posts at 0 m since then
+  };
+
+  void add(std::int16_t post, Line& line) {
+    if (post == kVoidPost) {
+      line = {};
+      return;
+    }
+    if (post == 0) {
+      ++line.zeros;
+      return;
+    }
+    const int side = post > 0 ? 1 : -1;
+    // Between land and a floor, only a few posts happen to lie at 0 m. More of them are a strip of sea.
+    constexpr int kStrip = 8;
+    if (line.zeros >= kStrip)
+      coasts_ += static_cast<std::size_t>(line.side > 0) + static_cast<std::size_t>(side > 0);
+    else
+      floors_ += static_cast<std::size_t>(side * line.side < 0);
+    line = {side, 0};
+  }
+  std::size_t floors() const { return floors_; }  // crossings between land and posts below the sea
+  std::size_t coasts() const { return coasts_; }  // crossings between land and sea at 0 m
+
+ private:
+  std::size_t floors_ = 0, coasts_ = 0;
+};
+
+}  // namespace
+
+std::optional<std::string> sea_floor_note(const Cell& cell) {
+  constexpr double kFewPosts = 0.02;  // share of the posts; fewer are errors of measurement
+  if (cell.lowest_m() >= kLowLand_m || cell.highest_m() <= 0.0) return std::nullopt;
+  const int low_land = static_cast<int>(std::lround(kLowLand_m / cell.unit_m()));
+  Shores shores;
+  std::size_t deep = 0;
+  std::vector<Shores::Line> columns(static_cast<std::size_t>(cell.columns()));
+  std::vector<std::int16_t> row(columns.size());
+  for (int y = 0; y < cell.rows(); ++y) {
+    cell.blocks().copy_row(y, row);
+    Shores::Line along;
+    for (std::size_t x = 0; x < row.size(); ++x) {
+      shores.add(row[x], along);
+      shores.add(row[x], columns[x]);
+      deep += static_cast<std::size_t>(row[x] != kVoidPost && row[x] < low_land);
+    }
+  }
+  if (static_cast<double>(deep) < kFewPosts * static_cast<double>(cell.post_count()) ||
+      shores.floors() <= shores.coasts())
+    return std::nullopt;
+  std::array<char, 320> text{};
+  std::snprintf(
+      text.data(), text.size(),
+      "%zu of %zu posts lie below -10 m, down to %.0f m, and meet the land without sea at 0 m between: the "
+      "radar sees them as land. If they are the floor of the sea, make them 0 m: gdal_calc.py -A IN --outfile "
+      "OUT --calc 'maximum(A,0)'",
+      deep, cell.post_count(), cell.lowest_m());
+  return text.data();
 }
 
 ReadingBuffers& reading_buffers() {
@@ -109,45 +180,52 @@ error::Expected<std::vector<std::byte>> read_file(const std::filesystem::path& p
 
 namespace {
 
-// Turns warnings into sentences. Returns the sentences that are not yet in `reported`, and adds them to `reported`.
-std::vector<std::string> new_sentences(const std::filesystem::path& path, const std::vector<std::string>& warnings,
-                                       std::set<std::string>& reported) {
-  std::vector<std::string> sentences;
-  for (const std::string& warning : warnings) {
-    std::string sentence = path.string() + ": " + warning;
-    if (reported.insert(sentence).second) sentences.push_back(std::move(sentence));
-  }
-  return sentences;
+// Adds each text as a sentence about the file.
+void add_sentences(const std::filesystem::path& path, const std::vector<std::string>& texts,
+                   std::vector<std::string>& sentences) {
+  for (const std::string& text : texts) sentences.push_back(path.string() + ": " + text);
 }
 
-void append(std::vector<std::string> more, std::vector<std::string>& sentences) {
-  for (std::string& sentence : more) sentences.push_back(std::move(sentence));
+// The same, without sentences that are in `reported`, which receives the others.
+void add_new_sentences(const std::filesystem::path& path, const std::vector<std::string>& texts,
+                       std::set<std::string>& reported, std::vector<std::string>& sentences) {
+  for (const std::string& text : texts) {
+    std::string sentence = path.string() + ": " + text;
+    if (reported.insert(sentence).second) sentences.push_back(std::move(sentence));
+  }
 }
 
 }  // namespace
 
-std::vector<std::string> ReadingNotes::take_new(const std::filesystem::path& path, const CellReading& reading) {
-  std::vector<std::string> sentences;
-  for (const std::string& warning : reading.warnings) sentences.push_back(path.string() + ": " + warning);
-  append(new_sentences(path, reading.file_warnings, reported_), sentences);
+FileSentences ReadingNotes::take_new(const std::filesystem::path& path, const CellReading& reading) {
+  FileSentences found;
+  add_sentences(path, reading.warnings, found.problems);
+  add_sentences(path, reading.notes, found.notes);
+  add_new_sentences(path, reading.file_notes, reported_, found.notes);
   if (reading.impossible > 0 && reported_.insert(path.string()).second)
-    sentences.push_back(path.string() + ": " + impossible_heights_warning(reading.impossible));
-  return sentences;
+    found.problems.push_back(path.string() + ": " + impossible_heights_warning(reading.impossible));
+  return found;
 }
 
 void AllReadingNotes::add(const std::filesystem::path& path, const CellReading& reading) {
-  for (const std::string& warning : reading.warnings) sentences_.push_back(path.string() + ": " + warning);
-  add_file(path, reading.file_warnings, reading.impossible);
+  add_sentences(path, reading.warnings, problems_);
+  add_sentences(path, reading.notes, notes_);
+  add_file(path, reading.file_notes, reading.impossible);
 }
 
-void AllReadingNotes::add_file(const std::filesystem::path& path, const std::vector<std::string>& warnings,
+void AllReadingNotes::add(FileSentences sentences) {
+  for (std::string& problem : sentences.problems) problems_.push_back(std::move(problem));
+  for (std::string& note : sentences.notes) notes_.push_back(std::move(note));
+}
+
+void AllReadingNotes::add_file(const std::filesystem::path& path, const std::vector<std::string>& notes,
                                std::size_t impossible) {
-  append(new_sentences(path, warnings, reported_), sentences_);
+  add_new_sentences(path, notes, reported_, notes_);
   if (impossible > 0) impossible_[path.string()] += impossible;
 }
 
-std::vector<std::string> AllReadingNotes::sentences() const {
-  std::vector<std::string> sentences = sentences_;
+std::vector<std::string> AllReadingNotes::problems() const {
+  std::vector<std::string> sentences = problems_;
   for (const auto& [path, posts] : impossible_) sentences.push_back(path + ": " + impossible_heights_warning(posts));
   return sentences;
 }

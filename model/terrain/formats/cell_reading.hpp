@@ -21,19 +21,28 @@
 
 namespace yars::model::terrain {
 
-// A cell with warnings about faults of its file that do not prevent its use.
+// A cell with what is to be said about it. A warning says that data of the file are left out or may be damaged. A note
+// says how the data are taken, such as the accuracy of a change of datum.
 struct CellReading {
   Cell cell;
-  std::optional<Cell> peaks;                    // ReducedCell::peaks if the reader has reduced the cell
-  std::vector<std::string> warnings;            // about this cell, without the file's name
-  std::vector<std::string> file_warnings = {};  // rasters only: about the whole file, which contains many cells
-  std::size_t impossible = 0;                   // rasters only: posts with impossible heights, made void
-  bool damaged = false;                         // true: a checksum in the file is wrong
+  std::optional<Cell> peaks;                 // ReducedCell::peaks if the reader has reduced the cell
+  std::vector<std::string> warnings;         // about data of this cell that are left out, without the file's name
+  std::vector<std::string> notes = {};       // about this cell; nothing is left out
+  std::vector<std::string> file_notes = {};  // rasters only: accuracy of the whole file, which contains many cells
+  std::size_t impossible = 0;                // rasters only: posts with impossible heights, made void
+  bool damaged = false;                      // true: a checksum is wrong, or a further raster cannot be read
 };
 
 // Replaces impossible heights by voids. If there are any, adds one warning with their number. Posts are in metres.
 // Impossible: below -12,000 m, above 10,000 m, and -9999 m, which some producers write for missing data.
 void void_impossible_heights(std::vector<std::int16_t>& posts, std::vector<std::string>& warnings);
+
+inline constexpr double kLowLand_m = -10.0;  // [m MSL] land behind dikes is higher
+
+// A note if posts beside the coast lie below the sea, as in files with the sea floor: such a file crosses the level of
+// the sea at land beside negative posts, not at sea (0 m). At least 2 % of the posts have to be below kLowLand_m.
+// nullopt for any other cell.
+std::optional<std::string> sea_floor_note(const Cell& cell);
 
 // Text of the warning about impossible heights; `posts`: their number.
 std::string impossible_heights_warning(std::size_t posts);
@@ -64,30 +73,38 @@ error::Expected<std::vector<std::byte>> read_file_part(const std::filesystem::pa
 // [bytes] Length of a file. Errors: the file is missing or is not a regular file.
 error::Expected<std::uintmax_t> file_length(const std::filesystem::path& path);
 
-// Turns the warnings of successive readings into sentences that begin with the file's name. A store reports them while
-// it loads cells. A warning about a whole raster is reported once, however many of its cells are read.
+// Sentences that begin with the name of a file.
+struct FileSentences {
+  std::vector<std::string> problems;  // data are left out or may be damaged
+  std::vector<std::string> notes;     // how data are taken
+};
+
+// Turns the warnings and notes of successive readings into sentences. A store reports them while it loads cells. A note
+// about a whole raster is reported once, however many of its cells are read.
 class ReadingNotes {
  public:
-  // Returns the warnings about this cell, and the warnings about its whole file that no earlier call returned.
+  // Returns what is to be said about this cell, and about its whole file if no earlier call returned it.
   // Impossible heights of a raster are reported once, with their number in the first cell read that has any.
-  std::vector<std::string> take_new(const std::filesystem::path& path, const CellReading& reading);
+  FileSentences take_new(const std::filesystem::path& path, const CellReading& reading);
 
  private:
   std::set<std::string> reported_;
 };
 
-// Collects warnings and problems until all cells are read, for commands that report at the end.
+// Collects warnings, notes and problems until all cells are read, for commands that report at the end.
 // Impossible heights are summed over all cells of a raster.
 class AllReadingNotes {
  public:
   void add(const std::filesystem::path& path, const CellReading& reading);
-  void add_file(const std::filesystem::path& path, const std::vector<std::string>& warnings, std::size_t impossible);
-  void add_problem(std::string problem) { sentences_.push_back(std::move(problem)); }
-  std::vector<std::string> sentences() const;
+  void add(FileSentences sentences);
+  void add_file(const std::filesystem::path& path, const std::vector<std::string>& notes, std::size_t impossible);
+  void add_problem(std::string problem) { problems_.push_back(std::move(problem)); }
+  std::vector<std::string> problems() const;
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   std::set<std::string> reported_;
-  std::vector<std::string> sentences_;
+  std::vector<std::string> problems_, notes_;
   std::map<std::string, std::size_t> impossible_;  // number of impossible posts, by path
 };
 

@@ -69,6 +69,10 @@ std::filesystem::path culture_path(const std::filesystem::path& elevation) {
   return stem.replace_extension(".smc.png");
 }
 
+bool is_culture_name(const std::filesystem::path& path) {
+  return file::lower_case(path.filename().string()).ends_with(".smc.png");
+}
+
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation, file::FolderNames& names) {
   return names.find(culture_path(elevation));
 }

@@ -69,6 +69,9 @@ inline constexpr int kMaxCulturePosts = 10801;  // per edge, 1/3 arc second apar
 // The culture file of an elevation file: w122/n36.smc.png for w122/n36.dt1, N36W122.smc.png for N36W122.hgt.zip.
 std::filesystem::path culture_path(const std::filesystem::path& elevation);
 
+// True for names that end as those of culture files do, in upper or lower case.
+bool is_culture_name(const std::filesystem::path& path);
+
 // Path of the folder's entry with the name of culture_path(), in upper or lower case. nullopt if there is no such
 // entry. An entry that is not a regular file is found, too; read_culture() then fails.
 std::optional<std::filesystem::path> find_culture(const std::filesystem::path& elevation, file::FolderNames& names);

@@ -80,7 +80,7 @@ std::string stripped(std::string_view field) {
   return text;
 }
 
-error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject, CellCorner corner) {
+error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std::string& subject) {
   std::size_t start = 0;
   // A file copied from a tape may begin with the tape's labels of volume (VOL) and file (HDR).
   while (bytes.size() >= start + dted::kLabelBytes) {
@@ -109,9 +109,6 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
   if (!west_deg || !south_deg || !interval || !latitude_interval || !columns || !rows)
     return error::fail(subject, "UHL fields in digits, origin in whole degrees",
                        std::string(user_header.substr(0, 55)));
-  if (CellCorner{*south_deg, *west_deg} != corner)
-    return error::fail(subject, name_of(corner) + " as the name says",
-                       name_of({*south_deg, *west_deg}) + " in its header", "rename or replace the file");
   const int max_posts = dted::kPostsOfLevel[2];
   if (*columns < 2 || *rows < 2 || *columns > max_posts || *rows > max_posts ||
       (*columns - 1) * *interval != dted::kTenthsPerDegree ||
@@ -120,7 +117,9 @@ error::Expected<Header> parse_header(std::span<const std::byte> bytes, const std
                        std::to_string(*columns) + " x " + std::to_string(*rows) + " posts at " +
                            std::to_string(*interval) + " x " + std::to_string(*latitude_interval) +
                            " tenths of a second");
-  return Header{corner, *columns, *rows, start + dted::kHeaderBytes};
+  if (*south_deg < -90 || *south_deg > 89 || *west_deg < -180 || *west_deg > 179)
+    return error::fail(subject, "a cell on the earth", name_of({*south_deg, *west_deg}) + " in its header");
+  return Header{{*south_deg, *west_deg}, *columns, *rows, start + dted::kHeaderBytes};
 }
 
 bool sum_matches(std::span<const std::byte> record) {
@@ -233,7 +232,7 @@ void decode(std::vector<std::int16_t>& words, bool twos_complement) {
   }
 }
 
-std::vector<std::string> warnings_of(const Columns& found, const Header& header, bool twos_complement) {
+std::vector<std::string> warnings_of(const Columns& found, const Header& header) {
   std::vector<std::string> warnings;
   const auto count = [&](const char* what, std::size_t number, const char* consequence) {
     if (number > 0) warnings.push_back(what + std::to_string(number) + consequence);
@@ -242,7 +241,6 @@ std::vector<std::string> warnings_of(const Columns& found, const Header& header,
   count("absent columns: ", static_cast<std::size_t>(header.columns) - found.present, "; they are void");
   count("partial columns: ", found.partial, "; their missing posts are void");
   count("bytes after the last column record: ", found.bytes_after, "; they are ignored");
-  if (twos_complement) warnings.emplace_back("negative heights are in two's complement, not in sign-magnitude");
   return warnings;
 }
 
@@ -268,8 +266,11 @@ error::Expected<void> check_dted_datums(std::string_view vertical_field, std::st
 
 error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const std::string& subject,
                                         CellCorner corner) {
-  const error::Expected<Header> header = parse_header(bytes, subject, corner);
+  const error::Expected<Header> header = parse_header(bytes, subject);
   if (!header) return tl::unexpected(header.error());
+  if (!(header->corner == corner))
+    return error::fail(subject, name_of(corner) + " as the name says", name_of(header->corner) + " in its header",
+                       "rename or replace the file");
   const std::span<const std::byte> data = bytes.subspan(header->data_offset);
   if (data.empty())
     return error::fail(subject, std::to_string(header->columns) + " columns of posts", "a header alone",
@@ -281,17 +282,39 @@ error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const 
                static_cast<std::int16_t>(dted::kVoidWord));
   copy_words(columns->records, *header, posts);
   const bool twos_complement = is_twos_complement(posts);
-  std::vector<std::string> warnings = warnings_of(*columns, *header, twos_complement);
+  std::vector<std::string> warnings = warnings_of(*columns, *header);
   decode(posts, twos_complement);
   void_impossible_heights(posts, warnings);
   CellReading reading{Cell(corner, header->rows, header->columns, posts), std::nullopt, std::move(warnings)};
   reading.damaged = columns->wrong_sums > 0;
+  if (twos_complement) reading.notes.emplace_back("negative heights are in two's complement, not in sign-magnitude");
   return reading;
+}
+
+namespace {
+constexpr std::size_t kMaxLabel_bytes = 8 * dted::kLabelBytes;
+}  // namespace
+
+error::Expected<DtedPlace> dted_place(const std::filesystem::path& path) {
+  const auto length = file_length(path);
+  if (!length) return tl::unexpected(length.error());
+  const auto head = read_file_part(path, 0, std::min<std::uintmax_t>(*length, kMaxLabel_bytes + dted::kHeaderBytes));
+  if (!head) return tl::unexpected(head.error());
+  const auto header = parse_header(*head, path.string());
+  if (!header) return tl::unexpected(header.error());
+  return DtedPlace{header->corner, {header->rows, header->columns}};
+}
+
+bool begins_as_dted(const std::filesystem::path& path) {
+  const auto head = read_file_part(path, 0, 4);
+  if (!head) return false;
+  const std::string_view label = text_of(*head);
+  return label == "UHL1" || label == "VOL1" || label == "HDR1";
 }
 
 error::Expected<CellReading> read_dted(const std::filesystem::path& path, CellCorner corner) {
   // The size of a level 2 file that begins with eight labels. No file of level 0, 1 or 2 is larger.
-  constexpr std::size_t kMaxFile_bytes = dted::kHeaderBytes + 3601 * dted::record_bytes(3601) + 8 * dted::kLabelBytes;
+  constexpr std::size_t kMaxFile_bytes = dted::kHeaderBytes + 3601 * dted::record_bytes(3601) + kMaxLabel_bytes;
   std::vector<std::byte>& bytes = reading_buffers().file;
   if (const auto read = read_file(path, kMaxFile_bytes, bytes); !read) return tl::unexpected(read.error());
   return parse_dted(bytes, path.string(), corner);

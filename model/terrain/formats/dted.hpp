@@ -54,10 +54,21 @@ constexpr std::size_t record_bytes(int posts) {
 
 namespace yars::model::terrain {
 
+// Place and posts of a cell, as the header of its file states them.
+struct DtedPlace {
+  CellCorner corner;
+  GridSize grid;
+};
+// Reads the header of a file of any name. Errors: those of the header, see read_dted().
+error::Expected<DtedPlace> dted_place(const std::filesystem::path& path);
+
+// True if a file begins as DTED does, with the label of a header or of a tape.
+bool begins_as_dted(const std::filesystem::path& path);
+
 // Reads one cell. Voids become kVoidPost. So do impossible heights (cell_reading.hpp), with a warning.
 // Absent columns, and posts that are absent at the south end of a column, become voids with a warning.
 // A wrong column checksum is a warning, and the heights are kept (project choice).
-// A file with a height below -16000 m in sign-magnitude is read as two's complement, with a warning.
+// A file with a height below -16000 m in sign-magnitude is read as two's complement, with a note.
 // Datums: horizontal WGS84 or blank; vertical MSL, E84, E96, E08 (mean sea level of EGM84, EGM96, EGM2008) or blank.
 // Any other datum, such as WGS72, is an error.
 // Errors: no UHL, another datum, an origin not in whole degrees or not at `corner`, posts that do not span one

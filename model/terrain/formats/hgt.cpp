@@ -21,35 +21,70 @@
 namespace yars::model::terrain {
 
 namespace {
-constexpr int kPosts[] = {1201, 3601};  // posts along an edge, 3 and 1 arc seconds apart
-constexpr std::size_t bytes_of(int posts) {
-  return 2 * static_cast<std::size_t>(posts) * static_cast<std::size_t>(posts);
+constexpr GridSize kGrids[] = {{1201, 1201}, {3601, 3601}, {3601, 1801}};  // rows, columns
+constexpr std::size_t bytes_of(GridSize grid) {
+  return 2 * static_cast<std::size_t>(grid.rows) * static_cast<std::size_t>(grid.columns);
 }
-constexpr std::size_t kMaxHgt_bytes = bytes_of(kPosts[1]);
+constexpr std::size_t kMaxHgt_bytes = bytes_of(kGrids[1]);
+
+// "1201 x 1201 posts (2884802 bytes), ..."
+std::string grids_text() {
+  std::string text;
+  for (const GridSize grid : kGrids)
+    text += (text.empty() ? "" : ", ") + std::to_string(grid.columns) + " x " + std::to_string(grid.rows) + " posts (" +
+            text::counted(bytes_of(grid), "byte") + ")";
+  return text;
+}
 }  // namespace
 
-int hgt_posts_for_size(std::uintmax_t bytes) {
-  for (const int posts : kPosts)
-    if (bytes == bytes_of(posts)) return posts;
-  return 0;
+GridSize hgt_grid_for_size(std::uintmax_t bytes) {
+  for (const GridSize grid : kGrids)
+    if (bytes == bytes_of(grid)) return grid;
+  return {};
+}
+
+std::optional<CellCorner> corner_in_name(std::string_view name) {
+  const auto letter = [&](std::size_t at) {
+    return at < name.size() ? std::tolower(static_cast<unsigned char>(name[at])) : 0;
+  };
+  const auto degrees = [&](std::size_t at, std::size_t digits) {
+    int value = 0;
+    for (std::size_t i = at; i < at + digits; ++i) {
+      if (letter(i) < '0' || letter(i) > '9') return -1;
+      value = value * 10 + (letter(i) - '0');
+    }
+    return value;
+  };
+  std::optional<CellCorner> found;
+  for (std::size_t at = 0; at < name.size(); ++at) {
+    if ((letter(at) != 'n' && letter(at) != 's') || (at > 0 && std::isalnum(letter(at - 1)) != 0)) continue;
+    const std::size_t east = at + (letter(at + 3) == '_' ? 4 : 3);
+    if ((letter(east) != 'e' && letter(east) != 'w') || (letter(east + 4) >= '0' && letter(east + 4) <= '9')) continue;
+    const int latitude_deg = degrees(at + 1, 2), longitude_deg = degrees(east + 1, 3);
+    if (latitude_deg < 0 || longitude_deg < 0) continue;
+    const CellCorner corner{letter(at) == 'n' ? latitude_deg : -latitude_deg,
+                            letter(east) == 'e' ? longitude_deg : -longitude_deg};
+    if (corner.south_deg < -90 || corner.south_deg > 89 || corner.west_deg < -180 || corner.west_deg > 179) continue;
+    if (found && !(*found == corner)) return std::nullopt;
+    found = corner;
+  }
+  return found;
 }
 
 error::Expected<CellReading> parse_hgt(std::span<const std::byte> bytes, const std::string& subject,
                                        CellCorner corner) {
-  const int posts = hgt_posts_for_size(bytes.size());
-  if (posts == 0)
-    return error::fail(
-        subject,
-        "an HGT file of " + std::to_string(bytes_of(kPosts[0])) + " or " + text::counted(bytes_of(kPosts[1]), "byte"),
-        text::counted(bytes.size(), "byte"), "the file is truncated or is not HGT; fetch it again");
-  const auto side = static_cast<std::size_t>(posts);
+  const GridSize grid = hgt_grid_for_size(bytes.size());
+  if (grid.rows == 0)
+    return error::fail(subject, "an HGT file of " + grids_text(), text::counted(bytes.size(), "byte"),
+                       "the file is truncated or is not HGT; fetch it again");
+  const auto rows = static_cast<std::size_t>(grid.rows), columns = static_cast<std::size_t>(grid.columns);
   std::vector<std::int16_t>& heights = reading_buffers().posts;
-  heights.resize(side * side);
-  for (std::size_t row = 0; row < side; ++row)
-    memory::copy_big_endian(&bytes[2 * row * side], std::span(heights).subspan((side - 1 - row) * side, side));
+  heights.resize(rows * columns);
+  for (std::size_t row = 0; row < rows; ++row)
+    memory::copy_big_endian(&bytes[2 * row * columns], std::span(heights).subspan((rows - 1 - row) * columns, columns));
   std::vector<std::string> warnings;
   void_impossible_heights(heights, warnings);
-  return CellReading{Cell(corner, posts, posts, heights), std::nullopt, std::move(warnings)};
+  return CellReading{Cell(corner, grid.rows, grid.columns, heights), std::nullopt, std::move(warnings)};
 }
 
 error::Expected<CellReading> read_hgt(const std::filesystem::path& path, CellCorner corner) {
@@ -93,7 +128,7 @@ error::Expected<std::uintmax_t> compressed_length(const std::filesystem::path& p
   auto length = file_length(path);
   if (!length || *length <= kMaxCompressedBytes) return length;
   return error::fail(path.string(), "at most " + text::counted(kMaxCompressedBytes, "byte"),
-                     text::counted(*length, "byte"), "this is no compressed HGT cell");
+                     text::counted(*length, "byte"), "unpack it");
 }
 
 // The original file name in the gzip header (RFC 1952, flag FNAME); empty if the header has none.
@@ -118,12 +153,13 @@ std::string name_in_gzip(const std::filesystem::path& path) {
   return name;
 }
 
-error::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path& path) {
+error::Expected<std::vector<std::byte>> inflate_gzip(const std::filesystem::path& path, CellCorner corner) {
   if (const auto length = compressed_length(path); !length) return tl::unexpected(length.error());
-  const std::filesystem::path inside = file::lower_case(name_in_gzip(path));
-  if (inside.extension() == ".hgt" && inside.filename() != file::lower_case(path.stem().string()))
-    return error::fail(path.string(), path.stem().string() + " as the name in the gzip header",
-                       quoted(printable(inside.filename().string())), "give the file the name of the cell in it");
+  const std::string inside = name_in_gzip(path);
+  if (const auto stated = corner_in_name(inside); stated && !(*stated == corner))
+    return error::fail(path.string(), hgt_name(corner) + " as the name in the gzip header",
+                       quoted(printable(std::filesystem::path(inside).filename().string())),
+                       "give the file the name of the cell in it");
   const std::unique_ptr<gzFile_s, CloseGzip> file(gzopen(path.c_str(), "rb"));
   if (!file) return error::fail(path.string(), "a gzip file", "one that cannot be opened");
   // One byte more than the largest cell, to detect a longer stream.
@@ -150,21 +186,33 @@ struct ZipEntry {
   zip_uint64_t bytes = 0;
 };
 
-// The entry with the archive's name without `.zip`, in any folder of the archive, in upper or lower case; nullopt if
-// there is none. For the error message, `other` then receives the name of another entry, preferably of an `.hgt` file.
-std::optional<ZipEntry> hgt_entry(zip_t* archive, const std::filesystem::path& path, std::string* other = nullptr) {
-  const std::string entry_name = file::lower_case(path.stem().string());
+// Files beside those of a Mac begin with ._ and hold no heights.
+bool is_hgt_name(const std::string& name) {
+  return std::filesystem::path(file::lower_case(name)).extension() == ".hgt" && !name.starts_with("._");
+}
+
+// Calls `each` with the name and the entry of each file in an archive.
+template <class Each>
+void for_entries(zip_t* archive, const Each& each) {
   for (zip_int64_t index = 0; index < zip_get_num_entries(archive, 0); ++index) {
     zip_stat_t status;
     if (zip_stat_index(archive, static_cast<zip_uint64_t>(index), 0, &status) != 0) continue;
     if ((status.valid & ZIP_STAT_NAME) == 0 || (status.valid & ZIP_STAT_SIZE) == 0) continue;
-    const std::filesystem::path name = file::lower_case(status.name);
-    const ZipEntry entry{static_cast<zip_uint64_t>(index), status.size};
-    if (name.filename() == entry_name) return entry;
-    const bool is_hgt = name.extension() == ".hgt";
-    if (other != nullptr && (other->empty() || is_hgt)) *other = printable(name.filename().string());
+    each(std::filesystem::path(status.name).filename().string(),
+         ZipEntry{static_cast<zip_uint64_t>(index), status.size});
   }
-  return std::nullopt;
+}
+
+// The first HGT file of a cell, in any folder of the archive; nullopt if there is none. For the error message, `other`
+// then receives the name of another entry, preferably of an `.hgt` file.
+std::optional<ZipEntry> hgt_entry(zip_t* archive, CellCorner corner, std::string* other = nullptr) {
+  std::optional<ZipEntry> found;
+  for_entries(archive, [&](const std::string& name, ZipEntry entry) {
+    const bool is_hgt = is_hgt_name(name);
+    if (!found && is_hgt && corner_in_name(name) == corner) found = entry;
+    if (other != nullptr && (other->empty() || is_hgt)) *other = printable(name);
+  });
+  return found;
 }
 
 error::Expected<ZipArchive> open_zip(const std::filesystem::path& path) {
@@ -175,18 +223,18 @@ error::Expected<ZipArchive> open_zip(const std::filesystem::path& path) {
   return archive;
 }
 
-error::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path& path) {
+error::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path& path, CellCorner corner) {
   const auto archive = open_zip(path);
   if (!archive) return tl::unexpected(archive.error());
   std::string other;
-  const std::optional<ZipEntry> entry = hgt_entry(archive->get(), path, &other);
+  const std::optional<ZipEntry> entry = hgt_entry(archive->get(), corner, &other);
   if (!entry)
-    return error::fail(path.string(), "an entry " + path.stem().string(),
+    return error::fail(path.string(), "an entry " + hgt_name(corner),
                        other.empty() ? "an archive without entries" : quoted(other),
                        "give the archive the name of the cell that is in it");
-  if (hgt_posts_for_size(entry->bytes) == 0)
-    return error::fail(path.string(), "an entry of 2884802 or 25934402 bytes",
-                       "one of " + text::counted(entry->bytes, "byte"), "this is no HGT cell");
+  if (hgt_grid_for_size(entry->bytes).rows == 0)
+    return error::fail(path.string(), "an entry of " + grids_text(), "one of " + text::counted(entry->bytes, "byte"),
+                       "this is no HGT cell");
   const std::unique_ptr<zip_file_t, CloseZipEntry> file(zip_fopen_index(archive->get(), entry->index, 0));
   if (!file) return error::fail(path.string(), "an entry that can be unpacked", zip_strerror(archive->get()));
   std::vector<std::byte> bytes(entry->bytes);
@@ -200,26 +248,58 @@ error::Expected<std::vector<std::byte>> inflate_zip(const std::filesystem::path&
 
 }  // namespace
 
+error::Expected<PackedFiles> packed_hgt_files(const std::filesystem::path& path) {
+  PackedFiles files;
+  std::string unplaced;
+  const auto add = [&](const std::string& name, std::optional<CellCorner> corner) {
+    if (!corner)
+      unplaced = name;
+    else if (std::find(files.cells.begin(), files.cells.end(), *corner) == files.cells.end())
+      files.cells.push_back(*corner);
+  };
+  if (is_gzip(path)) {
+    const std::string inside = std::filesystem::path(name_in_gzip(path)).filename().string();
+    const std::string own = path.stem().string();
+    const auto stated = corner_in_name(inside);
+    if (is_hgt_name(inside) || is_hgt_name(own))
+      add(printable(own), stated ? stated : corner_in_name(own));
+    else
+      files.others.push_back(own);
+  } else {
+    const auto archive = open_zip(path);
+    if (!archive) return tl::unexpected(archive.error());
+    for_entries(archive->get(), [&](const std::string& name, ZipEntry /*entry*/) {
+      if (is_hgt_name(name))
+        add(printable(name), corner_in_name(name));
+      else
+        files.others.push_back(printable(name));
+    });
+  }
+  if (unplaced.empty()) return files;
+  return error::fail(path.string(), "HGT files whose names state their cells, as N36W122.hgt", quoted(unplaced),
+                     "unpack it and give the file the name of its cell");
+}
+
 error::Expected<CellReading> read_compressed_hgt(const std::filesystem::path& path, CellCorner corner) {
-  const auto bytes = is_gzip(path) ? inflate_gzip(path) : inflate_zip(path);
+  const auto bytes = is_gzip(path) ? inflate_gzip(path, corner) : inflate_zip(path, corner);
   if (!bytes) return tl::unexpected(bytes.error());
   return parse_hgt(*bytes, path.string(), corner);
 }
 
-int compressed_hgt_posts(const std::filesystem::path& path) {
+GridSize compressed_hgt_grid(const std::filesystem::path& path, CellCorner corner) {
   if (is_gzip(path)) {
     // A gzip stream has at least 18 bytes: header and trailer. The last 4 bytes are the uncompressed length,
     // little-endian.
     const auto length = file_length(path);
-    if (!length || *length < 18) return 0;
+    if (!length || *length < 18) return {};
     const auto tail = read_file_part(path, *length - 4, 4);
-    if (!tail) return 0;
-    return hgt_posts_for_size(memory::little_endian<std::uint32_t>(*tail, 0));
+    if (!tail) return {};
+    return hgt_grid_for_size(memory::little_endian<std::uint32_t>(*tail, 0));
   }
   const auto archive = open_zip(path);
-  if (!archive) return 0;
-  const std::optional<ZipEntry> entry = hgt_entry(archive->get(), path);
-  return entry ? hgt_posts_for_size(entry->bytes) : 0;
+  if (!archive) return {};
+  const std::optional<ZipEntry> entry = hgt_entry(archive->get(), corner);
+  return entry ? hgt_grid_for_size(entry->bytes) : GridSize{};
 }
 
 std::string hgt_name(CellCorner corner) {
@@ -233,7 +313,7 @@ std::vector<std::byte> hgt_bytes(const Cell& cell) {
   const std::size_t size = 2 * static_cast<std::size_t>(cell.rows()) * static_cast<std::size_t>(cell.columns());
   YARS_REQUIRE(cell.unit_m(), ==, 1.0);
   YARS_REQUIRE(cell.rows(), ==, cell.columns());
-  YARS_REQUIRE(hgt_posts_for_size(size), ==, cell.rows());
+  YARS_REQUIRE(hgt_grid_for_size(size).rows, ==, cell.rows());
   static_assert(kVoidPost == -32768, "the void of HGT");
   std::vector<std::byte> bytes;
   bytes.reserve(size);

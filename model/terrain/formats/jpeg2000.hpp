@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
+#include "model/terrain/formats/cell.hpp"
 
 namespace yars::model::terrain {
 
@@ -31,11 +32,6 @@ error::Expected<std::vector<std::byte>> encode_jpeg2000(const HeightGrid& grid, 
 error::Expected<HeightGrid> decode_jpeg2000(std::span<const std::byte> file, const std::string& subject, int rows,
                                             int columns, int reduction);
 
-// Numbers of rows and columns; zeros: not known.
-struct GridSize {
-  int rows = 0;
-  int columns = 0;
-};
 inline constexpr std::size_t kJpeg2000HeadBytes = 56;
 // Size of a grid from the first kJpeg2000HeadBytes bytes of a .jp2. Zeros if the bytes are no header of a .jp2, or if
 // rows or columns are not in [2, 32768].

@@ -23,9 +23,10 @@ error::Expected<RasterSummary> describe_raster(const std::filesystem::path& path
   return built_without(path);
 }
 
-error::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int /*south_deg*/, int /*west_deg*/,
-                                         int /*posts_per_degree_north*/, int /*posts_per_degree_east*/) {
-  return built_without(path);
+error::Expected<RasterPosts> read_raster(const std::vector<std::filesystem::path>& rasters, int /*south_deg*/,
+                                         int /*west_deg*/, int /*posts_per_degree_north*/,
+                                         int /*posts_per_degree_east*/) {
+  return built_without(rasters.front());
 }
 
 error::Expected<std::optional<RasterStatistics>> survey_raster(const std::filesystem::path& path,

@@ -148,9 +148,9 @@ error::Expected<void> Georeference::find_geoid(PJ* horizontal, const std::string
                        "install proj-data, or convert them to heights above mean sea level with gdalwarp -t_srs "
                        "EPSG:4326+5773");
   geoid_ = std::move(found.operation);
-  if (!found.warning.empty()) warnings_.push_back("heights of " + name_of(horizontal) + ": " + found.warning);
-  warnings_.push_back("heights above the ellipsoid are converted to heights above mean sea level by the geoid EGM96, " +
-                      accuracy_text(context_.get(), geoid_.get()));
+  if (!found.warning.empty()) notes_.push_back("heights of " + name_of(horizontal) + ": " + found.warning);
+  notes_.push_back("heights above the ellipsoid are converted to heights above mean sea level by the geoid EGM96, " +
+                   accuracy_text(context_.get(), geoid_.get()));
   return {};
 }
 
@@ -181,7 +181,7 @@ error::Expected<void> Georeference::find_operation(PJ* horizontal, const std::st
     return error::fail(subject, "a raster that lies on the earth",
                        "coordinates of " + name_of(horizontal) + " that PROJ cannot convert to WGS84", kWarpIt);
   to_wgs84_ = std::move(found.operation);
-  if (!found.warning.empty()) warnings_.push_back(name_of(horizontal) + ": " + found.warning);
+  if (!found.warning.empty()) notes_.push_back(name_of(horizontal) + ": " + found.warning);
   return {};
 }
 

@@ -28,7 +28,7 @@ struct EarthPosition {
 
 // Transform between the pixels of a raster and WGS84 by PROJ. It supports any datum, unit, prime meridian, axis order
 // and projection. The whole raster uses one PROJ operation, selected at sample points by operation_between().
-// Warnings: the operation is a ballpark transformation; a better operation lacks its grid file; heights are ellipsoidal
+// Notes: the operation is a ballpark transformation; a better operation lacks its grid file; heights are ellipsoidal
 // and are converted with the geoid.
 class Georeference {
  public:
@@ -56,7 +56,7 @@ class Georeference {
   std::vector<double> above_sea_level_m(std::span<const double> longitudes_deg,
                                         std::span<const double> latitudes_deg) const;
 
-  const std::vector<std::string>& warnings() const { return warnings_; }
+  const std::vector<std::string>& notes() const { return notes_; }
 
  private:
   error::Expected<void> read_system(GDALDatasetH dataset, const std::string& subject);
@@ -82,7 +82,7 @@ class Georeference {
   bool points_down_ = false;
   bool longitude_first_ = false;  // true: the system is treated as WGS84, and its first axis is the longitude
   int width_ = 0, height_ = 0;
-  std::vector<std::string> warnings_;
+  std::vector<std::string> notes_;
 };
 
 // Grid of posts of a cell of 1 x 1 degree.

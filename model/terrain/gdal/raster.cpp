@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,11 +28,29 @@ class CellPosts {
 
   // Stores a height [m MSL]. NaN leaves the post void. A height within 0.05 m of 0 becomes 0 (sea).
   void put(int row, int column, double height_m);
+  // Gives the posts the smallest unit of the posts with fractions, for a further raster with fractions.
+  void allow_fractions();
+
+  int rows() const { return static_cast<int>(posts_.size()) / columns_; }
+  int columns() const { return columns_; }
+  bool is_void(int row, int column) const { return posts_[index(row, column)] == kNoHeight; }
+  bool has_void(int first_row, int first_column, int end_row, int end_column) const;
+  bool has_void() const { return has_void(0, 0, rows(), columns_); }
+  bool on_edge(int row, int column) const {
+    return row == 0 || column == 0 || row == rows() - 1 || column == columns_ - 1;
+  }
+  bool has_void_edge() const {
+    return has_void(0, 0, 1, columns_) || has_void(rows() - 1, 0, rows(), columns_) || has_void(0, 0, rows(), 1) ||
+           has_void(0, columns_ - 1, rows(), columns_);
+  }
 
   double unit_m() const { return tenths_ / 10.0; }
   std::vector<std::int16_t> take() { return std::move(posts_); }
 
  private:
+  std::size_t index(int row, int column) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column);
+  }
   std::int16_t rounded(double height_m) const;
   void coarsen(double height_m);
 
@@ -52,8 +72,28 @@ CellPosts::CellPosts(int rows, int columns, bool whole_metres)
 void CellPosts::put(int row, int column, double height_m) {
   if (std::isnan(height_m)) return;
   if (std::abs(height_m) > kMaxPost * unit_m()) coarsen(height_m);
-  posts_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column)] =
-      rounded(height_m);
+  posts_[index(row, column)] = rounded(height_m);
+}
+
+void CellPosts::allow_fractions() {
+  if (tenths_ != 10) return;
+  int highest = 0;
+  for (const std::int16_t post : posts_)
+    if (post != kNoHeight) highest = std::max(highest, std::abs(static_cast<int>(post)));
+  // Units that divide a metre keep whole metres.
+  for (const int tenths : {1, 2, 5})
+    if (tenths_ == 10 && highest * 10 <= kMaxPost * tenths) tenths_ = tenths;
+  for (std::int16_t& post : posts_)
+    if (post != kNoHeight && post != 0) post = rounded(post);
+}
+
+bool CellPosts::has_void(int first_row, int first_column, int end_row, int end_column) const {
+  for (int row = first_row; row < end_row; ++row) {
+    const auto begin = posts_.begin() + static_cast<std::ptrdiff_t>(index(row, first_column));
+    if (std::find(begin, begin + (end_column - first_column), kNoHeight) != begin + (end_column - first_column))
+      return true;
+  }
+  return false;
 }
 
 std::int16_t CellPosts::rounded(double height_m) const {
@@ -78,19 +118,35 @@ struct NearestBlock {
   double right, down;  // [blocks] offset in [-0.5, 0.5]
 };
 
-// Reads one cell in squares of kTile x kTile posts (tiles).
+// Which void posts a CellReader fills.
+enum class Reach : std::uint8_t {
+  pixels,  // those within the pixels of the raster
+  beside,  // those on an edge of the cell, at most one pixel beyond the centre of an outermost pixel
+  corner   // the same, also where both a row and a column of pixels are missing
+};
+
+// Fills the void posts of a cell from one raster, in squares of kTile x kTile posts (tiles).
 class CellReader {
  public:
-  CellReader(const Raster& raster, const Grid& grid, bool pixels)
-      : raster_(raster), grid_(grid), pixels_(pixels), posts_(grid.rows, grid.columns, pixels && raster.whole_metres) {}
+  CellReader(const Raster& raster, const Grid& grid, Reach reach, CellPosts& posts)
+      : raster_(raster),
+        grid_(grid),
+        reach_(reach),
+        pixels_(posts_are_pixels(raster, grid.rows - 1, grid.columns - 1)),
+        posts_(posts) {}
 
-  error::Expected<RasterPosts> read() {
+  // Output: the number of pixels with impossible heights.
+  error::Expected<std::size_t> read() {
     size_ = block_size();
+    const PostRange range = touched_posts(raster_, grid_);
     for (int row = 0; row < grid_.rows; row += kTile)
-      for (int column = 0; column < grid_.columns; column += kTile)
+      for (int column = 0; column < grid_.columns; column += kTile) {
+        const int end_row = std::min(row + kTile, grid_.rows), end_column = std::min(column + kTile, grid_.columns);
+        if (!range.overlaps(row, column, end_row, end_column)) continue;
+        if (!posts_.has_void(row, column, end_row, end_column)) continue;
         if (const auto done = read_tile(row, column); !done) return tl::unexpected(done.error());
-    const double unit_m = posts_.unit_m();
-    return RasterPosts{grid_.rows, grid_.columns, unit_m, posts_.take(), impossible_, raster_.georeference.warnings()};
+      }
+    return impossible_;
   }
 
  private:
@@ -126,7 +182,8 @@ class CellReader {
     const int end_column = std::min(first_column + kTile, grid_.columns);
     for (int row = first_row; row < end_row; ++row)
       for (int column = first_column; column < end_column; ++column)
-        posts_.put(row, column, height_m(*window, lattice, row - first_row, column - first_column));
+        if (posts_.is_void(row, column) && (reach_ == Reach::pixels || posts_.on_edge(row, column)))
+          posts_.put(row, column, height_m(*window, lattice, row - first_row, column - first_column));
     return {};
   }
 
@@ -154,8 +211,13 @@ class CellReader {
 
   std::optional<NearestBlock> nearest(const PixelPosition& position) const {
     constexpr double kSlack = 1e-6;  // [pixels] tolerance for rounding errors at the raster's edge
-    if (!(position.column >= -kSlack && position.row >= -kSlack && position.column <= raster_.columns + kSlack &&
-          position.row <= raster_.rows + kSlack))
+    const auto beyond = [](double pixel, int pixels) { return std::max(-pixel, pixel - pixels); };
+    const double across_pixels = beyond(position.column, raster_.columns);
+    const double along_pixels = beyond(position.row, raster_.rows);
+    const bool within = across_pixels <= kSlack && along_pixels <= kSlack;
+    const bool one_direction = across_pixels <= kSlack || along_pixels <= kSlack;
+    if (!within && (reach_ == Reach::pixels || (reach_ == Reach::beside && !one_direction) ||
+                    !(across_pixels <= size_.across / 2.0 + kSlack && along_pixels <= size_.along / 2.0 + kSlack)))
       return std::nullopt;
     // Within half a block of the raster's edge the outermost blocks are repeated.
     const double across = std::clamp(position.column / size_.across - 0.5, 0.0, block_columns() - 1.0);
@@ -231,9 +293,10 @@ class CellReader {
 
   const Raster& raster_;
   Grid grid_;
+  Reach reach_;
   bool pixels_;  // true: each post is the centre of a pixel of the raster
   BlockSize size_;
-  CellPosts posts_;
+  CellPosts& posts_;
   std::size_t impossible_ = 0;
 };
 
@@ -256,21 +319,55 @@ bool available() {
   return true;
 }
 
+namespace {
+
+void add_new(const std::vector<std::string>& texts, std::vector<std::string>& all) {
+  for (const std::string& text : texts)
+    if (std::find(all.begin(), all.end(), text) == all.end()) all.push_back(text);
+}
+
+}  // namespace
+
 error::Expected<RasterSummary> describe_raster(const std::filesystem::path& path) {
   const auto raster = open_raster(path);
   if (!raster) return tl::unexpected(raster.error());
-  RasterSummary summary{cells_of(*raster), dted_datums_of(raster->dataset.get())};
+  RasterSummary summary{cells_of(*raster), edges_of(*raster), dted_datums_of(raster->dataset.get())};
   if (summary.cells.empty())
     return error::fail(path.string(), "a raster with at least one pixel in a one-degree cell", "no such pixel");
   return summary;
 }
 
-error::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int south_deg, int west_deg,
+error::Expected<RasterPosts> read_raster(const std::vector<std::filesystem::path>& rasters, int south_deg, int west_deg,
                                          int posts_per_degree_north, int posts_per_degree_east) {
-  const auto raster = open_raster(path);
-  if (!raster) return tl::unexpected(raster.error());
+  YARS_REQUIRE(rasters.empty(), ==, false);
   const Grid grid{south_deg, west_deg, posts_per_degree_north + 1, posts_per_degree_east + 1};
-  return CellReader(*raster, grid, posts_are_pixels(*raster, posts_per_degree_north, posts_per_degree_east)).read();
+  std::optional<CellPosts> posts;
+  RasterPosts read;
+  const auto fill = [&](const std::filesystem::path& path, Reach reach) -> error::Expected<void> {
+    const auto raster = open_raster(path);
+    if (!raster) return tl::unexpected(raster.error());
+    const bool whole = raster->whole_metres && posts_are_pixels(*raster, grid.rows - 1, grid.columns - 1);
+    if (!posts)
+      posts.emplace(grid.rows, grid.columns, whole);
+    else if (!whole)
+      posts->allow_fractions();
+    add_new(raster->georeference.notes(), read.notes);
+    const auto impossible = CellReader(*raster, grid, reach, *posts).read();
+    if (!impossible) return tl::unexpected(impossible.error());
+    if (reach == Reach::pixels) read.impossible += *impossible;
+    return {};
+  };
+  if (const auto filled = fill(rasters.front(), Reach::pixels); !filled) return tl::unexpected(filled.error());
+  for (auto other = rasters.begin() + 1; other != rasters.end() && posts->has_void(); ++other)
+    if (const auto filled = fill(*other, Reach::pixels); !filled) add_new({filled.error().message()}, read.problems);
+  for (const Reach reach : {Reach::beside, Reach::corner})
+    for (auto raster = rasters.begin(); raster != rasters.end() && posts->has_void_edge(); ++raster)
+      if (const auto filled = fill(*raster, reach); !filled) add_new({filled.error().message()}, read.problems);
+  read.rows = grid.rows;
+  read.columns = grid.columns;
+  read.unit_m = posts->unit_m();
+  read.posts = posts->take();
+  return read;
 }
 
 }  // namespace yars::model::terrain::gdal

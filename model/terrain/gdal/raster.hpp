@@ -36,12 +36,16 @@ struct RasterPosts {
   double unit_m = 1.0;                // [m] height of post value 1; one or a few decimetres for fractional heights
   std::vector<std::int16_t> posts;    // [unit_m]
   std::size_t impossible = 0;         // number of pixels with impossible heights, treated as pixels without data
-  std::vector<std::string> warnings;  // about the whole raster
+  std::vector<std::string> notes;     // about the rasters that were read
+  std::vector<std::string> problems;  // about further rasters that could not be read
 };
 
 // Reads the posts of one cell. If posts are coarser than pixels, blocks of pixels, at most half a post interval wide,
-// are averaged first.
-error::Expected<RasterPosts> read_raster(const std::filesystem::path& path, int south_deg, int west_deg,
+// are averaged first. A post that is void in the first raster is read from the first of the others that has it; one
+// that cannot be read is a problem. Then a void post on an edge of the cell takes the height of the outermost pixel of
+// a raster, if that pixel's centre is at most one pixel away: many tiles end one pixel short of their southern and
+// eastern edges. Requires at least one raster.
+error::Expected<RasterPosts> read_raster(const std::vector<std::filesystem::path>& rasters, int south_deg, int west_deg,
                                          int posts_per_degree_north, int posts_per_degree_east);
 
 }  // namespace yars::model::terrain::gdal

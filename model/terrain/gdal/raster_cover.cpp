@@ -67,7 +67,8 @@ double overlap(double edge, double low, double high) {
   return std::min(edge + 1.0, high) - std::max(edge, low);
 }
 
-std::vector<RasterCell> wgs84_grid_cells(const Raster& raster) {
+// Cells that overlap a WGS84 grid by a quarter of a pixel or more; with `edges` the other cells that it touches.
+std::vector<RasterCell> wgs84_grid_cells(const Raster& raster, bool edges) {
   const Extent extent = extent_of(raster);
   // to_earth() gives NaN more than half a degree beyond a pole, and beyond +-1080 degrees of longitude. A raster with
   // such an edge has no cells.
@@ -82,14 +83,19 @@ std::vector<RasterCell> wgs84_grid_cells(const Raster& raster) {
   const int posts_east = posts_of(extent.west_deg, extent.pixel_east_deg);
   std::vector<RasterCell> cells;
   std::set<std::pair<int, int>> seen;
-  const int last_south = std::min(89, static_cast<int>(std::floor(extent.north_deg)));
-  for (int south = std::max(-90, static_cast<int>(std::floor(extent.south_deg))); south <= last_south; ++south) {
+  const double touch_north_deg = extent.pixel_north_deg / 4, touch_east_deg = extent.pixel_east_deg / 4;
+  const int last_south = std::min(89, static_cast<int>(std::floor(extent.north_deg + touch_north_deg)));
+  const int first_south = std::max(-90, static_cast<int>(std::floor(extent.south_deg - touch_north_deg)) - 1);
+  for (int south = first_south; south <= last_south; ++south) {
     const double height_deg = overlap(south, extent.south_deg, extent.north_deg);
-    if (height_deg < extent.pixel_north_deg / 4) continue;
-    for (int west = static_cast<int>(std::floor(extent.west_deg)); west <= std::floor(extent.east_deg); ++west) {
+    if (height_deg < -touch_north_deg) continue;
+    for (int west = static_cast<int>(std::floor(extent.west_deg - touch_east_deg)) - 1;
+         west <= std::floor(extent.east_deg + touch_east_deg); ++west) {
       const double width_deg = overlap(west, extent.west_deg, extent.east_deg);
-      if (width_deg < extent.pixel_east_deg / 4 || !seen.emplace(south, wrapped(west)).second) continue;
-      cells.push_back({south, wrapped(west), height_deg * width_deg, posts_north, posts_east});
+      if (width_deg < -touch_east_deg) continue;
+      const bool edge = height_deg < touch_north_deg || width_deg < touch_east_deg;
+      if (edge != edges || !seen.emplace(south, wrapped(west)).second) continue;
+      cells.push_back({south, wrapped(west), edge ? 0.0 : height_deg * width_deg, posts_north, posts_east});
     }
   }
   return cells;
@@ -208,7 +214,46 @@ std::vector<RasterCell> projected_cells(const Raster& raster) {
 }  // namespace
 
 std::vector<RasterCell> cells_of(const Raster& raster) {
-  return raster.georeference.is_wgs84_grid() ? wgs84_grid_cells(raster) : projected_cells(raster);
+  return raster.georeference.is_wgs84_grid() ? wgs84_grid_cells(raster, false) : projected_cells(raster);
+}
+
+std::vector<RasterCell> edges_of(const Raster& raster) {
+  return raster.georeference.is_wgs84_grid() ? wgs84_grid_cells(raster, true) : std::vector<RasterCell>{};
+}
+
+PostRange touched_posts(const Raster& raster, const Grid& grid) {
+  const PostRange all{0, grid.rows, 0, grid.columns};
+  constexpr int kSteps = 32;
+  SampleGrid border;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double column = raster.columns * static_cast<double>(i) / kSteps;
+    const double row = raster.rows * static_cast<double>(i) / kSteps;
+    border.add(column, 0.0);
+    border.add(column, raster.rows);
+    border.add(0.0, row);
+    border.add(raster.columns, row);
+  }
+  raster.georeference.to_earth(border.across, border.along);
+  const auto [west, east] = std::minmax_element(border.across.begin(), border.across.end());
+  const auto [south, north] = std::minmax_element(border.along.begin(), border.along.end());
+  for (std::size_t i = 0; i < border.across.size(); ++i)
+    if (!std::isfinite(border.across[i]) || !std::isfinite(border.along[i])) return all;
+  // Around a pole or the antimeridian the border does not bound the raster.
+  constexpr double kNearPole_deg = 80.0, kWide_deg = 20.0;
+  if (*south < -kNearPole_deg || *north > kNearPole_deg || *east - *west > kWide_deg || *north - *south > kWide_deg)
+    return all;
+  // A curved border reaches less than a tenth beyond its samples; a post beside a pixel may take its height.
+  const double margin_deg = 0.02 + 0.1 * std::max(*north - *south, *east - *west);
+  const double turns = 360.0 * std::round((grid.west_deg + 0.5 - (*west + *east) / 2) / 360.0);
+  const auto range = [&](double low_deg, double high_deg, int edge_deg, int posts) {
+    const double first = std::floor((low_deg - margin_deg - edge_deg) * (posts - 1));
+    const double last = std::ceil((high_deg + margin_deg - edge_deg) * (posts - 1));
+    return std::pair(static_cast<int>(std::clamp(first, 0.0, static_cast<double>(posts))),
+                     static_cast<int>(std::clamp(last + 1.0, 0.0, static_cast<double>(posts))));
+  };
+  const auto [first_row, end_row] = range(*south, *north, grid.south_deg, grid.rows);
+  const auto [first_column, end_column] = range(*west + turns, *east + turns, grid.west_deg, grid.columns);
+  return {first_row, end_row, first_column, end_column};
 }
 
 bool posts_are_pixels(const Raster& raster, int posts_per_degree_north, int posts_per_degree_east) {

@@ -88,7 +88,7 @@ class Survey {
       add_rows(*heights, box);
       if (progress) progress(static_cast<double>(row + box.rows) / raster_.rows);
     }
-    RasterStatistics statistics{{}, impossible_, raster_.georeference.warnings()};
+    RasterStatistics statistics{{}, impossible_, raster_.georeference.notes()};
     for (auto& [position, cell] : statistics_) {
       cell.south_deg = position.first;
       cell.west_deg = position.second;

@@ -25,7 +25,7 @@ struct RasterCellStatistics {
 struct RasterStatistics {
   std::vector<RasterCellStatistics> cells;  // the cells of describe_raster()
   std::size_t impossible = 0;               // number of pixels with impossible heights; they also count as voids
-  std::vector<std::string> warnings;        // about the whole raster
+  std::vector<std::string> notes;           // about the whole raster
 };
 
 // Surveys a raster. nullopt if its rows and columns are not parallels and meridians of WGS84, or if its heights are

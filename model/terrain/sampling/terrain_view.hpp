@@ -177,6 +177,8 @@ class TerrainStore {
   // Problems that prepare() found since the last call, such as unreadable cells. Each problem is one sentence.
   // Call it on the thread of prepare().
   virtual std::vector<std::string> take_problems() { return {}; }
+  // The same for notes: how data are taken, such as the accuracy of a change of datum. No data are left out.
+  virtual std::vector<std::string> take_notes() { return {}; }
 };
 
 // The one-degree cells that the region's circle touches, with or without a file, in ascending order of slot_of(), each

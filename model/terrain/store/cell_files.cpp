@@ -1,11 +1,11 @@
 #include "model/terrain/store/cell_files.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <optional>
-#include <string_view>
+#include <set>
 #include <system_error>
 #include <tuple>
 #include <utility>
@@ -24,27 +24,6 @@
 namespace yars::model::terrain {
 
 namespace {
-
-using file::lower_case;
-
-// Signed degrees from the letter of a hemisphere and `digits` digits; nullopt for any other text.
-std::optional<int> signed_degrees(std::string_view text, char positive, char negative, std::size_t digits) {
-  if (text.size() != digits + 1 || (text[0] != positive && text[0] != negative)) return std::nullopt;
-  int degrees = 0;
-  for (const char digit : text.substr(1)) {
-    if (digit < '0' || digit > '9') return std::nullopt;
-    degrees = degrees * 10 + (digit - '0');
-  }
-  return text[0] == positive ? degrees : -degrees;
-}
-
-std::optional<CellCorner> corner_named(std::string_view latitude, std::string_view longitude) {
-  const std::optional<int> south_deg = signed_degrees(latitude, 'n', 's', 2);
-  const std::optional<int> west_deg = signed_degrees(longitude, 'e', 'w', 3);
-  if (!south_deg || !west_deg) return std::nullopt;
-  if (*south_deg < -90 || *south_deg > 89 || *west_deg < -180 || *west_deg > 179) return std::nullopt;
-  return CellCorner{*south_deg, *west_deg};
-}
 
 error::Expected<CellReading> read_whole(const CellFile& file, CellCorner corner) {
   switch (file.format) {
@@ -72,25 +51,13 @@ struct PostsPerDegree {
   int north = 0, east = 0;
 };
 
-// The cells of a raster. Errors: also a DTED file whose datums are not WGS84 and mean sea level. GDAL would ignore
-// these datums.
-error::Expected<gdal::RasterSummary> describe(const std::filesystem::path& path) {
-  auto summary = gdal::describe_raster(path);
-  if (!summary || !summary->dted_datums) return summary;
-  const auto& [vertical, horizontal] = *summary->dted_datums;
-  if (const auto checked = check_dted_datums(vertical, horizontal, path.string()); !checked)
-    return tl::unexpected(checked.error());
-  return summary;
-}
-
 error::Expected<PostsPerDegree> posts_of(const CellFile& file, CellCorner corner) {
   if (file.posts_per_degree > 0 && file.posts_per_degree_east > 0)
     return PostsPerDegree{file.posts_per_degree, file.posts_per_degree_east};
-  const auto summary = describe(file.path);
-  if (!summary) return tl::unexpected(summary.error());
-  for (const gdal::RasterCell& cell : summary->cells)
-    if (CellCorner{cell.south_deg, cell.west_deg} == corner)
-      return PostsPerDegree{cell.posts_per_degree_north, cell.posts_per_degree_east};
+  const auto cells = cells_in_file(file.path);
+  if (!cells) return tl::unexpected(cells.error());
+  for (const FoundCell& cell : *cells)
+    if (cell.corner == corner) return PostsPerDegree{cell.file.posts_per_degree, cell.file.posts_per_degree_east};
   return error::fail(file.path.string(),
                      "a raster that touches the cell with the south-west corner " + std::to_string(corner.south_deg) +
                          ", " + std::to_string(corner.west_deg),
@@ -111,13 +78,19 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
     north /= 2;
     east /= 2;
   }
-  auto posts = gdal::read_raster(file.path, corner.south_deg, corner.west_deg, north, east);
+  std::vector<std::filesystem::path> rasters{file.path};
+  rasters.insert(rasters.end(), file.others.begin(), file.others.end());
+  auto posts = gdal::read_raster(rasters, corner.south_deg, corner.west_deg, north, east);
   if (!posts) return tl::unexpected(posts.error());
   CellReading reading{Cell(corner, posts->rows, posts->columns, posts->posts, posts->unit_m),
                       std::nullopt,
                       {},
-                      std::move(posts->warnings),
+                      {},
+                      std::move(posts->notes),
                       posts->impossible};
+  reading.damaged = !posts->problems.empty();
+  for (const std::string& problem : posts->problems)
+    reading.warnings.push_back("voids of its cell are not filled from another raster: " + problem);
   // If averaging has done the whole reduction, the averaged posts are also the peaks.
   if (reduction > 0 && remaining == 0) reading.peaks = reading.cell;
   return reduced(std::move(reading), remaining);
@@ -125,42 +98,14 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
 
 }  // namespace
 
-std::optional<NamedCell> cell_named(const std::string& folder, const std::string& file) {
-  const std::string name = lower_case(file);
-  const std::string_view text = name;
-  if (text.size() == 7 && text[3] == '.') {
-    const std::optional<CellCorner> corner = corner_named(text.substr(0, 3), lower_case(folder));
-    if (corner && text.substr(4, 2) == "dt" && text[6] >= '0' && text[6] <= '2')
-      return NamedCell{*corner, CellFormat::dted, text[6] - '0'};
-    if (corner && text.substr(4) == "jp2") return NamedCell{*corner, CellFormat::pack};
-  }
-  if (text.size() >= 11 && text.substr(7, 4) == ".hgt") {
-    const std::string_view packing = text.substr(11);
-    const std::optional<CellCorner> corner = corner_named(text.substr(0, 3), text.substr(3, 4));
-    if (corner && packing.empty()) return NamedCell{*corner, CellFormat::hgt};
-    if (corner && (packing == ".zip" || packing == ".gz")) return NamedCell{*corner, CellFormat::compressed_hgt};
-  }
-  return std::nullopt;
-}
-
-bool is_ded_name(const std::filesystem::path& path) {
-  return lower_case(path.extension().string()) == ".ded";
-}
-
-bool is_raster_name(const std::filesystem::path& path) {
-  constexpr std::array<std::string_view, 5> kExtensions = {".tif", ".tiff", ".jp2", ".img", ".vrt"};
-  return std::find(kExtensions.begin(), kExtensions.end(), lower_case(path.extension().string())) != kExtensions.end();
-}
-
-bool is_virtual_raster_name(const std::filesystem::path& path) {
-  return lower_case(path.extension().string()) == ".vrt";
-}
-
 error::Expected<CellReading> read_cell(const CellFile& file, CellCorner corner, int reduction) {
   YARS_REQUIRE(reduction, >=, 0);
-  if (file.format == CellFormat::pack) return read_pack(file.path, corner, reduction);
-  if (file.format == CellFormat::raster) return read_raster_cell(file, corner, reduction);
-  return reduced(read_whole(file, corner), reduction);
+  auto reading = file.format == CellFormat::pack     ? read_pack(file.path, corner, reduction)
+                 : file.format == CellFormat::raster ? read_raster_cell(file, corner, reduction)
+                                                     : reduced(read_whole(file, corner), reduction);
+  if (!reading) return reading;
+  if (auto note = sea_floor_note(reading->cell)) reading->notes.push_back(std::move(*note));
+  return reading;
 }
 
 bool links_outside(const std::filesystem::path& path, const std::filesystem::path& root) {
@@ -172,62 +117,69 @@ bool links_outside(const std::filesystem::path& path, const std::filesystem::pat
 
 namespace {
 
-// Minimum covered fraction of a full cell. A raster that lacks 1 of 200 rows and 1 of 200 columns counts as full.
-constexpr double kFullCover = 0.99;
-
 // Sort key among files for one cell: the file with the smallest key is preferred.
 auto rank(const CellFile& file) {
-  return std::tuple(file.covered < kFullCover, -file.posts_per_degree, static_cast<int>(file.format),
-                    file.path.string());
+  return std::tuple(file.is_part(), file.covered <= 0.0, -file.posts_per_degree, static_cast<int>(file.format),
+                    file.path.filename().string().size(), file.path.string());
 }
 
-void add_candidate(CellCorner corner, CellFile file, DirectoryIndex& index) {
-  const auto [entry, fresh] = index.try_emplace(slot_of(corner), file);
-  if (!fresh && rank(file) < rank(entry->second)) entry->second = std::move(file);
+// All files that have posts of a cell, by cell.
+using Candidates = std::map<std::size_t, std::vector<CellFile>>;
+
+void add_candidates(std::vector<FoundCell> cells, Candidates& candidates) {
+  for (FoundCell& cell : cells) candidates[slot_of(cell.corner)].push_back(std::move(cell.file));
 }
 
-// The file of a cell, with the spacing of its posts if the file's name, length or header states the spacing.
-CellFile described(const std::filesystem::path& path, const NamedCell& named) {
-  const auto with_posts = [&](int rows, int columns) {
-    return CellFile{path, named.format, std::max(0, rows - 1), std::max(0, columns - 1)};
-  };
-  std::error_code code;
-  if (named.format == CellFormat::dted) {
-    const int rows = dted::kPostsOfLevel[named.level];
-    return with_posts(rows, (rows - 1) / dted::zone_factor(named.corner.south_deg) + 1);
+// A sentence about a file that is not read, since `chosen` has its cell.
+std::string unneeded(const CellFile& file, const CellFile& chosen, CellCorner corner) {
+  const char* const why = file.is_part() && !chosen.is_part()               ? "spans the whole cell"
+                          : chosen.posts_per_degree > file.posts_per_degree ? "has finer posts"
+                                                                            : "has posts as fine";
+  return file.path.string() + ": not used: the cell with the south-west corner " + std::to_string(corner.south_deg) +
+         ", " + std::to_string(corner.west_deg) + " is read from " + chosen.path.string() + ", which " + why;
+}
+
+// Chooses the file of each cell. `found` receives the files that are in no cell.
+DirectoryIndex chosen_from(Candidates candidates, FileSentences& found) {
+  DirectoryIndex index;
+  std::set<std::filesystem::path> used;
+  for (auto& [slot, files] : candidates) {
+    std::sort(files.begin(), files.end(), [](const CellFile& a, const CellFile& b) { return rank(a) < rank(b); });
+    if (files.front().covered <= 0.0) continue;  // posts on an edge alone do not make a cell
+    CellFile& chosen = index[slot] = files.front();
+    used.insert(chosen.path);
+    if (chosen.format != CellFormat::raster) continue;
+    for (auto other = files.begin() + 1; other != files.end(); ++other) {
+      if (other->format != CellFormat::raster) continue;
+      chosen.others.push_back(other->path);
+      if (chosen.is_part()) used.insert(other->path);
+    }
   }
-  if (named.format == CellFormat::pack) {
-    const GridSize size = pack_size(path);
-    return with_posts(size.rows, size.columns);
-  }
-  // The length of an uncompressed HGT file gives its spacing, so that the file need not be opened.
-  const std::uintmax_t size = std::filesystem::file_size(path, code);
-  const int posts = named.format == CellFormat::compressed_hgt ? compressed_hgt_posts(path)
-                    : code                                     ? 0
-                                                               : hgt_posts_for_size(size);
-  return with_posts(posts, posts);
+  std::set<std::filesystem::path> reported;
+  for (const auto& [slot, files] : candidates)
+    for (const CellFile& file : files) {
+      if (file.covered <= 0.0 || used.contains(file.path) || !reported.insert(file.path).second) continue;
+      const CellFile& chosen = index.at(slot);
+      const std::string sentence = unneeded(file, chosen, corner_of_slot(slot));
+      if (file.posts_per_degree > chosen.posts_per_degree)
+        found.problems.push_back(sentence + "; join them with gdalwarp to have its finer posts");
+      else
+        found.notes.push_back(sentence);
+    }
+  return index;
 }
 
-// Adds the cells that the header of a .ded file states. Errors: the file cannot be used.
-error::Expected<void> add_ded(const std::filesystem::path& path, DirectoryIndex& index) {
-  const auto cells = ded_cells(path);
-  if (!cells) return tl::unexpected(cells.error());
-  for (const DedCell& cell : *cells)
-    add_candidate(cell.corner, {path, CellFormat::ded, cell.rows - 1, cell.columns - 1}, index);
-  return {};
-}
-
-error::Expected<void> add_raster(const std::filesystem::path& path, DirectoryIndex& index) {
-  if (is_virtual_raster_name(path))
-    return error::fail(path.string(), "a raster that holds its own heights",
-                       "a .vrt, which may name any file or address", "make a GeoTIFF of it with gdal_translate");
-  const auto raster = describe(path);
-  if (!raster) return tl::unexpected(raster.error());
-  for (const gdal::RasterCell& cell : raster->cells)
-    add_candidate({cell.south_deg, cell.west_deg},
-                  {path, CellFormat::raster, cell.posts_per_degree_north, cell.posts_per_degree_east, cell.covered},
-                  index);
-  return {};
+// Reports the culture files that belong to no file of the index.
+void report_unused_cultures(const DirectoryIndex& index, const std::vector<std::filesystem::path>& cultures,
+                            std::vector<std::string>& problems) {
+  std::set<std::filesystem::path> used;
+  for (const auto& [slot, file] : index)
+    if (file.culture) used.insert(*file.culture);
+  for (const std::filesystem::path& culture : cultures)
+    if (!used.contains(culture))
+      problems.push_back(error::Error{culture.string(), "beside it the elevation file that its cell is read from",
+                                      "none of its name", "give both the same name, as n36.dt1 and n36.smc.png", false}
+                             .message());
 }
 
 // True if the file, its culture file or its side file (of a pack) is a symbolic link with a target outside `root`.
@@ -243,9 +195,28 @@ void add_cultures(DirectoryIndex& index, file::FolderNames& names) {
   for (auto& [slot, file] : index) file.culture = find_culture(file.path, names);
 }
 
-bool is_elevation_name(const std::filesystem::path& path) {
-  return cell_named(path.parent_path().filename().string(), path.filename().string()) || is_ded_name(path) ||
-         is_raster_name(path);
+// A sentence about an elevation file in a form that is not read from a folder.
+std::string unread_form(const std::filesystem::path& path, ElevationKind kind) {
+  return error::Error{path.string(), "DTED, HGT, DED, a pack or a raster by its name", "a name of another form",
+                      kind == ElevationKind::convertible
+                          ? "read it with `yars terrain convert --in FILE --out DIR`"
+                          : "unpack it, give it the ending of its form, or make a GeoTIFF of it with gdal_translate",
+                      false}
+      .message();
+}
+
+// Adds the cells of a file to `candidates`, or its problem to `problems`.
+void add_file(const std::filesystem::path& path, Candidates& candidates, std::vector<std::string>& problems) {
+  const ElevationKind kind = elevation_kind(path);
+  if (kind == ElevationKind::convertible || kind == ElevationKind::foreign) {
+    problems.push_back(unread_form(path, kind));
+    return;
+  }
+  auto cells = cells_in_file(path);
+  if (cells)
+    add_candidates(std::move(*cells), candidates);
+  else
+    problems.push_back(cells.error().message());
 }
 
 std::string lower_first(std::string text) {
@@ -264,70 +235,65 @@ std::optional<std::string> unreadable_folder(const std::filesystem::directory_en
       .message();
 }
 
-// Adds the cells of a file to `index`, or its error to `problems`.
-void add_file(const std::filesystem::path& path, DirectoryIndex& index, std::vector<std::string>& problems) {
-  const auto named = cell_named(path.parent_path().filename().string(), path.filename().string());
-  if (named) {
-    add_candidate(named->corner, described(path, *named), index);
-    return;
-  }
-  const auto added = is_ded_name(path) ? add_ded(path, index) : add_raster(path, index);
-  if (!added) problems.push_back(added.error().message());
-}
-
 }  // namespace
 
-error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory,
-                                                std::vector<std::string>* problems) {
+error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& directory, FileSentences* found) {
   std::error_code code;
   if (!std::filesystem::is_directory(directory, code))
     return error::fail(directory.string(), "a directory with elevation cells",
                        code ? error::reason_of(code.value()) : "no directory",
                        "make one with `yars terrain generate --out DIR`");
-  DirectoryIndex index;
+  Candidates candidates;
+  std::vector<std::filesystem::path> cultures;
   file::FolderNames names;
-  std::vector<std::string> found;
+  FileSentences sentences;
+  std::vector<std::string>& problems = sentences.problems;
   const std::filesystem::path root = std::filesystem::weakly_canonical(directory, code);
   std::filesystem::recursive_directory_iterator entry(directory, code);
   for (const std::filesystem::recursive_directory_iterator end; !code && entry != end; entry.increment(code)) {
     if (const auto closed = unreadable_folder(*entry)) {
-      found.push_back(*closed);
+      problems.push_back(*closed);
       entry.disable_recursion_pending();
     }
-    if (!is_elevation_name(entry->path())) continue;
+    std::error_code ignored;
+    if (is_culture_name(entry->path()) && !links_outside(entry->path(), root)) cultures.push_back(entry->path());
+    if (elevation_kind(entry->path()) == ElevationKind::none || entry->is_directory(ignored)) continue;
     if (!any_leads_out(entry->path(), root, names))
-      add_file(entry->path(), index, found);
+      add_file(entry->path(), candidates, problems);
     else
-      found.push_back(error::Error{entry->path().string(), "a file inside " + root.string(), "a link that leads out",
-                                   "copy the cell into the folder, or give the folder of its target", false}
-                          .message());
+      problems.push_back(error::Error{entry->path().string(), "a file inside " + root.string(), "a link that leads out",
+                                      "copy the cell into the folder, or give the folder of its target", false}
+                             .message());
   }
   if (code)
     return error::fail(directory.string(), "a directory that can be read", lower_first(error::reason_of(code.value())),
                        "check its permissions");
+  DirectoryIndex index = chosen_from(std::move(candidates), sentences);
   add_cultures(index, names);
-  std::sort(found.begin(), found.end());
-  if (index.empty() && !found.empty())
+  report_unused_cultures(index, cultures, problems);
+  std::sort(problems.begin(), problems.end());
+  std::sort(sentences.notes.begin(), sentences.notes.end());
+  if (index.empty() && !problems.empty())
     return error::fail(directory.string(), "elevation cells that can be used",
-                       "none; the first of " + std::to_string(found.size()) + " problems: " + found.front());
+                       "none; the first of " + std::to_string(problems.size()) + " problems: " + problems.front());
   if (index.empty())
     return error::fail(directory.string(), "elevation cells named like w122/n36.dt1 or N36W122.hgt", "none",
                        "give another directory or make cells with `yars terrain generate`");
-  if (problems != nullptr) problems->insert(problems->end(), found.begin(), found.end());
+  if (found != nullptr) *found = std::move(sentences);
   return index;
 }
 
 error::Expected<DirectoryIndex> index_file(const std::filesystem::path& path) {
-  DirectoryIndex index;
   const auto length = file_length(path);
   if (!length) return tl::unexpected(length.error());
-  const std::filesystem::path whole = std::filesystem::absolute(path);
-  const auto named = cell_named(whole.parent_path().filename().string(), whole.filename().string());
-  if (named) {
-    add_candidate(named->corner, described(path, *named), index);
-  } else if (const auto added = is_ded_name(path) ? add_ded(path, index) : add_raster(path, index); !added) {
-    return tl::unexpected(added.error());
-  }
+  auto cells = cells_in_file(std::filesystem::absolute(path));  // the name of its folder may state the cell
+  if (!cells) return tl::unexpected(cells.error());
+  for (FoundCell& cell : *cells) cell.file.path = path;
+  Candidates candidates;
+  add_candidates(std::move(*cells), candidates);
+  FileSentences sentences;
+  DirectoryIndex index = chosen_from(std::move(candidates), sentences);
+  if (index.empty()) return error::fail(path.string(), "a file with elevation", "one without");
   file::FolderNames names;
   add_cultures(index, names);
   return index;

@@ -38,16 +38,16 @@ int reduction_for(const CellFile& file, int detail) {
 
 error::Expected<std::unique_ptr<DirectoryTerrainStore>> DirectoryTerrainStore::open(
     const std::filesystem::path& directory, DirectoryStoreOptions options) {
-  std::vector<std::string> problems;
-  error::Expected<DirectoryIndex> index = index_directory(directory, &problems);
+  FileSentences sentences;
+  error::Expected<DirectoryIndex> index = index_directory(directory, &sentences);
   if (!index) return tl::unexpected(index.error());
   return std::unique_ptr<DirectoryTerrainStore>(
-      new DirectoryTerrainStore(directory.string(), std::move(*index), options, std::move(problems)));
+      new DirectoryTerrainStore(directory.string(), std::move(*index), options, std::move(sentences)));
 }
 
 DirectoryTerrainStore::DirectoryTerrainStore(std::string folder, DirectoryIndex index, DirectoryStoreOptions options,
-                                             std::vector<std::string> problems)
-    : folder_(std::move(folder)), index_(std::move(index)), options_(options), problems_(std::move(problems)) {}
+                                             FileSentences sentences)
+    : folder_(std::move(folder)), index_(std::move(index)), options_(options), sentences_(std::move(sentences)) {}
 
 TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& region, const Interim& interim) {
   const FreeBuffers after_last_cell;
@@ -82,12 +82,12 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
     std::snprintf(where.data(), where.size(), "a cell within %.0f NM of latitude %.4f, longitude %.4f",
                   region.radius_m / geo::kMetresPerNauticalMile, region.centre.latitude_deg,
                   region.centre.longitude_deg);
-    problems_.push_back(error::Error{folder_, where.data(), "none: the folder covers " + coverage_text(index_),
-                                     std::string("the ground there counts as ") +
-                                         (options_.missing_cell_is_sea ? "sea" : "void") +
-                                         "; check the position and its signs",
-                                     false}
-                            .message());
+    sentences_.problems.push_back(
+        error::Error{folder_, where.data(), "none: the folder covers " + coverage_text(index_),
+                     std::string("the ground there counts as ") + (options_.missing_cell_is_sea ? "sea" : "void") +
+                         "; check the position and its signs",
+                     false}
+            .message());
   }
   outside_coverage_ = outside;
 }
@@ -145,7 +145,11 @@ void DirectoryTerrainStore::use_substitute(Level level) {
 }
 
 std::vector<std::string> DirectoryTerrainStore::take_problems() {
-  return std::exchange(problems_, {});
+  return std::exchange(sentences_.problems, {});
+}
+
+std::vector<std::string> DirectoryTerrainStore::take_notes() {
+  return std::exchange(sentences_.notes, {});
 }
 
 bool DirectoryTerrainStore::load(Level level) {
@@ -158,13 +162,15 @@ bool DirectoryTerrainStore::load(Level level) {
                          [&path = *file.culture, corner] { return read_culture(path, corner); });
   error::Expected<CellReading> reading = read_cell(file, corner, level.second);
   if (!reading) {
-    problems_.push_back(reading.error().message() + "; the cell counts as void");
+    sentences_.problems.push_back(reading.error().message() + "; the cell counts as void");
     unreadable_.insert(level.first);
     ++region_cells_.unreadable;
     shown_.erase(level.first);
     return false;
   }
-  for (std::string& sentence : notes_.take_new(file.path, *reading)) problems_.push_back(std::move(sentence));
+  FileSentences found = reported_.take_new(file.path, *reading);
+  for (std::string& problem : found.problems) sentences_.problems.push_back(std::move(problem));
+  for (std::string& note : found.notes) sentences_.notes.push_back(std::move(note));
   TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr,
                    culture.valid() ? usable(culture.get(), level) : nullptr};
   if (reading->peaks) cell.peaks = std::make_shared<const Cell>(std::move(*reading->peaks));
@@ -178,7 +184,7 @@ std::shared_ptr<const Culture> DirectoryTerrainStore::usable(error::Expected<Cul
   if (culture && level.second == 0) return std::make_shared<const Culture>(std::move(*culture));
   if (culture) return std::make_shared<const Culture>(culture->reduced(level.second));
   if (unreadable_culture_.insert(level.first).second)
-    problems_.push_back(culture.error().message() + "; the cell has no materials other than land and sea");
+    sentences_.problems.push_back(culture.error().message() + "; the cell has no materials other than land and sea");
   return nullptr;
 }
 

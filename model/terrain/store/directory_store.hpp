@@ -1,6 +1,7 @@
 // Terrain store of a folder of elevation files. It loads the cells of a region, and keeps cells up to a memory limit.
 // Input: a folder; regions (centre, radius [m], detail). Output: immutable views with ascending generation numbers.
-// Errors: open() has the errors of index_directory(). take_problems() returns later problems as sentences.
+// Errors: open() has the errors of index_directory(). take_problems() returns problems of files as sentences, and
+//   take_notes() what is to be said without a problem.
 // Threads: prepare() reads files and may wait. While it reads heights, a second thread reads the culture of the cell.
 // One thread at a time calls the store. Any thread may read a view.
 #pragma once
@@ -56,6 +57,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   TerrainViewPointer prepare(const TerrainRegion& region) override { return prepare_in_steps(region, {}); }
   TerrainViewPointer prepare_in_steps(const TerrainRegion& region, const Interim& interim) override;
   std::vector<std::string> take_problems() override;
+  std::vector<std::string> take_notes() override;
   RegionCells region_cells() const { return region_cells_; }
   const DirectoryIndex& index() const { return index_; }
   // The next region without a cell is a problem again, for callers whose regions have nothing to do with each other.
@@ -69,7 +71,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   };
 
   DirectoryTerrainStore(std::string folder, DirectoryIndex index, DirectoryStoreOptions options,
-                        std::vector<std::string> problems);
+                        FileSentences sentences);
   std::vector<Level> select(const TerrainRegion& region, bool& changed);
   bool use_in_view(Level level);
   void use_substitute(Level level);
@@ -93,8 +95,8 @@ class DirectoryTerrainStore final : public TerrainStore {
   std::uint64_t generation_ = 0;
   RegionCells region_cells_;
   TerrainViewPointer view_;
-  ReadingNotes notes_;
-  std::vector<std::string> problems_;
+  ReadingNotes reported_;
+  FileSentences sentences_;
 };
 
 // Opens the terrain directory of a configuration. Without a directory, the store has the built-in hills.

@@ -210,6 +210,7 @@ complete -c yars -n "__yars_at 'terrain profile'" -l terrain -x -a '(__fish_comp
 complete -c yars -n "__yars_at 'terrain profile'" -l from -x -d '[deg] latitude and longitude'
 complete -c yars -n "__yars_at 'terrain profile'" -l to -x -d '[deg] latitude and longitude'
 complete -c yars -n "__yars_at 'terrain profile'" -l step -x -d '[m] between samples'
+complete -c yars -n "__yars_at 'terrain profile'" -l json -d 'print one JSON object in place of text'
 complete -c yars -n "__yars_at 'terrain profile'" -l session -x -a '(__yars_sessions)' -d 'session to join or create'
 complete -c yars -n "__yars_at 'terrain profile'" -l config -r -F -d 'GUF configuration file'
 complete -c yars -n "__yars_at 'terrain profile'" -l log-level -x -a 'trace debug info warning error off' -d 'lines of this level and above are logged'

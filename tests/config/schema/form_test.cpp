@@ -2,6 +2,7 @@
 // def-form with its base forms.
 #include <gmock/gmock.h>
 
+#include "config/schema/schema.hpp"
 #include "tests/config/support.hpp"
 
 namespace yars::config {
@@ -62,7 +63,14 @@ TEST(Slots, UnknownOnesWarnWithTheNearestName) {
 }
 
 TEST(Slots, UnusedOnesWarn) {
-  EXPECT_THAT(loaded("( Apg70 :rate 20 )").warnings, ElementsAre("text.guf:1:15: :rate of Apg70 is read, not used"));
+  EXPECT_THAT(loaded("( Apg70 :rate 20 )").warnings,
+              ElementsAre("text.guf:1:15: :rate of Apg70 is read, not used: all programs step by ticks of 5 ms"));
+}
+
+TEST(Slots, EachUnusedOneNamesWhatReplacesIt) {
+  for (const FormSchema& form : schema())
+    for (const SlotSchema& slot : form.slots)
+      EXPECT_TRUE(is_used(slot) || !slot.instead.empty()) << form.name << ' ' << slot.name;
 }
 
 TEST(Slots, UnusedOnesAreCheckedToo) {
@@ -237,7 +245,7 @@ TEST(Colors, MayBeGivenAsRgbOrHsv) {
   EXPECT_EQ(video_of("( ColorScheme :video ( hsv 60 0.5 0.8 ) )"), std::tuple(0.8, 0.8, 0.4));
   EXPECT_EQ(video_of("( ColorScheme :video ( hsva 300 1 0.5 1 ) )"), std::tuple(0.5, 0.0, 0.5));
   EXPECT_THAT(loaded("( ColorScheme :video ( rgba 0 1 0 0.5 ) )").warnings,
-              ElementsAre("text.guf:1:35: :alpha of rgba is read, not used"));
+              ElementsAre("text.guf:1:35: :alpha of rgba is read, not used: all colours are opaque"));
 }
 
 TEST(Colors, OfAWindowEndWithThatOfTheVideo) {

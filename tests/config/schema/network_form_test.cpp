@@ -23,7 +23,7 @@ TEST(NetworkForm, OpensNoNetworkByDefault) {
   EXPECT_THAT(settings.interfaces, ElementsAre("lo"));
   EXPECT_THAT(settings.peers, ElementsAre("127.0.0.1"));
   EXPECT_EQ(fields(loaded(network("")).network.value()), fields(settings));
-  EXPECT_EQ(fields(*load_network("")), fields(settings));
+  EXPECT_EQ(fields(load_network("")->network), fields(settings));
 }
 
 TEST(NetworkForm, IsReadSlotBySlot) {
@@ -134,8 +134,25 @@ TEST(NetworkFile, MayHoldOtherForms) {
       folder.write("set.guf", "( Apg70 :ranges `( 10 20 ) )\n( Network :domain 5 :security \"identity\" )\n");
   const auto settings = load_network(path);
   ASSERT_TRUE(settings) << settings.error().message();
-  EXPECT_EQ(settings->domain, 5);
-  EXPECT_EQ(settings->security, (folder.path() / "identity").string());
+  EXPECT_EQ(settings->network.domain, 5);
+  EXPECT_EQ(settings->network.security, (folder.path() / "identity").string());
+}
+
+TEST(NetworkFile, WithoutOneTheFormOfTheConfigurationIsUsed) {
+  const Folder folder;
+  const auto with = folder.write("with.guf", "( Apg70 :ranges `( 10 20 ) )\n( Network :domain 5 )\n");
+  const auto own = folder.write("own.guf", "( Network :domain 7 )\n");
+  const auto of_configuration = load_network("", with);
+  ASSERT_TRUE(of_configuration) << of_configuration.error().message();
+  EXPECT_EQ(of_configuration->network.domain, 5);
+  EXPECT_EQ(of_configuration->source, with);
+  EXPECT_EQ(of_configuration->radar.ranges_nm, (std::vector<double>{10, 20}));
+  const auto of_file = load_network(own, with);
+  ASSERT_TRUE(of_file) << of_file.error().message();
+  EXPECT_EQ(of_file->network.domain, 7);
+  EXPECT_EQ(of_file->source, own);
+  EXPECT_EQ(load_network("", own)->source, own);
+  EXPECT_EQ(load_network("", folder.write("radar.guf", "( Apg70 )\n"))->source, "");
 }
 
 TEST(NetworkFile, WithoutTheFormIsRefused) {
@@ -147,8 +164,9 @@ TEST(NetworkFile, WithoutTheFormIsRefused) {
 }
 
 TEST(NetworkFile, TheExampleShowsTheDefaults) {
-  auto example = load_network(std::string(YARS_SOURCE_DIR) + "/config/network.guf");
-  ASSERT_TRUE(example) << example.error().message();
+  auto loaded_example = load_network(std::string(YARS_SOURCE_DIR) + "/config/network.guf");
+  ASSERT_TRUE(loaded_example) << loaded_example.error().message();
+  radar::NetworkSettings* const example = &loaded_example->network;
   const radar::NetworkSettings defaults;
   EXPECT_NE(example->interfaces, defaults.interfaces);
   EXPECT_EQ(example->peers.size(), 2U);

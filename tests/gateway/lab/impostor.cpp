@@ -136,13 +136,13 @@ int main(int argc, char** argv) {
     std::fprintf(stderr, "usage: impostor SESSION FILE TARGET SECONDS\n");
     return 2;
   }
-  const auto settings = config::load_network(argv[2]);
-  auto link = settings ? gateway::dds::Link::open(*settings, argv[1]) : tl::unexpected(settings.error());
+  const auto loaded = config::load_network(argv[2]);
+  auto link = loaded ? gateway::dds::Link::open(loaded->network, argv[1]) : tl::unexpected(loaded.error());
   if (!link) {
     std::fprintf(stderr, "impostor: %s\n", link.error().message().c_str());
     return 2;
   }
-  Impostor impostor(std::move(*link), settings->name, argv[3]);
+  Impostor impostor(std::move(*link), loaded->network.name, argv[3]);
   constexpr int kStepsPerSecond = 50;
   for (int step = 0; step < std::atoi(argv[4]) * kStepsPerSecond; ++step) {
     impostor.step();

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -108,6 +109,32 @@ TEST_F(TerrainCommands, AProfileOutsideTheDataReportsTheCoverage) {
   EXPECT_THAT(partly.errors, AllOf(HasSubstr("none at"), HasSubstr("count as sea")));
   std::filesystem::resize_file(cell(), 5000);
   EXPECT_EQ(run_terrain("profile", {"--from", "36.2", "-121.8", "--to", "36.4", "-121.6"}).code, 1);
+}
+
+// Two's complement is how some producers write DTED. Nothing is left out.
+TEST_F(TerrainCommands, ANoteAboutTheHeightsIsNoDamage) {
+  test::DtedFile file = test::level_dted(36, -122, 5);
+  file.columns[1].words[1] = 0xFFF6;  // -10 m; in sign-magnitude it would be -32758 m
+  folder_.write("tree/w122/n36.dt0", file.bytes());
+  const std::vector<std::string> ends{"--from", "36.2", "-121.8", "--to", "36.4", "-121.6", "--step", "10000"};
+  const Finished profile = run_terrain("profile", ends);
+  EXPECT_EQ(profile.code, 0) << profile.errors;
+  EXPECT_THAT(profile.errors, AllOf(HasSubstr("note: "), HasSubstr("two's complement"), Not(HasSubstr("problem"))));
+  std::vector<std::string> in_json = ends;
+  in_json.emplace_back("--json");
+  const Finished json = run_terrain("profile", in_json);
+  EXPECT_EQ(json.code, 0) << json.errors;
+  const auto found = nlohmann::json::parse(json.output);
+  EXPECT_EQ(found["samples"].size(), 4U);
+  EXPECT_TRUE(found["problems"].empty());
+  ASSERT_EQ(found["notes"].size(), 1U);
+  for (const char* command : {"info", "dump"}) {
+    const Finished done = run_terrain(command, std::string(command) == "dump"
+                                                   ? std::vector<std::string>{"--south", "36", "--west", "-122"}
+                                                   : std::vector<std::string>{});
+    EXPECT_EQ(done.code, 0) << done.errors;
+    EXPECT_THAT(done.output + done.errors, AllOf(HasSubstr("note: "), Not(HasSubstr("problem"))));
+  }
 }
 
 TEST_F(TerrainCommands, ADumpOfAMissingCellReportsTheCoverage) {

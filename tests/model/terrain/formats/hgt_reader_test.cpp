@@ -40,6 +40,30 @@ TEST_P(HgtOfSide, RowsRunFromNorthToSouthInTwosComplement) {
 
 INSTANTIATE_TEST_SUITE_P(HgtReader, HgtOfSide, ::testing::Values(1201, 3601));
 
+// From 50 degrees of latitude on, some producers write every second column.
+TEST(HgtReader, AFileWithHalfOfTheColumnsIsRead) {
+  constexpr std::size_t kRows = 3601, kColumns = 1801;
+  std::vector<std::byte> bytes(2 * kRows * kColumns);
+  put(bytes, 0, 0, kColumns, 111);                     // north-west
+  put(bytes, kRows - 1, kColumns - 1, kColumns, -42);  // south-east
+  const auto reading = parse_hgt(bytes, "N52E005.hgt", {52, 5});
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  EXPECT_EQ(reading->cell.rows(), 3601);
+  EXPECT_EQ(reading->cell.columns(), 1801);
+  EXPECT_EQ(reading->cell.post(3600, 0), 111);
+  EXPECT_EQ(reading->cell.post(0, 1800), -42);
+}
+
+TEST(HgtReader, TheNameStatesTheCellBetweenOtherLetters) {
+  for (const char* name : {"N31E036.hgt", "n31e036.SRTMGL3.hgt", "N31E036hgt.zip", "N31E036 (1).hgt", "N31_E036.hgt",
+                           "ASTGTMV003_N31E036_dem.hgt", "n31_e036_3arc_v2.dt1", "N31E036-N31E036.hgt"})
+    EXPECT_EQ(corner_in_name(name), (CellCorner{31, 36})) << name;
+  EXPECT_EQ(corner_in_name("S01W180.hgt"), (CellCorner{-1, -180}));
+  for (const char* name : {"", "N31.hgt", "sun31e036.hgt", "N31E0361.hgt", "N31E036_N32E036.hgt", "N90E000.hgt",
+                           "N00E180.hgt", "S91E000.hgt", "N3xE036.hgt", "N31E03"})
+    EXPECT_EQ(corner_in_name(name), std::nullopt) << name;
+}
+
 // Heights outside -12,000 to 10,000 m are damage. A mountain of 20 km must not appear on a radar map.
 TEST(HgtReader, ImpossibleHeightsAreVoidAndCounted) {
   constexpr std::size_t kSide = 1201;

@@ -64,7 +64,7 @@ void flip_byte(const std::filesystem::path& path, std::size_t at) {
 TEST(PackedHgt, ZipAndGzipAreRead) {
   const test::TemporaryFolder folder;
   for (const auto& path : {zipped(folder, "N43E007.hgt", hgt()), gzipped(folder, hgt())}) {
-    EXPECT_EQ(compressed_hgt_posts(path), 1201);
+    EXPECT_EQ(compressed_hgt_grid(path, kPackedCorner).rows, 1201);
     const auto reading = read_compressed_hgt(path, kPackedCorner);
     ASSERT_TRUE(reading.has_value()) << reading.error().message();
     EXPECT_EQ(reading->cell.post(1200, 0), 111);
@@ -84,7 +84,7 @@ TEST(PackedHgt, AnEntryOfAnotherNameIsRefused) {
     const auto zip = zipped(folder, name, hgt());
     EXPECT_THAT(reason(zip), ::testing::AllOf(HasSubstr("expected an entry N43E007.hgt"), HasSubstr(".hgt'")));
     EXPECT_THAT(reason(zip), ::testing::Not(HasSubstr("\x1b")));
-    EXPECT_EQ(compressed_hgt_posts(zip), 0);
+    EXPECT_EQ(compressed_hgt_grid(zip, kPackedCorner).rows, 0);
   }
 }
 
@@ -114,8 +114,8 @@ TEST(PackedHgt, AnArchiveBombIsRefusedBeforeItIsUnpacked) {
   EXPECT_LT(std::filesystem::file_size(zip), 1UL << 20U);
   EXPECT_THAT(reason(zip), HasSubstr("no HGT cell"));
   EXPECT_THAT(reason(gzip), HasSubstr("no HGT cell"));
-  EXPECT_EQ(compressed_hgt_posts(zip), 0);
-  EXPECT_EQ(compressed_hgt_posts(gzip), 0);
+  EXPECT_EQ(compressed_hgt_grid(zip, kPackedCorner).rows, 0);
+  EXPECT_EQ(compressed_hgt_grid(gzip, kPackedCorner).rows, 0);
 }
 
 TEST(PackedHgt, TruncatedAndDamagedFilesAreRefused) {
@@ -131,6 +131,41 @@ TEST(PackedHgt, TruncatedAndDamagedFilesAreRefused) {
   folder.write("N43E007.hgt.gz", {});
   EXPECT_NE(reason(folder.path() / "N43E007.hgt.gz"), "none");
   EXPECT_THAT(reason(folder.path() / "gone.hgt.zip"), HasSubstr("expected"));
+}
+
+// Archives of other names, and with several cells, as some producers pack a whole region.
+TEST(PackedHgt, AnArchiveOfAnyNameGivesTheCellsOfItsEntries) {
+  const test::TemporaryFolder folder;
+  std::filesystem::rename(zipped(folder, "N43E007.SRTMGL3.hgt", hgt()), folder.path() / "N43E007hgt.zip");
+  std::filesystem::rename(zipped(folder, "L32/N43E008.hgt", hgt()), folder.path() / "L32.zip");
+  int code = 0;
+  zip_t* archive = zip_open((folder.path() / "L32.zip").c_str(), 0, &code);
+  const auto more = hgt();
+  zip_file_add(archive, "L32/N44E008.hgt", zip_source_buffer(archive, more.data(), more.size(), 0), 0);
+  zip_file_add(archive, "__MACOSX/._N45E008.hgt", zip_source_buffer(archive, "x", 1, 0), 0);
+  ASSERT_EQ(zip_close(archive), 0);
+  FileSentences found;
+  const auto index = index_directory(folder.path(), &found);
+  ASSERT_TRUE(index.has_value()) << index.error().message();
+  EXPECT_THAT(found.problems, ::testing::IsEmpty());
+  EXPECT_EQ(index->size(), 3U);
+  for (const CellCorner corner : {CellCorner{43, 7}, CellCorner{43, 8}, CellCorner{44, 8}}) {
+    ASSERT_TRUE(index->contains(slot_of(corner)));
+    const auto reading = read_cell(index->at(slot_of(corner)), corner);
+    ASSERT_TRUE(reading.has_value()) << reading.error().message();
+    EXPECT_EQ(reading->cell.post(1200, 0), 111);
+  }
+}
+
+TEST(PackedHgt, AnArchiveWithElevationOfAnotherFormIsReported) {
+  const test::TemporaryFolder folder;
+  folder.write("w122/n36.dt0", test::level_dted(36, -122, 5).bytes());
+  std::filesystem::rename(zipped(folder, "n43_e007_1arc_v3.tif", hgt()), folder.path() / "tile.zip");
+  std::filesystem::rename(zipped(folder, "cell.hgt", hgt()), folder.path() / "unplaced.zip");
+  std::filesystem::rename(zipped(folder, "manual.pdf", hgt()), folder.path() / "x.zip");
+  FileSentences found;
+  ASSERT_TRUE(index_directory(folder.path(), &found).has_value());
+  EXPECT_THAT(found.problems, ::testing::ElementsAre(HasSubstr("unpack the archive"), HasSubstr("'cell.hgt'")));
 }
 
 TEST(PackedHgt, TheIndexPrefersTheFinerSpacing) {

@@ -199,7 +199,7 @@ TEST(RasterHeights, AboveTheEllipsoidAreConvertedToMeanSeaLevelOrRefused) {
       continue;
     }
     EXPECT_NEAR(height_at(*reading, golden.position), 500.0 - golden.geoid_m, 0.5);
-    EXPECT_THAT(reading->file_warnings, ElementsAre(AllOf(HasSubstr("ellipsoid"), HasSubstr("EGM96"))));
+    EXPECT_THAT(reading->file_notes, ElementsAre(AllOf(HasSubstr("ellipsoid"), HasSubstr("EGM96"))));
   }
 }
 
@@ -234,7 +234,8 @@ TEST(RasterDatum, AnInaccurateTransformationGivesOneWarningPerRaster) {
   auto store = DirectoryTerrainStore::open(folder.path(), {});
   ASSERT_TRUE(store.has_value()) << store.error().message();
   (*store)->prepare({{51.0, 10.0}, 50e3});
-  EXPECT_THAT((*store)->take_problems(), ElementsAre(AllOf(HasSubstr("nobody.tif"), HasSubstr("ballpark"))));
+  EXPECT_THAT((*store)->take_notes(), ElementsAre(AllOf(HasSubstr("nobody.tif"), HasSubstr("ballpark"))));
+  EXPECT_THAT((*store)->take_problems(), IsEmpty()) << "a note about accuracy is no damage";
 }
 
 TEST(RasterDatum, Wgs84IsReadWithoutWarnings) {
@@ -245,7 +246,7 @@ TEST(RasterDatum, Wgs84IsReadWithoutWarnings) {
     write_raster(folder.path() / "a.tif", fields, [](int row, int) { return 100 + row; });
     const auto reading = read_cell({folder.path() / "a.tif", CellFormat::raster}, {46, 3});
     ASSERT_TRUE(reading.has_value()) << reading.error().message();
-    EXPECT_THAT(reading->file_warnings, IsEmpty()) << system;
+    EXPECT_THAT(reading->file_notes, IsEmpty()) << system;
     EXPECT_LT(reading->cell.voids(), reading->cell.post_count());
   }
 }

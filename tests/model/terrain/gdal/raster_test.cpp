@@ -191,6 +191,10 @@ TEST(Raster, ARasterThatCoversACellPartlyIsUsedOnlyWithoutAWholeCell) {
   folder.write("w122/n36.dt0", test::level_dted(36, -122, 5).bytes());
   index = index_directory(folder.path());
   EXPECT_EQ(index->at(slot_of({36, -122})).format, CellFormat::dted);
+  FileSentences found;
+  ASSERT_TRUE(index_directory(folder.path(), &found).has_value());
+  EXPECT_THAT(found.problems, ElementsAre(AllOf(HasSubstr("fine.tif"), HasSubstr("join them with gdalwarp"))))
+      << "finer posts are left out";
 }
 
 TEST(Raster, FilesOtherThanRastersOfHeightsAreRefusedWithTheReason) {
@@ -249,9 +253,9 @@ TEST(Raster, AVirtualRasterIsRefusedWhateverItsExtension) {
       (folder.path() / "w/real.tif").string() + "</SourceFilename></SimpleSource></VRTRasterBand></VRTDataset>";
   write_text(folder.path() / "a.vrt", vrt);
   write_text(folder.path() / "b.tif", vrt);
-  std::vector<std::string> problems;
-  ASSERT_TRUE(index_directory(folder.path(), &problems).has_value());
-  EXPECT_THAT(problems,
+  FileSentences found;
+  ASSERT_TRUE(index_directory(folder.path(), &found).has_value());
+  EXPECT_THAT(found.problems,
               ElementsAre(HasSubstr("a.vrt: expected a raster that holds its own heights"), HasSubstr("b.tif")));
 }
 

@@ -49,6 +49,57 @@ TEST(DirectoryIndex, OtherNamesAreNoCells) {
   EXPECT_FALSE(cell_named("", "").has_value());
 }
 
+TEST(DirectoryIndex, HgtIsFoundUnderTheNamesOfItsProducers) {
+  for (const char* name : {"N31E036.SRTMGL3.hgt", "N31E036 (1).hgt", "n31_e036_3arc_v2.hgt"}) {
+    const test::TemporaryFolder folder;
+    folder.write(name, kHgtOfOneSecond);
+    EXPECT_EQ(chosen(folder, {31, 36}), name);
+    folder.write("N31E036.hgt", kHgtOfOneSecond);
+    EXPECT_EQ(chosen(folder, {31, 36}), "N31E036.hgt") << "the shorter name";
+  }
+}
+
+TEST(DirectoryIndex, DtedOfAnyNameLiesWhereItsHeaderSays) {
+  const test::TemporaryFolder folder;
+  folder.write("n31_e037_3arc_v2.dt1", test::level_dted(31, 37, 5).bytes());
+  folder.write("w122/mine.dt0", test::level_dted(36, -122, 6).bytes());
+  const auto index = index_directory(folder.path());
+  ASSERT_TRUE(index.has_value()) << index.error().message();
+  EXPECT_EQ(chosen(folder, {31, 37}), "n31_e037_3arc_v2.dt1");
+  EXPECT_EQ(chosen(folder, {36, -122}), "w122/mine.dt0");
+  EXPECT_EQ(index->at(slot_of({31, 37})).posts_per_degree, 4) << "of the header, not of the level";
+  const auto reading = read_cell(index->at(slot_of({36, -122})), {36, -122});
+  ASSERT_TRUE(reading.has_value()) << reading.error().message();
+  EXPECT_EQ(reading->cell.post(0, 0), 6);
+  folder.write("renamed.bin", test::level_dted(12, 13, 7).bytes());
+  EXPECT_EQ(index_file(folder.path() / "renamed.bin")->begin()->first, slot_of({12, 13}));
+}
+
+TEST(DirectoryIndex, EachUnusedFileIsListedOnceWithItsReason) {
+  const test::TemporaryFolder folder;
+  folder.write("w122/n36.dt1", kAnything);
+  folder.write("w122/n36.dt0", kAnything);
+  folder.write("copy/w122/n36.dt1", kAnything);
+  for (const char* beside :
+       {"w122/n36.smc.png", "N36W122.hgt.aux.xml", "readme.txt", "scenes/N36W122.flt", "N36W122.png", "._N36W122.hgt"})
+    folder.write(beside, kAnything);
+  FileSentences found;
+  ASSERT_TRUE(index_directory(folder.path(), &found).has_value());
+  EXPECT_THAT(found.problems, ElementsAre(AllOf(HasSubstr("w122/n36.smc.png: expected beside it"))))
+      << "the cell is read from another folder, without its materials";
+  std::filesystem::remove(folder.path() / "w122/n36.smc.png");
+  ASSERT_TRUE(index_directory(folder.path(), &found).has_value());
+  EXPECT_THAT(found.problems, ::testing::IsEmpty());
+  EXPECT_THAT(found.notes,
+              ElementsAre(AllOf(HasSubstr("w122/n36.dt0: not used"), HasSubstr("copy/w122/n36.dt1, which has finer")),
+                          AllOf(HasSubstr("w122/n36.dt1: not used"), HasSubstr("which has posts as fine"))));
+  for (const char* unread :
+       {"N37W122.hgt.7z", "cell.hgt", "dem.asc", "dem.nc", "w122/n38.dt3", "broken.dt1", "tile.zip"})
+    folder.write(unread, kAnything);
+  ASSERT_TRUE(index_directory(folder.path(), &found).has_value());
+  EXPECT_EQ(found.problems.size(), 7U) << ::testing::PrintToString(found.problems);
+}
+
 TEST(DirectoryIndex, CellsAreFoundAtAnyDepth) {
   const test::TemporaryFolder folder;
   folder.write("a/b/c/w122/n36.dt1", kAnything);
@@ -128,11 +179,11 @@ TEST(DirectoryIndex, AFileThatCannotBeUsedIsReportedAndOtherFilesAreUsed) {
   folder.write("w122/n36.dt1", kAnything);
   folder.write("broken.ded", kAnything);
   folder.write("pointer.VRT", kAnything);
-  std::vector<std::string> problems;
-  const auto index = index_directory(folder.path(), &problems);
+  FileSentences found;
+  const auto index = index_directory(folder.path(), &found);
   ASSERT_TRUE(index.has_value());
   EXPECT_EQ(index->size(), 1U);
-  EXPECT_THAT(problems, ElementsAre(HasSubstr("broken.ded"), HasSubstr("gdal_translate")));
+  EXPECT_THAT(found.problems, ElementsAre(HasSubstr("broken.ded"), HasSubstr("gdal_translate")));
   std::filesystem::remove_all(folder.path() / "w122");
   EXPECT_THAT(index_directory(folder.path()).error().message(), HasSubstr("broken.ded"));
 }
@@ -164,11 +215,11 @@ TEST(DirectoryIndex, AFolderWithoutReadPermissionIsReportedAsSuch) {
     const auto closed = index_directory(folder.path() / "closed");
     ASSERT_FALSE(closed.has_value());
     EXPECT_THAT(closed.error().message(), HasSubstr("found permission denied"));
-    std::vector<std::string> problems;
-    const auto index = index_directory(folder.path(), &problems);
+    FileSentences found;
+    const auto index = index_directory(folder.path(), &found);
     ASSERT_TRUE(index.has_value()) << index.error().message();
     EXPECT_EQ(index->size(), 1U);
-    EXPECT_THAT(problems, ElementsAre(AllOf(HasSubstr("closed"), HasSubstr("found permission denied"))));
+    EXPECT_THAT(found.problems, ElementsAre(AllOf(HasSubstr("closed"), HasSubstr("found permission denied"))));
   }
   std::filesystem::permissions(folder.path() / "closed", std::filesystem::perms::all);
 }
@@ -179,9 +230,9 @@ TEST(DirectoryIndex, WithoutGdalEachRasterIsReportedWithTheSetupCommand) {
   folder.write("w122/n36.dt1", kAnything);
   folder.write("a.tif", kAnything);
   folder.write("b.img", kAnything);
-  std::vector<std::string> problems;
-  ASSERT_TRUE(index_directory(folder.path(), &problems).has_value());
-  EXPECT_THAT(problems, ElementsAre(HasSubstr("scripts/setup --gdal"), HasSubstr("scripts/setup --gdal")));
+  FileSentences found;
+  ASSERT_TRUE(index_directory(folder.path(), &found).has_value());
+  EXPECT_THAT(found.problems, ElementsAre(HasSubstr("scripts/setup --gdal"), HasSubstr("scripts/setup --gdal")));
 }
 
 TEST(DirectoryIndex, IndexFileListsTheCellsOfOneFile) {
