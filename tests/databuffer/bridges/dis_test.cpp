@@ -38,7 +38,7 @@ TEST(Dis, AnAirPlatformDecodesToItsFlight) {
   EXPECT_EQ(text_of(state.id), "1,2,3");
   EXPECT_EQ(state.kind, EntityKind::platform);
   EXPECT_EQ(state.domain, EntityDomain::air);
-  EXPECT_NEAR(state.stamp.seconds(), 100.0, 1e-5);
+  EXPECT_NEAR(state.stamp.value().seconds(), 100.0, 1e-5);
   expect_the_flight(state.sample.ownship);
   EXPECT_STREQ(state.sample.ownship.source, "dis/ellipsoid");
 }

@@ -46,7 +46,7 @@ TEST(EntityTable, AnOlderReportDoesNotReplaceANewerOne) {
   EntityTable table;
   EntityState state = state_of("dis/ship.bin");
   table.update(state, seconds(10));
-  state.stamp = state.stamp - seconds(1);
+  state.stamp = state.stamp.value() - seconds(1);
   EXPECT_THAT(table.update(state, seconds(11)).value_or(""), HasSubstr("1,2,9"));
   EXPECT_EQ(table.at(seconds(11))[0].age.seconds(), 1.0);
 }

@@ -143,7 +143,7 @@ TEST(FormatsPage, APduByTheTableOfDisDecodes) {
   EXPECT_EQ(text_of(state->id), "1,2,3");
   EXPECT_EQ(state->kind, EntityKind::platform);
   EXPECT_EQ(state->domain, EntityDomain::air);
-  EXPECT_NEAR(state->stamp.seconds(), 100.0, 1e-5);
+  EXPECT_NEAR(state->stamp.value().seconds(), 100.0, 1e-5);
   EXPECT_TRUE(state->frozen);
   EXPECT_FALSE(state->deactivated);
   EXPECT_NEAR(state->sample.ownship.latitude_deg, 0.0, 1e-9);
