@@ -110,6 +110,7 @@ TEST(FormatsPage, APduByTheTableOfDisDecodes) {
   constexpr double kEquator_m = 6'378'137.0;
   PacketByPage packet("dis", 144, std::endian::big);
   for (const auto& [name, value] : {std::pair{"version", 6.0},
+                                    std::pair{"exercise", 5.0},
                                     std::pair{"type", 1.0},
                                     std::pair{"time stamp", 100.0},
                                     std::pair{"length", 144.0},
@@ -144,6 +145,7 @@ TEST(FormatsPage, APduByTheTableOfDisDecodes) {
   EXPECT_EQ(state->kind, EntityKind::platform);
   EXPECT_EQ(state->domain, EntityDomain::air);
   EXPECT_NEAR(state->stamp.value().seconds(), 100.0, 1e-5);
+  EXPECT_EQ(state->exercise, 5);
   EXPECT_TRUE(state->frozen);
   EXPECT_FALSE(state->deactivated);
   EXPECT_NEAR(state->sample.ownship.latitude_deg, 0.0, 1e-9);
