@@ -227,7 +227,7 @@ TEST_F(FlyOut, NamesWhatIsWrong) {
   EXPECT_FALSE(std::filesystem::exists(branch_of("not")));
   const auto taken = run_tool(fly_out("refused", {"--at", "9", "--session", set_.session()}));
   EXPECT_EQ(taken.code, 1);
-  EXPECT_NE(taken.errors.find("one process of this role in a session"), std::string::npos) << taken.errors;
+  EXPECT_NE(taken.errors.find("is there already"), std::string::npos) << taken.errors;
 }
 
 TEST_F(FlyOut, ListsTheRecordingAndItsFlight) {

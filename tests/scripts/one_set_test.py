@@ -36,7 +36,7 @@ def ended(process):
 
 def start(place, roles, *more):
     of_display = place.options if "radar-display" in roles else place.options[:4]  # with --frames
-    return place.start("--roles", roles, *more, options=of_display)
+    return place.start("--roles", roles, *more, options=of_display, keep_log=True)
 
 
 def refused(process):

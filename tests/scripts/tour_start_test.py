@@ -61,14 +61,15 @@ class Place:
         path.write_text(text)
         path.chmod(0o755)
 
-    def start(self, *arguments, code="0", options=None):
+    def start(self, *arguments, code="0", options=None, keep_log=False):
         environment = {name: value for name, value in os.environ.items() if name not in ("DISPLAY", "WAYLAND_DISPLAY")}
         environment.update(self.environment, YARS_TEST_CODE=code)
+        if not keep_log:
+            self.log.unlink(missing_ok=True)
         return subprocess.Popen([self.folder / "bin/yars-start", *(options or self.options), *arguments], env=environment, text=True,
                                 start_new_session=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
     def run(self, *arguments, code="0"):
-        self.log.unlink(missing_ok=True)
         process = self.start(*arguments, code=code)
         text = process.communicate(timeout=WATCHDOG_S)[0]
         return process.returncode, text

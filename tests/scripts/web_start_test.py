@@ -55,7 +55,6 @@ class Place(tour_start_test.Place):
         """The arguments of its supervisor and of radar-display; afterwards `text` is what it printed. Without options of the
         station's own, with --web."""
         is_said = any(str(word).startswith("--web-") for word in arguments)
-        self.log.unlink(missing_ok=True)
         process = self.start(*([] if is_said else ["--web"]), *arguments)
         try:
             deadline = time.monotonic() + WATCHDOG_S

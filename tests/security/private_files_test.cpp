@@ -221,7 +221,7 @@ TEST(PrivateSockets, ABridgeListensOnTheLoopbackAddressOnly) {
     ASSERT_TRUE(source) << source.error().message();
     const auto socket = databuffer::UdpSocket::listen(source->host, source->port);
     ASSERT_TRUE(socket) << socket.error().message();
-    EXPECT_EQ(socket->endpoint().address, 0x7f000001U) << text;
+    EXPECT_EQ(socket->endpoint().address, "127.0.0.1") << text;
   }
 }
 

@@ -174,7 +174,7 @@ void check_terrain_read(const Warn& warn, const std::string& folder, model::terr
     if (auto* const files = dynamic_cast<model::terrain::DirectoryTerrainStore*>(one)) files->report_again();
   const auto* const directory = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(&store);
   if (directory == nullptr) return;  // the built-in hills have no files
-  const model::terrain::RegionCells cells = directory->region_cells();
+  const model::terrain::RegionCells& cells = directory->region_cells();
   check_unreadable(warn, folder, "cells of the region", cells.files, cells.unreadable);
 }
 
@@ -185,9 +185,9 @@ void check_scenes_read(const Warn& warn, model::scene::SceneStore& scenes) {
 
 void fail_if_left_out(const std::vector<std::string>& left_out) {
   if (!left_out.empty())
-    throw_failure({"--scene", "scenes that are read whole",
+    throw_failure({"terrain and scenes", "files that are read whole",
                    text::counted(left_out.size(), "part") + " left out, named above",
-                   "repair the files, or leave the parts out with --scene-without", false});
+                   "repair or remove the files, or leave parts of a scene out with --scene-without", false});
 }
 
 }  // namespace yars::tools

@@ -52,8 +52,7 @@ void check_terrain_read(const Warn& warn, const std::string& folder, model::terr
                         model::terrain::TerrainStore* path_store = nullptr);
 void check_scenes_read(const Warn& warn, model::scene::SceneStore& scenes);
 
-// Throws CommandFailed with code 1 if something was left out of scenes (SceneStore::Wanted::left_out). Call after the
-// results are written.
+// Throws CommandFailed with code 1 if something was left out (Theatre::left_out()). Call after the results are written.
 void fail_if_left_out(const std::vector<std::string>& left_out);
 
 }  // namespace yars::tools

@@ -1,5 +1,7 @@
 #include "tools/command/theatre.hpp"
 
+#include <algorithm>
+
 #include "lib/radar/fidelity.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/terrain/store/directory_store.hpp"
@@ -40,6 +42,19 @@ model::hrm::PatchEnvironment Theatre::prepare(const model::hrm::PatchNeed& need,
   if (scenes_) check_scenes_read(warn, *scenes_);
   check_terrain_read(warn, folder_, *window_store_, path_store_.get());
   return environment;
+}
+
+std::vector<std::string> Theatre::left_out() const {
+  std::vector<std::string> all;
+  const auto add = [&all](const std::vector<std::string>& sentences) {
+    for (const std::string& sentence : sentences)
+      if (std::ranges::find(all, sentence) == all.end()) all.push_back(sentence);
+  };
+  for (const auto* store : {window_store_.get(), path_store_.get()})
+    if (const auto* const files = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(store))
+      add(files->region_cells().left_out);
+  if (scenes_) add(scenes_->wanted().left_out);
+  return all;
 }
 
 model::scene::SceneViewPointer Theatre::scenes_near(geo::GeoPoint position, double radius_m, const Warn& warn) {

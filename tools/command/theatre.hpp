@@ -40,10 +40,9 @@ class Theatre {
   ScanEnvironment prepare(const model::kernel::ScanRequest& request, const radar::Fidelity& fidelity, const Warn& warn);
   model::hrm::PatchEnvironment prepare(const model::hrm::PatchNeed& need, const Warn& warn);
 
-  // What the scenes of the last region lack of their files, one sentence each; see SceneStore::Wanted.
-  std::vector<std::string> left_out_of_scenes() const {
-    return scenes_ ? scenes_->wanted().left_out : std::vector<std::string>();
-  }
+  // What the last region lacks of its files, one sentence each: unreadable cells of the region, files of the terrain's
+  // folder that are not used (RegionCells), and parts of scenes (SceneStore::Wanted).
+  std::vector<std::string> left_out() const;
 
   // Scenes about a position; null: none.
   model::scene::SceneViewPointer scenes_near(geo::GeoPoint position, double radius_m, const Warn& warn);

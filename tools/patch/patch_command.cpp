@@ -201,7 +201,7 @@ void patch(const CommonOptions& common, const PatchCommandOptions& options) {
   line["threads"] = workers.threads();
   line["fidelity"] = configuration.fidelity.name;
   line["hash"] = picture_hash(patch_formation.picture());
-  const std::vector<std::string> left_out = theatre.left_out_of_scenes();
+  const std::vector<std::string> left_out = theatre.left_out();
   line["left_out"] = left_out;
   report_dark_pixels(patch_formation.image());
   if (names_file(options.output.file)) write_patch(options.output, order, patch_formation);

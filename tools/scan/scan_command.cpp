@@ -269,7 +269,7 @@ void scan(const CommonOptions& common, const ScanCommandOptions& options) {
   line["threads"] = options.threads;
   line["fidelity"] = configuration.fidelity.name;
   line["hash"] = model::kernel::scan_hash(work.sweeps());
-  const std::vector<std::string> left_out = theatre.left_out_of_scenes();
+  const std::vector<std::string> left_out = theatre.left_out();
   line["left_out"] = left_out;
   if (names_file(options.out)) write_result(options, configuration.view, work);
   std::vector<trade::RaySample> samples;

@@ -47,7 +47,11 @@ error::Expected<std::unique_ptr<DirectoryTerrainStore>> DirectoryTerrainStore::o
 
 DirectoryTerrainStore::DirectoryTerrainStore(std::string folder, DirectoryIndex index, DirectoryStoreOptions options,
                                              FileSentences sentences)
-    : folder_(std::move(folder)), index_(std::move(index)), options_(options), sentences_(std::move(sentences)) {}
+    : folder_(std::move(folder)),
+      index_(std::move(index)),
+      options_(options),
+      not_used_(sentences.problems),
+      sentences_(std::move(sentences)) {}
 
 TerrainViewPointer DirectoryTerrainStore::prepare_in_steps(const TerrainRegion& region, const Interim& interim) {
   const FreeBuffers after_last_cell;
@@ -97,14 +101,15 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
 // loaded, nearest first.
 std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
   std::vector<Level> missing;
-  region_cells_ = {};
+  region_cells_ = {0, 0, not_used_};
   for (const CellCorner corner : cells_within(region)) {
     const std::size_t slot = slot_of(corner);
     const auto file = index_.find(slot);
     if (file == index_.end()) continue;
     ++region_cells_.files;
-    if (unreadable_.contains(slot)) {
+    if (const auto reason = unreadable_.find(slot); reason != unreadable_.end()) {
       ++region_cells_.unreadable;
+      region_cells_.left_out.push_back(reason->second);
       continue;
     }
     const Level level{slot, reduction_for(file->second, region.detail)};
@@ -162,9 +167,11 @@ bool DirectoryTerrainStore::load(Level level) {
                          [&path = *file.culture, corner] { return read_culture(path, corner); });
   error::Expected<CellReading> reading = read_cell(file, corner, level.second);
   if (!reading) {
-    sentences_.problems.push_back(reading.error().message() + "; the cell counts as void");
-    unreadable_.insert(level.first);
+    const std::string reason = reading.error().message() + "; the cell counts as void";
+    sentences_.problems.push_back(reason);
+    unreadable_.emplace(level.first, reason);
     ++region_cells_.unreadable;
+    region_cells_.left_out.push_back(reason);
     shown_.erase(level.first);
     return false;
   }

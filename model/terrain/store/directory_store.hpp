@@ -38,6 +38,8 @@ struct DirectoryStoreOptions {
 struct RegionCells {
   std::size_t files = 0;       // cells with a file
   std::size_t unreadable = 0;  // cells with a file that cannot be read; they are void
+  std::vector<std::string>
+      left_out;  // why, one sentence each, behind those about files of the folder that are not used
 };
 
 // Reduction: number of times that the spacing of posts is doubled. Returns the largest reduction, at most 6, with which
@@ -58,7 +60,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   TerrainViewPointer prepare_in_steps(const TerrainRegion& region, const Interim& interim) override;
   std::vector<std::string> take_problems() override;
   std::vector<std::string> take_notes() override;
-  RegionCells region_cells() const { return region_cells_; }
+  const RegionCells& region_cells() const { return region_cells_; }
   const DirectoryIndex& index() const { return index_; }
   // The next region without a cell is a problem again, for callers whose regions have nothing to do with each other.
   void report_again() { outside_coverage_ = false; }
@@ -86,13 +88,14 @@ class DirectoryTerrainStore final : public TerrainStore {
   DirectoryIndex index_;
   DirectoryStoreOptions options_;
   std::map<Level, Resident> resident_;
-  std::map<std::size_t, int> shown_;          // reduction of each cell of the next view, by slot
-  std::set<std::size_t> unreadable_;          // slots with an unreadable elevation file, already reported
-  std::set<std::size_t> unreadable_culture_;  // slots with unreadable culture, already reported
-  bool outside_coverage_ = false;             // true: the folder has no cell in the last region
+  std::map<std::size_t, int> shown_;               // reduction of each cell of the next view, by slot
+  std::map<std::size_t, std::string> unreadable_;  // why, by slot of an unreadable elevation file, already reported
+  std::set<std::size_t> unreadable_culture_;       // slots with unreadable culture, already reported
+  bool outside_coverage_ = false;                  // true: the folder has no cell in the last region
   std::size_t resident_bytes_ = 0;
   std::uint64_t prepares_ = 0;
   std::uint64_t generation_ = 0;
+  std::vector<std::string> not_used_;  // problems of the folder's index
   RegionCells region_cells_;
   TerrainViewPointer view_;
   ReadingNotes reported_;

@@ -1,5 +1,5 @@
 // Commands with damaged or missing input. If none of the input can be read: exit code 1 and a message. If a part can be
-// read: a result and the number of unreadable files; exit code 0 for terrain, 1 for scenes.
+// read: a result, the number of unreadable files, and exit code 1.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -54,7 +54,8 @@ TEST(DamagedInput, UnreadableTerrainFailsAndPartlyUnreadableTerrainIsCounted) {
     ASSERT_EQ(files.size(), 2U);
     fs::resize_file(files[0], 4000);
     const auto half = view(command, {"--terrain", tree});
-    EXPECT_EQ(half.code, 0) << command << half.errors;
+    EXPECT_EQ(half.code, 1) << command << half.errors;
+    EXPECT_NE(half.output, "") << "the picture of the rest";
     EXPECT_THAT(half.errors, HasSubstr("1 of 2 cells of the region cannot be read")) << command;
     fs::resize_file(files[1], 4000);
     const auto none = view(command, {"--terrain", tree});
@@ -72,7 +73,7 @@ TEST(DamagedInput, AnUnreadableCellOnThePathToAPatchIsReported) {
   const auto patch =
       endtoend::run_program({"yars", "patch", "--lat", "37.5", "--lon", "-120.3", "--heading", "60", "--target-lat",
                              "37.6", "--target-lon", "-119.8", "--size", "64", "--terrain", folder.path()});
-  EXPECT_EQ(patch.code, 0) << patch.errors;
+  EXPECT_EQ(patch.code, 1) << patch.errors;
   EXPECT_THAT(patch.errors, HasSubstr("n37.dt0"));
 }
 

@@ -54,9 +54,11 @@ class BridgedSet : public ::testing::Test {
   }
 
   // The latched ownship, if it is of this source.
+  // `source`: that of DIS has the geoid behind it, "dis/egm96-5".
   std::optional<databuffer::Ownship> latched_from(const std::string& source) const {
     auto own = latched();
-    if (own && text::text_of(own->source) != source) own.reset();
+    const std::string_view found = own ? text::text_of(own->source) : std::string_view();
+    if (found.substr(0, found.find('/')) != source) own.reset();
     return own;
   }
   bool flown_by(const std::string& source) const { return latched_from(source).has_value(); }
