@@ -118,8 +118,9 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Gatew
   if (settings.name.empty()) settings.name = gateway::checks::host_name();
   auto peers = check(settings);
   if (!peers) return tl::unexpected(peers.error());
-  log::info(loaded->source.empty() ? "no form Network: this computer alone, over the loopback interface"
-                                   : "form Network of " + loaded->source);
+  if (gateway_options.network.empty())
+    log::info(loaded->source.empty() ? "no form Network: this computer alone, over the loopback interface"
+                                     : "form Network of " + loaded->source);
   if (!gateway_options.terrain.empty()) configuration.terrain.directory = gateway_options.terrain;
   Joining joining{std::move(settings), std::move(*peers), {}, {}};
   joining.identity.name = joining.settings.name;
