@@ -146,8 +146,9 @@ std::optional<std::string> parameter_of(std::string_view path, std::string_view 
 }
 
 std::string_view content_type_of(std::string_view file) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kTypes{
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 8> kTypes{
       {{".html", "text/html; charset=utf-8"},
+       {".ico", "image/x-icon"},
        {".js", "text/javascript; charset=utf-8"},
        {".css", "text/css; charset=utf-8"},
        {".json", "application/json"},

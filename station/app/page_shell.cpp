@@ -109,6 +109,7 @@ class Page final : public OpenPage, public std::enable_shared_from_this<Page> {
     socket_.async_accept(request_, [self = shared_from_this()](Problem problem) {
       if (problem) return;
       self->open_ = true;
+      self->tell(text_of({{"right", self->wish_.right == Right::instructor ? "instructor" : "viewer"}}));
       self->tell(sets_message(self->site_.sets));
       self->read();
       self->pump();

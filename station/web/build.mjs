@@ -8,4 +8,4 @@ await build({
   entryPoints: ["src/display.ts", "src/instructor.ts", "src/beside.ts"], bundle: true, minify: true, target: ["es2020"], format: "iife", charset: "utf8",
   legalComments: "none", outdir: out,
 });
-for (const file of ["display.html", "instructor.html", "beside.html", "icon.svg", "station.css"]) await copyFile(`src/${file}`, `${out}/${file}`);
+for (const file of ["display.html", "instructor.html", "beside.html", "icon.svg", "favicon.ico", "station.css"]) await copyFile(`src/${file}`, `${out}/${file}`);

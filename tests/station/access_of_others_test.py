@@ -252,6 +252,13 @@ class Tokens(unittest.TestCase):
         self.assertEqual(browser.open(self.station.addresses[1].partition("?")[0]), 200)
         self.assertFalse(browser.may_freeze())
 
+    def test_a_page_is_told_what_it_may_do(self):
+        for cookie, right in zip(self.cookies, ("viewer", "instructor")):
+            for kind in ("display", "instructor"):
+                page = SocketOfPage(self.port, f"/socket?page={kind}", cookie)
+                self.assertEqual(next(page.texts()), {"right": right})
+                page.close()
+
     def test_a_viewer_looks_and_changes_nothing(self):
         page = SocketOfPage(self.port, cookie=self.cookies[0])
         self.assertEqual(page.status, 101)

@@ -9,7 +9,7 @@ import { chromium } from "playwright-core";
 const [address, yars, session] = process.argv.slice(2);
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
-export { address };
+export { address, session };
 export const call = (...words) => execFileSync(yars, ["--session", session, ...words], { encoding: "utf8" });
 export const watch = () => JSON.parse(call("watch", "--json", "--once"));
 
@@ -26,9 +26,10 @@ export async function until(what, check) {
 export const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
 export const faults = []; // errors in the console of the pages
 
-// A page that shows its first state.
-export async function open(width, height, path) {
+// A page that shows its first state. `before`: a script that runs in the page before its own.
+export async function open(width, height, path, before) {
   const page = await browser.newPage({ viewport: { width, height } });
+  if (before) await page.addInitScript(before);
   page.setDefaultTimeout(WATCHDOG_MS);
   page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
   page.on("pageerror", (error) => faults.push(String(error)));
@@ -37,21 +38,55 @@ export async function open(width, height, path) {
   return page;
 }
 
-export async function hasNoSeriousFault(page) {
+// axe-core finds nothing, whatever its weight.
+export async function hasNoFinding(page) {
   await page.evaluate(axe);
   const { violations } = await page.evaluate(() => globalThis.axe.run());
-  const serious = violations.filter(({ impact }) => impact === "serious" || impact === "critical");
-  assert.deepEqual(serious.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]), []);
+  assert.deepEqual(violations.map(({ id, nodes }) => [id, nodes.map(({ html }) => html)]), []);
 }
 
-// Phone, tablet, and the phone on its side: no page scrolls sideways. `check` sees each page.
-export async function fitsSmallScreens(path, check = async () => {}) {
-  for (const [width, height] of [[390, 844], [820, 1180], [844, 390]]) {
+const TOUCH_PX = 44;
+
+// Things to press that are smaller than a finger: their words and sizes.
+export const tooSmall = (page) => page.evaluate((least) => [...document.querySelectorAll("button, select, input, summary, a")]
+  .filter((target) => target.checkVisibility()).map((target) => [target, target.getBoundingClientRect()])
+  .filter(([, { width, height }]) => Math.min(width, height) < least - 0.01)
+  .map(([target, { width, height }]) => `${target.id || target.textContent}: ${width} x ${height}`), TOUCH_PX);
+
+// Desktop, tablet, phone, and the phone on its side: no page scrolls sideways, a finger meets everything, and accessibility
+// has no finding. `check` sees each page.
+export async function fitsAllScreens(path, check = async () => {}) {
+  for (const [width, height] of [[1440, 900], [820, 1180], [390, 844], [844, 390]]) {
     const page = await open(width, height, path);
-    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width} x ${height}`);
-    await check(page);
+    const size = `${width} x ${height}`;
+    assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), size);
+    assert.deepEqual(await tooSmall(page), [], size);
+    await hasNoFinding(page);
+    await check(page, width, height);
     await page.close();
   }
+}
+
+// Whether an element lies wholly in the window, and nothing covers its middle.
+export const inSight = (page, selector) => page.locator(selector).first().evaluate((found) => {
+  const { left, top, right, bottom } = found.getBoundingClientRect();
+  const upmost = document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
+  return left >= 0 && top >= 0 && right <= innerWidth && bottom <= innerHeight && (found === upmost || found.contains(upmost));
+});
+
+// The page names the product, has an icon, and leads to the pages of `links`, each of which answers.
+export async function hasNameIconAndLinks(page, links) {
+  assert.match(await page.title(), /YARS/);
+  assert.match(await page.textContent("h1"), /YARS/);
+  const icons = await page.$$eval("link[rel=icon]", (list) => list.map(({ href }) => href));
+  for (const icon of [...icons, `${address}/favicon.ico`]) {
+    const answer = await page.request.get(icon);
+    assert.ok(answer.ok(), icon);
+    assert.match(answer.headers()["content-type"], /^image\/(svg\+xml|x-icon)$/, icon);
+  }
+  const found = await page.$$eval("header nav a", (list) => list.map((link) => new URL(link.href).pathname));
+  assert.deepEqual(found, links);
+  for (const link of links) assert.ok((await page.request.get(address + link)).ok(), link);
 }
 
 // Runs all tests on a page, one after the other, and ends the program. `tests`: functions by name.

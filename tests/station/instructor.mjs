@@ -1,6 +1,6 @@
 // The instructor's page as an instructor uses it.
 import assert from "node:assert/strict";
-import { address, browser, call, faults, fitsSmallScreens, hasNoSeriousFault, open, run, until, watch } from "./browser.mjs";
+import { address, browser, call, faults, fitsAllScreens, hasNameIconAndLinks, hasNoFinding, inSight, open, run, tooSmall, until, watch } from "./browser.mjs";
 
 const path = "/instructor.html";
 const world = () => JSON.parse(call("world", "--json"));
@@ -264,7 +264,7 @@ const tests = {
     await page.selectOption("#sea", "3");
     await until("sea state 3", () => world().sea_state === 3);
     const before = watch().processes["radar-model"].pid;
-    await page.click("button[aria-label^='Kill radar-model']");
+    await kill(page, "radar-model");
     await until("another process", () => watch().processes["radar-model"] && watch().processes["radar-model"].pid !== before);
     await until("sea state 3 in effect", () => world().sea_state === 3);
     await page.click("#reset_world");
@@ -345,7 +345,7 @@ const tests = {
     await until("the recorder writes", () => status().recorder?.writing);
     await until("being written", async () => /being written/.test(await page.textContent("#recordings")));
     await until("a part of it is on the disk", () => status().recorder.bytes > 2000);
-    await page.click("button[aria-label='Kill recorder']");
+    await kill(page, "recorder");
     await until("cut short", async () => /cut short: its recorder was killed/.test(await page.textContent("#recordings")));
     assert.doesNotMatch(await page.textContent("#recordings"), /being written/);
     await noProblem(page);
@@ -366,17 +366,97 @@ const tests = {
     await page.click("#copy");
     assert.ok(near(Number(await latitude()), Number(before), 1));
   },
-  async "no serious fault of accessibility"(page) {
-    await hasNoSeriousFault(page);
+  async "accessibility has no finding with all sections open"(page) {
+    await page.$$eval("details", (list) => { for (const one of list) one.open = true; });
+    await hasNoFinding(page);
   },
-  async "phone and tablet show it without scrolling sideways"() {
-    await fitsSmallScreens(path, async (page) => {
-      const links = await page.$$eval("#sections a", (list) => list.map((link) => {
-        const { width, height } = link.getBoundingClientRect();
-        return Math.min(width, height);
-      }));
-      assert.ok(links.length >= 6 && Math.min(...links) >= 44, `expected links of 44 pixels or more, found ${links}`);
+  async "the page has its name, its icon and the way to the display"(page) {
+    await hasNameIconAndLinks(page, ["/display.html"]);
+  },
+  async "each screen shows it without scrolling sideways, with all sections open"() {
+    await fitsAllScreens(path, async (page, width, height) => {
+      assert.ok(await inSight(page, "#map"), `${width} x ${height}`);
+      await page.$$eval("details", (list) => { for (const one of list) one.open = true; });
+      assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width} x ${height}`);
+      assert.ok(await page.$eval("aside", (panel) => panel.scrollWidth <= panel.clientWidth), `${width} x ${height}: the panel`);
+      assert.deepEqual(await tooSmall(page), [], `${width} x ${height}`);
     });
+  },
+  async "labels of the map lie on no symbol and no other label, and the list has straight rows"() {
+    // A crowd: six things in a square of 2 NM.
+    const { lat, lon } = watch().ownship;
+    for (let at = 0; at < 6; ++at)
+      call("world", "mover", "add", String(lat + 0.02 * (at % 3) - 0.02), String(lon + 0.02 * Math.floor(at / 3)), "--name", `crowded ship ${at}`);
+    call("world", "jammer", "add", String(lat), String(lon - 0.01), "--name", "SA-X");
+    const page = await open(1400, 1000, path, recordDrawings);
+    await onMap(page, "crowded ship 5");
+    await until("a drawing with labels", async () => (await page.evaluate(() => globalThis.drawing.texts.length)) > 3);
+    const overlaps = () => page.evaluate(() => {
+      const { symbols, texts } = globalThis.drawing;
+      const meet = (one, other) => one[0] < other[2] && other[0] < one[2] && one[1] < other[3] && other[1] < one[3];
+      return texts.flatMap(({ text, box, symbolsBefore }, at) => [
+        ...symbols.filter((symbol) => meet(symbol, box)).map((symbol) => `${text} ${box} on a symbol ${symbol}`),
+        ...texts.slice(0, at).filter((other) => meet(other.box, box)).map((other) => `${text} on ${other.text}`),
+        ...(symbolsBefore < symbols.length ? [`${text} lies below a symbol`] : []),
+      ]);
+    });
+    assert.deepEqual(await overlaps(), []);
+    for (let turn = 0; turn < 3; ++turn) {
+      await page.click("#zoom_in");
+      await twoStates(page);
+      assert.deepEqual(await overlaps(), [], `nearer: ${turn}`);
+    }
+    assert.ok(await page.evaluate(() => globalThis.drawing.symbols.length > 3 && globalThis.drawing.texts.some(({ text }) => text === "SA-X")));
+    const rows = await page.$$eval("#things li", (list) => list.map((row) => [...row.querySelectorAll("button")].map((button) => {
+      const { left, right } = button.getBoundingClientRect();
+      return [left, right].map(Math.round).join();
+    })));
+    const [names, removals] = [0, 1].map((column) => new Set(rows.map((row) => row[column]).filter((edges) => edges !== undefined)));
+    assert.ok(rows.length >= 8 && names.size === 1 && removals.size === 1, JSON.stringify(rows));
+    await page.close();
+    call("world", "reset");
+  },
+  async "the hint after Add rain is in sight, with buttons for what a finger cannot do otherwise"() {
+    for (const [width, height] of [[1440, 900], [820, 1180], [390, 844], [844, 390]]) {
+      const page = await open(width, height, path);
+      const cells = world().rain.length;
+      await page.click("#add_rain");
+      for (const shown of ["#adding", "#add_middle", "#add_cancel"]) assert.ok(await inSight(page, shown), `${width} x ${height}: ${shown}`);
+      assert.match(await page.textContent("#adding"), /Press on the map where the rain/);
+      assert.equal(await page.getAttribute("#adding", "role"), "status");
+      await page.click("#add_cancel");
+      assert.equal(await page.textContent("#adding"), "");
+      assert.equal(await page.isVisible("#add_middle"), false);
+      await page.click("#add_rain");
+      await page.click("#add_middle");
+      await until("one more rain cell", () => world().rain.length === cells + 1);
+      await onMap(page, "rain");
+      await page.close();
+    }
+    call("world", "reset");
+  },
+  async "Kill has a place of its own, and does nothing until a role is chosen"(page) {
+    assert.deepEqual(await page.$$eval("#roles button, #roles a", (list) => list.length), 0, "no button stands in the table");
+    assert.deepEqual(await page.$$eval("#kill_form button", (list) => list.map(({ textContent }) => textContent)), ["Kill"]);
+    const { processes } = watch();
+    assert.equal(await page.inputValue("#kill_role"), "");
+    await page.click("#kill_form button");
+    await twoStates(page);
+    assert.equal(watch().processes["radar-model"].pid, processes["radar-model"].pid);
+    await page.selectOption("#kill_role", "radar-model");
+    await twoStates(page);
+    assert.equal(await page.inputValue("#kill_role"), "radar-model", "a choice stays while states come");
+    await page.selectOption("#kill_role", "");
+    await noProblem(page);
+  },
+  async "what is chosen on the map shows its values"(page) {
+    await page.click("#add_jammers");
+    await page.mouse.click(...await middle(page, 120, 90));
+    await onMap(page, "jammer");
+    await page.evaluate(() => { document.querySelector("aside").scrollTop = 0; });
+    await page.mouse.click(...await middle(page, 120, 90));
+    await until("the form of the jammer in sight", async () => await page.isVisible("#thing_power_w") && await inSight(page, "#thing_power_w"));
+    call("world", "reset");
   },
   async "links lead to the sections of the page on a phone, and stay in view"() {
     const page = await open(390, 844, path);
@@ -395,6 +475,49 @@ const tests = {
     await desktop.close();
   },
 };
+
+// Records what the map draws last: boxes of small shapes, which are symbols, and those of labels, in CSS pixels.
+function recordDrawings() {
+  const { prototype } = CanvasRenderingContext2D;
+  let next = { symbols: [], texts: [] }, path = [];
+  globalThis.drawing = next;
+  const around = (name, record) => {
+    const draw = prototype[name];
+    prototype[name] = function (...values) {
+      if (this.canvas.id === "map") record(this, values);
+      return draw.apply(this, values);
+    };
+  };
+  const to = (context, x, y) => {
+    const { a, b, c, d, e, f } = context.getTransform();
+    path.push([(a * x + c * y + e) / devicePixelRatio, (b * x + d * y + f) / devicePixelRatio]);
+  };
+  around("fillRect", (context, [left, top]) => {
+    if (left !== 0 || top !== 0) return; // the ground, with which a drawing begins
+    globalThis.drawing = next;
+    next = { symbols: [], texts: [] };
+  });
+  around("beginPath", () => { path = []; });
+  around("moveTo", (context, [x, y]) => to(context, x, y));
+  around("lineTo", (context, [x, y]) => to(context, x, y));
+  around("rect", (context, [x, y, width, height]) => { to(context, x, y); to(context, x + width, y + height); });
+  around("arc", (context, [x, y, radius]) => { to(context, x - radius, y - radius); to(context, x + radius, y + radius); });
+  around("fill", (context) => {
+    if (context.fillStyle instanceof CanvasGradient) return; // the extent of a rain cell
+    const edges = [Math.min(...path.map(([x]) => x)), Math.min(...path.map(([, y]) => y)), Math.max(...path.map(([x]) => x)), Math.max(...path.map(([, y]) => y))];
+    if (edges[2] - edges[0] < 40 && edges[3] - edges[1] < 40) next.symbols.push(edges);
+  });
+  around("fillText", (context, [text, x, y]) => {
+    if (/^[0-9.]+ NM$/.test(text)) return; // the scale
+    const half = context.measureText(text).width / 2;
+    next.texts.push({ text, box: [x - half, y - 9, x + half, y + 2], symbolsBefore: next.symbols.length });
+  });
+}
+
+async function kill(page, role) {
+  await page.selectOption("#kill_role", role);
+  await page.click("#kill_form button");
+}
 
 async function middle(page, right, down) {
   const box = await (await page.$("#map")).boundingBox();

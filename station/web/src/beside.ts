@@ -8,11 +8,14 @@ const open = new Set<string>();
 
 for (const side of ["left", "right"] as const) {
   const session = query.get(side) ?? "";
-  element(`${side}_name`).textContent = session || "this set";
+  element(`${side}_name`).textContent = `${side}: ${session || "this set"}`;
   const picture = new Picture(element<HTMLCanvasElement>(`${side}_picture`));
   new Connection({
     frame: (frame) => picture.show(frame),
-    state: ({ watch }) => { element(`${side}_words`).textContent = `${watch.sim_time.toFixed(1)} s · ${watch.power} · ${watch.mode}${watch.running ? "" : " · time stands"}`; },
+    state: ({ watch }) => {
+      element(`${side}_words`).textContent = `${watch.sim_time.toFixed(1)} s · ${watch.power} · ${watch.mode}${watch.running ? "" : " · time stands"}`;
+      document.body.dataset.state = "shown";
+    },
     connected: (is) => {
       if (is) open.add(side); else open.delete(side);
       element("status").textContent = open.size === 2 ? "connected" : "no connection to both; trying again";

@@ -1,5 +1,5 @@
 // The WebSocket to the server; opens it again, after growing waits, whenever it closes.
-import { Answer, frameOf, FrameMessage, InstructorState, SetEntry, State } from "./messages";
+import { Answer, frameOf, FrameMessage, InstructorState, Right, SetEntry, State } from "./messages";
 
 const FIRST_WAIT_MS = 250;
 const LONGEST_WAIT_MS = 4000;
@@ -11,6 +11,7 @@ export interface Receiver {
   sets?(sets: SetEntry[]): void;
   frame?(frame: FrameMessage): void;
   refused?(problem: string): void; // an event or key, of a page with the token of a viewer
+  right?(right: Right): void;
   connected(open: boolean): void;
 }
 
@@ -65,10 +66,11 @@ export class Connection {
   }
 
   private take(text: string): void {
-    const message = JSON.parse(text) as Partial<State> & { instructor?: InstructorState; sets?: SetEntry[] } & Partial<Answer>;
+    const message = JSON.parse(text) as Partial<State> & { instructor?: InstructorState; sets?: SetEntry[]; right?: Right } & Partial<Answer>;
     if (message.watch !== undefined) this.receiver.state?.(message as State);
     else if (message.instructor !== undefined) this.receiver.instructor?.(message.instructor);
     else if (message.sets !== undefined) this.receiver.sets?.(message.sets);
+    else if (message.right !== undefined) this.receiver.right?.(message.right);
     else if (message.answer === 0) this.receiver.refused?.(message.problem ?? "");
     else if (message.answer !== undefined) this.resolve(message as Answer);
   }

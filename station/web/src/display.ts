@@ -1,12 +1,13 @@
 // The page of the display: the MPD with its twenty buttons, keys, touch, and the state of the connection.
 import { Connection, sessionOfPage } from "./connection";
 import { State, Theatre } from "./messages";
-import { element, onClick, say } from "./page";
+import { element, keepSession, onClick, say, sayRight } from "./page";
 import { Picture } from "./picture";
 
 const BUTTONS = 20;
 const STALE_MS = 2000; // a display that is silent for longer is dead
-const SIDES = ["left", "bottom", "right", "top"] as const; // of PB 1-5, 6-10, 11-15, 16-20
+const ARROWS: Record<string, string> = { "^": "up arrow", v: "down arrow" }; // legends that the picture draws as arrows
+const SIDES = ["left", "bottom", "right_side", "top"] as const; // of PB 1-5, 6-10, 11-15, 16-20
 
 // Keys that the browser would act on itself. Others with Ctrl, Alt or Meta stay the browser's.
 const SENT = new Set(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Enter", "Tab", "PageUp", "PageDown", " ", "F4", "F5", "F6", "F7",
@@ -34,11 +35,13 @@ class DisplayPage {
         this.picture.show(frame);
       },
       refused: (problem) => this.showRefusal(problem),
+      right: sayRight,
       connected: (open) => this.showConnection(open),
     }, "display", sessionOfPage());
     for (const control of document.querySelectorAll<HTMLButtonElement>("button[data-event]"))
       control.addEventListener("click", () => this.connection.event(control.dataset.event ?? ""));
     onClick("record", () => void this.record());
+    keepSession(sessionOfPage());
     this.listenToKeys();
     this.listenToPointer();
     void this.showKeys();
@@ -51,7 +54,7 @@ class DisplayPage {
     button.id = `pb${number}`;
     button.className = "pb";
     button.setAttribute("aria-label", `Push button ${number}`);
-    button.append(document.createElement("span"));
+    button.textContent = String(number); // the legend is on the glass, beside it
     button.addEventListener("click", () => this.connection.event(`pb ${number}`));
     const show = () => this.showWords(number);
     button.addEventListener("pointerenter", show);
@@ -85,14 +88,14 @@ class DisplayPage {
       const legend = watch.legends[String(number)] ?? "";
       const { key, does } = state.buttons[number - 1];
       const boxed = watch.boxed.includes(number);
-      const shown = button.firstElementChild as HTMLElement;
-      if (shown.textContent !== legend) shown.textContent = legend;
       button.classList.toggle("boxed", boxed);
       button.classList.toggle("dead", legend === "");
+      const name = [`PB ${number}`, ARROWS[legend] ?? legend, boxed ? "on" : ""].filter((text) => text !== "").join(", ");
+      const label = `${name}: ${does}`;
+      if (button.getAttribute("aria-label") !== label) button.setAttribute("aria-label", label);
       const words = `PB ${number}${key ? `, key ${key}` : ""}: ${does}`;
       if (button.title !== words) {
         button.title = words;
-        button.setAttribute("aria-label", `PB ${number} ${legend}${boxed ? ", on" : ""}: ${does}`);
         if (this.explained === number) this.showWords(number);
       }
     }

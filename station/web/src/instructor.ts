@@ -2,7 +2,7 @@
 import { Connection, sessionOfPage } from "./connection";
 import { Position, TheatreMap, Thing } from "./map";
 import { Answer, InstructorState, RoleEntry, Theatre } from "./messages";
-import { button, element, fill, onClick, onSubmit, say } from "./page";
+import { element, fill, keepSession, onClick, onSubmit, say, sayRight } from "./page";
 import { Picture } from "./picture";
 import { PRESETS, wordsOfPreset } from "./presets";
 import { listenToSections } from "./sections";
@@ -39,6 +39,7 @@ class InstructorPage {
       instructor: (state) => this.show(state),
       sets: (sets) => this.machine.showSets(sets),
       frame: (frame) => this.picture.show(frame),
+      right: sayRight,
       connected: (open) => {
         document.body.dataset.connection = open ? "open" : "lost";
         if (!open) say("health", "");
@@ -56,9 +57,9 @@ class InstructorPage {
     this.listenToAircraft();
     this.listenToSet();
     listenToSections();
+    keepSession(sessionOfPage());
     if (sessionOfPage()) {
-      element<HTMLAnchorElement>("display_link").href = `display.html?session=${sessionOfPage()}`;
-      document.title = `Radar instructor: ${sessionOfPage()}`;
+      document.title = `YARS instructor: ${sessionOfPage()}`;
       say("title", `Instructor of ${sessionOfPage()}`);
     }
     void this.readTheatre();
@@ -172,6 +173,11 @@ class InstructorPage {
       void this.order("note", { text: input("note").value });
       input("note").value = "";
     });
+    onSubmit("kill_form", () => {
+      const role = element<HTMLSelectElement>("kill_role");
+      void this.order("kill", { role: role.value });
+      role.value = ""; // the next one is chosen first, too
+    });
   }
 
   private show(state: InstructorState): void {
@@ -195,20 +201,16 @@ class InstructorPage {
     document.body.dataset.state = "shown";
   }
 
-  // Rows stay while their values change: a button that is being pressed, or has the focus, is not replaced.
+  // Rows stay while their values change, and so does the choice of a role to kill.
   private showRoles(roles: RoleEntry[]): void {
-    fill("roles", JSON.stringify(roles.map(({ name, can_kill }) => [name, can_kill])), () => roles.map(({ name, can_kill }) => {
+    fill("roles", roles.map(({ name }) => name).join(), () => roles.map(({ name }) => {
       const row = document.createElement("tr");
       for (const text of [name, "", ""]) row.insertCell().textContent = text;
-      const last = row.insertCell();
-      if (can_kill) {
-        const kill = button("Kill", () => void this.order("kill", { role: name }));
-        kill.setAttribute("aria-label", `Kill ${name}`);
-        kill.title = "The supervisor of the set starts it again";
-        last.append(kill);
-      }
       return row;
     }));
+    const mortal = roles.filter(({ can_kill }) => can_kill).map(({ name }) => name);
+    const chosen = element<HTMLSelectElement>("kill_role").value;
+    fill("kill_role", mortal.join(), () => [new Option("choose a role", ""), ...mortal.map((name) => new Option(name, name, false, name === chosen))]);
     const { rows } = element<HTMLTableSectionElement>("roles");
     roles.forEach((role, at) => {
       const core = role.pid === 0 ? "not running" : role.hangs ? "hangs" : role.load === null ? "-" : `${(100 * role.load).toFixed(0)} %`;

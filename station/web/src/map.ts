@@ -11,13 +11,17 @@ export const M_PER_NM = 1852;
 const DEG = Math.PI / 180;
 const TRAIL_POINTS = 2000;
 const PATCHES_SHOWN = 2; // the newest: the radar repeats a map as the aircraft moves
-const TOUCH_PX = 18; // distance at which a symbol is under the pointer
+const TOUCH_PX = 22; // distance at which a symbol is under the pointer
+const SYMBOL_PX = 8, RING_PX = 13, AIRCRAFT_PX = 14; // radii of what they cover
+const ABOVE_BASELINE_PX = 12, BELOW_BASELINE_PX = 3; // of a label
 
 export interface Position { lat: number; lon: number }
 export const LISTS = ["rain", "jammers", "movers", "points"] as const; // of the world
 export type Kind = "aircraft" | typeof LISTS[number];
-const WORDS: Record<Kind, string> = { aircraft: "aircraft", rain: "rain", jammers: "jammer", movers: "mover", points: "point" };
+export const WORDS: Record<Kind, string> = { aircraft: "aircraft", rain: "rain", jammers: "jammer", movers: "mover", points: "point" };
 export interface Thing extends Position { kind: Kind; id: number; name: string }
+type Box = [number, number, number, number]; // left, top, right, bottom [pixels]
+interface Label { x: number; y: number; text: string; colour: string; radius: number; first: boolean }
 
 // Where and what the user did on the map.
 export interface MapUser {
@@ -59,7 +63,8 @@ export class TheatreMap {
   private drag: { x: number; y: number; thing: Thing | undefined; at: Position | undefined; far: boolean } | undefined;
   private readonly pointers = new Map<number, { x: number; y: number }>();
   private due = false;
-  private labels: [number, number, number, number][] = []; // room that the labels of a drawing take
+  private labels: Label[] = []; // of a drawing, the most important last
+  private taken: Box[] = []; // room that symbols and labels of a drawing take
 
   constructor(private readonly canvas: HTMLCanvasElement, private readonly user: MapUser) {
     const context = canvas.getContext("2d", { alpha: false });
@@ -231,12 +236,14 @@ export class TheatreMap {
     context.fillStyle = "#18223a";
     context.fillRect(0, 0, this.width(), this.height());
     this.labels = [];
+    this.taken = [];
     this.drawTiles();
     this.drawPatches();
-    this.drawWorld();
     this.drawTheatre();
+    this.drawWorld();
     this.drawAircraft();
     this.drawScale();
+    this.drawLabels();
   }
 
   private drawTiles(): void {
@@ -334,21 +341,45 @@ export class TheatreMap {
     context.setLineDash([]);
   }
 
-  // A label has no room over another one; that of the aircraft's neighbourhood comes with a nearer view.
-  private label(position: Position, text: string, colour: string, down = 16): void {
-    const { context } = this;
+  // A label of what is at a position, drawn when all symbols are. `radius`: what its symbol covers [pixels]. `first`: it
+  // has room before all others.
+  private label(position: Position, text: string, colour: string, radius: number, first = false): void {
     const [x, y] = this.xy(position);
+    if (x >= 0 && y >= 0 && x <= this.width() && y <= this.height()) this.labels.push({ x, y, text, colour, radius, first });
+  }
+
+  // Room that a symbol takes: no label lies on it.
+  private cover(position: Position, radius: number): void {
+    const [x, y] = this.xy(position);
+    this.taken.push([x - radius, y - radius, x + radius, y + radius]);
+  }
+
+  // Each label lies at the first side of its symbol that is free of symbols and labels. One without such a side comes with
+  // a nearer view.
+  private drawLabels(): void {
+    const { context, taken } = this;
     context.font = "12px system-ui, sans-serif";
     context.textAlign = "center";
-    const half = context.measureText(text).width / 2 + 2;
-    const box: [number, number, number, number] = [x - half, y + down - 12, x + half, y + down + 3];
-    if (this.labels.some((other) => other[0] < box[2] && box[0] < other[2] && other[1] < box[3] && box[1] < other[3])) return;
-    this.labels.push(box);
-    context.lineWidth = 3;
-    context.strokeStyle = "#000c";
-    context.strokeText(text, x, y + down);
-    context.fillStyle = colour;
-    context.fillText(text, x, y + down);
+    const ordered = this.labels.reverse().sort((one, other) => Number(other.first) - Number(one.first));
+    for (const { x, y, text, colour, radius } of ordered) {
+      const half = context.measureText(text).width / 2 + 2;
+      const beside = radius + half + 1, diagonal = 0.7 * radius + half;
+      const below = radius + ABOVE_BASELINE_PX + 1, above = -radius - BELOW_BASELINE_PX - 1;
+      const sides: [number, number][] = [[0, below], [beside, 4], [-beside, 4], [0, above], [diagonal, below], [-diagonal, below], [diagonal, above], [-diagonal, above]];
+      if (radius === 0) sides.unshift([0, 4]);
+      for (const [right, down] of sides) {
+        const box: Box = [x + right - half, y + down - ABOVE_BASELINE_PX, x + right + half, y + down + BELOW_BASELINE_PX];
+        const outside = box[0] < 0 || box[1] < 0 || box[2] > this.width() || box[3] > this.height();
+        if (outside || taken.some((other) => other[0] < box[2] && box[0] < other[2] && other[1] < box[3] && box[1] < other[3])) continue;
+        taken.push(box);
+        context.lineWidth = 3;
+        context.strokeStyle = "#000c";
+        context.strokeText(text, x + right, y + down);
+        context.fillStyle = colour;
+        context.fillText(text, x + right, y + down);
+        break;
+      }
+    }
   }
 
   private dot(position: Position, colour: string, shape: "circle" | "square" | "triangle" | "diamond"): void {
@@ -366,14 +397,15 @@ export class TheatreMap {
     context.lineWidth = 1.5;
     context.strokeStyle = "#000";
     context.stroke();
+    this.cover(position, SYMBOL_PX);
   }
 
   private drawTheatre(): void {
     const { theatre } = this;
     if (!theatre) return;
     this.line(theatre.route.map(([lat, lon]) => ({ lat, lon })), "#ffffffb0", 1.5, [8, 5]);
-    for (const scene of theatre.scenes) this.label(scene, scene.name, "#fff", 4);
-    for (const beacon of theatre.beacons) { this.dot(beacon, "#c9a6ff", "diamond"); this.label(beacon, beacon.name || `beacon ${beacon.code}`, "#dcc6ff"); }
+    for (const beacon of theatre.beacons) { this.dot(beacon, "#c9a6ff", "diamond"); this.label(beacon, beacon.name || `beacon ${beacon.code}`, "#dcc6ff", SYMBOL_PX); }
+    for (const scene of theatre.scenes) this.label(scene, scene.name, "#fff", 0);
   }
 
   // Where a thing is drawn: at the pointer while it is dragged.
@@ -382,14 +414,18 @@ export class TheatreMap {
     return drag?.at && drag.thing?.kind === kind && drag.thing.id === id ? drag.at : position;
   }
 
-  private ring(position: Position, kind: Kind, id: number): void {
-    if (this.chosen?.kind !== kind || this.chosen.id !== id) return;
+  // The label of a thing of the world, and a ring about it if it is chosen. That label has room before all others.
+  private mark(position: Position, kind: Kind, id: number, text: string, colour: string): void {
+    const chosen = this.chosen?.kind === kind && this.chosen.id === id;
+    if (text !== "") this.label(position, text, colour, chosen ? RING_PX : SYMBOL_PX, chosen);
+    if (!chosen) return;
     const { context } = this;
     context.beginPath();
-    context.arc(...this.xy(position), 12, 0, 2 * Math.PI);
+    context.arc(...this.xy(position), RING_PX - 1, 0, 2 * Math.PI);
     context.lineWidth = 2;
     context.strokeStyle = "#7db7ff";
     context.stroke();
+    this.cover(position, RING_PX);
   }
 
   private drawWorld(): void {
@@ -409,27 +445,23 @@ export class TheatreMap {
       context.strokeStyle = "#9ccbff";
       context.stroke();
       this.dot(at, "#5aa8ff", "circle");
-      this.label(at, `rain ${rain.id}: ${Math.round(rain.rate_mmh * 10) / 10} mm/h`, "#cfe6ff");
-      this.ring(at, "rain", rain.id);
+      this.mark(at, "rain", rain.id, `rain ${rain.id}: ${Math.round(rain.rate_mmh * 10) / 10} mm/h`, "#cfe6ff");
     }
     for (const jammer of state?.world?.jammers ?? []) {
       const at = this.place("jammers", jammer.id, { lat: jammer.latitude_deg, lon: jammer.longitude_deg });
       this.dot(at, "#ff7a6b", "triangle");
-      this.label(at, nameOf("jammers", jammer), "#ffc0b8");
-      this.ring(at, "jammers", jammer.id);
+      this.mark(at, "jammers", jammer.id, nameOf("jammers", jammer), "#ffc0b8");
     }
     for (const mover of state?.world?.movers ?? []) {
       const at = this.place("movers", mover.id, { lat: mover.latitude_deg, lon: mover.longitude_deg });
       this.line([at, pointFrom(at, mover.heading_deg, mover.speed_kt * M_PER_NM / 12)], "#ffd27a", 2); // the way of five minutes
       this.dot(at, "#ffd27a", "square");
-      this.label(at, nameOf("movers", mover), "#ffe7b8");
-      this.ring(at, "movers", mover.id);
+      this.mark(at, "movers", mover.id, nameOf("movers", mover), "#ffe7b8");
     }
     for (const point of state?.world?.points ?? []) {
       const at = this.place("points", point.id, { lat: point.latitude_deg, lon: point.longitude_deg });
       this.dot(at, "#b9e0ff", point.kind.startsWith("target") ? "triangle" : point.kind === "initial" ? "square" : "circle");
-      this.label(at, point.name === state?.sequence_point ? `${point.name} selected` : point.name, "#b9e0ff", 26); // below the ring of the chosen point
-      this.ring(at, "points", point.id);
+      this.mark(at, "points", point.id, point.name === state?.sequence_point ? `${point.name} selected` : point.name, "#b9e0ff");
     }
   }
 
@@ -466,7 +498,8 @@ export class TheatreMap {
     context.strokeStyle = "#123";
     context.stroke();
     context.restore();
-    this.ring(at, "aircraft", 0);
+    this.cover(at, AIRCRAFT_PX);
+    this.mark(at, "aircraft", 0, "", "");
   }
 
   private drawScale(): void {
@@ -476,6 +509,7 @@ export class TheatreMap {
     const y = this.height() - 14;
     context.fillStyle = "#000a";
     context.fillRect(8, y - 18, length * perNm + 16, 28);
+    this.taken.push([8, y - 18, length * perNm + 24, this.height()]);
     context.strokeStyle = "#fff";
     context.lineWidth = 2;
     context.beginPath();

@@ -1,5 +1,7 @@
 // Messages between page and server. Source: docs/station.md, "Messages".
 
+export type Right = "viewer" | "instructor"; // what the page may do: look; look, fly and change the set
+
 // The part of `yars watch --json` that the page shows.
 export interface Watch {
   power: string;

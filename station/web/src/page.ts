@@ -1,4 +1,6 @@
 // Parts of all pages.
+import { Right } from "./messages";
+
 export function element<T extends HTMLElement>(id: string): T {
   const found = document.getElementById(id);
   if (!found) throw new Error(`expected the element ${id}`);
@@ -9,6 +11,19 @@ export function element<T extends HTMLElement>(id: string): T {
 export function say(id: string, text: string): void {
   const shown = element(id);
   if (shown.textContent !== text) shown.textContent = text;
+}
+
+// Says that a page of a viewer changes nothing.
+export function sayRight(right: Right): void {
+  say("right", right === "viewer" ? "You only look: to act, open the instructor's address with its token." : "");
+}
+
+// Address of another page, of the same session.
+export const addressOfPage = (page: string, session: string): string => (session ? `${page}?session=${session}` : page);
+
+// Leads the links to the other pages to the session of this one.
+export function keepSession(session: string): void {
+  for (const link of document.querySelectorAll<HTMLAnchorElement>(".page_link")) link.href = addressOfPage(link.getAttribute("href") ?? "", session);
 }
 
 export function button(text: string, act: () => void): HTMLButtonElement {

@@ -1,6 +1,6 @@
 // The world on the instructor's page: sea, wind, and the things on the map, which are added, changed, removed and
 // brought back.
-import { Kind, LISTS, Position, TheatreMap, Thing } from "./map";
+import { Kind, LISTS, Position, TheatreMap, Thing, WORDS } from "./map";
 import { Answer, InstructorState } from "./messages";
 import { button, element, fill, onClick, onSubmit, say } from "./page";
 import { UndoLine } from "./undo";
@@ -49,6 +49,8 @@ export class WorldPanel {
   constructor(private readonly map: TheatreMap, private readonly order: (name: string, values?: object) => Promise<Answer>,
     private readonly moved: () => void) {
     for (const kind of LISTS) onClick(`add_${kind}`, () => this.beginAdding(kind));
+    onClick("add_middle", () => this.add(this.map.middle()));
+    onClick("add_cancel", () => this.stopAdding());
     window.addEventListener("keydown", (event) => {
       if (event.key === "Escape") this.stopAdding();
     });
@@ -70,13 +72,22 @@ export class WorldPanel {
     if (this.adding === kind) return this.add(this.map.middle());
     this.adding = kind;
     this.map.placing = true;
-    say("adding", `Press on the map where the ${KINDS[kind]} is to be, or this button again for the middle of the map. Escape ends.`);
-    element("map").scrollIntoView({ block: "nearest" });
+    say("adding", `Press on the map where the ${KINDS[kind]} is to be.`);
+    this.showAdding();
+    element("theatre").scrollIntoView({ block: "nearest" });
+  }
+  // The hint and its buttons lie on the map, where the next press is to be.
+  private showAdding(): void {
+    const adding = this.adding !== undefined;
+    for (const id of ["add_middle", "add_cancel"]) element(id).hidden = !adding;
+    element("adding_line").classList.toggle("shown", adding);
+    for (const kind of LISTS) element(`add_${kind}`).setAttribute("aria-pressed", String(this.adding === kind));
   }
   private stopAdding(): void {
     this.adding = undefined;
     this.map.placing = false;
     say("adding", "");
+    this.showAdding();
   }
   add(at: Position): void {
     if (this.adding) void this.order("add", { list: this.adding, ...at });
@@ -96,6 +107,7 @@ export class WorldPanel {
   // What was offered belongs to a station that may be gone.
   forgetRemovals(): void { this.undo.forget(); }
 
+  // What was chosen on the map or in the list. Its form is shown where the panel scrolls by itself; below a map it waits.
   choose(thing: Thing | undefined): void {
     this.chosen = thing;
     this.map.chosen = thing;
@@ -119,6 +131,8 @@ export class WorldPanel {
     submit.id = "change_thing";
     submit.textContent = `Change ${thing.name}`;
     form.replaceChildren(...rows, ...hints, submit);
+    const panel = form.closest("aside");
+    if (panel && panel.scrollHeight > panel.clientHeight) form.scrollIntoView({ block: "nearest" });
   }
 
   show(state: InstructorState): void {
@@ -142,12 +156,20 @@ export class WorldPanel {
 
   private row(thing: Thing): HTMLLIElement {
     const row = document.createElement("li");
-    row.append(button(thing.name, () => {
+    const choice = button(thing.name, () => {
       this.choose(thing);
       element("thing_form").scrollIntoView({ block: "nearest" });
       this.map.goTo(thing);
       this.moved();
-    }));
+    });
+    const word = WORDS[thing.kind];
+    if (!thing.name.startsWith(word)) { // "ferry" needs its kind, "rain 2" does not
+      const kind = document.createElement("span");
+      kind.className = "kind";
+      kind.textContent = word;
+      choice.append(kind);
+    }
+    row.append(choice);
     if (thing.kind === "aircraft") return row;
     const remove = button("Remove", () => void this.remove(thing));
     remove.setAttribute("aria-label", `Remove ${thing.name}`);
