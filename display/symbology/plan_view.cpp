@@ -133,6 +133,12 @@ class GroundPlan {
   double sine_, cosine_;
 };
 
+// Number of the sweep's samples that lie within a range, at least 1.
+int samples_within(const StoredSweep& sweep, double range_m) {
+  if (sweep.range_m <= range_m) return sweep.samples;
+  return std::max(1, static_cast<int>(std::lround(sweep.samples * (range_m / sweep.range_m))));
+}
+
 }  // namespace
 
 void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges,
@@ -141,10 +147,12 @@ void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame
   wedges.clear();
   for (const StoredSweep& sweep : store.by_azimuth()) {
     if (sweep.serial <= after) continue;
+    const int samples = samples_within(sweep, frame.range_m);
+    const double range_m = sweep.range_m * samples / sweep.samples;
     wedges.push_back({plan.at(sweep.apex_ecef), plan.direction(sweep.apex_ecef, sweep.left_ecef),
                       plan.direction(sweep.apex_ecef, sweep.right_ecef),
-                      static_cast<float>(sweep.range_m * plan.units_per_metre()),
-                      static_cast<float>(sweep.half_width_rad), sweep.row, sweep.samples, sweep.serial});
+                      static_cast<float>(range_m * plan.units_per_metre()), static_cast<float>(sweep.half_width_rad),
+                      sweep.row, samples, sweep.serial});
   }
   std::sort(wedges.begin(), wedges.end(), [](const Wedge& a, const Wedge& b) { return a.serial < b.serial; });
 }

@@ -129,6 +129,19 @@ TEST(Wedges, ASweepOfAnotherRangeIsScaledToThePresentRange) {
   EXPECT_NEAR(wedges.at(0).range, 200.0F, 0.01F);
 }
 
+TEST(Wedges, ASweepOfALongerRangeEndsAtThePresentRange) {
+  PolarStore store;
+  store.insert(sweep_at(kAircraftPosition, 20.0, 21.0));
+  std::vector<Wedge> wedges;
+  place_wedges(store, kView, frame_of(30.0, 20.0), wedges);
+  EXPECT_NEAR(wedges.at(0).range, 400.0F, 0.01F) << "the outer arc";
+  EXPECT_EQ(wedges[0].samples, 5) << "the nearer half, at its own distance";
+  place_wedges(store, kView, frame_of(30.0, 0.7), wedges);
+  EXPECT_EQ(wedges.at(0).samples, 1) << "a sweep never becomes empty";
+  place_wedges(store, kView, frame_of(30.0, 40.0), wedges);
+  EXPECT_EQ(wedges.at(0).samples, 10) << "and is whole again at its own range";
+}
+
 TEST(Wedges, TheyAreDrawnOldestFirstAtAnyAzimuth) {
   PolarStore store;
   for (const double left_deg : {30.0, 20.0, 40.0, 25.0})
