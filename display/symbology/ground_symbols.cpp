@@ -94,7 +94,8 @@ bool is_covered(Point at, float margin, const DrawList& list) {
 
 // Draws the parts of a cursor arm that lie clear of all texts. `out`: unit vector along the arm.
 void draw_arm(Point at, Point out, DrawList& list) {
-  // [display units] The ink of a text reaches 0.7 beyond its box, that of an arm with its halo 2.1 from its centre line.
+  // [display units] The ink of a text reaches 0.7 beyond its box, that of an arm with its halo 2.1 from its centre
+  // line.
   constexpr float kAroundText = 3.0F;
   constexpr float kStep = 0.25F, kShortest = 1.5F;  // [display units] resolution of a cut; shorter parts are left out
   const auto on_arm = [&](float along) { return Point{at.x + out.x * along, at.y + out.y * along}; };

@@ -36,7 +36,8 @@ void draw_window_outline(const DisplayInput& input, const PlanView& view, const 
 
 // Display positions of the sequence points in RadarState::points, in the same order. nullopt: the entry has no point,
 // or the point is not drawn, because it is outside the display or its symbol would be on or too near a text or a scale
-// without gaps (BoxKind::solid). The selected point and the designated target are drawn wherever they are on the display.
+// without gaps (BoxKind::solid). The selected point and the designated target are drawn wherever they are on the
+// display.
 using PlacedPoints = std::array<std::optional<Point>, radar::kMaxPointsDrawn>;
 PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                           const LabelMemory& labels, const DrawList& list);
@@ -52,8 +53,8 @@ void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, 
 
 // Draws the PSL from the designated target back along the approach heading. Its far end has an arrowhead while the TDC
 // turns the line, and a circle if the line is fixed. It ends before a fixed text, and is left out where too little of
-// it would remain. Draw it after the fixed texts. Returns the label with the heading, "125\u00b0 MAG", or "125\u00b0 TRUE" while
-// no magnetic variation is known; nullopt if there is no line, or the target is not on the display.
+// it would remain. Draw it after the fixed texts. Returns the label with the heading, which ends in MAG, or in TRUE while
+// no magnetic variation is known. nullopt: there is no line, or the target is not on the display.
 // Source: docs/spec/pilots_interface.md#rule-15
 std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                                         DrawList& list);

@@ -20,7 +20,7 @@ struct Clearance {
   float beyond_line;           // length added to the ends of all lines in the test for crossing lines
   bool crosses_symbols;        // the leader line may cross points, solid scales, window outline and steering line
   bool among_legends = false;  // the text may stand in the rows of the legends, and nearer beside a legend
-  bool behind_texts = false;   // the leader line may run behind the cursor and behind fixed texts, whose plates cover it
+  bool behind_texts = false;  // the leader line may run behind the cursor and behind fixed texts, whose plates cover it
 };
 constexpr Clearance kKeepPosition{2.5F, 1.0F, 0.0F, true};
 // A new position needs more clearance than a kept position. Otherwise the label would move again in the next picture.
@@ -176,9 +176,9 @@ class Search {
 
   // True when the leader line crosses no text, no label, no cursor arm and no other leader line. It may cross scales
   // with gaps (BoxKind::scale). With `crosses_symbols` it may also cross points, solid scales, the window outline and
-  // the steering line, with `behind_texts` fixed texts and the cursor. Points and texts close to the gap between the anchor and the start of the line are ignored.
-  // Close means within 1.5 units for a kept position, 1 unit for a new one, and 0.5 units for a move nearer the symbol.
-  // A kept position therefore stays free more easily than a new one.
+  // the steering line, with `behind_texts` fixed texts and the cursor. Points and texts close to the gap between the
+  // anchor and the start of the line are ignored. Close means within 1.5 units for a kept position, 1 unit for a new
+  // one, and 0.5 units for a move nearer the symbol. A kept position therefore stays free more easily than a new one.
   bool line_is_clear(const Position& position, const Clearance& clearance) const {
     const Segment own = line(position);
     for (const OccupiedBox& box : list_.occupied()) {

@@ -105,7 +105,8 @@ struct Wedge {
 };
 
 // Replaces `wedges` by the sweeps of the store with a serial above `after`, oldest first; 0: all sweeps. A sweep keeps
-// its measured azimuth about its own apex. A sweep of a longer range than the frame's is cut off at the frame's range.
+// its measured range and azimuth about its own apex. A sweep of a longer range than the frame's is cut off at the
+// frame's outer arc.
 void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges,
                   std::uint64_t after = 0);
 

@@ -213,8 +213,14 @@ void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list) {
   Buffer buffer;
   // 359.6 rounds to 360, which is shown as 000.
   const double bearing_deg = std::fmod(std::round(state.cursor_bearing_deg) + 360.0, 360.0);
-  const int size = std::snprintf(buffer.data(), buffer.size(), "%03.0f\u00b0 %s", bearing_deg, north_of_bearings(state));
-  draw_readout(written_text(buffer.data(), buffer.size(), size), {6.0F, 12.0F}, {kTextHeight, Align::left}, list);
+  const std::string_view bearing = formatted(buffer, "%03.0f\u00b0", bearing_deg);
+  constexpr TextStyle kNumber{kTextHeight, Align::left}, kNorth{kHintHeight, Align::left};
+  constexpr float kRow = 12.0F, kGap = 4.0F;  // [units]
+  const Rect number = text_box(bearing, {kMargin, kRow}, kNumber);
+  const Rect north = text_box(north_of_bearings(state), {number.right + kGap, kRow}, kNorth);
+  const float aside = step_aside(around(number, north), inward(kNumber.align), list);
+  list.text(bearing, {number.left + aside, kRow}, kNumber);
+  list.text(north_of_bearings(state), {north.left + aside, kRow}, kNorth);
   draw_readout(formatted(buffer, "%.1fNM", state.cursor_range_nm), {6.0F, 27.0F}, {kTextHeight, Align::left}, list);
 }
 
@@ -238,7 +244,7 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
   if (state.update_seconds >= 0) {
     const Point legend = legend_position(7).at;
     draw_readout(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - kAboveLegend}, {kTextHeight},
-                list);
+                 list);
   }
   // The texts are in the upper right, above the legend of PB 15.
   constexpr float right = kDisplayUnits - 6.0F, first_row = 46.0F, second_row = 61.0F;
@@ -263,7 +269,7 @@ void draw_map_timer(double seconds, DrawList& list) {
   if (!std::isfinite(seconds)) return;
   Buffer buffer;
   draw_readout(formatted(buffer, "%.0f SEC", std::ceil(seconds)), {kDisplayUnits - 6.0F, 32.0F},
-              {kTextHeight, Align::right}, list);
+               {kTextHeight, Align::right}, list);
 }
 
 namespace {

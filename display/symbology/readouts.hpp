@@ -26,8 +26,8 @@ LegendPosition legend_position(int button);
 // `at` is in no zone, for example in the middle, in a corner, between two zones or outside the display.
 std::optional<int> button_at(Point at);
 
-// Draws a readout. If the cursor is there, the readout steps aside, beyond the cursor, unless another text stands there.
-// The cursor must be in the list before (occupy_cursor()).
+// Draws a readout. If the cursor is there, the readout steps aside, beyond the cursor, unless another text stands
+// there. The cursor must be in the list before (occupy_cursor()).
 void draw_readout(std::string_view words, Point at, const TextStyle& style, DrawList& list);
 
 // The north from which bearings and headings count: "MAG", or "TRUE" while no magnetic variation is known.

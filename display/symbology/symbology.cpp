@@ -88,8 +88,8 @@ void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, 
   float left = std::clamp(static_cast<float>(left_deg), -kBallLimit, kBallLimit);
   float right = std::clamp(static_cast<float>(right_deg), -kBallLimit, kBallLimit);
   if (right - left < kMinBallSpacing) {
-    const float centre = std::clamp((left + right) / 2.0F, kMinBallSpacing / 2.0F - kBallLimit,
-                                    kBallLimit - kMinBallSpacing / 2.0F);
+    const float centre =
+        std::clamp((left + right) / 2.0F, kMinBallSpacing / 2.0F - kBallLimit, kBallLimit - kMinBallSpacing / 2.0F);
     left = centre - kMinBallSpacing / 2.0F;
     right = centre + kMinBallSpacing / 2.0F;
   }
@@ -268,8 +268,8 @@ AttitudeSource attitude_source(const databuffer::Nav& nav) {
   return (nav.flags & databuffer::kNavAttitudeFromAhrs) != 0 ? AttitudeSource::ahrs : AttitudeSource::ins;
 }
 
-// True if the display shows symbols at ground positions: cursor, points, steering line. The position of a map that could
-// not be read is unknown; then there are none.
+// True if the display shows symbols at ground positions: cursor, points, steering line. The position of a map that
+// could not be read is unknown; then there are none.
 bool shows_ground(const DisplayInput& input) {
   const Format& format = format_of(input.state);
   return has_power(input.state, radar::Power::operate) && format.ground && (!format.map || shows_map(input));

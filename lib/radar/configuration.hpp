@@ -34,7 +34,7 @@ struct RadarConfiguration {
   NavigationConfiguration navigation;
   WorldConfiguration world;
   std::vector<RoutePoint> route;
-  std::uint64_t seed = 1;               // seed of all noise
+  std::uint64_t seed = 1;  // seed of all noise
   // [deg] Magnetic variation, east positive, used if no other source gives one. NaN: unknown.
   double magnetic_variation_deg = std::numeric_limits<double>::quiet_NaN();
   WindowLimits window_limits;

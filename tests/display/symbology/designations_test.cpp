@@ -129,8 +129,8 @@ TEST(Designations, WithoutAKnownVariationTheHeadingIsLabelledTrue) {
   EXPECT_NE(std::ranges::find(list.occupied(), "135\u00b0 TRUE", &OccupiedBox::name), list.occupied().end());
 }
 
-// Wherever a designated target is on the display, its triangle is drawn. A heading without triangle and name would belong
-// to nothing.
+// Wherever a designated target is on the display, its triangle is drawn. A heading without triangle and name would
+// belong to nothing.
 TEST(Designations, ADesignatedTargetHasItsTriangleAndNameAnywhereOnTheDisplay) {
   int headings = 0;
   for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {

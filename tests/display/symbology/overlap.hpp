@@ -40,7 +40,8 @@ inline bool is_always_drawn(const OccupiedBox& box) {
   return box.kind == BoxKind::point && (box.name == "selected point" || box.name == "designated target");
 }
 
-// The boxes of the cursor and of a point that is always drawn may overlap a fixed text. overlaps() checks their strokes.
+// The boxes of the cursor and of a point that is always drawn may overlap a fixed text. overlaps() checks their
+// strokes.
 inline bool may_overlap(const OccupiedBox& word, const OccupiedBox& other) {
   return word.kind == BoxKind::text && (other.kind == BoxKind::cursor || is_always_drawn(other));
 }
