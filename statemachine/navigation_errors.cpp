@@ -72,7 +72,7 @@ void advance_navigators(RadarState& state, std::int64_t tick, const Parameters& 
     const double step_mps = parameters.navigation.walk_mps / std::sqrt(kSecondsPerHour);
     // Draw numbers below 100 belong to the velocity measurement of the radar model, which uses the same seed.
     constexpr std::uint64_t kFirstDraw = 100;
-    const auto walk = [&](double NavigatorError::*component, std::uint64_t draw) {
+    const auto walk = [&](double NavigatorError::* component, std::uint64_t draw) {
       const double by_mps =
           step_mps * random::standard_normal(parameters.seed, static_cast<std::uint64_t>(tick), kFirstDraw + draw);
       for (NavigatorError* error : {&state.mission, &state.ins})

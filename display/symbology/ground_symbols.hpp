@@ -53,7 +53,7 @@ void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, 
 
 // Draws the PSL from the designated target back along the approach heading. Its far end has an arrowhead while the TDC
 // turns the line, and a circle if the line is fixed. It ends before a fixed text, and is left out where too little of
-// it would remain. Draw it after the fixed texts. Returns the label with the heading, which ends in MAG, or in TRUE while
+// it would remain. Draw it after the fixed texts. Returns the label with the heading. It ends in MAG, or in TRUE while
 // no magnetic variation is known. nullopt: there is no line, or the target is not on the display.
 // Source: docs/spec/pilots_interface.md#rule-15
 std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
