@@ -87,9 +87,12 @@ void advance_navigators(RadarState& state, std::int64_t tick, const Parameters& 
 }
 
 void put_variation(RadarState& state, const Inputs& inputs, const Parameters& parameters) {
-  state.magnetic_variation_deg = parameters.magnetic_variation_deg;
+  double variation_deg = parameters.magnetic_variation_deg;
   for (const double given_deg : {inputs.field_variation_deg, inputs.nav.magnetic_variation_deg})
-    if (!std::isnan(given_deg)) state.magnetic_variation_deg = given_deg;
+    if (!std::isnan(given_deg)) variation_deg = given_deg;
+  const bool known = !std::isnan(variation_deg);
+  state.magnetic_variation_deg = known ? variation_deg : 0.0;
+  set_flag(state, databuffer::kVariationKnown, known);
 }
 
 NavigatorError& error_in_use(RadarState& state) {
@@ -225,6 +228,15 @@ bool update_is_due(const RadarState& state, std::int64_t tick, double period_s) 
   return static_cast<double>(tick - state.velocity_updated_tick) * radar::kTickSeconds >= period_s;
 }
 
+// Tick that counts as the time of a correction in `tick`. PVU corrects with the first measurement after a whole period.
+// The next period begins where the last one ended, so that corrections follow each other by the period on average.
+std::int64_t tick_of_update(const RadarState& state, std::int64_t tick, double period_s) {
+  if (!continuous(state) || state.velocity_updated_tick < 0 || tick < state.velocity_updated_tick) return tick;
+  const auto period = static_cast<std::int64_t>(std::llround(period_s / radar::kTickSeconds));
+  const std::int64_t end = state.velocity_updated_tick + period;
+  return period > 0 && tick < end + period ? end : tick;
+}
+
 void correct(databuffer::NavigatorError& mission, const Difference& difference) {
   mission.velocity_north_mps += difference.north_mps;
   mission.velocity_east_mps += difference.east_mps;
@@ -244,7 +256,7 @@ void advance_velocity_update(RadarState& state, const Inputs& inputs, const Para
   put_differences(state, measured, inputs);
   // IPVU measures only when an update is due, at the end of a scan. PVU measures continuously.
   if (continuous(state) && !update_is_due(state, inputs.tick, parameters.navigation.velocity_period_s)) return;
-  state.velocity_updated_tick = inputs.tick;
+  state.velocity_updated_tick = tick_of_update(state, inputs.tick, parameters.navigation.velocity_period_s);
   correct(state.mission, measured);
 }
 

@@ -73,9 +73,10 @@ double tenths_up(double value) {
   return std::ceil(value * 10.0 - kAllowance) / 10.0;
 }
 
-// Distance [NM] across the ground track from the cursor to the edge of the blind zone.
-double across_blind_zone_nm(const RefusedMap& map, double squint_deg, double blind_zone_deg) {
-  const double squint_rad = std::abs(squint_deg) * geo::kRadiansPerDegree;
+// Distance [NM] across the ground track from the cursor to the edge of the blind zone on the cursor's side. `out_deg`:
+// angle from the ground track to the cursor, positive toward that edge.
+double across_blind_zone_nm(const RefusedMap& map, double out_deg, double blind_zone_deg) {
+  const double squint_rad = out_deg * geo::kRadiansPerDegree;
   const double along_nm = map.path.distance.nautical_miles() * std::cos(squint_rad);
   return along_nm * (std::tan(blind_zone_deg * geo::kRadiansPerDegree) - std::tan(squint_rad));
 }
@@ -84,11 +85,14 @@ double across_blind_zone_nm(const RefusedMap& map, double squint_deg, double bli
 std::string leave_blind_zone(const RefusedMap& map, const radar::MapLimits& limits) {
   const double squint_deg = (map.path.azimuth_at_start - map.from.platform.ground_track).degrees();
   if (std::abs(squint_deg) > 90.0) return turn_toward(map, limits.antenna.azimuth_limit_deg);
-  const int turn_deg = whole_degrees(limits.blind_zone_deg - std::abs(squint_deg));
-  const bool right = squint_deg >= 0.0;
+  // On the track line the sign of the squint changes from tick to tick. Advice for that line has one fixed side.
+  constexpr double kOnTrack_deg = 1.0;
+  const bool right = squint_deg >= -kOnTrack_deg;
+  const double out_deg = right ? squint_deg : -squint_deg;
+  const int turn_deg = whole_degrees(limits.blind_zone_deg - out_deg);
   std::string turn = formatted("turn %d deg or more %s", turn_deg, right ? "left" : "right");
   if (map.again) return turn;
-  const double across_nm = across_blind_zone_nm(map, squint_deg, limits.blind_zone_deg);
+  const double across_nm = across_blind_zone_nm(map, out_deg, limits.blind_zone_deg);
   return turn + formatted(", or move the cursor %.1f NM %s", tenths_up(across_nm), right ? "right" : "left");
 }
 

@@ -88,7 +88,7 @@ struct Parameters {
   const radar::NavigationConfiguration& navigation;
   std::span<const radar::RoutePoint> route;  // sequence points; an instructor can change them
   std::uint64_t seed;                        // seed of all random numbers
-  double magnetic_variation_deg;             // [deg] configured magnetic variation, east positive
+  double magnetic_variation_deg;             // [deg] configured magnetic variation, east positive; NaN: unknown
   const radar::WindowLimits& window_limits;
   const radar::HeightRanges& height_ranges;
 };

@@ -110,7 +110,7 @@ std::vector<SlotSchema> system_slots() {
         .lowest = -180,
         .highest = 180,
         .binding = NumberSlot{YARS_FIELD(radar.magnetic_variation_deg)},
-        .purpose = "magnetic variation, east positive"},
+        .purpose = "magnetic variation, east positive; left out: unknown, and bearings count from true north"},
        {.name = "fidelity", .binding = FormSlot{{"Fidelity"}, {"Fidelity"}}, .purpose = "speed against accuracy"},
        {.name = "receiver", .binding = FormSlot{{"Receiver"}, {"Receiver"}}, .purpose = "receiver and ground return"},
        {.name = "noise", .binding = FormSlot{{"Noise"}, {"Noise"}}, .purpose = "thermal noise and speckle"},

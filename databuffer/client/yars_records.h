@@ -187,8 +187,10 @@ enum {
   YARS_RADAR_UPDATE_INVALID = 0x10000,    /* INV: the cursor's position is too old for an INS update */
   YARS_RADAR_TARGET_DESIGNATED = 0x20000,
   YARS_RADAR_VELOCITY_SHOWN = 0x40000, /* velocity_along_mps, velocity_across_mps and velocity_vertical_mps are valid */
-  YARS_RADAR_MAP_WINDOW_BLANK = 0x80000,     /* no window was selected; the range selected map_window_nm */
-  YARS_RADAR_RECALLED_BY_HRM_EXIT = 0x100000 /* leaving a high resolution mode recalled the newest map */
+  YARS_RADAR_MAP_WINDOW_BLANK = 0x80000,      /* no window was selected; the range selected map_window_nm */
+  YARS_RADAR_RECALLED_BY_HRM_EXIT = 0x100000, /* leaving a high resolution mode recalled the newest map */
+  /* magnetic_variation_deg is known; else it is 0, and bearings count from true north */
+  YARS_RADAR_VARIATION_KNOWN = 0x200000
 };
 
 /* Bits of SweepFlags. */
@@ -361,7 +363,7 @@ typedef struct {
   double cursor_latitude_deg;  /* [deg] [-90, 90] */
   double cursor_longitude_deg; /* [deg] [-180, 180] */
   double cursor_elevation_m;   /* [m] [-12000, 10000] MSL; NaN = unknown */
-  double cursor_bearing_deg;   /* [deg] [0, 360] magnetic, from the true position */
+  double cursor_bearing_deg;   /* [deg] [0, 360] magnetic with kVariationKnown, else true */
   double cursor_range_nm;      /* [NM] [0, 10800] ground range from the aircraft's true position */
   double tdc_x;                /* [-1, 1] held deflection, right and up */
   double tdc_y;                /* [-1, 1] held deflection, right and up */
@@ -450,7 +452,8 @@ typedef struct {
   double velocity_across_mps;   /* [m/s] [-10000, 10000] to the right */
   double velocity_vertical_mps; /* [m/s] [-10000, 10000] up */
   yars_mark marks[10];          /* oldest first; the first `mark_count` are in use */
-  /* [deg] [-180, 180] east positive: from the navigator, from the model of the earth's field, or configured */
+  /* [deg] [-180, 180] east positive: from the navigator, from the model of the earth's field, or configured; 0
+   * without kVariationKnown */
   double magnetic_variation_deg;
   /* Ground point whose elevation the radar model shall report: after CUE, TGT or MARK the cursor's position then,
    * until the answer; else the present position of the cursor. */

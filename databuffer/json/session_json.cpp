@@ -56,6 +56,11 @@ void add_switches(ordered_json& object, const RadarState& state) {
   object["menu"] = has(state, kMenu);
 }
 
+// The north from which bearing and heading of the display count: magnetic, or true while no variation is known.
+const char* north_of(const RadarState& state) {
+  return has(state, kVariationKnown) ? "magnetic" : "true";
+}
+
 void add_cursor(ordered_json& object, const RadarState& state) {
   object["cursor_function"] = radar::name_of(static_cast<radar::CursorFunction>(state.cursor_function));
   if (!has(state, kCursorValid)) {
@@ -63,6 +68,7 @@ void add_cursor(ordered_json& object, const RadarState& state) {
     return;
   }
   object["cursor"] = {{"bearing_deg", number_or_null(state.cursor_bearing_deg)},
+                      {"north", north_of(state)},
                       {"range_nm", number_or_null(state.cursor_range_nm)},
                       {"lat", number_or_null(state.cursor_believed_latitude_deg)},
                       {"lon", number_or_null(state.cursor_believed_longitude_deg)},
@@ -104,11 +110,11 @@ ordered_json update_error(const RadarState& state) {
 }
 
 // Pattern steering line (PSL): the heading on which the target is approached; null if there is none. `heading_deg`
-// counts from magnetic north.
+// counts from the north that `north` names.
 ordered_json steering_line(const RadarState& state) {
   const auto heading = geo::Bearing::degrees(state.steering_line_deg - state.magnetic_variation_deg);
   const auto object = [&](const char* word) {
-    return ordered_json{{"heading_deg", heading.degrees()}, {"state", word}};
+    return ordered_json{{"heading_deg", heading.degrees()}, {"north", north_of(state)}, {"state", word}};
   };
   switch (static_cast<SteeringLine>(state.steering_line)) {
     case SteeringLine::line_of_sight:

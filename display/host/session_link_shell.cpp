@@ -36,6 +36,7 @@ void SessionFeed::refresh(std::int64_t sim_time_ns) {
   take_health();
   take_state();
   take_advice();
+  take_ranging();
   take_maps();
   take_model(sim_time_ns);
   take_caption();
@@ -71,6 +72,11 @@ void SessionFeed::take_state() {
 
 void SessionFeed::take_advice() {
   if (advice_.refresh(session_->layout().advice, *session_, "display: advice")) input_.advice = advice_.value();
+}
+
+void SessionFeed::take_ranging() {
+  if (outputs_.refresh(session_->layout().outputs, *session_, "display: outputs"))
+    input_.slant_range_m = outputs_.value().slant_range_m;
 }
 
 // Reads, once each, the maps that the radar state names. Drops maps that the state no longer names.

@@ -48,6 +48,7 @@ class SessionFeed {
   void take_advice();
   void take_health();
   void take_caption();
+  void take_ranging();
 
   databuffer::Session* session_;
   bool lockstep_;
@@ -65,6 +66,7 @@ class SessionFeed {
   databuffer::Validated<databuffer::Caption> caption_;
   bool tour_runs_ = false;  // a process holds the role `tour`; always true in lockstep
   databuffer::Validated<databuffer::PilotAdvice> advice_;
+  databuffer::Validated<databuffer::Outputs> outputs_;
   std::int64_t next_health_ns_ = 0;  // CLOCK_MONOTONIC time of the next reading of the process table
 };
 

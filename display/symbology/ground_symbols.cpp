@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "databuffer/messages/derived_values.hpp"
+#include "display/symbology/readouts.hpp"
 #include "lib/radar/mission.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
@@ -70,18 +71,6 @@ void draw_symbol(const databuffer::DrawnPoint& point, Point at, DrawList& list) 
   }
 }
 
-// Display position of the cursor; nullopt if the cursor is invalid or outside the display.
-std::optional<Point> cursor_at(const DisplayInput& input, const PlanView& view, const ViewFrame& frame) {
-  if ((input.state.flags & databuffer::kCursorValid) == 0) return std::nullopt;
-  const geo::GeoPoint position{input.state.cursor_latitude_deg, input.state.cursor_longitude_deg};
-  const Point at = view.at_ground(frame, position);
-  // The TDC stops the cursor at the edge. Rounding must not take it off the display there.
-  constexpr float kAllowance = 0.5F;
-  const Point inside{std::clamp(at.x, 0.0F, kDisplayUnits), std::clamp(at.y, 0.0F, kDisplayUnits)};
-  const bool shown = std::abs(at.x - inside.x) <= kAllowance && std::abs(at.y - inside.y) <= kAllowance;
-  return shown ? std::optional(inside) : std::nullopt;
-}
-
 std::span<const databuffer::DrawnPoint> points_of(const databuffer::RadarState& state) {
   return std::span(state.points).first(std::min<std::size_t>(state.points_drawn, radar::kMaxPointsDrawn));
 }
@@ -103,18 +92,52 @@ bool is_covered(Point at, float margin, const DrawList& list) {
   });
 }
 
+// Draws the parts of a cursor arm that lie clear of all texts. `out`: unit vector along the arm.
+void draw_arm(Point at, Point out, DrawList& list) {
+  // [display units] The ink of a text reaches 0.7 beyond its box, that of an arm with its halo 2.1 from its centre
+  // line.
+  constexpr float kAroundText = 3.0F;
+  constexpr float kStep = 0.25F, kShortest = 1.5F;  // [display units] resolution of a cut; shorter parts are left out
+  const auto on_arm = [&](float along) { return Point{at.x + out.x * along, at.y + out.y * along}; };
+  const auto is_free = [&](float along) {
+    const Point point = on_arm(along);
+    return std::ranges::none_of(list.occupied(), [&](const OccupiedBox& box) {
+      const Rect text = grown(box.rect, kAroundText);
+      return (box.kind == BoxKind::text || box.kind == BoxKind::label) && point.x > text.left && point.x < text.right &&
+             point.y > text.top && point.y < text.bottom;
+    });
+  };
+  const int steps = static_cast<int>((kArm - kGapInside) / kStep);
+  const auto along_of = [](int step) { return kGapInside + kStep * static_cast<float>(step); };
+  for (int first = 0; first <= steps; ++first) {
+    int last = first - 1;
+    while (last < steps && is_free(along_of(last + 1))) ++last;
+    if (along_of(last) - along_of(first) >= kShortest) list.line(on_arm(along_of(first)), on_arm(along_of(last)));
+    first = std::max(first, last + 1);
+  }
+}
+
 }  // namespace
 
-void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list) {
-  const std::optional<Point> cursor = cursor_at(input, view, frame);
-  if (!cursor) return;
-  const Point at = *cursor;
+std::optional<Point> cursor_at(const DisplayInput& input, const PlanView& view, const ViewFrame& frame) {
+  if ((input.state.flags & databuffer::kCursorValid) == 0) return std::nullopt;
+  const geo::GeoPoint position{input.state.cursor_latitude_deg, input.state.cursor_longitude_deg};
+  const Point at = view.at_ground(frame, position);
+  // The TDC stops the cursor at the edge. Rounding must not take it off the display there.
+  constexpr float kAllowance = 0.5F;
+  const Point inside{std::clamp(at.x, 0.0F, kDisplayUnits), std::clamp(at.y, 0.0F, kDisplayUnits)};
+  const bool shown = std::abs(at.x - inside.x) <= kAllowance && std::abs(at.y - inside.y) <= kAllowance;
+  return shown ? std::optional(inside) : std::nullopt;
+}
+
+void draw_cursor(Point at, DrawList& list) {
   list.draw_on(Layer::steered);
-  list.line({at.x - kArm, at.y}, {at.x - kGapInside, at.y});
-  list.line({at.x + kGapInside, at.y}, {at.x + kArm, at.y});
-  list.line({at.x, at.y - kArm}, {at.x, at.y - kGapInside});
-  list.line({at.x, at.y + kGapInside}, {at.x, at.y + kArm});
+  for (const Point out : {Point{-1.0F, 0.0F}, Point{1.0F, 0.0F}, Point{0.0F, -1.0F}, Point{0.0F, 1.0F}})
+    draw_arm(at, out, list);
   list.draw_on(Layer::symbols);
+}
+
+void occupy_cursor(Point at, DrawList& list) {
   // Two boxes, one per line of the cross, leave the four corners between the arms free for a name.
   list.occupy("cursor",
               {at.x - kArm - kArmHalfWidth, at.y - kArmHalfWidth, at.x + kArm + kArmHalfWidth, at.y + kArmHalfWidth},
@@ -157,7 +180,8 @@ PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Point at = view.at_ground(frame, navigator.on_video({points[i].latitude_deg, points[i].longitude_deg}));
     const float margin = labels.names(text::text_of(points[i].name)) ? kMarginDrawn : kMarginNew;
-    if (on_display(at) && (points[i].selected != 0 || !is_covered(at, margin, list))) placed[i] = at;
+    const bool always = rank_of(points[i], input.state) != NameRank::other;
+    if (on_display(at) && (always || !is_covered(at, margin, list))) placed[i] = at;
   }
   return placed;
 }
@@ -169,7 +193,10 @@ void draw_points(const databuffer::RadarState& state, const PlacedPoints& placed
     if (!placed[i]) continue;
     const Point at = *placed[i];
     draw_symbol(points[i], at, list);
-    const char* const name = points[i].selected != 0 ? "selected point" : "point";
+    const NameRank rank = rank_of(points[i], state);
+    const char* const name = rank == NameRank::selected ? "selected point"
+                             : rank == NameRank::target ? "designated target"
+                                                        : "point";
     list.occupy(name, grown({at.x, at.y, at.x, at.y}, kSymbolRadius + 1.0F), BoxKind::point);
   }
   list.draw_on(Layer::symbols);
@@ -222,11 +249,12 @@ float end_of_line(Point target, double back_deg, const DrawList& list) {
   return end;
 }
 
-Label heading_label(double magnetic_deg, Point target) {
+Label heading_label(const databuffer::RadarState& state, Point target) {
   std::array<char, 16> text{};
   // 359.6 deg rounds to 360, which is shown as 000.
-  const double shown_deg = std::fmod(std::round(magnetic_deg) + 720.0, 360.0);
-  const int length = std::snprintf(text.data(), text.size(), "%03.0f\u00b0", shown_deg);
+  const double heading_deg = state.steering_line_deg - state.magnetic_variation_deg;
+  const double shown_deg = std::fmod(std::round(heading_deg) + 720.0, 360.0);
+  const int length = std::snprintf(text.data(), text.size(), "%03.0f\u00b0 %s", shown_deg, north_of_bearings(state));
   const auto size = std::min(static_cast<std::size_t>(std::max(length, 0)), text.size() - 1);
   return label_of(LabelRole::heading, {text.data(), size}, target);
 }
@@ -245,7 +273,7 @@ std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanVie
   const double approach_deg = (geo::Bearing::degrees(state.steering_line_deg) - frame.up).degrees();
   const double back_deg = approach_deg + 180.0;
   const float length = end_of_line(target, back_deg, list);
-  const auto heading = heading_label(state.steering_line_deg - state.magnetic_variation_deg, target);
+  const auto heading = heading_label(state, target);
   if (length < kBegin + kArrow) return heading;
   const Point end = offset_point(target, back_deg, length);
   list.draw_on(Layer::lines);

@@ -18,10 +18,17 @@
 
 namespace yars::display {
 
-// Draws the cursor, a cross with an open centre, at its ground position on the top layer.
-void draw_cursor(const DisplayInput& input, const PlanView& view, const ViewFrame& frame, DrawList& list);
+// Position of the cursor on the display [units]; nullopt if it is unknown or off the display.
+std::optional<Point> cursor_at(const DisplayInput& input, const PlanView& view, const ViewFrame& frame);
 
-// True if the cursor's position is known and lies off the display, so that draw_cursor() draws nothing.
+// Records the boxes of the cursor's arms as occupied. Texts that can move are placed clear of these boxes.
+void occupy_cursor(Point at, DrawList& list);
+
+// Draws the cursor, a cross with an open centre, on the top layer. Its arms are left out where a text stands. Draw it
+// after all texts.
+void draw_cursor(Point at, DrawList& list);
+
+// True if the cursor's position is known and lies off the display.
 bool cursor_is_off(const DisplayInput& input, const PlanView& view, const ViewFrame& frame);
 
 // Draws the window of the commanded patch map while the map forms: a square with two sides along the line of sight.
@@ -29,7 +36,8 @@ void draw_window_outline(const DisplayInput& input, const PlanView& view, const 
 
 // Display positions of the sequence points in RadarState::points, in the same order. nullopt: the entry has no point,
 // or the point is not drawn, because it is outside the display or its symbol would be on or too near a text or a scale
-// without gaps (BoxKind::solid). The selected point is always drawn if it is on the display.
+// without gaps (BoxKind::solid). The selected point and the designated target are drawn wherever they are on the
+// display.
 using PlacedPoints = std::array<std::optional<Point>, radar::kMaxPointsDrawn>;
 PlacedPoints place_points(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                           const LabelMemory& labels, const DrawList& list);
@@ -45,8 +53,9 @@ void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, 
 
 // Draws the PSL from the designated target back along the approach heading. Its far end has an arrowhead while the TDC
 // turns the line, and a circle if the line is fixed. It ends before a fixed text, and is left out where too little of
-// it would remain. Draw it after the fixed texts. Returns the label with the magnetic heading; nullopt if there is no
-// line, or the target is not on the display. Source: docs/spec/pilots_interface.md#rule-15
+// it would remain. Draw it after the fixed texts. Returns the label with the heading. It ends in MAG, or in TRUE while
+// no magnetic variation is known. nullopt: there is no line, or the target is not on the display.
+// Source: docs/spec/pilots_interface.md#rule-15
 std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                                         DrawList& list);
 

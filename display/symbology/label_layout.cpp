@@ -20,13 +20,14 @@ struct Clearance {
   float beyond_line;           // length added to the ends of all lines in the test for crossing lines
   bool crosses_symbols;        // the leader line may cross points, solid scales, window outline and steering line
   bool among_legends = false;  // the text may stand in the rows of the legends, and nearer beside a legend
+  bool behind_texts = false;  // the leader line may run behind the cursor and behind fixed texts, whose plates cover it
 };
 constexpr Clearance kKeepPosition{2.5F, 1.0F, 0.0F, true};
 // A new position needs more clearance than a kept position. Otherwise the label would move again in the next picture.
 // kLastResort applies if no position satisfies kNewPosition. kMoveNearer applies to a move nearer the symbol.
 constexpr Clearance kNewPosition{3.5F, 2.0F, 2.0F, false}, kLastResort{3.5F, 2.0F, 2.0F, true};
 // For a name that has no other position.
-constexpr Clearance kAmongLegends{3.5F, 2.0F, 2.0F, true, true};
+constexpr Clearance kAmongLegends{3.5F, 2.0F, 2.0F, true, true}, kBehindTexts{3.5F, 2.0F, 2.0F, true, false, true};
 constexpr Clearance kMoveNearer{7.0F, 3.0F, 3.0F, false};
 constexpr float kEdgeAllowance = 1.5F;  // [units] reduces the clearance from the edge of the display
 constexpr float kBesideText = 3.0F;     // [units] extra clearance beside another label; closer texts read as one word
@@ -129,7 +130,9 @@ class Search {
     if (!before || !is_free(*before, kKeepPosition)) {
       auto clear = first_free(kNewPosition, kPositions);
       if (!clear) clear = first_free(kLastResort, kPositions);
-      return clear || label_.role == LabelRole::heading ? clear : first_free(kAmongLegends, kPositions);
+      if (clear || label_.role == LabelRole::heading) return clear;
+      clear = first_free(kAmongLegends, kPositions);
+      return clear ? clear : first_free(kBehindTexts, kPositions);
     }
     const std::size_t ring = position_of(label_.role, *before).ring;
     const std::size_t nearer = ring == 0 ? 0 : kAroundName.size() + (ring - 1) * kDirections.size();
@@ -173,15 +176,16 @@ class Search {
 
   // True when the leader line crosses no text, no label, no cursor arm and no other leader line. It may cross scales
   // with gaps (BoxKind::scale). With `crosses_symbols` it may also cross points, solid scales, the window outline and
-  // the steering line. Points and texts close to the gap between the anchor and the start of the line are ignored.
-  // Close means within 1.5 units for a kept position, 1 unit for a new one, and 0.5 units for a move nearer the symbol.
-  // A kept position therefore stays free more easily than a new one.
+  // the steering line, with `behind_texts` fixed texts and the cursor. Points and texts close to the gap between the
+  // anchor and the start of the line are ignored. Close means within 1.5 units for a kept position, 1 unit for a new
+  // one, and 0.5 units for a move nearer the symbol. A kept position therefore stays free more easily than a new one.
   bool line_is_clear(const Position& position, const Clearance& clearance) const {
     const Segment own = line(position);
     for (const OccupiedBox& box : list_.occupied()) {
       const bool symbol = box.kind == BoxKind::point;
       const bool crossable = symbol || box.kind == BoxKind::solid;
       if (box.kind == BoxKind::scale || (crossable && clearance.crosses_symbols)) continue;
+      if ((box.kind == BoxKind::text || box.kind == BoxKind::cursor) && clearance.behind_texts) continue;
       const bool fixed = symbol || box.kind == BoxKind::text;
       const float margin = 2.0F - clearance.beside_line / 2.0F;
       if (fixed && crosses(grown(box.rect, margin), label_.anchor, own.from)) continue;

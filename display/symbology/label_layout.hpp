@@ -5,7 +5,8 @@
 //   azimuth line may run behind the labels.
 // A label stands in one of eight positions around its symbol, or farther out at the end of a leader line. A label
 // without a free position is omitted. A label in the rows of the legends at the upper and lower edge would be read as a
-// legend; only a name without another position stands there. A label keeps its position from picture to picture while
+// legend; only a name without another position stands there. A name without any such position has a leader line that
+// runs behind texts and the cursor. A label keeps its position from picture to picture while
 // the position is clear. It moves nearer its symbol only to a position with more clearance than a new label needs. The
 // same labels, list and memory give the same positions. So do the same labels and list with the memory that the first
 // call has updated.

@@ -133,6 +133,21 @@ class GroundPlan {
   double sine_, cosine_;
 };
 
+// Leaves out the samples beyond the arc of the selected range about the present apex.
+void cut_at_outer_arc(Wedge& wedge, const PlanView& view) {
+  const Point from{wedge.apex.x - view.apex().x, wedge.apex.y - view.apex().y};
+  const Point both{wedge.left.x + wedge.right.x, wedge.left.y + wedge.right.y};
+  const float length = std::hypot(both.x, both.y);
+  const float along = (from.x * both.x + from.y * both.y) / length;
+  const float arc = view.units_per_range();
+  const float root = along * along + arc * arc - from.x * from.x - from.y * from.y;
+  const float cut = root > 0.0F ? std::max(0.0F, std::sqrt(root) - along) : 0.0F;  // [units] from the wedge's apex
+  if (cut >= wedge.range) return;
+  const auto samples = static_cast<float>(wedge.samples);
+  wedge.samples = static_cast<int>(std::lround(samples * cut / wedge.range));
+  wedge.range *= static_cast<float>(wedge.samples) / samples;
+}
+
 }  // namespace
 
 void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges,
@@ -141,10 +156,17 @@ void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame
   wedges.clear();
   for (const StoredSweep& sweep : store.by_azimuth()) {
     if (sweep.serial <= after) continue;
-    wedges.push_back({plan.at(sweep.apex_ecef), plan.direction(sweep.apex_ecef, sweep.left_ecef),
-                      plan.direction(sweep.apex_ecef, sweep.right_ecef),
-                      static_cast<float>(sweep.range_m * plan.units_per_metre()),
-                      static_cast<float>(sweep.half_width_rad), sweep.row, sweep.samples, sweep.serial});
+    Wedge wedge{plan.at(sweep.apex_ecef),
+                plan.direction(sweep.apex_ecef, sweep.left_ecef),
+                plan.direction(sweep.apex_ecef, sweep.right_ecef),
+                static_cast<float>(sweep.range_m * plan.units_per_metre()),
+                static_cast<float>(sweep.half_width_rad),
+                sweep.row,
+                sweep.samples,
+                sweep.serial};
+    constexpr double kRounding = 1.001;  // a sweep may be shortened by up to a sample (PolarStore)
+    if (sweep.range_m > frame.range_m * kRounding) cut_at_outer_arc(wedge, view);
+    if (wedge.samples > 0) wedges.push_back(wedge);
   }
   std::sort(wedges.begin(), wedges.end(), [](const Wedge& a, const Wedge& b) { return a.serial < b.serial; });
 }

@@ -7,6 +7,7 @@
 //   distance between the two apexes, R the earth radius.
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -34,6 +35,7 @@ struct DisplayInput {
   databuffer::Nav nav{};          // navigation data of the same time
   databuffer::PatchMap map{};     // map with the id state.map_shown; another id: that map could not be read
   databuffer::Caption caption{};  // of the tour that runs; step 0: none
+  double slant_range_m = std::numeric_limits<double>::quiet_NaN();  // to the designated target; NaN: unknown
   bool state_machine_alive = true;
   bool model_alive = true;
   bool ownship_fresh = true;         // a source still delivers the position and motion of the aircraft
@@ -103,7 +105,8 @@ struct Wedge {
 };
 
 // Replaces `wedges` by the sweeps of the store with a serial above `after`, oldest first; 0: all sweeps. A sweep keeps
-// its measured range and azimuth about its own apex.
+// its measured range and azimuth about its own apex. A sweep of a longer range than the frame's is cut off at the
+// frame's outer arc.
 void place_wedges(const PolarStore& store, const PlanView& view, const ViewFrame& frame, std::vector<Wedge>& wedges,
                   std::uint64_t after = 0);
 

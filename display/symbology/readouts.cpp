@@ -111,16 +111,73 @@ constexpr TextStyle centered(float height) {
 
 }  // namespace
 
-void draw_number(std::string_view words, Point at, const TextStyle& style, DrawList& list) {
-  const Rect box = text_box(words, at, style);
-  const auto overlaps_cursor = [&](const OccupiedBox& other) {
-    return other.kind == BoxKind::cursor && intersect(grown(box, 1.0F), other.rect);
+namespace {
+
+// [units] Clear space from a text to another text or the cursor: beside it, above and below it; and to a scale.
+constexpr float kBeside = 4.0F, kAbove = 2.5F, kAroundScale = 1.0F;
+
+Rect with_clear_space(const Rect& text) {
+  return {text.left - kBeside, text.top - kAbove, text.right + kBeside, text.bottom + kAbove};
+}
+
+// True if a text in this box would be clear of all that is drawn so far, and on the display.
+bool is_clear(const Rect& box, const DrawList& list) {
+  const auto covers = [&box](const OccupiedBox& other) {
+    const bool scale = other.kind == BoxKind::scale || other.kind == BoxKind::solid;
+    return intersect(scale ? grown(box, kAroundScale) : with_clear_space(box), other.rect);
   };
-  if (std::ranges::any_of(list.occupied(), overlaps_cursor)) {
-    list.occupy("number beneath the cursor", box, BoxKind::solid);
-  } else {
-    list.text(words, at, style);
-  }
+  return box.left >= 0.0F && box.top >= 0.0F && box.right <= kDisplayUnits && box.bottom <= kDisplayUnits &&
+         std::ranges::none_of(list.occupied(), covers);
+}
+
+Rect around(const Rect& a, const Rect& b) {
+  return {std::min(a.left, b.left), std::min(a.top, b.top), std::max(a.right, b.right), std::max(a.bottom, b.bottom)};
+}
+
+// Box around the whole cursor; nullopt if the list has none.
+std::optional<Rect> cursor_box(const DrawList& list) {
+  std::optional<Rect> all;
+  for (const OccupiedBox& box : list.occupied())
+    if (box.kind == BoxKind::cursor) all = all ? around(*all, box.rect) : box.rect;
+  return all;
+}
+
+// Distance [units] by which a readout in `box` steps aside, positive right. It steps beyond the cursor, first to the
+// side of `preferred`, else to the other side. 0: the cursor is not there, or neither side is clear.
+float step_aside(const Rect& box, float preferred, const DrawList& list) {
+  constexpr float kRounding = 0.5F;  // [units] boxes in the list are rounded
+  const auto cursor = cursor_box(list);
+  if (!cursor || !intersect(with_clear_space(box), *cursor)) return 0.0F;
+  const float right = cursor->right + kBeside + kRounding - box.left;
+  const float left = cursor->left - kBeside - kRounding - box.right;
+  for (const float by : {preferred < 0.0F ? left : right, preferred < 0.0F ? right : left})
+    if (is_clear({box.left + by, box.top, box.right + by, box.bottom}, list)) return by;
+  return 0.0F;
+}
+
+// Side to which a readout steps aside: from the display's edge inward.
+float inward(Align align) {
+  return align == Align::right ? -1.0F : 1.0F;
+}
+
+// Distance [units] by which a block of texts moves up, so that it is clear of all that is drawn so far. 0: it is clear
+// where it is, or nowhere above.
+float rise(const Rect& block, const DrawList& list) {
+  constexpr float kTop = 80.0F, kStep = 2.0F;  // [units] FREEZE and the name of a master mode are above kTop
+  for (float by = 0.0F; block.top - by >= kTop; by += kStep)
+    if (is_clear({block.left, block.top - by, block.right, block.bottom - by}, list)) return by;
+  return 0.0F;
+}
+
+}  // namespace
+
+void draw_readout(std::string_view words, Point at, const TextStyle& style, DrawList& list) {
+  const float aside = step_aside(text_box(words, at, style), inward(style.align), list);
+  list.text(words, {at.x + aside, at.y}, style);
+}
+
+const char* north_of_bearings(const databuffer::RadarState& state) {
+  return (state.flags & databuffer::kVariationKnown) != 0 ? "MAG" : "TRUE";
 }
 
 void draw_legends(const databuffer::RadarState& state, DrawList& list) {
@@ -136,19 +193,19 @@ void draw_legends(const databuffer::RadarState& state, DrawList& list) {
 
 void draw_brightness(const databuffer::RadarState& state, DrawList& list) {
   Buffer buffer;
-  draw_number(formatted(buffer, "%.0f", state.brightness), between(4, 5), {kTextHeight, Align::left}, list);
+  draw_readout(formatted(buffer, "%.0f", state.brightness), between(4, 5), {kTextHeight, Align::left}, list);
 }
 
 void draw_range(const databuffer::RadarState& state, DrawList& list) {
   Buffer buffer;
-  draw_number(miles(buffer, state.range_nm), between(13, 14), {kTextHeight, Align::right}, list);
+  draw_readout(miles(buffer, state.range_nm), between(13, 14), {kTextHeight, Align::right}, list);
 }
 
 void draw_window_size(const databuffer::RadarState& state, DrawList& list) {
   if (!(state.window_nm > 0.0)) return;
   Buffer buffer;
   const Point legend = legend_position(8).at;
-  draw_number(miles(buffer, state.window_nm), {legend.x, legend.y - kAboveLegend}, {kTextHeight}, list);
+  draw_readout(miles(buffer, state.window_nm), {legend.x, legend.y - kAboveLegend}, {kTextHeight}, list);
 }
 
 void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list) {
@@ -156,8 +213,15 @@ void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list) {
   Buffer buffer;
   // 359.6 rounds to 360, which is shown as 000.
   const double bearing_deg = std::fmod(std::round(state.cursor_bearing_deg) + 360.0, 360.0);
-  draw_number(formatted(buffer, "%03.0f\u00b0", bearing_deg), {6.0F, 12.0F}, {kTextHeight, Align::left}, list);
-  draw_number(formatted(buffer, "%.1fNM", state.cursor_range_nm), {6.0F, 27.0F}, {kTextHeight, Align::left}, list);
+  const std::string_view bearing = formatted(buffer, "%03.0f\u00b0", bearing_deg);
+  constexpr TextStyle kNumber{kTextHeight, Align::left}, kNorth{kHintHeight, Align::left};
+  constexpr float kRow = 12.0F, kGap = 4.0F;  // [units]
+  const Rect number = text_box(bearing, {kMargin, kRow}, kNumber);
+  const Rect north = text_box(north_of_bearings(state), {number.right + kGap, kRow}, kNorth);
+  const float aside = step_aside(around(number, north), inward(kNumber.align), list);
+  list.text(bearing, {number.left + aside, kRow}, kNumber);
+  list.text(north_of_bearings(state), {north.left + aside, kRow}, kNorth);
+  draw_readout(formatted(buffer, "%.1fNM", state.cursor_range_nm), {6.0F, 27.0F}, {kTextHeight, Align::left}, list);
 }
 
 void draw_cursor_off(DrawList& list) {
@@ -170,8 +234,8 @@ void draw_map_width(const databuffer::PatchMap& map, DrawList& list) {
   // In the lower left corner, between the legends of PB 5 and 6, below the limit balls.
   Buffer buffer;
   const float row = kDisplayUnits - kTopRow;
-  draw_number("WIDTH", {kMargin, row - 13.0F}, {kHintHeight, Align::left}, list);
-  draw_number(std::string(miles(buffer, map.window_nm)) + "NM", {kMargin, row}, {kTextHeight, Align::left}, list);
+  draw_readout("WIDTH", {kMargin, row - 13.0F}, {kHintHeight, Align::left}, list);
+  draw_readout(std::string(miles(buffer, map.window_nm)) + "NM", {kMargin, row}, {kTextHeight, Align::left}, list);
 }
 
 void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
@@ -179,13 +243,13 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
   Buffer buffer;
   if (state.update_seconds >= 0) {
     const Point legend = legend_position(7).at;
-    draw_number(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - kAboveLegend}, {kTextHeight},
-                list);
+    draw_readout(formatted(buffer, "%.0f", state.update_seconds), {legend.x, legend.y - kAboveLegend}, {kTextHeight},
+                 list);
   }
   // The texts are in the upper right, above the legend of PB 15.
   constexpr float right = kDisplayUnits - 6.0F, first_row = 46.0F, second_row = 61.0F;
   if ((state.flags & databuffer::kUpdateInvalid) != 0) {
-    list.text("INV", {right, first_row}, {kTextHeight, Align::right});
+    draw_readout("INV", {right, first_row}, {kTextHeight, Align::right}, list);
     return;
   }
   const double distance_ft = geo::Length::metres(std::hypot(state.update_north_m, state.update_east_m)).feet();
@@ -195,7 +259,7 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
     const int size = in_miles
                          ? std::snprintf(buffer.data(), buffer.size(), "%c %.2fNM", direction, length.nautical_miles())
                          : std::snprintf(buffer.data(), buffer.size(), "%c %.0fFT", direction, length.feet());
-    draw_number(written_text(buffer.data(), buffer.size(), size), {right, y}, {kTextHeight, Align::right}, list);
+    draw_readout(written_text(buffer.data(), buffer.size(), size), {right, y}, {kTextHeight, Align::right}, list);
   };
   draw(state.update_north_m, state.update_north_m < 0.0 ? 'S' : 'N', first_row);
   draw(state.update_east_m, state.update_east_m < 0.0 ? 'W' : 'E', second_row);
@@ -204,19 +268,36 @@ void draw_update_errors(const databuffer::RadarState& state, DrawList& list) {
 void draw_map_timer(double seconds, DrawList& list) {
   if (!std::isfinite(seconds)) return;
   Buffer buffer;
-  draw_number(formatted(buffer, "%.0f SEC", std::ceil(seconds)), {kDisplayUnits - 6.0F, 32.0F},
-              {kTextHeight, Align::right}, list);
+  draw_readout(formatted(buffer, "%.0f SEC", std::ceil(seconds)), {kDisplayUnits - 6.0F, 32.0F},
+               {kTextHeight, Align::right}, list);
 }
 
-void draw_mode_name(const databuffer::RadarState& state, DrawList& list) {
-  const auto mode = static_cast<radar::Mode>(state.mode);
+namespace {
+
+// "12.3NM TO 4.": slant range to the designated target; what is missing, where there is none.
+std::string slant_range_text(const DisplayInput& input) {
+  if ((input.state.flags & databuffer::kTargetDesignated) == 0) return "NO TARGET";
+  Buffer buffer;
+  std::string words("NO RANGE");
+  if (std::isfinite(input.slant_range_m))
+    words = formatted(buffer, "%.1fNM", geo::Length::metres(input.slant_range_m).nautical_miles());
+  return words.append(" TO ").append(in_capitals(text_of(input.state.target_name)));
+}
+
+}  // namespace
+
+void draw_mode_name(const DisplayInput& input, DrawList& list) {
+  const auto mode = static_cast<radar::Mode>(input.state.mode);
   const bool air_to_air = mode == radar::Mode::air_to_air;
   if (!air_to_air && mode != radar::Mode::ranging) return;
-  list.text(air_to_air ? "A/A" : "A/G RANGING", {kDisplayUnits / 2.0F, 52.0F}, centered(kTextHeight + 1.0F));
+  constexpr float kMiddle = kDisplayUnits / 2.0F, kRow = 52.0F, kNextRow = 67.0F;  // [units]
+  draw_readout(air_to_air ? "A/A" : "A/G RANGING", {kMiddle, kRow}, centered(kTextHeight + 1.0F), list);
+  if (!air_to_air && input.state.map_shown != 0)
+    draw_readout(slant_range_text(input), {kMiddle, kNextRow}, centered(kTextHeight), list);
 }
 
 void draw_freeze(DrawList& list) {
-  list.text("FREEZE", {kDisplayUnits / 2.0F, 32.0F}, {kTextHeight + 1.0F});
+  draw_readout("FREEZE", {kDisplayUnits / 2.0F, 32.0F}, {kTextHeight + 1.0F}, list);
 }
 
 void draw_message(const DisplayInput& input, DrawList& list) {
@@ -227,8 +308,12 @@ void draw_message(const DisplayInput& input, DrawList& list) {
   constexpr float kMaxWidth = 270.0F;                      // [units] between elevation scale and gray scale
   // The longest remedy, PilotAdvice::remedy with 127 characters, takes three lines.
   const auto lines = wrapped(in_capitals(text_of(input.advice.remedy)), kMaxWidth / kHintHeight);
-  list.draw_on(Layer::notices);
   float y = kLowestRow - kRowPitch * static_cast<float>(lines.size());
+  Rect block = text_box(message, {kDisplayUnits / 2.0F, y}, centered(kTextHeight));
+  for (const std::string& line : lines)
+    block = around(block, text_box(line, {kDisplayUnits / 2.0F, kLowestRow}, centered(kHintHeight)));
+  y -= rise(block, list);
+  list.draw_on(Layer::notices);
   list.text(message, {kDisplayUnits / 2.0F, y}, centered(kTextHeight));
   for (const std::string& line : lines) {
     y += kRowPitch;
@@ -280,6 +365,10 @@ void draw_state(const DisplayInput& input, DrawList& list) {
   row(card->name, card->y, card->height);
   constexpr float kFirstRow = 20.0F, kRowPitch = 14.0F;  // [units] below the name
   float y = card->y + kFirstRow;
+  if (card == &kRangingCard) {
+    row(slant_range_text(input).c_str(), y, kTextHeight);
+    y += kFirstRow;
+  }
   for (const char* words : {card->is, input.hints ? card->back : ""}) {
     if (*words == '\0') continue;
     row(words, y, kHintHeight);
@@ -288,18 +377,36 @@ void draw_state(const DisplayInput& input, DrawList& list) {
 }
 
 void draw_silent(const DisplayInput& input, DrawList& list) {
-  list.draw_on(Layer::notices);
-  constexpr float kFirstRow = 290.0F, kBelowNotice = 19.0F, kNoticePitch = 39.0F;  // [units]
-  float y = kFirstRow;
-  const auto notice = [&](bool healthy, std::string_view words, std::string_view remedy) {
-    if (healthy) return;
-    list.text(words, {kDisplayUnits / 2.0F, y}, {kNoticeHeight, Align::center, true, true});
-    list.text(in_capitals(remedy), {kDisplayUnits / 2.0F, y + kBelowNotice}, centered(kHintHeight));
-    y += kNoticePitch;
+  struct Notice {
+    bool healthy;
+    std::string_view words;
+    std::string remedy;
   };
-  notice(input.ownship_fresh, kNoOwnship, databuffer::kRemedyNoOwnship);
-  notice(input.model_alive, "NO MODEL", databuffer::kRemedyNoModel);
-  notice(input.state_machine_alive, "NO STATE MACHINE", databuffer::kRemedyNoStateMachine);
+  const std::array notices{
+      Notice{input.ownship_fresh, kNoOwnship, in_capitals(databuffer::kRemedyNoOwnship)},
+      Notice{input.model_alive, "NO MODEL", in_capitals(databuffer::kRemedyNoModel)},
+      Notice{input.state_machine_alive, "NO STATE MACHINE", in_capitals(databuffer::kRemedyNoStateMachine)}};
+  constexpr TextStyle kNoticeStyle{kNoticeHeight, Align::center, true, true};
+  constexpr float kMiddle = kDisplayUnits / 2.0F;
+  constexpr float kFirstRow = 290.0F, kBelowNotice = 19.0F, kNoticePitch = 39.0F;  // [units]
+  std::optional<Rect> block;
+  float y = kFirstRow;
+  for (const Notice& notice : notices) {
+    if (notice.healthy) continue;
+    const Rect both = around(text_box(notice.words, {kMiddle, y}, kNoticeStyle),
+                             text_box(notice.remedy, {kMiddle, y + kBelowNotice}, centered(kHintHeight)));
+    block = block ? around(*block, both) : both;
+    y += kNoticePitch;
+  }
+  if (!block) return;
+  y = kFirstRow - rise(*block, list);
+  list.draw_on(Layer::notices);
+  for (const Notice& notice : notices) {
+    if (notice.healthy) continue;
+    list.text(notice.words, {kMiddle, y}, kNoticeStyle);
+    list.text(notice.remedy, {kMiddle, y + kBelowNotice}, centered(kHintHeight));
+    y += kNoticePitch;
+  }
   list.draw_on(Layer::symbols);
 }
 
@@ -336,12 +443,16 @@ void draw_velocity_differences(const databuffer::RadarState& state, DrawList& li
   // The texts are in the right column, between the legends of PB 15 and 14.
   constexpr float right = kDisplayUnits - 6.0F, value_left = right - 40.0F;
   float y = 98.0F;
-  list.text("FT/S", {right, y}, {kSmallHeight, Align::right});
+  draw_readout("FT/S", {right, y}, {kSmallHeight, Align::right}, list);
+  constexpr TextStyle kStyle{kSmallHeight, Align::right};
   for (const Row& row : rows(state)) {
     y += 13.0F;
     Buffer buffer;
-    list.text(row.abbreviation, {value_left, y}, {kSmallHeight, Align::right});
-    draw_number(feet_per_second(buffer, "%+.1f", row.value_mps), {right, y}, {kSmallHeight, Align::right}, list);
+    const std::string_view value = feet_per_second(buffer, "%+.1f", row.value_mps);
+    const Rect both = around(text_box(row.abbreviation, {value_left, y}, kStyle), text_box(value, {right, y}, kStyle));
+    const float aside = step_aside(both, inward(kStyle.align), list);
+    list.text(row.abbreviation, {value_left + aside, y}, kStyle);
+    list.text(value, {right + aside, y}, kStyle);
   }
 }
 

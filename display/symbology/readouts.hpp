@@ -26,9 +26,12 @@ LegendPosition legend_position(int button);
 // `at` is in no zone, for example in the middle, in a corner, between two zones or outside the display.
 std::optional<int> button_at(Point at);
 
-// Draws a number, unless the cursor overlaps it: an arm of the cursor could be read as a digit. The box of an omitted
-// number still counts as occupied, so no label is placed there. The cursor must be drawn before numbers.
-void draw_number(std::string_view words, Point at, const TextStyle& style, DrawList& list);
+// Draws a readout. If the cursor is there, the readout steps aside, beyond the cursor, unless another text stands
+// there. The cursor must be in the list before (occupy_cursor()).
+void draw_readout(std::string_view words, Point at, const TextStyle& style, DrawList& list);
+
+// The north from which bearings and headings count: "MAG", or "TRUE" while no magnetic variation is known.
+const char* north_of_bearings(const databuffer::RadarState& state);
 
 // Draws the legends of all buttons. A legend is framed if the bit of its button is set in `state.boxed`.
 void draw_legends(const databuffer::RadarState& state, DrawList& list);
@@ -36,7 +39,7 @@ void draw_legends(const databuffer::RadarState& state, DrawList& list);
 void draw_brightness(const databuffer::RadarState& state, DrawList& list);      // between PB 4 and 5
 void draw_range(const databuffer::RadarState& state, DrawList& list);           // between PB 13 and 14
 void draw_window_size(const databuffer::RadarState& state, DrawList& list);     // above PB 8; blank: no text
-void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // magnetic bearing, ground range
+void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // bearing with its north, ground range
 // Says below the cursor's readout that the cursor lies off the display.
 void draw_cursor_off(DrawList& list);
 void draw_map_width(const databuffer::PatchMap& map, DrawList& list);  // lower left: side of the map that is shown
@@ -45,16 +48,19 @@ void draw_map_width(const databuffer::PatchMap& map, DrawList& list);  // lower 
 // passed, INV replaces the error.
 void draw_update_errors(const databuffer::RadarState& state, DrawList& list);
 void draw_map_timer(double seconds, DrawList& list);  // nothing if not finite
-// Draws "A/A" or "A/G RANGING" in these modes, because no legend names them. Draws nothing in other modes.
-void draw_mode_name(const databuffer::RadarState& state, DrawList& list);
+// Draws "A/A" or "A/G RANGING" in these modes, because no legend names them. In A/G ranging with a map also the slant
+// range to the target. Draws nothing in other modes.
+void draw_mode_name(const DisplayInput& input, DrawList& list);
 void draw_freeze(DrawList& list);
-// Draws the message, and below it the remedy in smaller text, on at most three lines. Without a state machine the
-// message is out of date; nothing is drawn. Nor is NO OWNSHIP while draw_silent() draws it.
+// Draws the message, and below it the remedy in smaller text, on at most three lines. They stand above the azimuth
+// scale; if the cursor is there, higher. Without a state machine the message is out of date; nothing is drawn. Nor is
+// NO OWNSHIP while draw_silent() draws it.
 void draw_message(const DisplayInput& input, DrawList& list);
-// Draws what the state is if it shows no picture: STBY, A/A and A/G RANGING without a map, the main menu, PVU. With
+// Draws what the state is if it shows no picture: STBY, A/A, A/G RANGING (with the slant range to the target) without
+// a map, the main menu, PVU. With
 // `input.hints` also how to get back, and for OFF how to switch on; else OFF draws nothing.
 void draw_state(const DisplayInput& input, DrawList& list);
-// NO OWNSHIP, NO MODEL, NO STATE MACHINE, each with its remedy in smaller text.
+// NO OWNSHIP, NO MODEL, NO STATE MACHINE, each with its remedy in smaller text; clear of cursor and message.
 void draw_silent(const DisplayInput& input, DrawList& list);
 
 // Velocity differences: velocity measured by the radar minus velocity of the navigator, in ft/s. Components: along the

@@ -28,6 +28,9 @@ constexpr float kAzimuthTickTop = 438.0F, kAzimuthTickBottom = 445.0F;
 constexpr float kCaretLimit = 64.0F;  // [deg] azimuth at which the caret stops
 constexpr float kLimitBallRadius = 3.0F;
 constexpr float kBallLimit = 115.0F;  // [deg] azimuth at which a limit ball stops: x = 10 or 470 units
+// [deg] Least spacing of the limit balls, 12 units. Nearer balls would merge with each other and hide the caret's tip.
+constexpr float kMinBallSpacing = 6.0F;
+constexpr float kCaretGap = 3.0F;  // [units] from the caret's tip to the ticks; the balls rise above the ticks' middle
 
 // Elevation scale, in the column between the legends of the left side and the picture. Positions [units].
 constexpr float kElevationZero = 240.0F;  // [units] y of the horizon
@@ -66,7 +69,7 @@ void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list) {
     list.line({x_of(degrees), kAzimuthTickTop}, {x_of(degrees), kAzimuthTickBottom});
   }
   const float x = x_of(std::clamp(static_cast<float>(antenna_right_of_track_deg), -kCaretLimit, kCaretLimit));
-  const float tip = kAzimuthTickTop - 1.0F;
+  const float tip = kAzimuthTickTop - kCaretGap;
   const std::array<Point, 3> caret{Point{x - kCaretHalf, tip - kCaretLength}, Point{x, tip},
                                    Point{x + kCaretHalf, tip - kCaretLength}};
   list.polyline(caret);
@@ -82,8 +85,16 @@ void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, 
   constexpr float middle = (kAzimuthTickTop + kAzimuthTickBottom) / 2.0F;
   const auto blind = static_cast<float>(blind_zone_deg);
   for (const float degrees : {-blind, blind}) list.line({x_of(degrees), middle}, {x_of(degrees), kAzimuthTickBottom});
-  for (const double degrees : {left_deg, right_deg}) {
-    const float x = x_of(std::clamp(static_cast<float>(degrees), -kBallLimit, kBallLimit));
+  float left = std::clamp(static_cast<float>(left_deg), -kBallLimit, kBallLimit);
+  float right = std::clamp(static_cast<float>(right_deg), -kBallLimit, kBallLimit);
+  if (right - left < kMinBallSpacing) {
+    const float centre =
+        std::clamp((left + right) / 2.0F, kMinBallSpacing / 2.0F - kBallLimit, kBallLimit - kMinBallSpacing / 2.0F);
+    left = centre - kMinBallSpacing / 2.0F;
+    right = centre + kMinBallSpacing / 2.0F;
+  }
+  for (const float degrees : {left, right}) {
+    const float x = x_of(degrees);
     list.circle({x, middle}, kLimitBallRadius);
     list.occupy("limit ball", grown({x, middle, x, middle}, kLimitBallRadius + 1.0F), BoxKind::scale);
   }
@@ -257,6 +268,13 @@ AttitudeSource attitude_source(const databuffer::Nav& nav) {
   return (nav.flags & databuffer::kNavAttitudeFromAhrs) != 0 ? AttitudeSource::ahrs : AttitudeSource::ins;
 }
 
+// True if the display shows symbols at ground positions: cursor, points, steering line. The position of a map that
+// could not be read is unknown; then there are none.
+bool shows_ground(const DisplayInput& input) {
+  const Format& format = format_of(input.state);
+  return has_power(input.state, radar::Power::operate) && format.ground && (!format.map || shows_map(input));
+}
+
 void draw_scales(const DisplayInput& input, DrawList& list) {
   const geo::Bearing antenna = geo::Bearing::degrees(input.ownship.heading_deg + input.model.antenna_azimuth_deg);
   draw_azimuth_scale((antenna - databuffer::ground_track_of(input.ownship)).degrees(), list);
@@ -323,10 +341,7 @@ void draw_ground(const DisplayInput& input, const PlanView& view, const ViewFram
 
 void draw_format(const DisplayInput& input, const Format& format, const SymbologyParameters& parameters,
                  const PlanView& view, const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
-  // The position of a map that could not be read is unknown; then no ground symbols are drawn.
-  const bool placed = format.ground && (!format.map || shows_map(input));
-  // The cursor is drawn before the readouts, because draw_number omits numbers beneath the cursor.
-  if (placed) draw_cursor(input, view, frame, list);
+  const bool placed = shows_ground(input);
   const databuffer::RadarState& state = input.state;
   if (format.arcs)
     draw_range_arcs(view, arc_spacing(state.range_nm, state.range_index, parameters.view.arc_spacing_nm), list);
@@ -335,6 +350,7 @@ void draw_format(const DisplayInput& input, const Format& format, const Symbolog
   if (format.limit_balls) draw_limits(input, parameters.blind_zone_deg, list);
   if (format.gray_scale) draw_gray_scale(list);
   if (format.readouts) draw_readouts(input, format, list);
+  draw_mode_name(input, list);
   if (placed && cursor_is_off(input, view, frame)) draw_cursor_off(list);
   if (placed && format.map) draw_map_width(input.map, list);
   if (format.velocity) draw_velocity_format(input, list);
@@ -356,10 +372,8 @@ bool shows_map(const DisplayInput& input) {
 }
 
 bool takes_cursor(const DisplayInput& input) {
-  const databuffer::RadarState& state = input.state;
-  const Format& format = format_of(state);
-  const bool set_or_ground = &format != &kStandingMap || (state.flags & databuffer::kSet) != 0;
-  return has_power(state, radar::Power::operate) && format.ground && set_or_ground && (!format.map || shows_map(input));
+  const bool set_or_ground = &format_of(input.state) != &kStandingMap || (input.state.flags & databuffer::kSet) != 0;
+  return shows_ground(input) && set_or_ground;
 }
 
 namespace {
@@ -378,11 +392,8 @@ void draw_radar(const DisplayInput& input, const SymbologyParameters& parameters
   draw_legends(state, list);
   draw_message(input, list);
   draw_silent(input, list);
-  draw_mode_name(state, list);
-  if (has_power(state, radar::Power::standby)) return;
-  const bool map = shows_map(input);
-  draw_format(input, format_of(state), parameters, map ? PlanView(input.map) : view, map ? frame_of(input.map) : frame,
-              labels, list);
+  if (has_power(state, radar::Power::standby)) return draw_mode_name(input, list);
+  draw_format(input, format_of(state), parameters, view, frame, labels, list);
 }
 
 }  // namespace
@@ -390,8 +401,15 @@ void draw_radar(const DisplayInput& input, const SymbologyParameters& parameters
 void draw_symbology(const DisplayInput& input, const SymbologyParameters& parameters, const PlanView& view,
                     const ViewFrame& frame, LabelMemory& labels, DrawList& list) {
   list.clear();
-  draw_radar(input, parameters, view, frame, labels, list);
+  const bool map = shows_map(input);
+  const PlanView shown_view = map ? PlanView(input.map) : view;
+  const ViewFrame shown_frame = map ? frame_of(input.map) : frame;
+  // Texts keep clear of the cursor, so its place is known first. Its arms end before texts, so it is drawn last.
+  const auto cursor = shows_ground(input) ? cursor_at(input, shown_view, shown_frame) : std::nullopt;
+  if (cursor) occupy_cursor(*cursor, list);
+  draw_radar(input, parameters, shown_view, shown_frame, labels, list);
   draw_caption(input.caption, list);
+  if (cursor) draw_cursor(*cursor, list);
   // Last, so that the texts of the help do not move the labels.
   if (input.help) draw_help(input, list);
 }

@@ -26,6 +26,7 @@ namespace yars::display {
 void draw_azimuth_scale(double antenna_right_of_track_deg, DrawList& list);
 // Two balls on the azimuth scale at the limits of the scan or map, and two ticks at +-`blind_zone_deg`, the edges of
 // the blind zone. The balls may pass the scale's ticks at +-60 deg. They stop at +-115 deg, near the display's edge.
+// Limits less than 6 deg apart have their balls 6 deg apart, about the middle of the sector.
 void draw_limit_balls(double left_deg, double right_deg, double blind_zone_deg, DrawList& list);
 // Elevation scale with the antenna caret.
 void draw_elevation_scale(double antenna_deg, DrawList& list);

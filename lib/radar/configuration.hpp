@@ -5,6 +5,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -33,8 +34,9 @@ struct RadarConfiguration {
   NavigationConfiguration navigation;
   WorldConfiguration world;
   std::vector<RoutePoint> route;
-  std::uint64_t seed = 1;               // seed of all noise
-  double magnetic_variation_deg = 0.0;  // [deg] east positive; used if no other source gives one
+  std::uint64_t seed = 1;  // seed of all noise
+  // [deg] Magnetic variation, east positive, used if no other source gives one. NaN: unknown.
+  double magnetic_variation_deg = std::numeric_limits<double>::quiet_NaN();
   WindowLimits window_limits;
   HeightRanges height_ranges;
   std::vector<Device> devices;  // event maps of cockpit hardware; the last map that fits a device is used

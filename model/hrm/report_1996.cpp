@@ -11,6 +11,16 @@ namespace yars::model::hrm {
 namespace {
 
 constexpr float kWhite = 255.0F;
+// Full scale as a multiple of the brightness of level ground at the map's centre. Level ground is then the third of
+// eight grays, counted from black as 0. Slopes toward the radar are brighter, and walls are white.
+constexpr double kFullScale = 2.5;
+constexpr double kMinHeight_m = 100.0;  // [m] lower limit of the aircraft's height; nearer 0 even dark slopes are white
+
+// Brightness that gives white: the same for the whole map, whatever its terrain.
+float full_scale(const PatchGeometry& geometry) {
+  const double height_m = std::max(geometry.above_plane_m(geometry.distance_m()), kMinHeight_m);
+  return static_cast<float>(std::min(1.0, kFullScale * height_m / std::hypot(height_m, geometry.distance_m())));
+}
 
 // Slope of the surface across the line of sight [m/m], positive if it rises to the right. One-sided at the edges of the
 // sector.
@@ -133,6 +143,7 @@ void Report1996::draw_video(const PatchInputs& inputs, PatchData& data) {
   constexpr auto kHalfOfBits =
       2147483648.0F;  // 2^31; bits / 2^31 - 1 maps 32 bits to [-1, 1]; float rounding makes the 128 greatest values 1
   const auto noise = static_cast<float>(noise_);
+  const float scale = kWhite / full_scale(*data.geometry);
   const auto size = static_cast<std::size_t>(image.size);
   picture.resize(image.power.size());
   for (std::size_t row = 0; row < size; ++row) {
@@ -143,7 +154,7 @@ void Report1996::draw_video(const PatchInputs& inputs, PatchData& data) {
       const auto bits = physics::noise_bits(state, static_cast<std::uint32_t>(column), 0);
       const float random = static_cast<float>(bits) / kHalfOfBits - 1.0F;
       const float level = std::max(image.power[at], 0.0F) * (1.0F + noise * random);
-      picture[at] = static_cast<std::uint8_t>(std::min(kWhite * level + 0.5F, kWhite));
+      picture[at] = static_cast<std::uint8_t>(std::min(scale * level + 0.5F, kWhite));
     }
   }
 }

@@ -171,7 +171,10 @@ void DopplerVelocityUpdate::step(const ModelTick& tick, const Pose& pose, bool a
 
 void DopplerVelocityUpdate::end(const ModelTick& tick) {
   cancel();
-  if (due_tick_ >= 0) due_tick_ = tick.tick + period_ticks_;
+  // The next round is due a whole number of periods after the last one was due. Neither the wait for the end of a scan
+  // nor the length of the round adds to the period.
+  if (due_tick_ >= 0 && tick.tick >= due_tick_)
+    due_tick_ += ((tick.tick - due_tick_) / period_ticks_ + 1) * period_ticks_;
   read_command(tick);
 }
 

@@ -228,6 +228,7 @@ class RadarFlags(enum.IntFlag):
     VELOCITY_SHOWN = 262144         # velocity_along_mps, velocity_across_mps and velocity_vertical_mps are valid
     MAP_WINDOW_BLANK = 524288       # no window was selected; the range selected map_window_nm
     RECALLED_BY_HRM_EXIT = 1048576  # leaving a high resolution mode recalled the newest map
+    VARIATION_KNOWN = 2097152       # magnetic_variation_deg is known; else it is 0, and bearings count from true north
 
 
 class SweepFlags(enum.IntFlag):

@@ -181,7 +181,7 @@ inline auto fields(const radar::RadarConfiguration& configuration) {
   for (const auto& point : route) points.push_back(fields(point));
   return std::tuple(name, ranges, widths, windows, pulses, fields(antenna), fields(view), fields(fidelity),
                     fields(receiver), fields(terrain), fields(high), fields(navigation), fields(world), points, seed,
-                    variation, fields(limits), fields(heights), fields_of_all(devices));
+                    comparable(variation), fields(limits), fields(heights), fields_of_all(devices));
 }
 
 // Configuration of a text. A refused text fails the test.

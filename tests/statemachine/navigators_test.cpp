@@ -229,5 +229,20 @@ TEST_F(Navigators, MagneticVariationComesFromNavigatorElseFieldModelElseConfigur
   EXPECT_EQ(pilot.state.magnetic_variation_deg, 3.0);
 }
 
+TEST_F(Navigators, AVariationThatNobodyGivesIsUnknownAndBearingsAreTrue) {
+  pilot.wait();
+  EXPECT_FALSE(pilot.is(databuffer::kVariationKnown));
+  EXPECT_EQ(pilot.state.magnetic_variation_deg, 0.0);
+  for (double* const source : {&pilot.configuration.magnetic_variation_deg, &pilot.around.field_variation_deg,
+                               &pilot.around.nav.magnetic_variation_deg}) {
+    *source = 0.0;
+    pilot.wait();
+    EXPECT_TRUE(pilot.is(databuffer::kVariationKnown)) << "0 deg is a variation";
+    *source = kNaN;
+    pilot.wait();
+    EXPECT_FALSE(pilot.is(databuffer::kVariationKnown));
+  }
+}
+
 }  // namespace
 }  // namespace yars::statemachine::testing

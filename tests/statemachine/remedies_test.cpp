@@ -50,6 +50,22 @@ TEST(Remedies, TheBlindZoneNamesSideAndAngleAndTheTurnMakesTheMapPossible) {
   EXPECT_EQ(other.refused(), "BLIND ZONE: turn 6 deg or more right, or move the cursor 2.2 NM left");
 }
 
+// `yars inject` has the words of the tick of the refusal, the display those of a later tick. Meanwhile the aircraft
+// weaves.
+TEST(Remedies, WithTheCursorOnTheTrackLineEveryTickAdvisesTheSameSide) {
+  AtCursor pilot(0.0, 20.0);
+  const std::string first = pilot.refused();
+  EXPECT_EQ(first, "BLIND ZONE: turn 8 deg or more left, or move the cursor 2.9 NM right");
+  for (const double weave_deg : {0.001, -0.002, 0.5, -0.8, 0.3}) {
+    pilot.turn(weave_deg);
+    EXPECT_THAT(pilot.refused(), HasSubstr("left, or move the cursor")) << weave_deg;
+  }
+  pilot.turn(0.501);  // the cursor lies 0.5 deg left of the track; so the turn to the left is more than 8 deg
+  EXPECT_EQ(pilot.refused(), "BLIND ZONE: turn 9 deg or more left, or move the cursor 3.0 NM right");
+  pilot.turn(-8.5001);
+  EXPECT_TRUE(pilot.press("tdc release")) << "the advice makes the map possible";
+}
+
 TEST(Remedies, AsternTheAircraftMustTurnTowardTheCursor) {
   EXPECT_EQ(AtCursor(175.0, 20.0).refused(), "BLIND ZONE: turn 115 deg or more right, toward the cursor");
 }

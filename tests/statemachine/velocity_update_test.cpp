@@ -101,6 +101,21 @@ TEST_F(VelocityUpdate, PvuShowsTheDifferencesAlwaysAndCorrectsOncePerMinute) {
   EXPECT_FALSE(shown());
 }
 
+// A measurement takes some 2.4 s. The corrections do not wait for 60 s and then for a measurement each time.
+TEST_F(VelocityUpdate, PvuCorrectsEverySixtySecondsOnAverage) {
+  pilot.press("radar pvu");
+  int corrections = 0;
+  std::int64_t last = pilot.state.velocity_updated_tick;
+  constexpr int kMinutes = 30, kRound = 12 * kTicksPerSecond / 5;
+  for (int tick = 0; tick < kMinutes * 60 * kTicksPerSecond; tick += kRound) {
+    measure(201.0, 0.0, 0.0);
+    pilot.wait(kRound - 1);
+    corrections += pilot.state.velocity_updated_tick != last ? 1 : 0;
+    last = pilot.state.velocity_updated_tick;
+  }
+  EXPECT_EQ(corrections, kMinutes);
+}
+
 TEST_F(VelocityUpdate, WithoutPvuAndIpvuAMeasurementHasNoEffect) {
   measure(250.0, 0.0, 0.0);
   EXPECT_FALSE(shown());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <string>
 
+#include "tests/display/symbology/overlap.hpp"
 #include "tests/display/symbology/symbology_checks.hpp"
 
 namespace yars::display {
@@ -109,6 +110,7 @@ TEST(Designations, TheSteeringLineExtendsBackwardsFromTheTarget) {
 Rect heading_on(double approach_deg, const std::string& text) {
   DisplayInput input = with_steering_line(SteeringLine::line_of_sight, approach_deg);
   input.state.magnetic_variation_deg = 13.0;
+  input.state.flags |= databuffer::kVariationKnown;
   const DrawList list = drawn(input);
   const auto heading = std::ranges::find(list.occupied(), text, &OccupiedBox::name);
   EXPECT_NE(heading, list.occupied().end()) << text;
@@ -116,14 +118,48 @@ Rect heading_on(double approach_deg, const std::string& text) {
 }
 
 TEST(Designations, TheMagneticHeadingStandsBeneathTheTarget) {
-  const Rect heading = heading_on(134.6, "122\u00b0");
+  const Rect heading = heading_on(134.6, "122\u00b0 MAG");
   EXPECT_NEAR((heading.left + heading.right) / 2.0F, 240.0F, 0.2F);
   EXPECT_GT(heading.top, 246.0F);
   EXPECT_LT(heading.bottom, 275.0F);
 }
 
+TEST(Designations, WithoutAKnownVariationTheHeadingIsLabelledTrue) {
+  const DrawList list = drawn(with_steering_line(SteeringLine::line_of_sight, 134.6));
+  EXPECT_NE(std::ranges::find(list.occupied(), "135\u00b0 TRUE", &OccupiedBox::name), list.occupied().end());
+}
+
+// Wherever a designated target is on the display, its triangle is drawn. A heading without triangle and name would
+// belong to nothing.
+TEST(Designations, ADesignatedTargetHasItsTriangleAndNameAnywhereOnTheDisplay) {
+  int headings = 0;
+  for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {
+    for (float x = 0.0F; x <= 480.0F; x += 8.0F) {
+      for (float y = 0.0F; y <= 480.0F; y += 8.0F) {
+        DisplayInput input = testing::operating(mode, 40.0);
+        input.state.flags |= databuffer::kFreeze;
+        testing::set_text(input.state.message, "BLIND ZONE");
+        testing::put_cursor(input, 30.0, 20.0);
+        const geo::GeoPoint position = testing::ground_at(input, {x, y});
+        testing::put_target(input, position, 77.0, SteeringLine::line_of_sight);
+        testing::add_point(input, "4.", radar::PointKind::target, position);
+        const DrawList list = drawn(input);
+        const auto is_drawn = [&list](const char* name) {
+          return std::ranges::find(list.occupied(), name, &OccupiedBox::name) != list.occupied().end();
+        };
+        const auto what = ::testing::PrintToString(x) + ", " + ::testing::PrintToString(y);
+        ASSERT_TRUE(is_drawn("designated target")) << what;
+        ASSERT_TRUE(is_drawn("4.")) << what;
+        headings += is_drawn("077\u00b0 TRUE") ? 1 : 0;
+        testing::expect_no_overlap(list, what);
+      }
+    }
+  }
+  EXPECT_GT(headings, 3 * 61 * 61 * 95 / 100) << "the heading has a place, too";
+}
+
 TEST(Designations, TheMagneticHeadingStandsBesideALineThatComesFromBeneath) {
-  const Rect heading = heading_on(44.6, "032\u00b0");
+  const Rect heading = heading_on(44.6, "032\u00b0 MAG");
   EXPECT_GT(heading.left, 240.0F) << "the line goes down to the left";
   EXPECT_GT(heading.top, 246.0F);
   EXPECT_LT(heading.bottom, 275.0F);

@@ -111,6 +111,20 @@ inline void put_map(DisplayInput& input, double bearing_deg, double range_nm, do
   map.distance_m = range_nm * geo::kMetresPerNauticalMile;
 }
 
+// Ground position at the display position `at` [units]: on the patch map that is shown, else in the default view with
+// the ground track 030 up. The default view has its apex at (240, 440) and 400 units per range.
+inline geo::GeoPoint ground_at(const DisplayInput& input, Point on_display) {
+  double up_deg = 30.0, forward_nm = (440.0 - on_display.y) / 400.0 * input.state.range_nm;
+  double right_nm = (on_display.x - 240.0) / 400.0 * input.state.range_nm;
+  if (input.map.id != 0) {
+    up_deg = input.map.up_deg;
+    forward_nm =
+        input.map.distance_m / geo::kMetresPerNauticalMile + (240.0 - on_display.y) / 480.0 * input.map.window_nm;
+    right_nm = (on_display.x - 240.0) / 480.0 * input.map.window_nm;
+  }
+  return at(up_deg + std::atan2(right_nm, forward_nm) / geo::kRadiansPerDegree, std::hypot(right_nm, forward_nm));
+}
+
 // Puts a commanded patch map in formation; its centre is at this bearing and range.
 inline void put_forming_map(DisplayInput& input, double bearing_deg, double range_nm, double window_nm) {
   const geo::GeoPoint centre = at(bearing_deg, range_nm);

@@ -180,7 +180,24 @@ TEST(LimitBalls, PassSixtyDegreesAndStopAtTheEdgeOfTheDisplay) {
   fly_on(14.0);
   EXPECT_GT(balls(input)[1], 240.0F + 2.0F * 60.0F);
   fly_on(60.0);
-  EXPECT_NEAR((balls(input)[0] + balls(input)[1]) / 2.0F, 470.0F, 0.2F) << "both balls at the right edge";
+  EXPECT_NEAR(balls(input)[1], 470.0F, 0.2F) << "at the right edge";
+  EXPECT_NEAR(balls(input)[0], 458.0F, 0.2F) << "beside it";
+}
+
+// A map of 0.67 NM at 20 NM is 1.9 deg wide, 4 units. The balls have a diameter of 6 units.
+TEST(LimitBalls, OfANarrowMapStandSideBySideClearOfTheCaret) {
+  DisplayInput input = testing::operating(Mode::patch, 20.0);
+  testing::put_map(input, 60.0, 20.0, 0.67);
+  const auto at = balls(input);
+  EXPECT_NEAR((at[0] + at[1]) / 2.0F, 240.0F + 2.0F * 30.0F, 0.2F);
+  EXPECT_NEAR(at[1] - at[0], 12.0F, 0.2F);
+  DisplayInput pointing = input;
+  pointing.model.antenna_azimuth_deg = 34.0;  // to the map
+  const Rect caret = testing::bounds_of(testing::more_strokes(drawn(pointing), drawn(input)));
+  for (const OccupiedBox& box : drawn(pointing).occupied()) {
+    if (box.name != "limit ball") continue;
+    EXPECT_LT(caret.bottom + 0.675F, box.rect.top);
+  }
 }
 
 TEST(LimitBalls, FollowTheMapInFormation) {

@@ -43,14 +43,41 @@ TEST(Markers, TheCursorIsAnOpenPlusOnItsGroundPoint) {
   }
 }
 
-TEST(Markers, TheCursorIsDrawnOverEverythingAndANumberBeneathItIsLeftOut) {
+TEST(Markers, AReadoutStepsAsideFromTheCursor) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
-  EXPECT_THAT(words(input), Contains("4.7"));
+  const auto window = [](const DrawList& list) {
+    return std::ranges::find(list.occupied(), "4.7", &OccupiedBox::name)->rect;
+  };
+  const Rect before = window(drawn(input));
   testing::put_cursor(input, 210.0, 1.2);  // 12 units below the apex, at the readout of the window size
   const DrawList list = drawn(input);
-  EXPECT_EQ(list.content(Layer::steered).strokes.size(), 4U);
-  EXPECT_THAT(words(list), ::testing::Not(Contains("4.7")));
-  EXPECT_THAT(words(list), Contains("FULL"));
+  EXPECT_EQ(list.content(Layer::steered).strokes.size(), 4U) << "the whole cursor";
+  EXPECT_GT(window(list).left, 258.0F) << "beyond the cursor";
+  EXPECT_EQ(window(list).top, before.top) << "in its row";
+}
+
+TEST(Markers, TheCursorEndsBeforeALegend) {
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
+  testing::set_text(input.state.legends[8], "STAB");
+  testing::put_cursor(input, 210.0, 2.8);  // at the legend of PB 8
+  const DrawList list = drawn(input);
+  EXPECT_THAT(words(list), Contains("STAB"));
+  for (const Segment& line : list.content(Layer::steered).strokes) EXPECT_NE(line.from.y, line.to.y) << "upright arms";
+  expect_no_overlap(list, "the cursor at a legend");
+}
+
+TEST(Markers, AMessageRisesClearOfTheCursor) {
+  DisplayInput input = testing::operating(Mode::rbm, 40.0);
+  testing::set_text(input.state.message, "BLIND ZONE");
+  const auto message = [](const DrawList& list) {
+    return std::ranges::find(list.occupied(), "BLIND ZONE", &OccupiedBox::name)->rect;
+  };
+  EXPECT_NEAR(message(drawn(input)).top, 408.0F, 0.2F);
+  testing::put_cursor(input, 30.0, 3.0);  // 30 units above the apex, at the message
+  const DrawList list = drawn(input);
+  EXPECT_EQ(list.content(Layer::steered).strokes.size(), 4U) << "the whole cursor";
+  EXPECT_LT(message(list).bottom, 410.0F - 16.0F);
+  EXPECT_GT(message(list).bottom, 410.0F - 30.0F) << "near its place";
 }
 
 // Neither a point nor a text or a solid scale could be read if one were drawn over the other.

@@ -1,8 +1,7 @@
 // Finds forbidden overlaps of texts and symbols in a draw list. These overlaps are allowed:
 // - a symbol over a symbol (points, cursor, ticks and carets): the ground or a scale fixes their positions;
-// - the cursor over a fixed text or a scale: the cursor is drawn last, with a black margin;
-// - a line on the ground, or the selected point, behind a fixed text with a black plate;
-// - the selected point under a scale: the selected point is always drawn;
+// - a line on the ground, the selected point or the designated target behind a fixed text with a black plate;
+// - these two points under a scale: they are always drawn;
 // - any symbol over range arcs and the zero azimuth line.
 #pragma once
 
@@ -36,21 +35,23 @@ inline bool is_blanked(const DrawList& list, const OccupiedBox& text) {
          std::ranges::any_of(list.content(Layer::notices).plates, covers);
 }
 
-inline bool is_selected(const OccupiedBox& box) {
-  return box.kind == BoxKind::point && box.name == "selected point";
+// The selected point and the designated target are drawn wherever they are.
+inline bool is_always_drawn(const OccupiedBox& box) {
+  return box.kind == BoxKind::point && (box.name == "selected point" || box.name == "designated target");
 }
 
-// The cursor and the box of the selected point may overlap a fixed text. overlaps() checks the strokes of the point.
+// The boxes of the cursor and of a point that is always drawn may overlap a fixed text. overlaps() checks their
+// strokes.
 inline bool may_overlap(const OccupiedBox& word, const OccupiedBox& other) {
-  return word.kind == BoxKind::text && (other.kind == BoxKind::cursor || is_selected(other));
+  return word.kind == BoxKind::text && (other.kind == BoxKind::cursor || is_always_drawn(other));
 }
 
-// Adds a sentence for each unselected point on a solid box, such as the gray scale or the ticks of the azimuth scale.
+// Adds a sentence for each other point on a solid box, such as the gray scale or the ticks of the azimuth scale.
 inline void add_points_on_scales(const DrawList& list, std::vector<std::string>& found) {
   for (const OccupiedBox& scale : list.occupied()) {
     if (scale.kind != BoxKind::solid) continue;
     for (const OccupiedBox& point : list.occupied()) {
-      if (point.kind == BoxKind::point && !is_selected(point) && intersect(scale.rect, point.rect))
+      if (point.kind == BoxKind::point && !is_always_drawn(point) && intersect(scale.rect, point.rect))
         found.push_back("a point on the " + scale.name);
     }
   }
@@ -78,6 +79,12 @@ inline std::vector<std::string> overlaps(const DrawList& list, int size) {
       found.push_back(word.name + " over " + other.name);
     }
     const auto lies_behind = [&](const Segment& line) { return crosses(grown(rect, ink(size)), line.from, line.to); };
+    // The ink of both strokes. No plate of a text hides the cursor.
+    const auto under_cursor = [&](const Segment& line) {
+      return crosses(grown(rect, 2.0F * ink(size)), line.from, line.to);
+    };
+    if (std::ranges::any_of(list.content(Layer::steered).strokes, under_cursor))
+      found.push_back(word.name + " under the cursor");
     const bool blanked = word.kind == BoxKind::text && is_blanked(list, word);
     if (!blanked && (std::ranges::any_of(list.content(Layer::lines).strokes, lies_behind) ||
                      std::ranges::any_of(list.content(Layer::points).strokes, lies_behind)))

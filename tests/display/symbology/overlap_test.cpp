@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "tests/display/symbology/random_input.hpp"
@@ -46,6 +47,67 @@ TEST(Overlap, ThereIsNoneWithATargetDesignatedAnywhere) {
         testing::add_point(input, "4.", radar::PointKind::target, position);
         expect_no_overlap(drawn(input), std::to_string(bearing_deg) + " at " + std::to_string(range_nm));
       }
+    }
+  }
+}
+
+// Length of the cursor's arms that is drawn [units]; 36 without a text nearby.
+float length_of_cursor(const DrawList& list) {
+  float length = 0.0F;
+  for (const Segment& line : list.content(Layer::steered).strokes)
+    length += std::hypot(line.to.x - line.from.x, line.to.y - line.from.y);
+  return length;
+}
+
+void put_cursor_on_display(DisplayInput& input, Point at) {
+  databuffer::RadarState& state = input.state;
+  const geo::GeoPoint position = testing::ground_at(input, at);
+  state.flags |= databuffer::kCursorValid;
+  state.cursor_latitude_deg = position.latitude_deg;
+  state.cursor_longitude_deg = position.longitude_deg;
+}
+
+// The pilot moves the cursor over the whole display. Everywhere each readout stays, no text lies over another text or
+// over a symbol, and the cursor can be seen.
+TEST(Overlap, ThereIsNoneWithTheCursorAnywhereAndNoReadoutVanishes) {
+  constexpr int kStep = 10;      // [units]
+  constexpr float kSeen = 4.0F;  // [units] of the cursor's arms
+  int offset = 0;                // [units] differs from mode to mode, so that all modes together have a finer step
+  for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::patch, Mode::beacon, Mode::ranging}) {
+    for (const char* message : {"", "BLIND ZONE"}) {
+      DisplayInput input = crowded(mode, 40.0);
+      testing::set_text(input.state.message, message);
+      input.state.boxed &= ~(1U << 20U);  // the band has no box, which would keep the readout below it in its place
+      input.model_alive = input.ownship_fresh = input.state_machine_alive = true;
+      put_cursor_on_display(input, {240.0F, 150.0F});
+      const auto before = testing::texts(drawn(input));
+      offset = (offset + 3) % kStep;
+      for (int x = offset; x <= 480; x += kStep) {
+        for (int y = offset; y <= 480; y += kStep) {
+          put_cursor_on_display(input, {static_cast<float>(x), static_cast<float>(y)});
+          const DrawList list = drawn(input);
+          const std::string what = std::string(radar::name_of(mode)) + " '" + message + "' with the cursor at " +
+                                   std::to_string(x) + ", " + std::to_string(y);
+          expect_no_overlap(list, what);
+          ASSERT_EQ(testing::texts(list), before) << what;
+          ASSERT_GE(length_of_cursor(list), kSeen) << what;
+          if (::testing::Test::HasFailure()) return;
+        }
+      }
+    }
+  }
+}
+
+TEST(Overlap, ThereIsNoneWithTheCursorAnywhereAndPartsOfTheSetSilent) {
+  DisplayInput input = crowded(Mode::rbm, 40.0);
+  input.state_machine_alive = true;
+  const auto before = testing::texts(drawn(input));
+  for (int x = 0; x <= 480; x += 10) {
+    for (int y = 0; y <= 480; y += 10) {
+      put_cursor_on_display(input, {static_cast<float>(x), static_cast<float>(y)});
+      const DrawList list = drawn(input);
+      expect_no_overlap(list, std::to_string(x) + ", " + std::to_string(y));
+      ASSERT_EQ(testing::texts(list), before) << x << ", " << y;
     }
   }
 }

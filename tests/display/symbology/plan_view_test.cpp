@@ -129,6 +129,30 @@ TEST(Wedges, ASweepOfAnotherRangeIsScaledToThePresentRange) {
   EXPECT_NEAR(wedges.at(0).range, 200.0F, 0.01F);
 }
 
+TEST(Wedges, ASweepOfALongerRangeEndsAtThePresentRange) {
+  PolarStore store;
+  store.insert(sweep_at(kAircraftPosition, 20.0, 21.0));
+  std::vector<Wedge> wedges;
+  place_wedges(store, kView, frame_of(30.0, 20.0), wedges);
+  EXPECT_NEAR(wedges.at(0).range, 400.0F, 0.01F) << "the outer arc";
+  EXPECT_EQ(wedges[0].samples, 5) << "the nearer half, at its own distance";
+  place_wedges(store, kView, frame_of(30.0, 40.0), wedges);
+  EXPECT_EQ(wedges.at(0).samples, 10) << "and is whole again at its own range";
+  // 4 NM behind the aircraft: the outer arc of 20 NM is 24 NM away.
+  PolarStore behind;
+  databuffer::Sweep sweep = sweep_at(at(30.0, -4.0), 29.5, 30.5);
+  sweep.samples = 400;
+  behind.insert(sweep);
+  place_wedges(behind, kView, frame_of(30.0, 20.0), wedges);
+  EXPECT_EQ(wedges.at(0).samples, 240);
+  EXPECT_NEAR(wedges[0].apex.y - wedges[0].range, 40.0F, 0.1F);
+  // Nothing of a sweep that points away from the picture is within the arc.
+  PolarStore away;
+  away.insert(sweep_at(at(30.0, -21.0), 209.5, 210.5));
+  place_wedges(away, kView, frame_of(30.0, 20.0), wedges);
+  EXPECT_TRUE(wedges.empty());
+}
+
 TEST(Wedges, TheyAreDrawnOldestFirstAtAnyAzimuth) {
   PolarStore store;
   for (const double left_deg : {30.0, 20.0, 40.0, 25.0})

@@ -77,20 +77,6 @@ class RandomDisplayInput {
     }
   }
 
-  // Ground position at the display position `at` [units]: on the patch map that is shown, else in the default view with
-  // the ground track 030 up. The default view has its apex at (240, 440) and 400 units per range.
-  static geo::GeoPoint ground_at(const DisplayInput& input, Point at) {
-    double up_deg = 30.0, forward_nm = (440.0 - at.y) / 400.0 * input.state.range_nm;
-    double right_nm = (at.x - 240.0) / 400.0 * input.state.range_nm;
-    if (input.map.id != 0) {
-      up_deg = input.map.up_deg;
-      forward_nm = input.map.distance_m / geo::kMetresPerNauticalMile + (240.0 - at.y) / 480.0 * input.map.window_nm;
-      right_nm = (at.x - 240.0) / 480.0 * input.map.window_nm;
-    }
-    return testing::at(up_deg + std::atan2(right_nm, forward_nm) / geo::kRadiansPerDegree,
-                       std::hypot(right_nm, forward_nm));
-  }
-
   void set_indications(DisplayInput& input) {
     databuffer::RadarState& state = input.state;
     if (chance(0.05)) state.power = static_cast<std::uint8_t>(radar::Power::standby);

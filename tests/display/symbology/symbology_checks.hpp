@@ -30,6 +30,15 @@ inline std::vector<std::string> words(const DisplayInput& input) {
   return words(drawn(input));
 }
 
+// The texts that stand at fixed places, sorted: neither names of points nor the heading of the steering line.
+inline std::vector<std::string> texts(const DrawList& list) {
+  std::vector<std::string> found;
+  for (const OccupiedBox& box : list.occupied())
+    if (box.kind == BoxKind::text) found.push_back(box.name);
+  std::ranges::sort(found);
+  return found;
+}
+
 inline std::size_t strokes(const DrawList& list) {
   std::size_t count = 0;
   for (std::size_t layer = 0; layer < kLayers; ++layer) count += list.content(static_cast<Layer>(layer)).strokes.size();

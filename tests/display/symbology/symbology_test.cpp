@@ -95,11 +95,14 @@ TEST(Symbology, ABoxedLegendHasFourStrokesMore) {
 
 TEST(Symbology, TheCursorReadoutHasMagneticBearingAndTenthsOfMiles) {
   DisplayInput input = testing::operating(Mode::rbm, 40.0);
+  input.state.flags |= databuffer::kVariationKnown;
   EXPECT_THAT(words(input), Not(Contains("022\u00b0")));
   testing::put_cursor(input, 22.4, 23.44);
-  EXPECT_THAT(words(input), IsSupersetOf({"022\u00b0", "23.4NM"}));
+  EXPECT_THAT(words(input), IsSupersetOf({"022\u00b0", "MAG", "23.4NM"}));
   input.state.cursor_bearing_deg = 359.6;
-  EXPECT_THAT(words(input), Contains("000\u00b0"));
+  EXPECT_THAT(words(input), IsSupersetOf({"000\u00b0", "MAG"}));
+  input.state.flags &= ~databuffer::kVariationKnown;
+  EXPECT_THAT(words(input), IsSupersetOf({"000\u00b0", "TRUE"})) << "no variation is known";
 }
 
 TEST(Symbology, RangeWindowBrightnessAndTimerAreShown) {
@@ -131,6 +134,20 @@ TEST(Symbology, PvuShowsTheTimeAndProgressOfAFormingMap) {
   testing::put_forming_map(input, 40.0, 20.0, 4.7);
   input.model.map_progress = 0.425;
   EXPECT_THAT(words(input), IsSupersetOf({"MAP", "42 %", "12 SEC", "ALONG"}));
+}
+
+TEST(Symbology, RangingShowsTheSlantRangeToTheTargetWithAndWithoutAMap) {
+  for (const bool with_map : {false, true}) {
+    DisplayInput input = testing::operating(Mode::ranging, 40.0);
+    if (with_map) testing::put_map(input, 40.0, 20.0, 4.7);
+    EXPECT_THAT(words(input), Contains("NO TARGET"));
+    testing::put_target(input, testing::at(40.0, 20.0), 40.0, databuffer::SteeringLine::line_of_sight);
+    EXPECT_THAT(words(input), Contains("NO RANGE TO 4.")) << "the elevation of the target is not known yet";
+    input.slant_range_m = geo::Length::nautical_miles(20.17).metres();
+    EXPECT_THAT(words(input), Contains("20.2NM TO 4."));
+    input.state.mode = static_cast<std::uint8_t>(Mode::air_to_air);
+    EXPECT_THAT(words(input), Not(Contains("20.2NM TO 4.")));
+  }
 }
 
 TEST(Symbology, AirToAirAndRangingShowTheirNameWithAndWithoutAMap) {
