@@ -32,7 +32,7 @@ def texts(prefix):
     """(path below the prefix, text) of all that is no program, picture or library."""
     for path in sorted(path for path in prefix.rglob("*") if path.is_file()):
         place = path.relative_to(prefix)
-        if place.parts[0] in ("bin", "libexec") or path.suffix in (".png", ".webp", ".so") or ".so." in path.name:
+        if place.parts[0] in ("bin", "libexec") or path.suffix in (".png", ".webp", ".ico", ".so") or ".so." in path.name:
             continue
         opened = gzip.open(path, "rt", encoding="utf-8") if path.suffix == ".gz" else open(path, encoding="utf-8")
         with opened as file:
