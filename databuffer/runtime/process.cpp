@@ -149,6 +149,12 @@ void end_soon_after_signals() {
   ends_soon = 1;
 }
 
+void end_in_order() {
+  ends_soon = 0;
+  constexpr itimerval kNever{};
+  setitimer(ITIMER_REAL, &kNever, nullptr);
+}
+
 void restore_default_signal_actions() {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);

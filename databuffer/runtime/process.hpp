@@ -29,10 +29,12 @@ void set_private_umask();
 
 // After this call, SIGINT and SIGTERM set the flag of stop_requested().
 void install_signal_handlers();
-// For roles: 0.9 s after SIGINT or SIGTERM the process ends with code 0, whatever it
-// computes, waits for or reads. A session survives the death of any of its processes at any moment. Call it after
+// For roles and services: 0.9 s after SIGINT or SIGTERM the process ends with code 0, whatever it computes, waits for
+// or reads. A session survives the death of any of its processes at any moment. Call it after
 // install_signal_handlers(). A timer of ITIMER_REAL and SIGALRM are then in use.
 void end_soon_after_signals();
+// For services, which have something to end: the signal was noticed, and the process ends by itself.
+void end_in_order();
 // Restores the default action of SIGINT and SIGTERM, for a command that never reads stop_requested().
 void restore_default_signal_actions();
 

@@ -99,7 +99,7 @@ int run_body(CommandLine& app, const ProgramOptions& options, const ProgramBody&
   try {
     set_private_umask();
     auto error = begin_program(app.name(), options);
-    if (options.kind == ProgramKind::role) end_soon_after_signals();
+    if (options.kind != ProgramKind::command) end_soon_after_signals();
     // SIGPIPE is ignored, so that a role continues when the reader of its log has closed the pipe.
     std::signal(SIGPIPE, SIG_IGN);
     if (!error) {

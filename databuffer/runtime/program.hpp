@@ -35,9 +35,9 @@ struct ProgramOptions {
 void add_common_options(CommandLine& app, ProgramOptions& options, ProgramKind kind);
 
 // Main function of a program. Parses the command line, sets a private umask, starts the log, installs signal handlers
-// and runs the body. A role ends within a second of SIGTERM, also in the midst of a body. Returns the exit code. An
-// error or exception of the body is printed as one line on standard error. The exit code is then kExitUsage for a usage
-// error, else kExitFailure. The name of `app` is the program's name.
+// and runs the body. A role or service ends within a second of SIGTERM, also in the midst of a body. Returns the exit
+// code. An error or exception of the body is printed as one line on standard error. The exit code is then kExitUsage
+// for a usage error, else kExitFailure. The name of `app` is the program's name.
 using ProgramBody = std::function<error::Expected<void>()>;
 int run_program(int argc, char** argv, CommandLine& app, const ProgramOptions& options, const ProgramBody& body);
 

@@ -106,6 +106,7 @@ error::Expected<bool> join(const databuffer::ProgramOptions& options, Joining& j
     shell.finish();
     return true;
   }
+  databuffer::end_in_order();
   shell.finish();
   return false;
 }

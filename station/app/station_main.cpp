@@ -206,6 +206,7 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Stati
   if (!server) return tl::unexpected(server.error());
   print_addresses(*settings, server->port());
   while (!databuffer::stop_requested()) server->step();
+  databuffer::end_in_order();
   return {};
 }
 
