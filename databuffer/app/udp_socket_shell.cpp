@@ -19,6 +19,15 @@
 
 namespace yars::databuffer {
 
+// An address of either family.
+struct SocketAddress {
+  sockaddr_storage storage{};
+  socklen_t size = 0;
+  sockaddr* get() { return reinterpret_cast<sockaddr*>(&storage); }
+  const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&storage); }
+  int family() const { return storage.ss_family; }
+};
+
 namespace {
 
 using bridges::Sender;
@@ -31,15 +40,6 @@ constexpr int kQueue_bytes = 256 * 1024;
 // limit or negative. Such an age counts as 0.
 constexpr std::int64_t kMaxPacketAge_ns = 60'000'000'000;
 
-// An address of either family.
-struct Address {
-  sockaddr_storage storage{};
-  socklen_t size = 0;
-  sockaddr* get() { return reinterpret_cast<sockaddr*>(&storage); }
-  const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&storage); }
-  int family() const { return storage.ss_family; }
-};
-
 // The text before and after '%'.
 struct ZonedHost {
   std::string host, zone;
@@ -50,7 +50,7 @@ ZonedHost split_zone(const std::string& host) {
 }
 
 // IPv4 comes first: a name such as localhost may have both. `flags`: of getaddrinfo().
-error::Expected<Address> resolve(const std::string& host, std::uint16_t port, int flags = 0) {
+error::Expected<SocketAddress> resolve(const std::string& host, std::uint16_t port, int flags = 0) {
   int problem = 0;
   for (const int family : {AF_INET, AF_INET6}) {
     addrinfo hints{};
@@ -61,7 +61,7 @@ error::Expected<Address> resolve(const std::string& host, std::uint16_t port, in
     const std::string name = family == AF_INET ? split_zone(host).host : host;
     problem = getaddrinfo(name.c_str(), std::to_string(port).c_str(), &hints, &found);
     if (problem != 0 || found == nullptr) continue;
-    Address address;
+    SocketAddress address;
     std::memcpy(&address.storage, found->ai_addr, found->ai_addrlen);
     address.size = found->ai_addrlen;
     freeaddrinfo(found);
@@ -70,7 +70,7 @@ error::Expected<Address> resolve(const std::string& host, std::uint16_t port, in
   return error::fail("--source", "a host by name or address", "'" + host + "': " + gai_strerror(problem));
 }
 
-Sender sender_of(const Address& address) {
+Sender sender_of(const SocketAddress& address) {
   std::array<char, NI_MAXHOST> host{};
   std::array<char, NI_MAXSERV> port{};
   if (getnameinfo(address.get(), address.size, host.data(), host.size(), port.data(), port.size(),
@@ -79,14 +79,14 @@ Sender sender_of(const Address& address) {
   return {host.data(), text::whole_number<std::uint16_t>(port.data()).value_or(0)};
 }
 
-bool is_multicast(const Address& address) {
+bool is_multicast(const SocketAddress& address) {
   if (address.family() == AF_INET)
     return IN_MULTICAST(ntohl(reinterpret_cast<const sockaddr_in*>(&address.storage)->sin_addr.s_addr));
   return IN6_IS_ADDR_MULTICAST(&reinterpret_cast<const sockaddr_in6*>(&address.storage)->sin6_addr);
 }
 
 // Joins a group on the interface `zone`; an empty one is the system's choice. False: errno has the reason.
-bool join_group(int descriptor, const Address& group, const std::string& zone) {
+bool join_group(int descriptor, const SocketAddress& group, const std::string& zone) {
   const unsigned interface = zone.empty() ? 0 : if_nametoindex(zone.c_str());
   if (!zone.empty() && interface == 0) return false;
   if (group.family() == AF_INET) {
@@ -118,13 +118,13 @@ struct UdpSocket::State {
   int descriptor = -1;
   Sender endpoint;
   bool one_host = false;  // only datagrams from the peer's address are delivered
-  Address peer;
+  SocketAddress peer;
   std::uint32_t kernel_drops = 0;  // last value of the kernel's drop counter, which wraps at 2^32
   std::uint64_t dropped = 0;
 
   struct Slot {
     std::array<std::byte, kMaxDatagram_bytes> bytes;
-    Address from;
+    SocketAddress from;
     iovec span;
     alignas(cmsghdr) std::array<std::byte, 128> control;
   };
@@ -210,7 +210,7 @@ error::Expected<UdpSocket> UdpSocket::listen(const std::string& host, std::uint1
   if (is_group && !join_group(state->descriptor, *address, split_zone(host).zone))
     return error::fail(subject, "a multicast group that can be joined", std::strerror(errno),
                        "name the network's interface: " + split_zone(host).host + "%eth0 (ip link lists them)");
-  Address bound;
+  SocketAddress bound;
   bound.size = sizeof bound.storage;
   getsockname(state->descriptor, bound.get(), &bound.size);
   state->endpoint = sender_of(bound);
