@@ -194,7 +194,8 @@ TEST(LimitBalls, OfANarrowMapStandSideBySideClearOfTheCaret) {
   DisplayInput pointing = input;
   pointing.model.antenna_azimuth_deg = 34.0;  // to the map
   const Rect caret = testing::bounds_of(testing::more_strokes(drawn(pointing), drawn(input)));
-  for (const OccupiedBox& box : drawn(pointing).occupied()) {
+  const auto list = drawn(pointing);
+  for (const OccupiedBox& box : list.occupied()) {
     if (box.name != "limit ball") continue;
     EXPECT_LT(caret.bottom + 0.675F, box.rect.top);
   }

@@ -71,11 +71,11 @@ TEST(Video1996, OfLevelGroundIsTwoFifthsOfWhiteAtAnyDistance) {
 
 TEST(Video1996, OfAFacetThatFacesTheRadarIsWhiteAndOfAShadowBlack) {
   const auto facing = terrain::plane({kTarget, geo::Bearing::degrees(0.0)}, kGround_m, 1.0);
-  for (const std::uint8_t video : make_patch(map_of_1996(96), order_from({}), ground_of(facing)).picture())
-    ASSERT_EQ(video, 255);
+  const auto bright = make_patch(map_of_1996(96), order_from({}), ground_of(facing));
+  for (const std::uint8_t video : bright.picture()) ASSERT_EQ(video, 255);
   const auto averted = terrain::plane({kTarget, geo::Bearing::degrees(180.0)}, kGround_m, 1.0);
-  for (const std::uint8_t video : make_patch(map_of_1996(96), order_from({}), ground_of(averted)).picture())
-    ASSERT_EQ(video, 0);
+  const auto dark = make_patch(map_of_1996(96), order_from({}), ground_of(averted));
+  for (const std::uint8_t video : dark.picture()) ASSERT_EQ(video, 0);
 }
 
 // Video divided by noise-free video is evenly distributed between 0.9 and 1.1.
