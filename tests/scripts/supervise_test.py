@@ -27,7 +27,7 @@ while True:
         break
     except session.YarsError:
         time.sleep(0.1)
-for _ in range(40):
+for _ in range(160):  # long enough for the supervisor to see more than one
     joined.heartbeat()
     time.sleep(0.05)
 while True:
