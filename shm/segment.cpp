@@ -160,7 +160,7 @@ tl::unexpected<error::Error> describe_absence(const std::string& name) {
   std::optional<std::string> other;
   while (const dirent* entry = folder != nullptr ? readdir(folder) : nullptr) {
     const std::string_view found = entry->d_name;
-    if (!found.starts_with("yars.") || !found.ends_with("." + name)) continue;
+    if (!found.starts_with("yars.") || !found.ends_with("." + name) || found.size() < 7 + name.size()) continue;
     const std::string_view user = found.substr(5, found.size() - 5 - name.size() - 1);
     if (!user.empty() && user.find_first_not_of("0123456789") == std::string_view::npos) other = user;
   }

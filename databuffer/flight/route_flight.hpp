@@ -56,7 +56,7 @@ inline constexpr double kAcceleration_mps2 = 2.0;  // limit of the rate of chang
 class RouteFlight final : public FlightModel {
  public:
   // Flight of one step at most, whatever the clock says: a flight model that was held up for longer goes on from where
-  // the aircraft was after this time. The computation of this flight takes about 0.1 s.
+  // the aircraft was after this time. Its computation takes 0.04 s, as measured by the test of this limit.
   static constexpr geo::Duration kMaxFlown = geo::Duration::seconds(600.0);
 
   explicit RouteFlight(Route route);
