@@ -25,7 +25,8 @@ def run(folder, suite, *command):
         program = folder / name
         program.write_text(STAND_IN.format(log=log))
         program.chmod(0o755)
-    (folder / "dpkg-query").write_text("#!/bin/sh\n")  # nothing is installed
+    # Nothing is installed for this computer, all for another architecture.
+    (folder / "dpkg-query").write_text('#!/bin/sh\nfor word; do echo "installed $word s390x"; done\n')
     (folder / "dpkg-query").chmod(0o755)
     script = 'mount --bind "$0/os-release" /etc/os-release && PATH="$0:$PATH" exec "$@"'
     done = subprocess.run(["unshare", "--mount", "sh", "-c", script, folder, *map(str, command)], capture_output=True, text=True, timeout=60,
