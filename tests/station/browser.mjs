@@ -23,7 +23,7 @@ export async function until(what, check) {
   }
 }
 
-export const browser = await chromium.launch({ executablePath: "/usr/bin/chromium", args: ["--no-sandbox"] });
+export const browser = await chromium.launch({ executablePath: "/usr/bin/chromium-headless-shell", args: ["--no-sandbox"] });
 export const faults = []; // errors in the console of the pages
 
 // A page that shows its first state. `before`: a script that runs in the page before its own.

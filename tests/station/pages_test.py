@@ -66,8 +66,8 @@ def main():
     binaries = pathlib.Path(sys.argv[1]).resolve()
     if not shutil.which("npm"):
         skip("expected npm, found none")
-    if not shutil.which("chromium"):
-        skip("expected chromium, found none")
+    if not shutil.which("chromium-headless-shell"):
+        skip("expected chromium-headless-shell, found none")
     script = sys.argv[2]
     folder = binaries.parent / f"station_web_{pathlib.Path(script).stem}"  # tests may run beside each other
     install(folder)
