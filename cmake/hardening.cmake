@@ -1,6 +1,6 @@
 # Programs that an attacker finds harder to lead astray: guarded stacks, checked copies (FORTIFY), addresses that differ
 # from run to run (PIE), tables of the linker that nobody can write (full RELRO), marked targets of jumps (CET).
-# scripts/measure_hardening tells what it costs. Sanitizers find more than FORTIFY does and do not go with it.
+# lab/measure_hardening tells what it costs. Sanitizers find more than FORTIFY does and do not go with it.
 option(YARS_HARDENING "harden the programs of optimized builds" ${PROJECT_IS_TOP_LEVEL})
 set(YARS_HARDENED OFF)
 if(YARS_HARDENING AND CMAKE_BUILD_TYPE MATCHES "Rel" AND NOT "${CMAKE_CXX_FLAGS} ${CMAKE_C_FLAGS}" MATCHES "-fsanitize")

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The notebooks in examples/ and the script of README run and make the pictures in docs/pictures; what scripts/notebooks
+"""The notebooks in examples/ and the script of README run and make the pictures in docs/pictures; what lab/notebooks
 finds wrong with a picture.
 
 usage: notebooks_test.py BIN      BIN: folder of programs of a build. Skipped (code 77) where it has no compiled part of yars.
@@ -15,7 +15,7 @@ import unittest
 sys.dont_write_bytecode = True
 BUILD = pathlib.Path(sys.argv.pop(1)).resolve().parent
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-SCRIPT = ROOT / "scripts" / "notebooks"
+SCRIPT = ROOT / "lab" / "notebooks"
 if not list((BUILD / "python/yars").glob("_core*.so")):
     print("no compiled part in this build: skipped")
     sys.exit(77)
@@ -82,7 +82,7 @@ class Pictures(unittest.TestCase):
         self.assertRegex(self.fault_of(self.pixels[:-1]), "expected the size")
 
     def test_a_picture_that_is_not_kept_is_a_fault(self):
-        self.assertRegex(self.fault_of(self.pixels, notebooks.PICTURES / "python_none.png"), "found none; run scripts/notebooks")
+        self.assertRegex(self.fault_of(self.pixels, notebooks.PICTURES / "python_none.png"), "found none; run lab/notebooks")
 
 
 if __name__ == "__main__":

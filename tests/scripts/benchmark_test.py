@@ -1,4 +1,4 @@
-"""Facts about scripts/benchmark, with a program that only prints what `yars` would: arguments, JSON, pairs, bad input. No time is asserted."""
+"""Facts about lab/benchmark, with a program that only prints what `yars` would: arguments, JSON, pairs, bad input. No time is asserted."""
 import json
 import os
 import pathlib
@@ -7,7 +7,7 @@ import sys
 import tempfile
 import unittest
 
-BENCHMARK = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "benchmark"
+BENCHMARK = pathlib.Path(__file__).resolve().parents[2] / "lab" / "benchmark"
 # A scan takes 2 ms, with a configuration 5 ms; times the factor of the build.
 YARS = """#!{python}
 import json, pathlib, sys
