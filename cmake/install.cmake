@@ -1,5 +1,5 @@
 # What `cmake --install` lays out below its prefix beside the programs (yars_program): examples, configurations, documents,
-# man pages; cmake/libraries.cmake adds what programs of others build with. Everything is found from where a program lies,
+# man pages, completions; cmake/libraries.cmake adds what programs of others build with. Everything is found from where a program lies,
 # so the prefix may be moved.
 set(share ${CMAKE_INSTALL_DATADIR}/yars)
 set(documents ${CMAKE_INSTALL_DATADIR}/doc/yars)
@@ -18,26 +18,58 @@ install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/start DESTINATION ${CMAKE_INSTALL
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/supervise ${PROJECT_SOURCE_DIR}/scripts/nearest_word.py DESTINATION libexec/yars)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/network_identities DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-network-identities)
 
-# Completions of commands and options, where Debian's shells look for them.
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/packaging/completion/bash/ DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/packaging/completion/zsh/ DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/packaging/completion/fish/ DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d)
-
-# Units of the user's systemd, for the installed start script.
-foreach(unit yars.service yars@.service)
-  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/packaging/systemd/${unit})
-  file(READ ${PROJECT_SOURCE_DIR}/packaging/systemd/${unit} text)
-  string(REPLACE "\"$$YARS_HOME/scripts/start\"" "yars-start" text "${text}")
-  string(REPLACE "# Where the checkout lies, built once by scripts/start; with its default options.\nEnvironment=YARS_HOME=%h/yars YARS_OPTIONS=" "Environment=YARS_OPTIONS=" text "${text}")
-  string(REPLACE "# Options, YARS_HOME and YARS_BIN_DIR of this machine." "# Options of this machine." text "${text}")
-  string(REPLACE "scripts/start" "yars-start" text "${text}")
-  file(WRITE ${PROJECT_BINARY_DIR}/install/systemd/${unit} "${text}")
+# Man pages and completions, with the options that --help of the programs prints. Python's page is of another package.
+find_package(Python3 COMPONENTS Interpreter REQUIRED)
+set(help ${PROJECT_BINARY_DIR}/install/help)
+set(programs)
+foreach(program radar-model radar-display state-machine input-monitor flight-model yars yars-station gateway)
+  if(TARGET ${program})
+    list(APPEND programs ${program})
+  endif()
 endforeach()
+set(folder_of_programs ${PROJECT_BINARY_DIR}/bin)
+if(CMAKE_CROSSCOMPILING)
+  set(folder_of_programs -)
+endif()
+file(GLOB writers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/packaging/help/*.py)
+file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/packaging/man/*.[15])
+add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/install/help.stamp
+  COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/packaging/help/write.py ${folder_of_programs} ${help}
+  COMMAND ${CMAKE_COMMAND} -E touch ${PROJECT_BINARY_DIR}/install/help.stamp
+  DEPENDS ${programs} ${writers} ${pages} ${PROJECT_SOURCE_DIR}/scripts/start COMMENT "Man pages and completions" VERBATIM)
+# Until then, and in a cross build, the pages are without options.
+if(NOT EXISTS ${help})
+  execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/packaging/help/write.py - ${help} COMMAND_ERROR_IS_FATAL ANY)
+endif()
+add_custom_target(yars_help ALL DEPENDS ${PROJECT_BINARY_DIR}/install/help.stamp)
+install(DIRECTORY ${help}/ DESTINATION ${CMAKE_INSTALL_DATADIR} PATTERN yars-plot-trade.1.gz EXCLUDE)
+install(FILES ${help}/man/man1/yars-plot-trade.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT python)
+
+# Units of the user's systemd, from one template. write_units(FOLDER): two units, for session default and for the session that an
+# instance names, with the variables start, command and environment.
+function(write_units folder)
+  set(session default)
+  set(session_words "\"default\"")
+  set(options_file yars.conf)
+  configure_file(${PROJECT_SOURCE_DIR}/packaging/systemd/yars.service.in ${folder}/yars.service @ONLY)
+  set(session %i)
+  set(session_words "that the instance names (yars@cockpit2: cockpit2)")
+  set(options_file %i.conf)
+  configure_file(${PROJECT_SOURCE_DIR}/packaging/systemd/yars.service.in ${folder}/yars@.service @ONLY)
+endfunction()
+set(start yars-start)
+set(command yars-start)
+set(environment "# Options of this machine.\nEnvironment=YARS_OPTIONS=")
+write_units(${PROJECT_BINARY_DIR}/install/systemd)
+set(start scripts/start)
+set(command "\"$$YARS_HOME/scripts/start\"")
+set(environment "# Where the checkout lies, built once by scripts/start.\n# The file has options, YARS_HOME and YARS_BIN_DIR of this machine.\nEnvironment=YARS_HOME=%h/yars YARS_OPTIONS=")
+write_units(${PROJECT_BINARY_DIR}/systemd)
 install(DIRECTORY ${PROJECT_BINARY_DIR}/install/systemd/ DESTINATION lib/systemd/user)
 
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${documents} PATTERN "__pycache__" EXCLUDE)
 
-# compressed(SOURCE NAME DESTINATION COMPONENT): a file as man and Debian want it. Made while configuring: who builds the programs
+# compressed(SOURCE NAME DESTINATION COMPONENT): a file as Debian wants it. Made while configuring: who builds the programs
 # alone, as scripts/start does, can install them.
 function(compressed source name destination component)
   get_filename_component(folder ${destination} NAME)
@@ -47,19 +79,8 @@ function(compressed source name destination component)
   execute_process(COMMAND gzip --best --no-name --stdout ${source} OUTPUT_FILE ${packed} COMMAND_ERROR_IS_FATAL ANY)
   install(FILES ${packed} DESTINATION ${destination} COMPONENT ${component})
 endfunction()
-file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/packaging/man/*.[15])
-foreach(page IN LISTS pages)
-  get_filename_component(name ${page} NAME)
-  string(REGEX MATCH "[0-9]$" section ${name})
-  set(component Unspecified)
-  if(name STREQUAL yars-plot-trade.1)
-    set(component python)
-  endif()
-  compressed(${page} ${name} ${CMAKE_INSTALL_MANDIR}/man${section} ${component})
-endforeach()
 compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog ${documents} Unspecified)
 
 # What is installed names what is installed.
-find_package(Python3 COMPONENTS Interpreter REQUIRED)
 install(CODE "execute_process(COMMAND \"${Python3_EXECUTABLE}\" \"${PROJECT_SOURCE_DIR}/packaging/installed_paths.py\"
   \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}\" ${documents} ${share} ${PROJECT_VERSION} COMMAND_ERROR_IS_FATAL ANY)")

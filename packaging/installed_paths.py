@@ -26,7 +26,7 @@ PLACES = {
     "scripts/network_identities": "yars-network-identities", "build/release/bin": "bin",
     "scripts/supervise": "libexec/yars/supervise", "scripts/nearest_word.py": "libexec/yars/nearest_word.py",
     "build/terrain/default": "~/.cache/yars/terrain", "build/start.log": "yars-start's log",
-    "packaging/systemd": "lib/systemd/user", "python/yars/session.py": "yars/session.py", "databuffer/client/yars.h": "yars/yars.h",
+    "build/release/systemd": "lib/systemd/user", "python/yars/session.py": "yars/session.py", "databuffer/client/yars.h": "yars/yars.h",
     "databuffer/client/yars_records.h": "yars/yars_records.h", "databuffer/client/yars_segment.h": "yars/yars_segment.h",
     "display/library/yars_display.h": "yars/yars_display.h", "gateway/yars_network.idl": "share/yars/idl/yars_network.idl",
 }
@@ -41,8 +41,6 @@ def installed_place(path, prefix, documents, share):
     program = re.fullmatch(r"build/(?:release|dev)/bin/([\w-]+)", path)
     if program and not program[1].startswith("test_"):
         return program[1]
-    if path.startswith("packaging/systemd/"):
-        return "lib/systemd/user/" + path.removeprefix("packaging/systemd/")
     if path.startswith("config/") and (prefix / share / path).is_file():
         return pathlib.PurePath(path).name
     is_installed = path != "lib/" and any((prefix / root / path).exists() for root in (".", documents))

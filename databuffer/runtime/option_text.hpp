@@ -3,7 +3,7 @@
 // capitals, or the valid values as {a,b}. Descriptions of their validators are limits: "1 to 8".
 // Outputs: the help of a program, one entry for each option:
 //   --range-nm NUMBER           [NM] range of the scan (0.1 to 1000; default 40)
-// At least two blanks separate an entry's head from what it does; scripts/help_text.py reads this form.
+// At least two blanks separate an entry's head from what it does; packaging/help/help_text.py reads this form.
 #pragma once
 
 #include <memory>

@@ -2,7 +2,7 @@
 """Rules of all command lines: defaults in --help, words that are misspelled, values that are wrong, help of each command.
 
 usage: commands_test.py BIN
-Walks the programs, their commands and options by --help (scripts/help_text.py). Each wrong command line ends with exit
+Walks the programs, their commands and options by --help (packaging/help/help_text.py). Each wrong command line ends with exit
 code 2 and one line in the form "PROGRAM COMMAND: OPTION: expected ..., found ...; see PROGRAM COMMAND --help".
 """
 import concurrent.futures
@@ -14,7 +14,7 @@ import sys
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(TOP / "scripts"))
+sys.path.insert(0, str(TOP / "packaging/help"))
 import help_text  # noqa: E402
 
 BIN = pathlib.Path(sys.argv[1]).resolve()

@@ -1,6 +1,6 @@
 """The command lines of the programs, read out of what they say with --help.
 
-scripts/man_pages, scripts/completions and tests use it. The form of the text is that of databuffer/runtime/option_text.hpp:
+packaging/help/write.py and tests use it. The form of the text is that of databuffer/runtime/option_text.hpp:
 an entry's head, at least two blanks, and what it does; more lines of it stand under the first.
 
     yars = read(["build/release/bin/yars"])
@@ -14,7 +14,7 @@ import re
 import subprocess
 
 PROGRAMS = ["yars", "radar-model", "state-machine", "radar-display", "input-monitor", "flight-model", "yars-station"]
-START = pathlib.Path(__file__).resolve().parent / "start"  # yars-start before it is installed
+START = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "start"  # yars-start before it is installed
 INDENT = "  "
 
 

@@ -1,11 +1,11 @@
 """What may be written at a place of a command line, for all shells.
 
-Inputs: commands and entries of scripts/help_text.py. Outputs: a list of words, or what the shell looks up.
+Inputs: commands and entries of help_text.py. Outputs: a list of words, or what the shell looks up.
 """
 import re
 
 FILES, FOLDERS, SESSIONS, NOTHING = "files", "folders", "sessions", "nothing"
-MADE = "Made by scripts/completions out of --help; changes belong there."
+MADE = "Made from --help by packaging/help/write.py."
 
 
 def shape(entry):

@@ -1,5 +1,5 @@
 """Completion for bash: a table of a program's command line, and a function that looks it up."""
-from completion.shapes import MADE, NOTHING, identifier, options_of, shape
+from shapes import MADE, NOTHING, identifier, options_of, shape
 
 ENGINE = r'''
 # Reply for the word at the cursor. The words before it are split at blanks.

@@ -1,7 +1,7 @@
 """Completion for zsh: a function for each command, with the specifications of _arguments."""
 import re
 
-from completion.shapes import FILES, FOLDERS, MADE, NOTHING, SESSIONS, about, identifier, options_of, shape
+from shapes import FILES, FOLDERS, MADE, NOTHING, SESSIONS, about, identifier, options_of, shape
 
 LOOK_UP = {FILES: "_files", FOLDERS: "_files -/", SESSIONS: "_yars_sessions", NOTHING: " "}
 SESSIONS_FUNCTION = '''_yars_sessions() {

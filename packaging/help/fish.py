@@ -1,5 +1,5 @@
 """Completion for fish: a line for each option and command; a function finds the command before the cursor."""
-from completion.shapes import FILES, FOLDERS, MADE, SESSIONS, about, identifier, options_of, shape
+from shapes import FILES, FOLDERS, MADE, SESSIONS, about, identifier, options_of, shape
 
 PATH = '''# The command before the cursor, as in "terrain info".
 function __{0}_path

@@ -1,8 +1,10 @@
 #!/usr/bin/env python3
-"""What bash, zsh and fish offer with packaging/completion. Shells that are not installed are left out.
+"""What bash, zsh and fish offer with the completions of this build, and what man shows of its pages. Shells that are not
+installed are left out.
 
-usage: completions_test.py
+usage: help_test.py BUILD
 """
+import gzip
 import os
 import pathlib
 import re
@@ -12,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-FOLDER = pathlib.Path(__file__).resolve().parents[2] / "packaging/completion"
+HELP = pathlib.Path(sys.argv[1]) / "install/help"
 # Command line, words that are offered, words that are not.
 CASES = [
     ("yars sta", {"status"}, {"scan"}),
@@ -45,7 +47,7 @@ faults = []
 def bash(line, folder):
     name = line.split()[0]
     script = f"""
-      . {shlex.quote(str(FOLDER / "bash" / name))}
+      . {shlex.quote(str(HELP / "bash-completion/completions" / name))}
       compopt() {{ :; }}
       COMP_LINE='{line}' COMP_POINT={len(line)} COMPREPLY=()
       $(complete -p {name} | sed 's/.*-F \\([^ ]*\\) .*/\\1/')
@@ -78,7 +80,7 @@ def zsh(line, folder):
     setup.write_text(ZSH_SETUP.format(dump=pathlib.Path(folder, ".zcompdump"), out=out))
     script = f"""
       zmodload zsh/zpty
-      zpty one {shlex.quote(f"FPATH={shlex.quote(str(FOLDER))}/zsh:$FPATH zsh -f -i")}
+      zpty one {shlex.quote(f"FPATH={shlex.quote(str(HELP))}/zsh/vendor-completions:$FPATH zsh -f -i")}
       zpty -w one ". {setup}"
       zpty -r -m one junk '*READY>*'
       zpty -w -n one $'{line}\\t'
@@ -94,13 +96,29 @@ def zsh(line, folder):
 
 
 def fish(line, folder):
-    script = f"source {shlex.quote(str(FOLDER))}/fish/{line.split()[0]}.fish; complete -C '{line}'"
+    script = f"source {shlex.quote(str(HELP))}/fish/vendor_completions.d/{line.split()[0]}.fish; complete -C '{line}'"
     done = subprocess.run(["fish", "-c", script], capture_output=True, text=True, timeout=60, cwd=folder)
     # fish repeats the whole word: --out=a.guf, csv:a.guf.
     return {re.sub("^(--[a-z]+=|[a-z]+:(?=.))", "", row.split("\t")[0]).rstrip("/") for row in done.stdout.splitlines()}, done
 
 
+def check_pages():
+    """Each page is without a fault, and has the options of its program."""
+    for program, words in (("yars", ("yars scan", "range-nm")), ("radar-model", ("fidelity",)), ("yars-start", ("web",)), ("yars-station", ("port",))):
+        text = gzip.open(HELP / f"man/man1/{program}.1.gz", "rt").read()
+        for word in words:
+            if word not in text:
+                faults.append(f"{program}.1: expected {word}, found none")
+    if shutil.which("mandoc"):
+        for page in sorted(HELP.rglob("man/*/*.gz")):
+            text = gzip.open(page, "rt").read()
+            done = subprocess.run(["mandoc", "-T", "lint", "-W", "error"], input=text, capture_output=True, text=True, timeout=60, check=False)
+            if done.returncode:
+                faults.append(f"{page.name}: {done.stdout[:500]}")
+
+
 def main():
+    check_pages()
     os.environ["TERM"] = "dumb"
     shells = [shell for shell in (bash, zsh, fish) if shutil.which(shell.__name__)]
     with tempfile.TemporaryDirectory() as folder:
