@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A station that others can reach: tokens, rights, TLS, limits. usage: access_of_others_test.py BIN (folder of the programs)"""
+"""A station and who connects to it: tokens, rights, TLS, limits, its end, a radar-model that is away. usage: access_of_others_test.py BIN (folder of the programs)"""
 import base64
 import http.client
 import http.cookiejar
@@ -23,7 +23,7 @@ BIN = pathlib.Path(sys.argv.pop(1)).resolve()
 
 
 class Station:
-    """A running yars-station. `addresses`: as it printed them. Without tokens unless options name some."""
+    """A running yars-station. `addresses`: as it printed them. Without tokens unless options name some. It ends without a fault."""
 
     def __init__(self, folder, *options):
         options = (*options, *([] if "--tokens" in options or "--with-tokens" in options else ["--without-tokens"]))
@@ -37,9 +37,11 @@ class Station:
     def __enter__(self):
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, problem=None, *_):
         self.process.terminate()
-        self.process.communicate()
+        said = self.process.communicate()[1]
+        if problem is None:
+            assert self.process.returncode == 0, (self.process.returncode, said)
 
 
 def refusal(*options):
@@ -404,6 +406,63 @@ class Places(unittest.TestCase):
             answer = asking.makefile("rb").read().decode()
         self.assertIn(" 303 ", answer.splitlines()[0])
         self.assertIn("; Secure", answer)
+
+
+class End(unittest.TestCase):
+    def test_a_station_ends_in_order_while_browsers_are_connected(self):
+        with tempfile.TemporaryDirectory() as folder, Station(folder) as station:  # its end is looked at
+            pages = [SocketOfPage(station.port, f"/socket?page={kind}") for kind in ("display", "instructor", "display")]
+            visit = socket.create_connection(("127.0.0.1", station.port), timeout=20)
+            self.assertEqual([page.status for page in pages], [101] * 3)
+            pages[1].send({"do": "freeze", "id": 1})
+            self.assertIsNone(pages[1].answer(1))
+        for connection in (*pages, visit):
+            connection.close()
+
+
+class World(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.station = Station(self.folder.name)
+        self.addCleanup(self.station.__exit__)
+        self.page = SocketOfPage(self.station.port)
+        self.addCleanup(self.page.close)
+        self.number = 0
+
+    def radar_model(self):
+        model = subprocess.Popen([BIN / "radar-model", "--session", self.station.session, "--log-level", "error"], cwd=self.folder.name)
+        self.addCleanup(model.wait)
+        self.addCleanup(model.terminate)
+        return model
+
+    def ask(self, command):
+        """Why it was not done; None if it was."""
+        self.number += 1
+        self.page.send({**command, "id": self.number})
+        return self.page.answer(self.number)
+
+    def await_done(self, command):
+        """Asks until radar-model is there."""
+        deadline = time.monotonic() + 60
+        while (problem := self.ask(command)) is not None:
+            self.assertIn("radar-model", problem)
+            self.assertLess(time.monotonic(), deadline, problem)
+            time.sleep(0.05)
+
+    def test_a_reset_that_could_not_be_undone_without_radar_model_is_undone_later(self):
+        model = self.radar_model()
+        self.await_done({"do": "run"})
+        self.await_done({"do": "add", "list": "rain", "lat": 37, "lon": -122})
+        self.await_done({"do": "reset world"})
+        model.kill()
+        model.wait()
+        self.assertIn("a radar-model that runs", self.ask({"do": "undo reset"}))
+        self.radar_model()
+        self.await_done({"do": "undo reset"})
+        state = next(text["instructor"] for text in self.page.texts() if text.get("instructor", {}).get("world"))
+        self.assertEqual(len(state["world"]["rain"]), 1)
+        self.assertIn("found none", self.ask({"do": "undo reset"}))
 
 
 class Scarcity(unittest.TestCase):
