@@ -60,10 +60,10 @@ class Arguments {
     const auto found = object_.find(name);
     const double value = found != object_.end() && found->is_number() ? found->get<double>() : NAN;
     if (!(value >= limits.min && value <= limits.max) || (whole && std::trunc(value) != value))
-      refuse(name,
-             std::string(kind) + " from " + text::text_of_number(limits.min) + " to " +
-                 text::text_of_number(limits.max),
-             found);
+      refuse(
+          name,
+          std::string(kind) + " from " + text::text_of_number(limits.min) + " to " + text::text_of_number(limits.max),
+          found);
     return value;
   }
   void refuse(const char* name, const std::string& expected, const json::const_iterator& found) {
@@ -88,10 +88,7 @@ constexpr std::array<std::pair<std::string_view, Make>, 16> kCommands{{
     {"freeze", [](Arguments&) -> InstructorCommand { return SetRunning{false}; }},
     {"rate",
      [](Arguments& of) -> InstructorCommand { return SetRate{of.number("rate", {0.0, databuffer::kMaxClockRate})}; }},
-    {"step",
-     [](Arguments& of) -> InstructorCommand {
-       return Step{of.whole_number("ticks", {1.0, kMaxTicks})};
-     }},
+    {"step", [](Arguments& of) -> InstructorCommand { return Step{of.whole_number("ticks", {1.0, kMaxTicks})}; }},
     {"reset", [](Arguments& of) -> InstructorCommand { return Reset{of.number("time", {0.0, kMaxTime_s})}; }},
     {"reposition",
      [](Arguments& of) -> InstructorCommand {

@@ -172,8 +172,7 @@ std::optional<Expected<WorldEdit>> world_edit(std::string_view command, const js
   }
   if (command == "fidelity") {
     const auto given = object.find("preset");
-    if (given == object.end() || !given->is_string())
-      return refused("preset", "a text; empty: the configured one");
+    if (given == object.end() || !given->is_string()) return refused("preset", "a text; empty: the configured one");
     const std::string preset = text(object, "preset");
     return edit_by([=](WorldState& world, std::int64_t) { return set_fidelity(world, preset); });
   }

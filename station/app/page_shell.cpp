@@ -70,8 +70,7 @@ bool take_message(Site& site, SessionFeed& feed, PagePilot& pilot, const std::sh
   const auto events = commands ? error::Expected<std::vector<databuffer::InputEvent>>() : pilot.events_of(message);
   if (commands && !command) {
     const auto id = object.find("id");
-    answer(*page, id != object.end() && is_id(*id) ? id->get<std::int64_t>() : 0,
-           command.error().message());
+    answer(*page, id != object.end() && is_id(*id) ? id->get<std::int64_t>() : 0, command.error().message());
     return true;
   }
   if (!events) {

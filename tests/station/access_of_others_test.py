@@ -431,7 +431,9 @@ class World(unittest.TestCase):
         self.number = 0
 
     def radar_model(self):
-        model = subprocess.Popen([BIN / "radar-model", "--session", self.station.session, "--log-level", "error"], cwd=self.folder.name)
+        self.log = pathlib.Path(self.folder.name, "radar-model.log")
+        with self.log.open("a") as log:
+            model = subprocess.Popen([BIN / "radar-model", "--session", self.station.session], cwd=self.folder.name, stderr=log)
         self.addCleanup(model.wait)
         self.addCleanup(model.terminate)
         return model
@@ -449,6 +451,17 @@ class World(unittest.TestCase):
             self.assertIn("radar-model", problem)
             self.assertLess(time.monotonic(), deadline, problem)
             time.sleep(0.05)
+
+    def test_radar_model_says_a_change_of_fidelity_once(self):
+        model = self.radar_model()
+        self.await_done({"do": "run"})
+        for command in ({"do": "fidelity", "preset": "draft"}, {"do": "sea", "state": 2}, {"do": "sea", "state": 4}, {"do": "fidelity", "preset": "1996"}):
+            self.await_done(command)
+            # Until radar-model has latched it.
+            next(text for text in self.page.texts() if text.get("instructor", {}).get("world", {}).get("tick"))
+        model.terminate()
+        model.wait()
+        self.assertEqual(re.findall(r"info: fidelity (.*)", self.log.read_text()), ["draft", "1996"])
 
     def test_a_reset_that_could_not_be_undone_without_radar_model_is_undone_later(self):
         model = self.radar_model()

@@ -182,8 +182,8 @@ TEST(InstructorMessage, IdsAndTicksAreWholeNumbers) {
     EXPECT_THAT(refusal((std::string(R"({"do": "step", "id": 1, "ticks": 3)") + part + "}").c_str()),
                 HasSubstr("step: ticks: expected a whole number from 1 to 2000"));
   }
-  EXPECT_EQ(
-      after(world, (R"({"do": "remove", "id": 1, "list": "rain", "item": )" + item + ".0}").c_str()).rain_count, 0U);
+  EXPECT_EQ(after(world, (R"({"do": "remove", "id": 1, "list": "rain", "item": )" + item + ".0}").c_str()).rain_count,
+            0U);
   EXPECT_THAT(refusal(R"({"do": "run", "id": 18446744073709551615})"), HasSubstr("id: expected a whole number"));
   EXPECT_EQ(read(R"({"do": "run", "id": 9223372036854775807})")->id, std::numeric_limits<std::int64_t>::max());
 }
