@@ -478,6 +478,51 @@ class World(unittest.TestCase):
         self.assertIn("found none", self.ask({"do": "undo reset"}))
 
 
+class Recorder(unittest.TestCase):
+    """The recorder that a page starts."""
+
+    def listed(self, page, what):
+        """The sets beside this one, when they are as asked for."""
+        deadline = time.monotonic() + 30
+        for text in page.texts():
+            if "sets" in text and what(text["sets"]):
+                return text["sets"]
+            self.assertLess(time.monotonic(), deadline, text)
+        return self.fail("the page was closed")
+
+    def test_one_that_fails_stays_in_the_list_with_its_reason(self):
+        with tempfile.TemporaryDirectory() as folder:
+            recordings = pathlib.Path(folder, "recordings")
+            recordings.mkdir()
+            with Station(folder) as station:
+                # A recorder writes over no file: its names of the next minutes are taken.
+                for second in range(300):
+                    name = time.strftime("%Y%m%d-%H%M%S", time.gmtime(time.time() + second))
+                    (recordings / f"{station.session}-{name}.yars").touch()
+                page = SocketOfPage(station.port)
+                for number in (1, 2):  # of two that fail the last one is listed
+                    page.send({"do": "record", "id": number})
+                    self.assertIsNone(page.answer(number))
+                    failed = self.listed(page, lambda sets: sets and sets[0]["ended"])
+                    self.assertEqual([one["kind"] for one in failed], ["recorder"])
+                    self.assertIn("expected a new file to record into", failed[0]["ended"])
+                page.send({"do": "end", "id": 3, "session": station.session})
+                self.assertEqual(self.listed(page, lambda sets: not sets), [])
+                page.close()
+
+    def test_beside_one_that_runs_none_is_started(self):
+        with tempfile.TemporaryDirectory() as folder, Station(folder) as station:
+            page = SocketOfPage(station.port)
+            other = subprocess.Popen([BIN / "yars", "--session", station.session, "record", "other.yars"], cwd=folder,
+                                     stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.addCleanup(other.wait)
+            self.addCleanup(other.terminate)
+            next(text for text in page.texts() if ((text.get("instructor") or {}).get("status") or {}).get("recorder"))
+            page.send({"do": "record", "id": 1})
+            self.assertIn("expected none that runs", page.answer(1) or "")
+            page.close()
+
+
 class Scarcity(unittest.TestCase):
     """What there is too much of, and what there is none of."""
 
