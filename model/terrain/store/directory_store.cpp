@@ -151,6 +151,7 @@ void DirectoryTerrainStore::use_substitute(Level level) {
 std::vector<std::string> DirectoryTerrainStore::left_out() const {
   std::vector<std::string> sentences = not_used_;
   for (const auto& [slot, reason] : unreadable_) sentences.push_back(reason);
+  sentences.insert(sentences.end(), incomplete_.begin(), incomplete_.end());
   return sentences;
 }
 
@@ -180,6 +181,7 @@ bool DirectoryTerrainStore::load(Level level) {
     return false;
   }
   FileSentences found = reported_.take_new(file.path, *reading);
+  incomplete_.insert(found.problems.begin(), found.problems.end());
   for (std::string& problem : found.problems) sentences_.problems.push_back(std::move(problem));
   for (std::string& note : found.notes) sentences_.notes.push_back(std::move(note));
   TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr,
