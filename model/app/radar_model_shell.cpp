@@ -270,9 +270,10 @@ void RadarModelShell::run_kernel(bool may_wait) {
   status_.terrain_generation = view->generation();
 }
 
+// Problems of files. They are no refusals: these are of records, and many of them mean a faulty writer.
 void RadarModelShell::note_problems(const std::vector<std::string>& problems) {
   for (const std::string& problem : problems) {
-    session_->note(databuffer::NoteKind::refusal, problem);
+    session_->note(databuffer::NoteKind::loss, problem);
     log::warning(problem);
   }
 }
