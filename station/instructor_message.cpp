@@ -29,13 +29,10 @@ class Arguments {
  public:
   Arguments(const json& object, std::string command) : object_(object), command_(std::move(command)) {}
 
-  double number(const char* name, Limits limits) {
-    const auto found = object_.find(name);
-    const double value = found != object_.end() && found->is_number() ? found->get<double>() : NAN;
-    if (!(value >= limits.min && value <= limits.max))
-      refuse(name, "a number from " + text::text_of_number(limits.min) + " to " + text::text_of_number(limits.max),
-             found);
-    return value;
+  double number(const char* name, Limits limits) { return number(name, limits, "a number", false); }
+  std::int64_t whole_number(const char* name, Limits limits) {
+    const double value = number(name, limits, "a whole number", true);
+    return problem_ ? 0 : static_cast<std::int64_t>(value);
   }
   std::optional<double> optional_number(const char* name, Limits limits) {
     const auto found = object_.find(name);
@@ -59,6 +56,16 @@ class Arguments {
   const std::optional<error::Error>& problem() const { return problem_; }
 
  private:
+  double number(const char* name, Limits limits, const char* kind, bool whole) {
+    const auto found = object_.find(name);
+    const double value = found != object_.end() && found->is_number() ? found->get<double>() : NAN;
+    if (!(value >= limits.min && value <= limits.max) || (whole && std::trunc(value) != value))
+      refuse(
+          name,
+          std::string(kind) + " from " + text::text_of_number(limits.min) + " to " + text::text_of_number(limits.max),
+          found);
+    return value;
+  }
   void refuse(const char* name, const std::string& expected, const json::const_iterator& found) {
     if (problem_) return;
     problem_ =
@@ -81,10 +88,7 @@ constexpr std::array<std::pair<std::string_view, Make>, 16> kCommands{{
     {"freeze", [](Arguments&) -> InstructorCommand { return SetRunning{false}; }},
     {"rate",
      [](Arguments& of) -> InstructorCommand { return SetRate{of.number("rate", {0.0, databuffer::kMaxClockRate})}; }},
-    {"step",
-     [](Arguments& of) -> InstructorCommand {
-       return Step{static_cast<std::int64_t>(of.number("ticks", {1.0, kMaxTicks}))};
-     }},
+    {"step", [](Arguments& of) -> InstructorCommand { return Step{of.whole_number("ticks", {1.0, kMaxTicks})}; }},
     {"reset", [](Arguments& of) -> InstructorCommand { return Reset{of.number("time", {0.0, kMaxTime_s})}; }},
     {"reposition",
      [](Arguments& of) -> InstructorCommand {
@@ -96,7 +100,7 @@ constexpr std::array<std::pair<std::string_view, Make>, 16> kCommands{{
     {"restore",
      [](Arguments& of) -> InstructorCommand {
        const databuffer::WorldList list = of.list("list");
-       return RestoreEntry{list, static_cast<std::uint32_t>(of.number("item", {1.0, 4294967295.0}))};
+       return RestoreEntry{list, static_cast<std::uint32_t>(of.whole_number("item", {1.0, 4294967295.0}))};
      }},
     {"reset world", [](Arguments&) -> InstructorCommand { return ResetWorld{}; }},
     {"undo reset", [](Arguments&) -> InstructorCommand { return UndoReset{}; }},
@@ -123,11 +127,15 @@ std::string names_of_commands() {
 
 }  // namespace
 
+bool is_id(const json& value) {
+  return value.is_number_integer() && (!value.is_number_unsigned() || value.get<std::uint64_t>() <= INT64_MAX);
+}
+
 Expected<InstructorMessage> instructor_message(const json& object) {
   const auto name = object.find("do"), id = object.find("id");
   const std::string word = name != object.end() && name->is_string() ? name->get<std::string>() : "";
   const auto entry = std::ranges::find_if(kCommands, [&](const auto& command) { return command.first == word; });
-  if (id == object.end() || !id->is_number_integer()) return error::fail("id", "a whole number", "something else");
+  if (id == object.end() || !is_id(*id)) return error::fail("id", "a whole number", "something else");
   if (auto edit = world_edit(word, object)) {
     if (!*edit) return tl::unexpected(edit->error());
     return InstructorMessage{id->get<std::int64_t>(), EditWorld{std::move(**edit)}};

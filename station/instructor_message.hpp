@@ -73,6 +73,8 @@ struct InstructorMessage {
   InstructorCommand command;
 };
 
+// True for a whole number that fits into InstructorMessage::id.
+bool is_id(const nlohmann::json& value);
 error::Expected<InstructorMessage> instructor_message(const nlohmann::json& object);
 
 // Answer to a message. `problem`: null if the command was done.

@@ -35,7 +35,7 @@ std::string text(const json& object, const char* name) {
 // Ids of entries are whole numbers from 1; 0 for anything else, which no entry has.
 std::uint32_t item_of(const json& object) {
   const double id = number(object, "item");
-  return id >= 1.0 && id <= 4294967295.0 ? static_cast<std::uint32_t>(id) : 0;
+  return id >= 1.0 && id <= 4294967295.0 && std::trunc(id) == id ? static_cast<std::uint32_t>(id) : 0;
 }
 
 // The world after `change(world)`, or its error.
@@ -171,6 +171,8 @@ std::optional<Expected<WorldEdit>> world_edit(std::string_view command, const js
     return edit_by([=](WorldState& world, std::int64_t) { return set_wind(world, speed_mps, from_deg); });
   }
   if (command == "fidelity") {
+    const auto given = object.find("preset");
+    if (given == object.end() || !given->is_string()) return refused("preset", "a text; empty: the configured one");
     const std::string preset = text(object, "preset");
     return edit_by([=](WorldState& world, std::int64_t) { return set_fidelity(world, preset); });
   }

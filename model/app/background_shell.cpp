@@ -110,7 +110,14 @@ void TerrainLoader::serve() {
 
 SceneLoader::SceneLoader(std::unique_ptr<scene::SceneStore> store, bool synchronous)
     : store_(std::move(store)), synchronous_(synchronous) {
-  if (store_ && !synchronous_) thread_ = std::thread([this] { serve(); });
+  if (!store_) return;
+  add_problems(store_->take_problems());
+  if (synchronous_) {
+    check_files();
+    return;
+  }
+  thread_ = std::thread([this] { serve(); });
+  check_thread_ = std::thread([this] { check_files(); });
 }
 
 SceneLoader::~SceneLoader() {
@@ -121,6 +128,20 @@ SceneLoader::~SceneLoader() {
   }
   wake_.notify_one();
   thread_.join();
+  check_thread_.join();
+}
+
+void SceneLoader::check_files() {
+  store_->check_files([this](std::vector<std::string> problems) {
+    const std::scoped_lock lock(mutex_);
+    add_problems(std::move(problems));
+    return !ending_;
+  });
+}
+
+void SceneLoader::add_problems(std::vector<std::string> problems) {
+  for (std::string& problem : problems)
+    if (reported_.insert(problem).second) problems_.push_back(std::move(problem));
 }
 
 SceneLoader::LoadedScenes SceneLoader::request(const terrain::TerrainRegion& region, double margin_m) {
@@ -145,7 +166,7 @@ void SceneLoader::read(const terrain::TerrainRegion& region) {
   const std::scoped_lock lock(mutex_);
   view_ = std::move(view);
   loaded_region_ = region;
-  for (std::string& problem : problems) problems_.push_back(std::move(problem));
+  add_problems(std::move(problems));
 }
 
 std::vector<std::string> SceneLoader::take_problems() {

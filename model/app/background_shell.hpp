@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -73,7 +74,8 @@ class TerrainLoader {
 // sweep, so a view of a larger region is also valid.
 class SceneLoader {
  public:
-  // Without a store there are no scenes.
+  // Without a store there are no scenes. The files of all scenes are checked at once (SceneStore::check_files()), in a
+  // thread beside that which loads regions, so that neither waits for the other. A synchronous loader checks them here.
   SceneLoader(std::unique_ptr<scene::SceneStore> store, bool synchronous);
   ~SceneLoader();
   SceneLoader(const SceneLoader&) = delete;
@@ -85,23 +87,27 @@ class SceneLoader {
   };
   // Requests a region (its detail is ignored) with a margin and returns the scenes loaded so far.
   LoadedScenes request(const terrain::TerrainRegion& region, double margin_m = kLoadMargin_m);
+  // Problems since the last call, each sentence once for this loader.
   std::vector<std::string> take_problems();
 
  private:
   void serve();
+  void check_files();
   void read(const terrain::TerrainRegion& region);
+  void add_problems(std::vector<std::string> problems);  // mutex_ is held
 
   std::unique_ptr<scene::SceneStore> store_;
   bool synchronous_;
   std::optional<terrain::TerrainRegion> requested_;
-  std::mutex mutex_;  // guards the members below, except thread_
+  std::mutex mutex_;  // guards the members below, except the threads
   std::condition_variable wake_;
   std::optional<terrain::TerrainRegion> pending_;
   std::optional<terrain::TerrainRegion> loaded_region_;  // region of view_
   scene::SceneViewPointer view_;
   std::vector<std::string> problems_;
+  std::set<std::string> reported_;  // all that problems_ had
   bool ending_ = false;
-  std::thread thread_;
+  std::thread thread_, check_thread_;
 };
 
 struct PatchStores {

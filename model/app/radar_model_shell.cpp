@@ -5,6 +5,7 @@
 #include <cstring>
 #include <ctime>
 #include <string>
+#include <utility>
 
 #include "databuffer/messages/derived_values.hpp"
 #include "databuffer/messages/record_hashes.hpp"
@@ -227,9 +228,9 @@ void RadarModelShell::latch_world() {
 void RadarModelShell::select_fidelity(std::string_view preset) {
   const auto selected = radar::fidelity_preset(preset);
   if (!selected && !selected_fidelity_) return;
-  selected_fidelity_ = selected.has_value();
-  fidelity_ = selected.value_or(configuration_->fidelity);
-  log::info("fidelity " + fidelity_.name);
+  const bool was_selected = std::exchange(selected_fidelity_, selected.has_value());
+  const std::string before = std::exchange(fidelity_, selected.value_or(configuration_->fidelity)).name;
+  if (was_selected != selected_fidelity_ || before != fidelity_.name) log::info("fidelity " + fidelity_.name);
 }
 
 // Waits until the ground is loaded, so that the first sweeps of a set that goes on from a recording have it.
@@ -269,9 +270,10 @@ void RadarModelShell::run_kernel(bool may_wait) {
   status_.terrain_generation = view->generation();
 }
 
+// Problems of files. They are no refusals: these are of records, and many of them mean a faulty writer.
 void RadarModelShell::note_problems(const std::vector<std::string>& problems) {
   for (const std::string& problem : problems) {
-    session_->note(databuffer::NoteKind::refusal, problem);
+    session_->note(databuffer::NoteKind::loss, problem);
     log::warning(problem);
   }
 }

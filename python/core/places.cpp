@@ -81,7 +81,10 @@ void Terrain::fill_elevations(const CellPositions& cells, double* height_m, Warn
       for (std::size_t k = first; k < std::min(first + kChunk, cells.order.size()); ++k) {
         const geo::GeoPoint position = cells.positions[cells.order[k]];
         const model::terrain::CellCorner cell = model::terrain::cell_containing(position);
-        if (!view || !(cell_of_view == cell)) view = opened.terrain_at(position, warnings.sink());
+        // On an edge of the cell, a neighbour may have the height (CellView).
+        const bool on_edge = position.latitude_deg == std::floor(position.latitude_deg) ||
+                             position.longitude_deg == std::floor(position.longitude_deg);
+        if (!view || !(cell_of_view == cell) || on_edge) view = opened.terrain_at(position, warnings.sink());
         cell_of_view = cell;
         height_m[cells.order[k]] = view->elevation_m(position);
       }

@@ -233,7 +233,7 @@ void InstructorShell::undo_reset(Answer answer) {
         return error::fail("undo reset", "no change of the world since the reset", "one");
       },
       [this, answer = std::move(answer)](const Expected<WorldState>& after) {
-        reset_.reset();
+        if (after) reset_.reset();  // without radar-model, say, it may be asked for again
         answer(outcome_of(after));
       });
 }

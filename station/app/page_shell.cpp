@@ -44,7 +44,11 @@ void carry_out(Site& site, SessionFeed& feed, const std::shared_ptr<OpenPage>& p
     return answer_session(*page, id, site.sets.play(play->file, play->at_s));
   if (const auto* out = std::get_if<FlyOut>(&message.command))
     return answer_session(*page, id, site.sets.fly_out(out->file, out->at_s));
-  if (std::holds_alternative<StartRecorder>(message.command)) return answer_outcome(*page, id, site.sets.record());
+  if (std::holds_alternative<StartRecorder>(message.command)) {
+    const auto own = site.feed_of(site.own_session);
+    const bool one_runs = own && (*own)->session.role_is_held(databuffer::Role::recorder);
+    return answer_outcome(*page, id, site.sets.record(one_runs));
+  }
   if (const auto* end = std::get_if<EndSet>(&message.command))
     return answer_outcome(*page, id, site.sets.end(end->session));
   if (std::holds_alternative<ListRecordings>(message.command))
@@ -70,8 +74,7 @@ bool take_message(Site& site, SessionFeed& feed, PagePilot& pilot, const std::sh
   const auto events = commands ? error::Expected<std::vector<databuffer::InputEvent>>() : pilot.events_of(message);
   if (commands && !command) {
     const auto id = object.find("id");
-    answer(*page, id != object.end() && id->is_number_integer() ? id->get<std::int64_t>() : 0,
-           command.error().message());
+    answer(*page, id != object.end() && is_id(*id) ? id->get<std::int64_t>() : 0, command.error().message());
     return true;
   }
   if (!events) {

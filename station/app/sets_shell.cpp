@@ -181,8 +181,10 @@ Expected<std::string> SetsShell::fly_out(const std::string& file, double at_s) {
   return sets_.back().session;
 }
 
-Expected<void> SetsShell::record() {
-  if (std::ranges::any_of(sets_, [](const StartedSet& set) { return set.kind == "recorder" && set.ended.empty(); }))
+Expected<void> SetsShell::record(bool one_runs) {
+  const auto is_recorder = [](const StartedSet& set) { return set.kind == "recorder"; };
+  if (one_runs ||
+      std::ranges::any_of(sets_, [&](const StartedSet& set) { return is_recorder(set) && set.ended.empty(); }))
     return error::fail("recorder", "none that runs", "one", "PB 12 stops and starts it");
   if (auto folder = file::Folder::make(settings_.recordings); !folder) return tl::unexpected(folder.error());
   const std::filesystem::path file = settings_.recordings / (settings_.session + '-' + text_of_now() + ".yars");
@@ -194,6 +196,7 @@ Expected<void> SetsShell::record() {
   if (!process) return tl::unexpected(process.error());
   StartedSet set{settings_.session, "recorder", file.string(), 0.0, {}, {}};
   set.processes.push_back(std::move(*process));
+  std::erase_if(sets_, [&](const StartedSet& before) { return is_recorder(before) && before.processes.empty(); });
   sets_.push_back(std::move(set));
   changed_ = true;
   return {};
@@ -222,6 +225,7 @@ bool SetsShell::look() {
     std::erase_if(set.processes, [&](const Process& process) {
       int status = 0;
       if (::waitpid(process.pid, &status, WNOHANG) == 0) return false;
+      if (set.ended.empty()) set.failed = WIFEXITED(status) && WEXITSTATUS(status) != 0;
       if (set.ended.empty())
         set.ended = "ended" + (last_line(process.log).empty() ? "" : ": " + last_line(process.log));
       changed_ = true;
@@ -231,7 +235,7 @@ bool SetsShell::look() {
     if (!set.ended.empty()) signal(set, SIGTERM);
   }
   std::erase_if(sets_, [](const StartedSet& set) {
-    return set.processes.empty() && (set.kind == "recorder" || set.ended == "ended by the instructor");
+    return set.processes.empty() && ((set.kind == "recorder" && !set.failed) || set.ended == "ended by the instructor");
   });
   return std::exchange(changed_, false);
 }

@@ -47,8 +47,9 @@ class SetsShell {
   error::Expected<std::string> play(const std::string& file, double at_s);
   // Starts a live set that goes on from a recorded second [s]. Returns the name of its session.
   error::Expected<std::string> fly_out(const std::string& file, double at_s);
-  // Starts a recorder of the station's session, in a new file of the folder of the recordings.
-  error::Expected<void> record();
+  // Starts a recorder of the station's session, in a new file of the folder of the recordings. `one_runs`: the session
+  // has a recorder already, an error. A recorder that fails stays among the sets, with its reason.
+  error::Expected<void> record(bool one_runs);
   error::Expected<void> end(const std::string& session);
 
   // Reads the newest kMaxListed recordings of the folder: `then` gets the object of `yars recordings --json`, or an
@@ -72,6 +73,7 @@ class SetsShell {
     double at_s = 0.0;
     std::vector<Process> processes;
     std::string ended;
+    bool failed = false;  // its first process that ended by itself had an exit code other than 0
   };
   struct Listing;
   void end_listing(bool whole);

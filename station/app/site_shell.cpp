@@ -11,9 +11,9 @@ Text sets_message(const SetsShell& sets) {
       message.dump(-1, ' ', true, nlohmann::ordered_json::error_handler_t::replace));
 }
 
-PagePlace::PagePlace(std::map<std::string, int>& counts, std::vector<std::string> names)
-    : counts_(&counts), names_(std::move(names)) {
-  for (const std::string& name : names_) ++counts[name];
+PagePlace::PagePlace(std::shared_ptr<PlaceCounts> counts, std::vector<std::string> names)
+    : counts_(std::move(counts)), names_(std::move(names)) {
+  for (const std::string& name : names_) ++(*counts_)[name];
 }
 
 PagePlace::~PagePlace() {
@@ -24,8 +24,8 @@ PagePlace::~PagePlace() {
 
 std::optional<PagePlace> Places::take(Right right, bool is_instructors, const std::string& address) {
   const auto taken = [this](const std::string& name) {
-    const auto found = counts_.find(name);
-    return found == counts_.end() ? 0 : found->second;
+    const auto found = counts_->find(name);
+    return found == counts_->end() ? 0 : found->second;
   };
   const std::string of_address = "viewer at " + address;
   const bool may_instruct = right == Right::instructor;

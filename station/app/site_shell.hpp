@@ -48,19 +48,21 @@ class OpenPage {
   virtual void tell(Text text) = 0;
 };
 
-// A place of a page, taken while it lives.
+using PlaceCounts = std::map<std::string, int>;  // taken places by right, and of viewers by address
+
+// A place of a page, taken while it lives. It shares the counts, because the pages of a server outlive its Places: they
+// end with its context.
 class PagePlace {
  public:
-  PagePlace(std::map<std::string, int>& counts, std::vector<std::string> names);
-  PagePlace(PagePlace&& other) noexcept
-      : counts_(std::exchange(other.counts_, nullptr)), names_(std::move(other.names_)) {}
+  PagePlace(std::shared_ptr<PlaceCounts> counts, std::vector<std::string> names);
+  PagePlace(PagePlace&&) noexcept = default;
   PagePlace(const PagePlace&) = delete;
   PagePlace& operator=(const PagePlace&) = delete;
   PagePlace& operator=(PagePlace&&) = delete;
   ~PagePlace();
 
  private:
-  std::map<std::string, int>* counts_;
+  std::shared_ptr<PlaceCounts> counts_;  // nullptr: moved from
   std::vector<std::string> names_;
 };
 
@@ -78,7 +80,7 @@ class Places {
   static std::string text();
 
  private:
-  std::map<std::string, int> counts_;  // by right, and of viewers by address
+  std::shared_ptr<PlaceCounts> counts_ = std::make_shared<PlaceCounts>();
 };
 
 // A connection that is no page yet.

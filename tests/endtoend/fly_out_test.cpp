@@ -210,6 +210,9 @@ TEST_F(FlyOut, NamesWhatIsWrong) {
     EXPECT_NE(finished.errors.find(reason), std::string::npos) << finished.errors;
   };
   refused({"--at", "9"}, 2, "expected a recording that can be read");
+  original_ = set_.folder();
+  refused({"--at", "9"}, 2, "expected a recording, found the folder");
+  original_ /= "none.yars";
   std::ofstream(original_) << "no recording";
   refused({"--at", "9"}, 1, "expected a recording made by yars record");
   refused({}, 2, "expected --at SECONDS with it");

@@ -9,7 +9,6 @@ import pathlib
 import re
 import signal
 import sys
-import tempfile
 import time
 
 sys.dont_write_bytecode = True
@@ -160,15 +159,9 @@ def a_build_without_a_gateway(place):
     assert code == 1 and "expected the program gateway beside yars, found none" in text, text
 
 
-def main():
-    for test in (the_gateway_is_first_and_last, roles_without_a_network, a_form_in_the_configuration_is_a_network,
-                 a_limit_without_a_display, a_display_alone, a_gateway_that_does_not_join_is_not_waited_for_for_ever, a_gateway_that_refuses_its_file_ends_the_set,
-                 lockstep_names_the_roles_of_all_computers, what_is_refused, a_build_without_a_gateway):
-        with tempfile.TemporaryDirectory() as folder:
-            test(Place(folder))
-        print(f"{test.__name__}: ok", flush=True)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    tour_start_test.run_each(Place, the_gateway_is_first_and_last, roles_without_a_network,
+                             a_form_in_the_configuration_is_a_network, a_limit_without_a_display, a_display_alone,
+                             a_gateway_that_does_not_join_is_not_waited_for_for_ever,
+                             a_gateway_that_refuses_its_file_ends_the_set, lockstep_names_the_roles_of_all_computers,
+                             what_is_refused, a_build_without_a_gateway)

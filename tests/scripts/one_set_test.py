@@ -8,11 +8,9 @@ one from the other.
 import os
 import pathlib
 import signal
-import sys
-import tempfile
 import time
 
-from tour_start_test import WATCHDOG_S, Place
+from tour_start_test import WATCHDOG_S, Place, run_each
 
 CALLERS = 4
 ALL = "flight-model,state-machine,radar-model,radar-display"
@@ -101,13 +99,6 @@ def a_lock_that_is_no_file_is_refused(place):
         lock_file(place).unlink()
 
 
-def main():
-    for test in (of_four_at_once_one_lives, parts_of_a_set_start_beside_each_other, a_killed_set_leaves_no_lock, a_lock_that_is_no_file_is_refused):
-        with tempfile.TemporaryDirectory() as folder:
-            test(Place(folder))
-        print(f"{test.__name__}: ok", flush=True)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    run_each(Place, of_four_at_once_one_lives, parts_of_a_set_start_beside_each_other, a_killed_set_leaves_no_lock,
+             a_lock_that_is_no_file_is_refused)

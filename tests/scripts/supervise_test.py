@@ -107,8 +107,36 @@ def a_set_needs_no_standard_streams(folder):
         assert listed.returncode == 0 and "cut short" not in listed.stdout, listed
 
 
+JOINED = """
+import sys, time
+sys.path.insert(0, sys.argv[1])
+from yars import session
+joined = session.Session(sys.argv[2], "other")
+print("joined", flush=True)
+time.sleep(1000)
+"""
+
+
+def what_roles_leave_that_had_to_be_killed_is_removed(folder):
+    session = f"supervise-{os.getpid()}"
+    segment = pathlib.Path(f"/dev/shm/yars.{os.geteuid()}.{session}")
+    for somebody_stays in (True, False):
+        tested = Set(folder, role("state-machine", session))
+        machine = tested.await_present("state-machine")
+        other = subprocess.Popen([sys.executable, "-c", JOINED, HOME / "python", session], stdout=subprocess.PIPE) if somebody_stays else None
+        if other:
+            assert other.stdout.readline() == b"joined\n"
+        os.kill(machine, signal.SIGSTOP)
+        code = tested.end()
+        assert code == 1 and "state-machine was killed by SIGKILL when the set ended" in tested.log.read_text(), tested.log.read_text()
+        assert segment.exists() == somebody_stays
+        if other:
+            other.kill()
+            other.wait()
+
+
 def main():
-    for test in (a_role_that_hangs_is_started_again, a_set_needs_no_standard_streams):
+    for test in (a_role_that_hangs_is_started_again, a_set_needs_no_standard_streams, what_roles_leave_that_had_to_be_killed_is_removed):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
         print(f"{test.__name__}: ok", flush=True)

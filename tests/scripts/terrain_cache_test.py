@@ -11,9 +11,9 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
-import tempfile
 import time
+
+from tour_start_test import run_each
 
 HOME = pathlib.Path(__file__).resolve().parents[2]
 YARS = """#!/bin/bash
@@ -159,15 +159,7 @@ def sources_of_the_generator_are_there(_):
         assert (HOME / source).is_file() or list((HOME / source).rglob("*.cpp")), source
 
 
-def main():
-    for test in (is_made_once, sources_of_the_generator_are_there, two_at_once_make_it_once, two_at_once_and_the_maker_is_stopped,
-                 a_killed_maker_leaves_nothing_that_is_used, what_is_broken_is_made_again,
-                 without_its_scenes_there_is_no_terrain):
-        with tempfile.TemporaryDirectory() as folder:
-            test(Place(folder))
-        print(f"{test.__name__}: ok", flush=True)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    run_each(Place, is_made_once, sources_of_the_generator_are_there, two_at_once_make_it_once,
+             two_at_once_and_the_maker_is_stopped, a_killed_maker_leaves_nothing_that_is_used,
+             what_is_broken_is_made_again, without_its_scenes_there_is_no_terrain)

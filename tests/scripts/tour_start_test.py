@@ -11,7 +11,6 @@ import re
 import shutil
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 
@@ -159,14 +158,15 @@ def a_wrong_fidelity_is_refused_with_the_list(place):
         assert not place.log.exists(), words
 
 
-def main():
-    for test in (two_radars_one_after_the_other, for_the_pilot, in_lockstep_each_part_is_as_long_as_its_tour,
-                 a_fidelity_reaches_the_radar_model_alone, a_wrong_fidelity_is_refused_with_the_list, a_signal_ends_it_all, a_tour_that_fails_is_not_followed_by_the_next, it_goes_with_its_own_world_only):
+def run_each(place, *tests):
+    """Runs tests, each in a folder of its own."""
+    for test in tests:
         with tempfile.TemporaryDirectory() as folder:
-            test(Place(folder))
+            test(place(folder))
         print(f"{test.__name__}: ok", flush=True)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    run_each(Place, two_radars_one_after_the_other, for_the_pilot, in_lockstep_each_part_is_as_long_as_its_tour,
+             a_fidelity_reaches_the_radar_model_alone, a_wrong_fidelity_is_refused_with_the_list,
+             a_signal_ends_it_all, a_tour_that_fails_is_not_followed_by_the_next, it_goes_with_its_own_world_only)

@@ -9,7 +9,6 @@ import contextlib
 import pathlib
 import signal
 import sys
-import tempfile
 import time
 
 sys.dont_write_bytecode = True
@@ -131,15 +130,8 @@ def values_that_are_missing_are_refused_at_once(place):
     assert code == 2 and "--web: expected no --lockstep with it" in text, (code, text)
 
 
-def main():
-    for test in (without_a_screen_it_lasts_until_it_is_interrupted, pictures_are_written_where_a_folder_is_named,
-                 seconds_that_are_given_hold, pictures_of_earlier_runs_are_not_counted, options_of_the_station_are_handed_to_it,
-                 addresses_stand_on_lines_of_their_own, values_that_are_missing_are_refused_at_once):
-        with tempfile.TemporaryDirectory() as folder:
-            test(Place(folder))
-        print(f"{test.__name__}: ok", flush=True)
-    return 0
-
-
 if __name__ == "__main__":
-    sys.exit(main())
+    tour_start_test.run_each(Place, without_a_screen_it_lasts_until_it_is_interrupted,
+                             pictures_are_written_where_a_folder_is_named, seconds_that_are_given_hold,
+                             pictures_of_earlier_runs_are_not_counted, options_of_the_station_are_handed_to_it,
+                             addresses_stand_on_lines_of_their_own, values_that_are_missing_are_refused_at_once)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A station that others can reach: tokens, rights, TLS, limits. usage: access_of_others_test.py BIN (folder of the programs)"""
+"""A station and who connects to it: tokens, rights, TLS, limits, its end, a radar-model that is away. usage: access_of_others_test.py BIN (folder of the programs)"""
 import base64
 import http.client
 import http.cookiejar
@@ -23,7 +23,7 @@ BIN = pathlib.Path(sys.argv.pop(1)).resolve()
 
 
 class Station:
-    """A running yars-station. `addresses`: as it printed them. Without tokens unless options name some."""
+    """A running yars-station. `addresses`: as it printed them. Without tokens unless options name some. It ends without a fault."""
 
     def __init__(self, folder, *options):
         options = (*options, *([] if "--tokens" in options or "--with-tokens" in options else ["--without-tokens"]))
@@ -37,9 +37,11 @@ class Station:
     def __enter__(self):
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, problem=None, *_):
         self.process.terminate()
-        self.process.communicate()
+        said = self.process.communicate()[1]
+        if problem is None:
+            assert self.process.returncode == 0, (self.process.returncode, said)
 
 
 def refusal(*options):
@@ -404,6 +406,121 @@ class Places(unittest.TestCase):
             answer = asking.makefile("rb").read().decode()
         self.assertIn(" 303 ", answer.splitlines()[0])
         self.assertIn("; Secure", answer)
+
+
+class End(unittest.TestCase):
+    def test_a_station_ends_in_order_while_browsers_are_connected(self):
+        with tempfile.TemporaryDirectory() as folder, Station(folder) as station:  # its end is looked at
+            pages = [SocketOfPage(station.port, f"/socket?page={kind}") for kind in ("display", "instructor", "display")]
+            visit = socket.create_connection(("127.0.0.1", station.port), timeout=20)
+            self.assertEqual([page.status for page in pages], [101] * 3)
+            pages[1].send({"do": "freeze", "id": 1})
+            self.assertIsNone(pages[1].answer(1))
+        for connection in (*pages, visit):
+            connection.close()
+
+
+class World(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.station = Station(self.folder.name)
+        self.addCleanup(self.station.__exit__)
+        self.page = SocketOfPage(self.station.port)
+        self.addCleanup(self.page.close)
+        self.number = 0
+
+    def radar_model(self):
+        self.log = pathlib.Path(self.folder.name, "radar-model.log")
+        with self.log.open("a") as log:
+            model = subprocess.Popen([BIN / "radar-model", "--session", self.station.session], cwd=self.folder.name, stderr=log)
+        self.addCleanup(model.wait)
+        self.addCleanup(model.terminate)
+        return model
+
+    def ask(self, command):
+        """Why it was not done; None if it was."""
+        self.number += 1
+        self.page.send({**command, "id": self.number})
+        return self.page.answer(self.number)
+
+    def await_done(self, command):
+        """Asks until radar-model is there."""
+        deadline = time.monotonic() + 60
+        while (problem := self.ask(command)) is not None:
+            self.assertIn("radar-model", problem)
+            self.assertLess(time.monotonic(), deadline, problem)
+            time.sleep(0.05)
+
+    def test_radar_model_says_a_change_of_fidelity_once(self):
+        model = self.radar_model()
+        self.await_done({"do": "run"})
+        for command in ({"do": "fidelity", "preset": "draft"}, {"do": "sea", "state": 2}, {"do": "sea", "state": 4}, {"do": "fidelity", "preset": "1996"}):
+            self.await_done(command)
+            # Until radar-model has latched it.
+            next(text for text in self.page.texts() if text.get("instructor", {}).get("world", {}).get("tick"))
+        model.terminate()
+        model.wait()
+        self.assertEqual(re.findall(r"info: fidelity (.*)", self.log.read_text()), ["draft", "1996"])
+
+    def test_a_reset_that_could_not_be_undone_without_radar_model_is_undone_later(self):
+        model = self.radar_model()
+        self.await_done({"do": "run"})
+        self.await_done({"do": "add", "list": "rain", "lat": 37, "lon": -122})
+        self.await_done({"do": "reset world"})
+        model.kill()
+        model.wait()
+        self.assertIn("a radar-model that runs", self.ask({"do": "undo reset"}))
+        self.radar_model()
+        self.await_done({"do": "undo reset"})
+        state = next(text["instructor"] for text in self.page.texts() if text.get("instructor", {}).get("world"))
+        self.assertEqual(len(state["world"]["rain"]), 1)
+        self.assertIn("found none", self.ask({"do": "undo reset"}))
+
+
+class Recorder(unittest.TestCase):
+    """The recorder that a page starts."""
+
+    def listed(self, page, what):
+        """The sets beside this one, when they are as asked for."""
+        deadline = time.monotonic() + 30
+        for text in page.texts():
+            if "sets" in text and what(text["sets"]):
+                return text["sets"]
+            self.assertLess(time.monotonic(), deadline, text)
+        return self.fail("the page was closed")
+
+    def test_one_that_fails_stays_in_the_list_with_its_reason(self):
+        with tempfile.TemporaryDirectory() as folder:
+            recordings = pathlib.Path(folder, "recordings")
+            recordings.mkdir()
+            with Station(folder) as station:
+                # A recorder writes over no file: its names of the next minutes are taken.
+                for second in range(300):
+                    name = time.strftime("%Y%m%d-%H%M%S", time.gmtime(time.time() + second))
+                    (recordings / f"{station.session}-{name}.yars").touch()
+                page = SocketOfPage(station.port)
+                for number in (1, 2):  # of two that fail the last one is listed
+                    page.send({"do": "record", "id": number})
+                    self.assertIsNone(page.answer(number))
+                    failed = self.listed(page, lambda sets: sets and sets[0]["ended"])
+                    self.assertEqual([one["kind"] for one in failed], ["recorder"])
+                    self.assertIn("expected a new file to record into", failed[0]["ended"])
+                page.send({"do": "end", "id": 3, "session": station.session})
+                self.assertEqual(self.listed(page, lambda sets: not sets), [])
+                page.close()
+
+    def test_beside_one_that_runs_none_is_started(self):
+        with tempfile.TemporaryDirectory() as folder, Station(folder) as station:
+            page = SocketOfPage(station.port)
+            other = subprocess.Popen([BIN / "yars", "--session", station.session, "record", "other.yars"], cwd=folder,
+                                     stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            self.addCleanup(other.wait)
+            self.addCleanup(other.terminate)
+            next(text for text in page.texts() if ((text.get("instructor") or {}).get("status") or {}).get("recorder"))
+            page.send({"do": "record", "id": 1})
+            self.assertIn("expected none that runs", page.answer(1) or "")
+            page.close()
 
 
 class Scarcity(unittest.TestCase):

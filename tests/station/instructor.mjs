@@ -255,6 +255,7 @@ const tests = {
     call("world", "sea", "4");
     await page.click("#undo_button");
     await until("a reset that others have built upon stays", async () => /no change of the world since/.test(await page.textContent("#problem")));
+    await until("an undo that failed is offered again", async () => await page.isVisible("#undo_button"));
     await page.click("#reset_world");
     await said(page, /^Reset the world/);
     await page.click("#undo_close");

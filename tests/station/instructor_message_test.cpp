@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -134,7 +136,7 @@ TEST(InstructorMessage, AnEntryThatIsRestoredIsNamedByListAndId) {
   EXPECT_EQ(restored.item, 7U);
   EXPECT_THAT(refusal(R"({"do": "restore", "id": 1, "list": "trees", "item": 7})"),
               HasSubstr("restore: list: expected rain, jammers, movers or points, found \"trees\""));
-  EXPECT_THAT(refusal(R"({"do": "restore", "id": 1, "list": "rain"})"), HasSubstr("item: expected a number"));
+  EXPECT_THAT(refusal(R"({"do": "restore", "id": 1, "list": "rain"})"), HasSubstr("item: expected a whole number"));
   EXPECT_TRUE(read(R"({"do": "undo reset", "id": 1})"));
 }
 
@@ -162,6 +164,34 @@ TEST(InstructorMessage, AnEditThatCannotBeMadeSaysWhy) {
   EXPECT_THAT(problem, HasSubstr("standard"));
   after(configured(), R"({"do": "wind", "id": 1, "speed_kt": 500, "from": 0})", &problem);
   EXPECT_THAT(problem, HasSubstr("120"));
+}
+
+// A part of a number names no entry and no tick.
+TEST(InstructorMessage, IdsAndTicksAreWholeNumbers) {
+  const auto world = after(configured(), R"({"do": "add", "id": 1, "list": "rain", "lat": 37, "lon": -122})");
+  const std::string item = std::to_string(world.rain[0].id);
+  for (const char* part : {".25", ".000001"}) {
+    std::string problem;
+    EXPECT_EQ(
+        after(world, (R"({"do": "remove", "id": 1, "list": "rain", "item": )" + item + part + "}").c_str(), &problem)
+            .rain_count,
+        1U);
+    EXPECT_THAT(problem, HasSubstr("expected one of the ids"));
+    EXPECT_THAT(refusal((R"({"do": "restore", "id": 1, "list": "rain", "item": )" + item + part + "}").c_str()),
+                HasSubstr("restore: item: expected a whole number from 1 to 4294967295, found " + item + part));
+    EXPECT_THAT(refusal((std::string(R"({"do": "step", "id": 1, "ticks": 3)") + part + "}").c_str()),
+                HasSubstr("step: ticks: expected a whole number from 1 to 2000"));
+  }
+  EXPECT_EQ(after(world, (R"({"do": "remove", "id": 1, "list": "rain", "item": )" + item + ".0}").c_str()).rain_count,
+            0U);
+  EXPECT_THAT(refusal(R"({"do": "run", "id": 18446744073709551615})"), HasSubstr("id: expected a whole number"));
+  EXPECT_EQ(read(R"({"do": "run", "id": 9223372036854775807})")->id, std::numeric_limits<std::int64_t>::max());
+}
+
+TEST(InstructorMessage, AFidelityNeedsItsName) {
+  for (const char* text : {R"({"do": "fidelity", "id": 1})", R"({"do": "fidelity", "id": 1, "preset": null})",
+                           R"({"do": "fidelity", "id": 1, "preset": 5})"})
+    EXPECT_THAT(refusal(text), HasSubstr("preset: expected a text; empty: the configured one"));
 }
 
 TEST(InstructorMessage, AnswersBearTheIdAndTheProblem) {

@@ -90,12 +90,13 @@ def main():
                                        stdout=out, stderr=subprocess.STDOUT, cwd=name)
         try:
             done = subprocess.run(["node", script, address(log, process), binaries / "yars", session], cwd=folder, check=False, timeout=480)
-            if done.returncode:
-                print(log.read_text())
-            sys.exit(done.returncode)
         finally:
             process.terminate()
-            process.wait()
+            code = process.wait()
+        if done.returncode or code:
+            print(log.read_text())
+        assert code == 0, f"expected the set to end without a fault, found code {code}"
+        sys.exit(done.returncode)
 
 
 if __name__ == "__main__":

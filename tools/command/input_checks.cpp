@@ -183,6 +183,20 @@ void check_scenes_read(const Warn& warn, model::scene::SceneStore& scenes) {
   check_unreadable(warn, "--scene", "scenes of the region", scenes.wanted().files, scenes.wanted().unreadable);
 }
 
+void LeftOut::add(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences)
+    if (std::ranges::find(sentences_, sentence) == sentences_.end()) sentences_.push_back(sentence);
+}
+
+void LeftOut::add(const model::terrain::TerrainStore& store) {
+  if (const auto* const files = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(&store))
+    add(files->left_out());
+}
+
+void LeftOut::add(const model::scene::SceneStore& scenes) {
+  add(scenes.left_out());
+}
+
 void fail_if_left_out(const std::vector<std::string>& left_out) {
   if (!left_out.empty())
     throw_failure({"terrain and scenes", "files that are read whole",

@@ -52,7 +52,19 @@ void check_terrain_read(const Warn& warn, const std::string& folder, model::terr
                         model::terrain::TerrainStore* path_store = nullptr);
 void check_scenes_read(const Warn& warn, model::scene::SceneStore& scenes);
 
-// Throws CommandFailed with code 1 if something was left out (Theatre::left_out()). Call after the results are written.
+// What stores lack of their files, in all regions so far. Each sentence once, in the order of the calls.
+class LeftOut {
+ public:
+  void add(const model::terrain::TerrainStore& store);
+  void add(const model::scene::SceneStore& scenes);
+  const std::vector<std::string>& sentences() const { return sentences_; }
+
+ private:
+  void add(const std::vector<std::string>& sentences);
+  std::vector<std::string> sentences_;
+};
+
+// Throws CommandFailed with code 1 if something was left out (LeftOut). Call after the results are written.
 void fail_if_left_out(const std::vector<std::string>& left_out);
 
 }  // namespace yars::tools

@@ -45,16 +45,11 @@ model::hrm::PatchEnvironment Theatre::prepare(const model::hrm::PatchNeed& need,
 }
 
 std::vector<std::string> Theatre::left_out() const {
-  std::vector<std::string> all;
-  const auto add = [&all](const std::vector<std::string>& sentences) {
-    for (const std::string& sentence : sentences)
-      if (std::ranges::find(all, sentence) == all.end()) all.push_back(sentence);
-  };
+  LeftOut all;
   for (const auto* store : {window_store_.get(), path_store_.get()})
-    if (const auto* const files = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(store))
-      add(files->region_cells().left_out);
-  if (scenes_) add(scenes_->wanted().left_out);
-  return all;
+    if (store != nullptr) all.add(*store);
+  if (scenes_) all.add(*scenes_);
+  return all.sentences();
 }
 
 model::scene::SceneViewPointer Theatre::scenes_near(geo::GeoPoint position, double radius_m, const Warn& warn) {

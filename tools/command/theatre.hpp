@@ -40,13 +40,13 @@ class Theatre {
   ScanEnvironment prepare(const model::kernel::ScanRequest& request, const radar::Fidelity& fidelity, const Warn& warn);
   model::hrm::PatchEnvironment prepare(const model::hrm::PatchNeed& need, const Warn& warn);
 
-  // What the last region lacks of its files, one sentence each: unreadable cells of the region, files of the terrain's
-  // folder that are not used (RegionCells), and parts of scenes (SceneStore::Wanted).
+  // What the regions so far lack of their files, one sentence each: files of the terrain's folder that are not used,
+  // unreadable cells, and parts of scenes.
   std::vector<std::string> left_out() const;
 
   // Scenes about a position; null: none.
   model::scene::SceneViewPointer scenes_near(geo::GeoPoint position, double radius_m, const Warn& warn);
-  // Terrain of the cell that contains a position, at its finest level.
+  // Terrain of the cells that contain a position, on an edge more than one, at their finest level.
   model::terrain::TerrainViewPointer terrain_at(geo::GeoPoint position, const Warn& warn);
   // Files of the folder; null: the built-in hills.
   const model::terrain::DirectoryIndex* index() const;

@@ -69,12 +69,17 @@ World open_world(const CommonOptions& common, const recording::RecordingHeader& 
   return world;
 }
 
-// Warns of the files that the kernel could not read, or not read whole.
-void report_problems(const World& world) {
+// Warns of the files that the kernel could not read, or not read whole. Returns what it lacks of them.
+LeftOut report_problems(const World& world) {
   const Warn warn = warn_as("yars replay");
+  LeftOut left_out;
   for (const std::string& problem : world.store->take_problems()) warn(problem);
-  if (!world.scenes) return;
+  for (const std::string& note : world.store->take_notes()) warn(note);
+  left_out.add(*world.store);
+  if (!world.scenes) return left_out;
   for (const std::string& problem : world.scenes->take_problems()) warn(problem);
+  left_out.add(*world.scenes);
+  return left_out;
 }
 
 std::string text_of_ticks(const recording::IndexEntry& block) {
@@ -146,8 +151,9 @@ void play(const CommonOptions& common, recording::RecordingReader& reader, const
                                    {options.file, session, options.rate, options.seek_s, options.json});
       !played)
     throw_failure(played.error());
-  if (world) report_problems(*world);
+  const LeftOut left_out = world ? report_problems(*world) : LeftOut();
   report_missing(reader, options.file);
+  fail_if_left_out(left_out.sentences());
 }
 
 void hand_over_to_live_roles(const CommonOptions& common, recording::RecordingReader& reader,
@@ -160,6 +166,7 @@ void hand_over_to_live_roles(const CommonOptions& common, recording::RecordingRe
   const auto open = [&] { return player_world(common, reader, options, world); };
   if (auto done = hand_over(reader, *point, open, {common.session, options.awaited, !options.json}); !done)
     throw_failure(done.error());
+  if (world) report_problems(*world);  // the live set has read the files, too, and goes on
   if (options.json)
     print_json({{"file", options.file},
                 {"session", common.session},
@@ -277,8 +284,10 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
     report_missing(reader, options.file);
     throw_failure(no_ticks(options.file));
   }
-  report_problems(world);
-  print_json(run.result(reader));
+  const LeftOut left_out = report_problems(world);
+  nlohmann::ordered_json result = run.result(reader);
+  result["left_out"] = left_out.sentences();
+  print_json(result);
   std::fflush(stdout);
   const auto& comparison = run.replay().comparison();
   if (comparison.different() > 0)
@@ -289,6 +298,7 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
                    "replay with the same configuration; a recording shorter than a scan may have no sweep of its own",
                    false});
   report_missing(reader, options.file);
+  fail_if_left_out(left_out.sentences());
 }
 
 }  // namespace

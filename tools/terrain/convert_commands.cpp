@@ -158,17 +158,17 @@ error::Expected<DirectoryIndex> index_of(const TerrainBatch& batch, FileSentence
 }
 
 error::Expected<std::filesystem::path> convert_cell(const TerrainBatch& batch, const CellFile& file, CellCorner corner,
-                                                    AllReadingNotes& notes, std::size_t& empty) {
+                                                    AllReadingNotes& notes, std::size_t& left_out) {
   const auto reading = read_cell(file, corner, batch.reduction);
   if (!reading) return tl::unexpected(reading.error());
   notes.add(file.path, *reading);
-  if (reading->cell.voids() == reading->cell.post_count()) {
-    ++empty;
+  const bool empty = reading->cell.voids() == reading->cell.post_count();
+  if (empty || reading->has_problem()) ++left_out;
+  if (empty)
     notes.add_problem(error::Error{file.path.string(), "a cell with heights",
                                    text::counted(reading->cell.post_count(), "post") + " without any",
                                    "see whether its no-data value is right; the cell is written as void", false}
                           .message());
-  }
   const std::filesystem::path target = std::filesystem::path(batch.out) / batch.name(corner, reading->cell);
   std::error_code code;
   if (std::filesystem::equivalent(target, file.path, code))
@@ -290,8 +290,8 @@ void run_terrain_batch(const TerrainBatch& batch) {
                             " that were not; see the problems",
                         1};
   if (left_out > 0)
-    throw CommandFailed{"yars terrain " + batch.command + ": expected all files to be used, found " +
-                            std::to_string(left_out) + " that could not be; see the problems",
+    throw CommandFailed{"yars terrain " + batch.command + ": expected files that are whole, found " +
+                            std::to_string(left_out) + " that are not, or are not used; see the problems",
                         1};
 }
 

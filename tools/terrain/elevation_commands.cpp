@@ -34,6 +34,14 @@ void print_sentences(const model::terrain::FileSentences& sentences) {
   for (const std::string& note : sentences.notes) std::fprintf(stderr, "note: %s\n", note.c_str());
 }
 
+// Errors: throws CommandFailed if there is a problem.
+void fail_if_damaged(const std::string& command, const model::terrain::FileSentences& found) {
+  if (!found.problems.empty())
+    throw CommandFailed{"yars terrain " + command + ": expected undamaged files, found " +
+                            text::counted(found.problems.size(), "problem") + "; see above",
+                        1};
+}
+
 // True if latitude is in [-90, 90] and longitude in [-360, 360]. False for NaN.
 bool on_the_earth(const std::vector<double>& position_deg) {
   return std::abs(position_deg[0]) <= 90.0 && std::abs(position_deg[1]) <= 360.0;
@@ -124,10 +132,7 @@ void profile(const ProfileOptions& options) {
   std::fflush(stdout);
   print_sentences(found);
   if (outside > 0) report_outside(options, covered, outside, steps + 1);
-  if (!found.problems.empty())
-    throw CommandFailed{"yars terrain profile: expected undamaged files, found " +
-                            text::counted(found.problems.size(), "problem") + "; see above",
-                        1};
+  fail_if_damaged("profile", found);
 }
 
 }  // namespace
@@ -167,7 +172,8 @@ void dump(const DumpOptions& options) {
   const auto reading = read_cell(file->second, corner);
   if (!reading) throw_failure(reading.error());
   ReadingNotes notes;
-  print_sentences(notes.take_new(file->second.path, *reading));
+  const FileSentences found = notes.take_new(file->second.path, *reading);
+  print_sentences(found);
   const Cell& cell = reading->cell;
   const int decimals = cell.unit_m() < 1.0 ? 1 : 0;
   std::printf("latitude_deg,longitude_deg,elevation_m\n");
@@ -181,6 +187,8 @@ void dump(const DumpOptions& options) {
       else
         std::printf("%.*f\n", decimals, cell.post(row, column) * cell.unit_m());
     }
+  std::fflush(stdout);
+  fail_if_damaged("dump", found);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lib/imageio/png.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/terrain/picture/hill_shade.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "tools/command/command.hpp"
@@ -69,7 +70,7 @@ void draw(const TerrainImageOptions& options) {
   std::size_t failed = unused.problems.size();
   AllReadingNotes notes;
   notes.add(std::move(unused));
-  std::size_t painted = 0;
+  std::size_t painted = 0, damaged = 0;
   for (const auto& [slot, file] : *index) {
     if (!overlap(corner_of_slot(slot), frame)) continue;
     const auto reading = read_cell(file, corner_of_slot(slot));
@@ -79,6 +80,7 @@ void draw(const TerrainImageOptions& options) {
       continue;
     }
     notes.add(file.path, *reading);
+    if (reading->has_problem()) ++damaged;
     const std::optional<Culture> culture = culture_of(options, file, corner_of_slot(slot), failed);
     paint_cell(reading->cell, culture ? &*culture : nullptr, frame, image);
     ++painted;
@@ -93,6 +95,10 @@ void draw(const TerrainImageOptions& options) {
   if (failed > 0)
     throw CommandFailed{"yars terrain image: expected all cells to be drawn, found " + std::to_string(failed) +
                             " that could not be; see the problems",
+                        1};
+  if (damaged > 0)
+    throw CommandFailed{"yars terrain image: expected cells without damage, found " + text::counted(damaged, "cell") +
+                            " with it; see the problems",
                         1};
 }
 

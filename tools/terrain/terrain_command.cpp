@@ -202,6 +202,7 @@ class Inspection {
       }
       if (!*found) continue;
       notes_.add_file(path, (*found)->notes, (*found)->impossible);
+      if ((*found)->impossible > 0) ++failed_;
       // A cell that may hold the floor of the sea beside land is read as a cell, which finds that out.
       for (const gdal::RasterCellStatistics& cell : (*found)->cells)
         if (!(cell.lowest_m < kLowLand_m && cell.highest_m > 0.0F))
@@ -224,7 +225,7 @@ class Inspection {
       ++failed_;
       return;
     }
-    if (reading->damaged) ++failed_;
+    if (reading->has_problem()) ++failed_;
     notes_.add(file.path, *reading);
     add_cell(corner, statistics_of(reading->cell), file);
     // On a terminal, the printed lines already show the progress.

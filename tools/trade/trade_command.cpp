@@ -95,7 +95,9 @@ std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::
 }
 
 std::string json_text(const TradeResult& result) {
-  return json_of(result.table, result.axes).dump(2);
+  nlohmann::ordered_json all = json_of(result.table, result.axes);
+  all["left_out"] = result.left_out;
+  return all.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
 }
 
 void write_trade_files(const TradeOptions& options, const TradeResult& result) {
@@ -112,6 +114,8 @@ void write_trade_files(const TradeOptions& options, const TradeResult& result) {
 void write_trade(const TradeOptions& options, const TradeResult& result) {
   write_trade_files(options, result);
   std::printf("%s\n", options.json ? json_text(result).c_str() : trade::table_text(result.table).c_str());
+  std::fflush(stdout);
+  fail_if_left_out(result.left_out);
 }
 
 geo::GeoPoint default_position(const std::string& directory) {
@@ -142,8 +146,9 @@ using model::terrain::TerrainView;
 // resident_bytes() counts the cells of that level only.
 class SceneTerrain {
  public:
-  SceneTerrain(const radar::TerrainConfiguration& configuration, const ScanRequest& request, const Warn& warn)
-      : configuration_(configuration), request_(request), warn_(warn) {}
+  SceneTerrain(const radar::TerrainConfiguration& configuration, const ScanRequest& request, const Warn& warn,
+               LeftOut& left_out)
+      : configuration_(configuration), request_(request), warn_(warn), left_out_(left_out) {}
 
   const TerrainView& at(int detail) {
     const auto known = by_detail_.find(detail);
@@ -152,6 +157,7 @@ class SceneTerrain {
     if (!store) throw_failure(store.error());
     auto view = (*store)->prepare({request_.pose.position, request_.range.metres(), detail});
     check_terrain_read(warn_, configuration_.directory, **store);
+    left_out_.add(**store);
     return *by_detail_.emplace(detail, std::move(view)).first->second;
   }
 
@@ -159,6 +165,7 @@ class SceneTerrain {
   const radar::TerrainConfiguration& configuration_;
   const ScanRequest& request_;
   const Warn& warn_;
+  LeftOut& left_out_;
   std::map<int, model::terrain::TerrainViewPointer> by_detail_;
 };
 
@@ -194,12 +201,12 @@ radar::Fidelity ruler_of(const ScanTradeOptions& options, const radar::Fidelity&
 class SceneTrade {
  public:
   SceneTrade(const ScanTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::Scene& scene,
-             const Warn& warn, const parallel::GoesOn& goes_on)
+             const Warn& warn, LeftOut& left_out, const parallel::GoesOn& goes_on)
       : options_(options),
         configuration_(configuration),
         goes_on_(goes_on),
         request_(trade::request_of(scene, geo::Angle::degrees(options.width_deg), configuration.antenna)),
-        terrain_(configuration_.terrain, request_, warn) {
+        terrain_(configuration_.terrain, request_, warn, left_out) {
     // Jammers, rain and ships stay as configured in all scans. Jammers affect only the video; rain and ships cast no
     // shadow.
     if (options_.ruler == "reference") shared_ = measured_ruler(configuration_.fidelity);
@@ -262,9 +269,10 @@ TradeResult measure_trade(const ScanTradeOptions& options, const radar::RadarCon
   table.values.resize(table.candidates.size());
   const std::vector<trade::Scene> scenes = scenes_of(options, configuration.terrain.directory);
   Progress progress(table.candidates.size() * scenes.size());
+  LeftOut left_out;
   for (const trade::Scene& scene : scenes) {
     table.scenes.push_back(trade::row_of(scene));
-    SceneTrade scene_trade(options, configuration, scene, warn, goes_on);
+    SceneTrade scene_trade(options, configuration, scene, warn, left_out, goes_on);
     for (std::size_t i = 0; i < table.candidates.size(); ++i) {
       table.values[i].push_back(scene_trade.values(table.candidates[i].fidelity));
       progress.done(table.candidates[i].name + ", " + trade::scene_name(scene));
@@ -273,7 +281,8 @@ TradeResult measure_trade(const ScanTradeOptions& options, const radar::RadarCon
   return {std::move(table),
           {{trade::kScanMs, "time per scan (ms of one core)"},
            {{{trade::kScanGray, "video error (gray levels of 255 RMS)"},
-             {trade::kScanShadow, "shadow mismatch (% of ground)"}}}}};
+             {trade::kScanShadow, "shadow mismatch (% of ground)"}}}},
+          left_out.sentences()};
 }
 
 void add_scan_trade_options(databuffer::Command command, ScanTradeOptions& options) {

@@ -46,6 +46,7 @@ void add_map_trade_options(databuffer::Command command, MapTradeOptions& options
 struct TradeResult {
   trade::TradeTable table;
   trade::PlotAxes axes;
+  std::vector<std::string> left_out = {};  // of terrain and scenes, one sentence each
 };
 
 // Measure all candidates. The fidelity of the configuration is not used. `warn` takes warnings about input files.
@@ -56,7 +57,7 @@ TradeResult measure_trade(const ScanTradeOptions& options, const radar::RadarCon
 TradeResult measure_trade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration,
                           const Warn& warn, const parallel::GoesOn& goes_on = {});
 
-// JSON object that --out writes and plot_trade reads. NaN becomes null.
+// JSON object that --out writes and plot_trade reads. NaN becomes null. `left_out` is that of the result.
 std::string json_text(const TradeResult& result);
 
 // Call before the measurement. Throws if the name in --out or --csv does not end in .json or .csv, or if that file
@@ -66,7 +67,8 @@ void check_trade_output(const TradeOptions& options);
 std::vector<trade::Candidate> candidates_of(const TradeOptions& options, trade::Subject subject);
 // Writes the files of --csv and --out.
 void write_trade_files(const TradeOptions& options, const TradeResult& result);
-// Writes the files, and the table, or JSON with --json, to standard output.
+// Writes the files, and the table, or JSON with --json, to standard output. Then throws CommandFailed if something was
+// left out of terrain or scenes.
 void write_trade(const TradeOptions& options, const TradeResult& result);
 
 // Centre of the cell in the middle of a directory's index, which is sorted from south to north, then from west to east.

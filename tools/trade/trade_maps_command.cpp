@@ -28,8 +28,8 @@ namespace hrm = model::hrm;
 // resident_bytes() counts only the cells of that level.
 class ViewEnvironment {
  public:
-  ViewEnvironment(const radar::RadarConfiguration& configuration, const Warn& warn)
-      : configuration_(configuration), warn_(warn) {}
+  ViewEnvironment(const radar::RadarConfiguration& configuration, const Warn& warn, LeftOut& left_out)
+      : configuration_(configuration), warn_(warn), left_out_(left_out) {}
 
   hrm::PatchEnvironment of(const hrm::PatchNeed& need) {
     if (!scene_known_) scene_ = read_scene(need);
@@ -47,6 +47,7 @@ class ViewEnvironment {
     if (!store) throw_failure(store.error());
     auto view = (*store)->prepare(region);
     check_terrain_read(warn_, configuration_.terrain.directory, **store);
+    left_out_.add(**store);
     return known.emplace(region.detail, std::move(view)).first->second;
   }
 
@@ -56,11 +57,13 @@ class ViewEnvironment {
     if (!*scenes) return nullptr;
     auto view = (*scenes)->prepare(need.window);
     check_scenes_read(warn_, **scenes);
+    left_out_.add(**scenes);
     return view;
   }
 
   const radar::RadarConfiguration& configuration_;
   const Warn& warn_;
+  LeftOut& left_out_;
   ByDetail window_, path_;
   model::scene::SceneViewPointer scene_;
   bool scene_known_ = false;
@@ -70,12 +73,12 @@ class ViewEnvironment {
 class ViewTrade {
  public:
   ViewTrade(const MapTradeOptions& options, const radar::RadarConfiguration& configuration, const trade::MapView& view,
-            const Warn& warn, const parallel::GoesOn& goes_on)
+            const Warn& warn, LeftOut& left_out, const parallel::GoesOn& goes_on)
       : options_(options),
         configuration_(configuration),
         goes_on_(goes_on),
         order_(trade::order_of(view)),
-        environment_(configuration_, warn) {
+        environment_(configuration_, warn, left_out) {
     if (options_.ruler == "same") return;
     radar::Fidelity reference = *radar::fidelity_preset("reference");
     reference.map_size = options_.ruler_size;
@@ -161,9 +164,10 @@ TradeResult measure_trade(const MapTradeOptions& options, const radar::RadarConf
   table.values.resize(table.candidates.size());
   const std::vector<trade::MapView> views = views_of(options, configuration.terrain.directory);
   Progress progress(table.candidates.size() * views.size());
+  LeftOut left_out;
   for (const trade::MapView& view : views) {
     table.scenes.push_back(trade::row_of(view));
-    ViewTrade view_trade(options, configuration, view, warn, goes_on);
+    ViewTrade view_trade(options, configuration, view, warn, left_out, goes_on);
     for (std::size_t i = 0; i < table.candidates.size(); ++i) {
       table.values[i].push_back(view_trade.values(table.candidates[i].fidelity));
       progress.done(table.candidates[i].name + ", " + trade::map_view_name(view));
@@ -171,7 +175,8 @@ TradeResult measure_trade(const MapTradeOptions& options, const radar::RadarConf
   }
   return {std::move(table),
           {{trade::kMapMs, "time per map (ms of one core)"},
-           {{{trade::kMapPower, "power error (dB RMS)"}, {trade::kMapShadow, "shadow mismatch (% of pixels)"}}}}};
+           {{{trade::kMapPower, "power error (dB RMS)"}, {trade::kMapShadow, "shadow mismatch (% of pixels)"}}}},
+          left_out.sentences()};
 }
 
 void add_map_trade_options(databuffer::Command command, MapTradeOptions& options) {

@@ -5,11 +5,13 @@
 #include <cmath>
 #include <filesystem>
 #include <future>
+#include <system_error>
 #include <thread>
 #include <type_traits>
 #include <utility>
 
 #include "lib/radar/world.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/scene/placement/plan_geometry.hpp"
 #include "model/scene/placement/tile_builder.hpp"
 #include "model/terrain/store/directory_store.hpp"
@@ -116,6 +118,51 @@ SceneStore::SceneStore(std::vector<IndexedScene> index, std::unique_ptr<terrain:
   make_view();
 }
 
+namespace {
+
+// What the file of a scene has and its model has not, one sentence each: all of it if the file cannot be read.
+std::vector<std::string> left_out_of(const IndexedScene& scene, const error::Expected<Model>& model) {
+  if (!model) return {model.error().message() + "; the scene is left out"};
+  std::vector<std::string> sentences;
+  for (const std::string& sentence : model->left_out) sentences.push_back(scene.file.string() + ": " + sentence);
+  return sentences;
+}
+
+// The same, then the warnings about the file.
+std::vector<std::string> problems_of(const IndexedScene& scene, const error::Expected<Model>& model) {
+  std::vector<std::string> sentences = left_out_of(scene, model);
+  if (model)
+    for (const std::string& warning : model->warnings) sentences.push_back(scene.file.string() + ": " + warning);
+  return sentences;
+}
+
+}  // namespace
+
+void SceneStore::check_files(const std::function<bool(std::vector<std::string>)>& report) const {
+  std::uintmax_t read_bytes = 0;
+  std::size_t unchecked = 0;
+  for (const IndexedScene& scene : index_) {
+    std::error_code code;
+    const std::uintmax_t bytes = std::filesystem::file_size(scene.file, code);
+    if (!code && (bytes > kMaxCheckedFileBytes || bytes > kMaxCheckedBytes - read_bytes)) {
+      ++unchecked;
+      continue;
+    }
+    if (!code) read_bytes += bytes;
+    NameFilter filter(scene.without);
+    if (!report(problems_of(scene, read_openflight(scene.file, &filter)))) return;
+  }
+  if (unchecked > 0)
+    report({text::counted(unchecked, "scene file") +
+            " too large to be checked before use: what is left out is said when a scene is read"});
+}
+
+std::vector<std::string> SceneStore::left_out() const {
+  std::vector<std::string> sentences = not_indexed_;
+  for (const Resident& scene : scenes_) sentences.insert(sentences.end(), scene.left_out.begin(), scene.left_out.end());
+  return sentences;
+}
+
 SceneViewPointer SceneStore::prepare(const terrain::TerrainRegion& region) {
   ++prepares_;
   std::vector<GridIndex::Hit> hits;
@@ -130,12 +177,9 @@ SceneViewPointer SceneStore::prepare(const terrain::TerrainRegion& region) {
   const std::size_t most = std::clamp<std::size_t>(std::thread::hardware_concurrency(), 1, kMaxThreads);
   for (std::span<const std::size_t> rest = absent; !rest.empty(); rest = rest.subspan(std::min(most, rest.size())))
     changed |= load(rest.first(std::min(most, rest.size())));
-  wanted_ = {hits.size() + not_indexed_.size(), not_indexed_.size(), not_indexed_};
-  for (const GridIndex::Hit& hit : hits) {
-    const Resident& scene = scenes_[hit.disc];
-    if (scene.unreadable) ++wanted_.unreadable;
-    wanted_.left_out.insert(wanted_.left_out.end(), scene.left_out.begin(), scene.left_out.end());
-  }
+  wanted_ = {hits.size() + not_indexed_.size(), not_indexed_.size()};
+  for (const GridIndex::Hit& hit : hits)
+    if (scenes_[hit.disc].unreadable) ++wanted_.unreadable;
   while (resident_bytes_ > options_.resident_limit_bytes && drop_longest_unused()) changed = true;
   if (changed) make_view();
   return view_;
@@ -170,17 +214,12 @@ bool SceneStore::load(std::span<const std::size_t> numbers) {
 std::optional<SceneStore::Loading> SceneStore::begin_load(std::size_t number, error::Expected<Model> model) {
   Resident& resident = scenes_[number];
   const IndexedScene& scene = index_[number];
+  resident.left_out = left_out_of(scene, model);
+  for (std::string& problem : problems_of(scene, model)) problems_.push_back(std::move(problem));
   if (!model) {
     resident.unreadable = true;
-    resident.left_out = {model.error().message() + "; the scene is left out"};
-    problems_.push_back(resident.left_out.front());
     return std::nullopt;
   }
-  resident.left_out.clear();
-  for (const std::string& sentence : model->left_out)
-    resident.left_out.push_back(scene.file.string() + ": " + sentence);
-  problems_.insert(problems_.end(), resident.left_out.begin(), resident.left_out.end());
-  for (const std::string& warning : model->warnings) problems_.push_back(scene.file.string() + ": " + warning);
   const auto objects = static_cast<std::uint32_t>(model->objects.size());
   // A scene that is loaded again reuses the numbers of its objects. If its file now has more objects than at any
   // earlier load, all its objects get new numbers, and the old numbers become unused.

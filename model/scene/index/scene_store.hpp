@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -50,6 +51,11 @@ class PlacedView final : public SceneView {
   std::uint64_t bytes_ = 0;
 };
 
+// [bytes] Bounds of SceneStore::check_files(): about 1 s of one processor for a file, and 4 s in all. External files of
+// a scene are not counted.
+inline constexpr std::uintmax_t kMaxCheckedFileBytes = std::uintmax_t{64} << 20;
+inline constexpr std::uintmax_t kMaxCheckedBytes = std::uintmax_t{256} << 20;
+
 // Options of a SceneStore. `resident_limit_bytes` is a soft limit of memory: scenes that overlap the last prepared
 // region always stay loaded.
 struct SceneStoreOptions {
@@ -81,13 +87,20 @@ class SceneStore {
 
   // Number of files whose scenes overlap the last prepared region, and how many of these files are unreadable.
   // A file that could not be indexed counts in both numbers in every region, because its position is unknown.
-  // `left_out`: what the view of the region lacks of these files, one sentence each. It stays when a region is prepared
-  // again, unlike the problems.
   struct Wanted {
     std::size_t files = 0, unreadable = 0;
-    std::vector<std::string> left_out;
   };
   const Wanted& wanted() const { return wanted_; }
+  // What the views of all regions so far lack of the files, one sentence each: files that cannot be indexed or read,
+  // and parts of the others. It stays, unlike the problems.
+  std::vector<std::string> left_out() const;
+
+  // What reading the whole files of all scenes has as problems, before any region needs them, file by file in the order
+  // of the index. `report` takes the sentences of one file, as take_problems() will have them, and may stop the check
+  // by returning false. Bounds: a file above kMaxCheckedFileBytes, and what follows kMaxCheckedBytes in all, is not
+  // read; the last sentence says how many files that are. One model at a time is in memory.
+  // Threads: may run in one thread while another calls prepare(), because it uses only the index.
+  void check_files(const std::function<bool(std::vector<std::string>)>& report) const;
 
  private:
   struct Resident {

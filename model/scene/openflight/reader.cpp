@@ -354,8 +354,14 @@ fs::path external_root(fs::path folder) {
 
 error::Expected<Model> read_openflight(const fs::path& path, NameFilter* filter) {
   std::error_code code;
-  const fs::path canonical = fs::weakly_canonical(path, code);
-  return FileSet(canonical, filter).read_first(canonical);
+  fs::path first = fs::weakly_canonical(path, code);
+  if (code) first = path;  // links in a circle
+  auto model = FileSet(first, filter).read_first(first);
+  if (model) return model;
+  // The message names the file as the user does, and an external file behind it.
+  error::Error error = std::move(model.error());
+  error.subject = path.string() + (error.subject == first ? "" : ": external file " + error.subject);
+  return tl::unexpected(std::move(error));
 }
 
 error::Expected<Model> read_openflight(std::span<const std::byte> bytes, const std::string& subject,

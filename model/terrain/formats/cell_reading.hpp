@@ -30,7 +30,9 @@ struct CellReading {
   std::vector<std::string> notes = {};       // about this cell; nothing is left out
   std::vector<std::string> file_notes = {};  // rasters only: accuracy of the whole file, which contains many cells
   std::size_t impossible = 0;                // rasters only: posts with impossible heights, made void
-  bool damaged = false;                      // true: a checksum is wrong, or a further raster cannot be read
+
+  // Commands that report it end with exit code 1.
+  bool has_problem() const { return !warnings.empty() || impossible > 0; }
 };
 
 // Replaces impossible heights by voids. If there are any, adds one warning with their number. Posts are in metres.

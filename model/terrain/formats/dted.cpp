@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -232,16 +233,17 @@ void decode(std::vector<std::int16_t>& words, bool twos_complement) {
   }
 }
 
-std::vector<std::string> warnings_of(const Columns& found, const Header& header) {
-  std::vector<std::string> warnings;
-  const auto count = [&](const char* what, std::size_t number, const char* consequence) {
-    if (number > 0) warnings.push_back(what + std::to_string(number) + consequence);
+// Adds what is to be said about the columns. Columns shorter than the cell are those of a cell at a border, and bytes
+// after the last one are padding: nothing of the file is left out.
+void add_sentences(const Columns& found, const Header& header, CellReading& reading) {
+  const auto add = [](std::vector<std::string>& to, const char* what, std::size_t number, const char* consequence) {
+    if (number > 0) to.push_back(what + std::to_string(number) + consequence);
   };
-  count("columns with a wrong checksum: ", found.wrong_sums, "; their heights are kept");
-  count("absent columns: ", static_cast<std::size_t>(header.columns) - found.present, "; they are void");
-  count("partial columns: ", found.partial, "; their missing posts are void");
-  count("bytes after the last column record: ", found.bytes_after, "; they are ignored");
-  return warnings;
+  add(reading.warnings, "columns with a wrong checksum: ", found.wrong_sums, "; their heights are kept");
+  add(reading.warnings, "absent columns: ", static_cast<std::size_t>(header.columns) - found.present,
+      "; they are void");
+  add(reading.notes, "partial columns: ", found.partial, "; their missing posts are void");
+  add(reading.notes, "bytes after the last column record: ", found.bytes_after, "; they are ignored");
 }
 
 }  // namespace
@@ -282,11 +284,12 @@ error::Expected<CellReading> parse_dted(std::span<const std::byte> bytes, const 
                static_cast<std::int16_t>(dted::kVoidWord));
   copy_words(columns->records, *header, posts);
   const bool twos_complement = is_twos_complement(posts);
-  std::vector<std::string> warnings = warnings_of(*columns, *header);
+  std::vector<std::string> impossible;
   decode(posts, twos_complement);
-  void_impossible_heights(posts, warnings);
-  CellReading reading{Cell(corner, header->rows, header->columns, posts), std::nullopt, std::move(warnings)};
-  reading.damaged = columns->wrong_sums > 0;
+  void_impossible_heights(posts, impossible);
+  CellReading reading{Cell(corner, header->rows, header->columns, posts), std::nullopt, {}};
+  add_sentences(*columns, *header, reading);
+  std::move(impossible.begin(), impossible.end(), std::back_inserter(reading.warnings));
   if (twos_complement) reading.notes.emplace_back("negative heights are in two's complement, not in sign-magnitude");
   return reading;
 }

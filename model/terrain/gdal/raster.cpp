@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <optional>
 #include <string>
@@ -137,6 +138,12 @@ class CellReader {
 
   // Output: the number of pixels with impossible heights.
   error::Expected<std::size_t> read() {
+    if (const double pixels = pixels_in_cell(); pixels > kMaxPixelsPerCell) {
+      std::array<char, 32> found{};
+      std::snprintf(found.data(), found.size(), "about %.1g", pixels);
+      return error::fail(raster_.subject, "at most 4e10 pixels in a one-degree cell, 0.5 m apart", found.data(),
+                         "make larger pixels, as with `gdalwarp -tr`");
+    }
     size_ = block_size();
     const PostRange range = touched_posts(raster_, grid_);
     for (int row = 0; row < grid_.rows; row += kTile)
@@ -152,10 +159,25 @@ class CellReader {
  private:
   static constexpr int kTile = 256;  // [posts] edge of a tile; bounds the memory for pixels
 
+  static constexpr double kMaxPixelsPerCell = 4e10;  // read in about a minute; without a bound a raster takes for ever
+
+  // Pixels per post interval in the middle of the cell.
+  PixelStep middle_step() const {
+    const PostLattice middle(raster_.georeference, grid_, {grid_.rows / 2 - 1, grid_.columns / 2 - 1, 1, 1});
+    return middle.step(0, 0);
+  }
+
+  // At most the pixels of the raster.
+  double pixels_in_cell() const {
+    const PixelStep step = middle_step();
+    const double per_post = std::abs(step.column_north * step.row_east - step.column_east * step.row_north);
+    const double whole = static_cast<double>(raster_.columns) * raster_.rows;
+    return std::isfinite(per_post) ? std::min(whole, per_post * grid_.rows * grid_.columns) : whole;
+  }
+
   // Blocks of at most half a post interval, so that their means keep all relief that the posts can represent.
   BlockSize block_size() const {
-    const PostLattice middle(raster_.georeference, grid_, {grid_.rows / 2 - 1, grid_.columns / 2 - 1, 1, 1});
-    const PixelStep step = middle.step(0, 0);
+    const PixelStep step = middle_step();
     const auto blocks = [](double a, double b) {
       const double pixels = std::max(std::abs(a), std::abs(b));
       return std::isfinite(pixels) ? std::max(1, static_cast<int>(std::min(pixels, 1e4) / 2.0)) : 1;

@@ -165,6 +165,23 @@ float even_spacing_m(std::span<const float> distance_m) {
 
 }  // namespace
 
+namespace {
+
+// The cells that have a position on the south or west edge of a cell on an edge of theirs, too. Empty for any other
+// position. Degrees are from the cell's south-west corner.
+std::vector<CellCorner> sharing_edge(CellCorner corner, double north_deg, double east_deg) {
+  const bool on_south = north_deg == 0.0 && corner.south_deg > -90, on_west = east_deg == 0.0;
+  const int south_deg = corner.south_deg - 1;
+  const int west_deg = corner.west_deg > -kCellColumns / 2 ? corner.west_deg - 1 : kCellColumns / 2 - 1;
+  std::vector<CellCorner> cells;
+  if (on_south) cells.push_back({south_deg, corner.west_deg});
+  if (on_west) cells.push_back({corner.south_deg, west_deg});
+  if (on_south && on_west) cells.push_back({south_deg, west_deg});
+  return cells;
+}
+
+}  // namespace
+
 CellView::CellView(std::uint64_t generation, Absence elsewhere, int detail) : generation_(generation), detail_(detail) {
   table_.fill(static_cast<std::uint16_t>(elsewhere));
 }
@@ -194,6 +211,21 @@ void CellView::add(TerrainCell cell) {
 Surface CellView::surface_at(geo::GeoPoint position, Interpolation interpolation) const {
   if (!std::isfinite(position.latitude_deg) || !std::isfinite(position.longitude_deg)) return kVoidSurface;
   const CellCorner corner = cell_containing(position);
+  const double north_deg = position.latitude_deg - corner.south_deg;
+  const double east_deg = geo::wrapped_degrees(position.longitude_deg) - corner.west_deg;
+  const Surface surface = surface_in(corner, north_deg, east_deg, interpolation);
+  if (!std::isnan(surface.elevation_m) || entry(corner) < kFirstCell) return surface;
+  for (const CellCorner across : sharing_edge(corner, north_deg, east_deg)) {
+    if (entry(across) < kFirstCell) continue;
+    const Surface shared = surface_in(across, across.south_deg == corner.south_deg ? north_deg : 1.0,
+                                      across.west_deg == corner.west_deg ? east_deg : 1.0, interpolation);
+    if (!std::isnan(shared.elevation_m)) return shared;
+  }
+  return surface;
+}
+
+// The ground of a cell at degrees from its south-west corner.
+Surface CellView::surface_in(CellCorner corner, double north_deg, double east_deg, Interpolation interpolation) const {
   const std::uint16_t table_entry = entry(corner);
   if (table_entry == static_cast<std::uint16_t>(Absence::sea)) return {0.0, 1.0};
   if (table_entry < kFirstCell) {
@@ -202,8 +234,6 @@ Surface CellView::surface_at(geo::GeoPoint position, Interpolation interpolation
     return nothing;
   }
   const TerrainCell& cell = cells_[table_entry - kFirstCell];
-  const double north_deg = position.latitude_deg - corner.south_deg;
-  const double east_deg = geo::wrapped_degrees(position.longitude_deg) - corner.west_deg;
   Surface surface = interpolate(*cell.heights, north_deg, east_deg, interpolation);
   if (cell.peaks) {
     // Peaks are an upper bound of the ground. A cubic between peaks could be below the ground, so bilinear replaces it.
@@ -308,6 +338,20 @@ void CellView::sample_run(const Run& run, const PositionRun& positions, Interpol
     std::copy_n(&found.elevation_m[run.first], run.count, &found.peak_m[run.first]);
 }
 
+// Takes the heights of void positions on the south or west edge of the run's cell from the cells that share the edge.
+void CellView::fill_edges(const Run& run, const PositionRun& positions, Interpolation interpolation,
+                          const SurfaceRun& found) const {
+  for (std::size_t i = run.first; i < run.first + run.count; ++i) {
+    if (positions.north_deg[i] != 0.0F && positions.east_deg[i] != 0.0F) continue;
+    if (!std::isnan(found.elevation_m[i])) continue;
+    const Surface surface = surface_at(position_of(positions, i), interpolation);
+    if (std::isnan(surface.elevation_m)) continue;
+    found.elevation_m[i] = static_cast<float>(surface.elevation_m);
+    found.water[i] = static_cast<float>(surface.water);
+    if (!found.peak_m.empty()) found.peak_m[i] = static_cast<float>(surface.peak_m);
+  }
+}
+
 std::size_t CellView::surfaces(const PositionRun& positions, Interpolation interpolation,
                                const SurfaceRun& found) const {
   const std::size_t count = positions.north_deg.size();
@@ -325,6 +369,7 @@ std::size_t CellView::surfaces(const PositionRun& positions, Interpolation inter
       std::fill_n(&found.near.height_m[first], run.count, std::numeric_limits<float>::quiet_NaN());
     if (run.table_entry >= kFirstCell) {
       sample_run(run, positions, interpolation, found);
+      if (cells_[run.table_entry - kFirstCell].heights->voids() > 0) fill_edges(run, positions, interpolation, found);
     } else {
       const bool sea = run.table_entry == static_cast<std::uint16_t>(Absence::sea);
       const float height_m = sea ? 0.0F : std::numeric_limits<float>::quiet_NaN();

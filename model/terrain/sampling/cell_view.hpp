@@ -53,6 +53,8 @@ struct TerrainCell {
 
 // View over a set of cells; made by DirectoryTerrainStore. Its table has one entry per one-degree cell of the earth.
 // surfaces() processes runs of positions in one cell. The result at a position does not depend on other positions.
+// A position on the south or west edge of its cell, where that cell has no height, has the height of the edge of the
+// first cell that has one: south, west, south-west. Many tiles have posts on an edge that only one of two shares.
 class CellView final : public TerrainView {
  public:
   // `elsewhere` applies to every one-degree cell that neither set_absence() nor add() sets. `detail`: see has_detail().
@@ -100,6 +102,9 @@ class CellView final : public TerrainView {
                   const SurfaceRun& found) const;
   void sample_singly(const Run& run, const PositionRun& positions, Interpolation interpolation,
                      const SurfaceRun& found) const;
+  void fill_edges(const Run& run, const PositionRun& positions, Interpolation interpolation,
+                  const SurfaceRun& found) const;
+  Surface surface_in(CellCorner corner, double north_deg, double east_deg, Interpolation interpolation) const;
 
   std::uint16_t entry(CellCorner corner) const { return table_[slot_of(corner)]; }
 

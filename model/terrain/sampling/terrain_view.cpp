@@ -51,14 +51,16 @@ std::vector<CellCorner> cells_within(const TerrainRegion& region) {
   const double radius_rad = angle_of(region.radius_m);
   const double radius_deg = radius_rad / geo::kRadiansPerDegree;
   const geo::GeoPoint centre = region.centre;
-  const int south = cell_containing({centre.latitude_deg - radius_deg, 0}).south_deg;
+  // A cell has its four edges: a circle that ends on a whole degree touches the cells on both sides.
+  const auto last_below = [](double degrees) { return static_cast<int>(std::ceil(degrees)) - 1; };
+  const int south = std::max(last_below(centre.latitude_deg - radius_deg), -90);
   const int north = cell_containing({centre.latitude_deg + radius_deg, 0}).south_deg;
   // In longitude the circle extends asin(sin(radius_rad) / cos(latitude of the centre)) to each side. If the circle
   // contains a pole, it meets all meridians.
   const bool over_pole = std::abs(centre.latitude_deg) + radius_deg >= 90.0;
   const double sine = over_pole ? 1.0 : std::sin(radius_rad) / std::cos(centre.latitude_deg * geo::kRadiansPerDegree);
   const double side_deg = over_pole || sine >= 1.0 ? 180.0 : std::asin(sine) / geo::kRadiansPerDegree;
-  const int first = static_cast<int>(std::floor(centre.longitude_deg - side_deg));
+  const int first = last_below(centre.longitude_deg - side_deg);
   const int last = std::min(static_cast<int>(std::floor(centre.longitude_deg + side_deg)), first + kCellColumns - 1);
   const double touched_deg = touched_within_deg(region.radius_m);
   std::vector<CellCorner> cells;

@@ -88,7 +88,6 @@ error::Expected<CellReading> read_raster_cell(const CellFile& file, CellCorner c
                       {},
                       std::move(posts->notes),
                       posts->impossible};
-  reading.damaged = !posts->problems.empty();
   for (const std::string& problem : posts->problems)
     reading.warnings.push_back("voids of its cell are not filled from another raster: " + problem);
   // If averaging has done the whole reduction, the averaged posts are also the peaks.

@@ -101,15 +101,14 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
 // loaded, nearest first.
 std::vector<DirectoryTerrainStore::Level> DirectoryTerrainStore::select(const TerrainRegion& region, bool& changed) {
   std::vector<Level> missing;
-  region_cells_ = {0, 0, not_used_};
+  region_cells_ = {};
   for (const CellCorner corner : cells_within(region)) {
     const std::size_t slot = slot_of(corner);
     const auto file = index_.find(slot);
     if (file == index_.end()) continue;
     ++region_cells_.files;
-    if (const auto reason = unreadable_.find(slot); reason != unreadable_.end()) {
+    if (unreadable_.contains(slot)) {
       ++region_cells_.unreadable;
-      region_cells_.left_out.push_back(reason->second);
       continue;
     }
     const Level level{slot, reduction_for(file->second, region.detail)};
@@ -149,6 +148,13 @@ void DirectoryTerrainStore::use_substitute(Level level) {
   if (found->first.first == level.first) use_in_view(found->first);
 }
 
+std::vector<std::string> DirectoryTerrainStore::left_out() const {
+  std::vector<std::string> sentences = not_used_;
+  for (const auto& [slot, reason] : unreadable_) sentences.push_back(reason);
+  sentences.insert(sentences.end(), incomplete_.begin(), incomplete_.end());
+  return sentences;
+}
+
 std::vector<std::string> DirectoryTerrainStore::take_problems() {
   return std::exchange(sentences_.problems, {});
 }
@@ -171,11 +177,11 @@ bool DirectoryTerrainStore::load(Level level) {
     sentences_.problems.push_back(reason);
     unreadable_.emplace(level.first, reason);
     ++region_cells_.unreadable;
-    region_cells_.left_out.push_back(reason);
     shown_.erase(level.first);
     return false;
   }
   FileSentences found = reported_.take_new(file.path, *reading);
+  incomplete_.insert(found.problems.begin(), found.problems.end());
   for (std::string& problem : found.problems) sentences_.problems.push_back(std::move(problem));
   for (std::string& note : found.notes) sentences_.notes.push_back(std::move(note));
   TerrainCell cell{std::make_shared<const Cell>(std::move(reading->cell)), nullptr,

@@ -38,8 +38,6 @@ struct DirectoryStoreOptions {
 struct RegionCells {
   std::size_t files = 0;       // cells with a file
   std::size_t unreadable = 0;  // cells with a file that cannot be read; they are void
-  std::vector<std::string>
-      left_out;  // why, one sentence each, behind those about files of the folder that are not used
 };
 
 // Reduction: number of times that the spacing of posts is doubled. Returns the largest reduction, at most 6, with which
@@ -61,6 +59,9 @@ class DirectoryTerrainStore final : public TerrainStore {
   std::vector<std::string> take_problems() override;
   std::vector<std::string> take_notes() override;
   const RegionCells& region_cells() const { return region_cells_; }
+  // What all regions so far lack, one sentence each: files of the folder that are not used, unreadable cells, then what
+  // is left out of other cells, or may be damaged there. It stays, unlike the problems.
+  std::vector<std::string> left_out() const;
   const DirectoryIndex& index() const { return index_; }
   // The next region without a cell is a problem again, for callers whose regions have nothing to do with each other.
   void report_again() { outside_coverage_ = false; }
@@ -96,6 +97,7 @@ class DirectoryTerrainStore final : public TerrainStore {
   std::uint64_t prepares_ = 0;
   std::uint64_t generation_ = 0;
   std::vector<std::string> not_used_;  // problems of the folder's index
+  std::set<std::string> incomplete_;   // problems of cells that were read
   RegionCells region_cells_;
   TerrainViewPointer view_;
   ReadingNotes reported_;

@@ -45,6 +45,7 @@ export class UndoLine {
     const offer = this.offers.pop();
     if (!offer) return;
     const { problem } = await offer.undo();
+    if (problem !== null) this.offers.unshift(offer); // without radar-model, say: it is offered again, after the others
     const next = this.offers[this.offers.length - 1];
     const done = problem === null ? `${offer.restored}.` : "";
     this.show(next ? `${done} Before: ${next.text}.` : done);

@@ -1,5 +1,6 @@
 // SceneLoader: with a thread, a request returns at once and the scenes load in the background. A synchronous loader
 // returns when the scenes are loaded.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -81,6 +82,28 @@ TEST_F(SceneLoading, ASynchronousLoaderReturnsAllScenesAlongAFlight) {
     const geo::GeoPoint position =
         geo::geodesic_direct(kScenePosition, geo::Bearing::degrees(20.0), geo::Length::metres(15'000.0 * minute));
     EXPECT_TRUE(loader.request({position, 40'000.0, 0}).complete) << minute;
+  }
+}
+
+// What is left out of a scene is said at the start, though no region needs the scene, and once.
+TEST_F(SceneLoading, WhatASceneLacksIsKnownBeforeARegionNeedsIt) {
+  worldgen::OpenFlightWriter writer(kScenePosition);
+  writer.external("gone.flt", {});
+  const auto bytes = writer.take();
+  std::ofstream(folder_ / "a.flt", std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  for (const bool synchronous : {true, false}) {
+    SceneLoader loader(store(), synchronous);
+    std::vector<std::string> problems = loader.take_problems();
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (problems.empty() && std::chrono::steady_clock::now() < deadline) {
+      std::this_thread::yield();
+      problems = loader.take_problems();
+    }
+    EXPECT_THAT(problems, testing::ElementsAre(testing::HasSubstr("gone.flt is not there"))) << synchronous;
+    const terrain::TerrainRegion region{kScenePosition, 20'000.0, 0};
+    while (!loader.request(region).complete && std::chrono::steady_clock::now() < deadline) std::this_thread::yield();
+    EXPECT_TRUE(loader.take_problems().empty()) << "said once";
   }
 }
 

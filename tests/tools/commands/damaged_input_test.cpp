@@ -93,6 +93,75 @@ TEST(DamagedInput, ATradeOverUnreadableTerrainFails) {
   }
 }
 
+// A problem of a cell that is read makes the exit code of every command 1 that reads the cell; a note does not.
+TEST(DamagedInput, ACellWithAProblemIsNamedAndMakesTheExitCodeOne) {
+  const test::TemporaryFolder folder;
+  const fs::path tree = folder.path() / "cells";
+  write_cell(tree, 37, -122);
+  const fs::path cell = tree / "w122" / "n37.dt0";
+  const std::string out = folder.path() / "out";
+  const std::vector<std::vector<std::string>> commands = {
+      {"terrain", "info", tree},
+      {"terrain", "image", "--terrain", tree, "--out", folder.path() / "map.png"},
+      {"terrain", "profile", "--terrain", tree, "--from", "37.4", "-121.5", "--to", "37.5", "-121.5"},
+      {"terrain", "dump", "--terrain", tree, "--south", "37", "--west", "-122"},
+      {"terrain", "convert", "--in", tree, "--out", out},
+      {"terrain", "reduce", "--in", tree, "--out", out, "--reduction", "1"},
+      {"terrain", "pack", "--in", tree, "--out", out},
+      {"scan", "--terrain", tree, "--lat", "37.5", "--lon", "-121.5", "--range-nm", "5", "--samples", "20"},
+      {"patch", "--terrain", tree, "--lat", "37.4", "--lon", "-121.5", "--heading", "0", "--target-lat", "37.5",
+       "--target-lon", "-121.3", "--size", "32", "--force"},
+      {"trade", "--terrain", tree, "--scene", "37.5,-121.5,15000,0,5", "--presets", "draft", "--repeat", "1",
+       "--ruler-samples", "16"}};
+  const auto expect = [&](int code, const std::string& sentence) {
+    for (std::vector<std::string> words : commands) {
+      words.insert(words.begin(), "yars");
+      const auto done = endtoend::run_program(words);
+      EXPECT_EQ(done.code, code) << words[1] << ' ' << words[2] << done.errors;
+      EXPECT_THAT(done.output + done.errors, HasSubstr(sentence)) << words[1] << ' ' << words[2];
+    }
+  };
+  std::ofstream(cell, std::ios::app) << "padding";
+  expect(0, "bytes after the last column record: 7");
+  std::fstream(cell, std::ios::in | std::ios::out | std::ios::binary).seekp(3500) << '\x01';
+  expect(1, "columns with a wrong checksum: 1");
+}
+
+// A trade whose terrain or scene lacks a part writes its table, names the part, and ends with 1, in text and in JSON.
+TEST(DamagedInput, ATradeThatLeavesPartsOutNamesThemAndFailsAfterTheResult) {
+  const test::TemporaryFolder folder;
+  write_cell(folder.path() / "cells", 37, -121);
+  write_cell(folder.path() / "cells", 37, -120);
+  fs::resize_file(folder.path() / "cells" / "w120" / "n37.dt0", 4000);
+  worldgen::OpenFlightWriter writer(geo::GeoPoint{37.7, -120.4});
+  writer.external("hangar.flt", {});
+  const std::vector<std::byte> bytes = writer.take();
+  const fs::path scene = folder.path() / "whole.flt";
+  write_text(scene, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  struct Trade {
+    std::vector<std::string> words;
+    std::string part;
+  };
+  const std::vector<Trade> trades = {
+      {{"trade", "--scene", "37.5,-120.1,15000,90,20", "--terrain", folder.path() / "cells"}, "n37.dt0"},
+      {{"trade", "maps", "--view", "37.5,-120.1,15000,37.6,-119.8,4.7", "--terrain", folder.path() / "cells"},
+       "n37.dt0"},
+      {{"trade", "maps", "--view", "37.5,-120.5,15000,37.7,-120.4,4.7", "--scene", scene}, "hangar.flt is not there"}};
+  for (const Trade& trade : trades)
+    for (const bool json : {false, true}) {
+      std::vector<std::string> words{"yars"};
+      words.insert(words.end(), trade.words.begin(), trade.words.end());
+      words.insert(words.end(), {"--presets", "draft", "--repeat", "1"});
+      words.insert(words.end(), {words[2] == "maps" ? "--ruler-size" : "--ruler-samples", "32"});
+      if (json) words.emplace_back("--json");
+      const auto done = endtoend::run_program(words);
+      EXPECT_EQ(done.code, 1) << done.errors;
+      EXPECT_THAT(done.output, HasSubstr("draft")) << "the result is written";
+      EXPECT_THAT(done.errors, AllOf(HasSubstr(trade.part), HasSubstr("found 1 part left out")));
+      if (json) EXPECT_THAT(done.output, HasSubstr(trade.part));
+    }
+}
+
 // `trade` may take an hour; a misspelt output folder must not waste that time.
 TEST(DamagedInput, AnOutputThatCannotBeWrittenIsReportedBeforeTheWorkBegins) {
   const test::TemporaryFolder folder;

@@ -252,8 +252,8 @@ TEST(SceneStore, ReadsOnlyScenesThatOverlapTheRegion) {
   EXPECT_EQ(after_failure, view);
 }
 
-// What is left out of the scenes of a region is known as long as they are shown, unlike problems, which are told once.
-TEST(SceneStore, KnowsWhatTheViewOfARegionLacks) {
+// What is left out of the scenes of all regions stays known, unlike problems, which are told once.
+TEST(SceneStore, KnowsWhatItsViewsLack) {
   const Folder folder;
   worldgen::OpenFlightWriter writer(kOrigin);
   writer.external("gone.flt", {});
@@ -265,15 +265,60 @@ TEST(SceneStore, KnowsWhatTheViewOfARegionLacks) {
   cut.resize(cut.size() - 3);
   folder.write("cut.flt", cut);
   const auto store = store_of({scene_of(folder.path())}, terrain::flat(0));
+  EXPECT_THAT(store->left_out(), testing::ElementsAre(HasSubstr("scene with a position")));
   for (int time = 0; time < 2; ++time) {
     store->prepare({kOrigin, 1000, 0});
-    EXPECT_THAT(store->wanted().left_out,
+    EXPECT_THAT(store->left_out(),
                 testing::UnorderedElementsAre(HasSubstr("scene with a position"), HasSubstr("gone.flt is not there"),
                                               HasSubstr("truncated")));
     EXPECT_EQ(store->take_problems().size(), time == 0 ? 4U : 0U);
   }
   store->prepare({offset(kOrigin, 90, 300'000), 1000, 0});
-  EXPECT_THAT(store->wanted().left_out, testing::ElementsAre(HasSubstr("scene with a position")));
+  EXPECT_EQ(store->left_out().size(), 3U);
+}
+
+// check_files() has the sentences that reading the scenes will have, in one call a file, and can be stopped.
+TEST(SceneStore, ChecksItsFilesBeforeARegionNeedsThem) {
+  const Folder folder;
+  worldgen::OpenFlightWriter writer(kOrigin);
+  writer.external("gone.flt", {});
+  std::vector<std::byte> bytes = writer.take();
+  bytes.resize(bytes.size() + 5);
+  folder.write("a.flt", bytes);
+  folder.write("b.flt", box_and_road(kOrigin));
+  std::vector<std::byte> cut = box_and_road(kOrigin);
+  cut.resize(cut.size() - 3);
+  folder.write("cut.flt", cut);
+  const auto store = store_of({scene_of(folder.path())}, terrain::flat(0));
+  std::vector<std::string> checked;
+  int files = 0;
+  store->check_files([&](const std::vector<std::string>& problems) {
+    ++files;
+    checked.insert(checked.end(), problems.begin(), problems.end());
+    return true;
+  });
+  EXPECT_EQ(files, 3);
+  EXPECT_TRUE(store->take_problems().empty()) << "nothing is loaded";
+  store->prepare({kOrigin, 1000, 0});
+  EXPECT_THAT(checked, testing::UnorderedElementsAreArray(store->take_problems()));
+  EXPECT_EQ(checked.size(), 3U);
+  files = 0;
+  store->check_files([&](const std::vector<std::string>&) { return ++files < 2; });
+  EXPECT_EQ(files, 2);
+}
+
+// A file that is too large for the check is counted, and is read when a region needs it.
+TEST(SceneStore, AFileTooLargeForTheCheckIsCounted) {
+  const Folder folder;
+  folder.write("a.flt", box_and_road(kOrigin));
+  std::filesystem::resize_file(folder.path() / "a.flt", kMaxCheckedFileBytes + 1);
+  const auto store = store_of({scene_of(folder.path())}, terrain::flat(0));
+  std::vector<std::string> checked;
+  store->check_files([&](const std::vector<std::string>& problems) {
+    checked.insert(checked.end(), problems.begin(), problems.end());
+    return true;
+  });
+  EXPECT_THAT(checked, testing::ElementsAre(HasSubstr("1 scene file too large to be checked")));
 }
 
 // A store of a.flt at kOrigin and b.flt at `other`, in which only one scene stays resident.

@@ -129,6 +129,22 @@ TEST_F(External, AMissingFileIsLeftOut) {
   EXPECT_THAT(left_out_of("parts/"), HasSubstr("has no usable name"));
 }
 
+// A message has the path that the user gave, and that of the external file behind it.
+TEST_F(External, AMessageNamesTheSceneAndTheExternalFile) {
+  folder_.write(kScene + "broken.flt", std::vector<std::byte>(10));
+  const fs::path link = folder_.path() / kScene / "link.flt";
+  fs::create_symlink(scene("broken.flt"), link);
+  const auto broken = read_openflight(link);
+  ASSERT_FALSE(broken);
+  EXPECT_THAT(broken.error().message(), testing::StartsWith(link.string() + ": external file "));
+  EXPECT_THAT(broken.error().message(), HasSubstr("broken.flt: expected"));
+  const fs::path circle = folder_.path() / kScene / "circle.flt";
+  fs::create_symlink("circle.flt", circle);
+  const auto circular = read_openflight(circle);
+  ASSERT_FALSE(circular);
+  EXPECT_THAT(circular.error().message(), testing::StartsWith(circle.string() + ": expected"));
+}
+
 // Paths of the machine on which the scene was made.
 TEST_F(External, APathOfAnotherMachineIsFoundByItsLastFoldersAndName) {
   const std::vector<std::string> references{"C:\\models\\town\\x.flt",   "c:x.flt",

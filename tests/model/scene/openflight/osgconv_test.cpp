@@ -260,7 +260,7 @@ TEST(FilesOfOthers, AreReadByTheStoreAsByTheReader) {
     ASSERT_TRUE(store) << store.error().message();
     const auto view = (*store)->prepare({kPlace, 1000, 0});
     EXPECT_EQ((*store)->wanted().unreadable, 0U);
-    EXPECT_TRUE((*store)->wanted().left_out.empty());
+    EXPECT_TRUE((*store)->left_out().empty());
     std::vector<const Tile*> tiles;
     view->tiles_near(kPlace, 10'000, tiles);
     std::size_t shown = 0;

@@ -172,7 +172,8 @@ TEST(DtedReader, APartialColumnOfFullLengthBeginsAtItsLatitudeIndex) {
   EXPECT_EQ(reading->cell.post(3, 2), 7);
   EXPECT_EQ(reading->cell.post(4, 2), 8);
   EXPECT_EQ(reading->cell.post(4, 3), 304);
-  EXPECT_THAT(reading->warnings, ElementsAre(HasSubstr("partial columns: 1")));
+  EXPECT_THAT(reading->notes, ElementsAre(HasSubstr("partial columns: 1")));
+  EXPECT_FALSE(reading->has_problem());
 }
 
 TEST(DtedReader, APartialColumnMayEndWithTheCell) {
@@ -262,16 +263,15 @@ TEST(DtedReader, EveryTruncationIsRefusedOrLacksCompleteColumns) {
   }
 }
 
-TEST(DtedReader, BytesAfterTheLastColumnAreAWarningUnlessTheyBeginARecord) {
+TEST(DtedReader, BytesAfterTheLastColumnAreANoteUnlessTheyBeginARecord) {
   const std::vector<std::byte> complete = test::small_dted().bytes();
   for (const std::size_t count : {1, 3, 500}) {
     std::vector<std::byte> longer = complete;
     longer.resize(complete.size() + count);
     const auto reading = parse_dted(longer, "longer.dt0", kDtedCorner);
     ASSERT_TRUE(reading) << reading.error().message();
-    EXPECT_THAT(reading->warnings,
-                testing::Contains(HasSubstr("after the last column record: " + std::to_string(count))));
-    EXPECT_FALSE(reading->damaged);
+    EXPECT_THAT(reading->notes, testing::Contains(HasSubstr("after the last column record: " + std::to_string(count))));
+    EXPECT_FALSE(reading->has_problem());
   }
   std::vector<std::byte> piece = complete;
   piece.push_back(std::byte{0xAA});

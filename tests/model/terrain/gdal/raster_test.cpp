@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <stdexcept>
+#include <utility>
 
 #include "model/terrain/formats/cell.hpp"
 #include "model/terrain/formats/dted.hpp"
@@ -313,6 +315,35 @@ TEST(RealRasters, AMercatorGridOfSanFranciscoHasTheFinestSpacingOfPosts) {
   EXPECT_GT(cell.highest_m(), 60);
   EXPECT_LT(cell.highest_m(), 300);
   EXPECT_GT(cell.voids(), 12'000'000U);
+}
+
+// A raster without content that says it has 10^12 pixels: to read them would take hours.
+TEST(GeoTiff, ACellOfMorePixelsThanCanBeReadIsRefused) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path() / "sparse.tif";
+  GDALAllRegister();
+  constexpr int kPixels = 1'000'000;
+  const std::array<const char*, 6> options{"SPARSE_OK=TRUE",   "TILED=YES",   "BLOCKXSIZE=16384",
+                                           "BLOCKYSIZE=16384", "BIGTIFF=YES", nullptr};
+  const GDALDatasetH dataset =
+      GDALCreate(GDALGetDriverByName("GTiff"), path.c_str(), kPixels, kPixels, 1, GDT_Int16, options.data());
+  std::array<double, 6> geotransform{5.0, 1.0 / kPixels, 0.0, 46.0, 0.0, -1.0 / kPixels};
+  GDALSetGeoTransform(dataset, geotransform.data());
+  const OGRSpatialReferenceH wgs84 = OSRNewSpatialReference(nullptr);
+  OSRImportFromEPSG(wgs84, 4326);
+  GDALSetSpatialRef(dataset, wgs84);
+  OSRDestroySpatialReference(wgs84);
+  GDALClose(dataset);
+  const auto index = index_directory(folder.path());
+  ASSERT_TRUE(index.has_value()) << index.error().message();
+  const CellCorner corner{45, 5};
+  ASSERT_TRUE(index->contains(slot_of(corner)));
+  const auto reading = read_cell(index->at(slot_of(corner)), corner);
+  ASSERT_FALSE(reading.has_value());
+  EXPECT_NE(reading.error().message().find(
+                "expected at most 4e10 pixels in a one-degree cell, 0.5 m apart, found about 1e+12"),
+            std::string::npos)
+      << reading.error().message();
 }
 
 }  // namespace

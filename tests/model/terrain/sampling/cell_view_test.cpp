@@ -46,6 +46,33 @@ TEST(CellView, BilinearIsExactOnAPlaneWhateverTheSpacing) {
       EXPECT_NEAR(view.elevation_m({50 + north, 10 + east}), 100 + 200 * north + 250 * east, 1e-9);
 }
 
+// Four cells that meet at 10 N, at the antimeridian. All edges of the north-east one are void but for its interior, as
+// of an HGT tile whose maker had no neighbour.
+TEST(CellView, AWholeDegreeHasTheHeightOfTheCellThatHasOne) {
+  CellView view(1, Absence::none);
+  const auto inner = [](int row, int column) {
+    const bool edge = row == 0 || column == 0 || row == 10 || column == 10;
+    return edge ? int{kVoidPost} : 500;
+  };
+  view.add(cell({10, -180}, 11, 11, inner));
+  view.add(cell({9, -180}, 11, 11, [](int row, int) { return 90 + row; }));
+  view.add(cell({10, 179}, 11, 11, [](int, int column) { return 190 + column; }));
+  view.add(cell({9, 179}, 11, 11, inner));
+  const auto expect = [&](double latitude_deg, double longitude_deg, double height_m) {
+    EXPECT_EQ(view.elevation_m({latitude_deg, longitude_deg}), height_m) << latitude_deg << ' ' << longitude_deg;
+    EXPECT_EQ(fast(view, latitude_deg, longitude_deg).elevation_m, static_cast<float>(height_m))
+        << latitude_deg << ' ' << longitude_deg;
+  };
+  expect(10.0, -179.5, 100);
+  expect(10.5, -180.0, 200);
+  expect(10.5, 180.0, 200);
+  expect(10.0, -180.0, 100);
+  expect(10.0, 179.5, 195);  // the cell itself has the height
+  expect(10.5, -179.5, 500);
+  EXPECT_TRUE(std::isnan(view.elevation_m({9.0, 179.5}))) << "no cell has a height there";
+  EXPECT_TRUE(std::isnan(fast(view, 9.0, 179.5).elevation_m));
+}
+
 TEST(CellView, CellsMeetAtTheAntimeridianForAnyLongitude) {
   CellView view(1, Absence::none);
   view.add(cell({10, 179}, 2, 2, [](int, int) { return 5; }));

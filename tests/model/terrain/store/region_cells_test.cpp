@@ -21,6 +21,14 @@ TEST(RegionCells, APointNeedsItsOwnCell) {
   EXPECT_THAT(slots({{36.5, -121.5}, 0.0}), ::testing::Contains(slot_of({36, -122})));
 }
 
+// The posts of an edge are in both cells, and one of them may lack them.
+TEST(RegionCells, APointOnAnEdgeNeedsAllCellsThatHaveIt) {
+  EXPECT_THAT(slots({{36.0, -121.5}, 0.0}), ::testing::ElementsAre(slot_of({35, -122}), slot_of({36, -122})));
+  EXPECT_THAT(slots({{36.0, -180.0}, 0.0}), ::testing::UnorderedElementsAre(slot_of({35, -180}), slot_of({36, -180}),
+                                                                            slot_of({35, 179}), slot_of({36, 179})));
+  EXPECT_THAT(slots({{-90.0, 20.5}, 0.0}), ::testing::Contains(slot_of({-90, 20})));
+}
+
 TEST(RegionCells, ADiscAcrossTheAntimeridianNeedsCellsOnBothSides) {
   const auto cells = slots({{10.5, 179.9}, 30e3});
   EXPECT_THAT(cells, ::testing::IsSupersetOf({slot_of({10, 179}), slot_of({10, -180})}));
