@@ -15,7 +15,7 @@ using Kind = Gesture::Kind;
 constexpr int kPushButtons = 20;
 constexpr int kButtonsPerSide = 5;
 
-// What each push button of the display does (docs/spec/pilots_interface.md#buttons).
+// What each push button of the display does (docs/pilots_manual.md#buttons).
 constexpr std::array<std::string_view, kPushButtons> kUses{"not used",
                                                            "declutter",
                                                            "gain",

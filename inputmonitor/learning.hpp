@@ -4,7 +4,7 @@
 // Outputs: text for the user, whole lines; the map as a radar::Device.
 // Units: times in nanoseconds of one clock (CLOCK_MONOTONIC).
 // Threads: one thread per object. No system calls.
-// Source: docs/spec/commands.md#learn
+// Source: docs/hardware.md#learning-a-map
 #pragma once
 
 #include <cstddef>

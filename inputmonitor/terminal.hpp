@@ -2,7 +2,7 @@
 // Inputs: bytes with the time of their arrival [ns, CLOCK_MONOTONIC].
 // Outputs: key edges (presses and releases).
 // Errors: a descriptor that is not a terminal; a process that is not in the foreground of the terminal.
-// Source: docs/spec/commands.md#terminal
+// Source: docs/commands.md#terminal
 #pragma once
 
 #include <array>

@@ -2,7 +2,7 @@
 // Inputs: text of a tour; the time of each call (Moment); events that the state machine has applied (SeenEvent).
 // Outputs: input events; the caption of the current step.
 // Errors: parse_tour() reports file name and line.
-// Source: docs/spec/commands.md#tour.
+// Source: docs/tour.md#tour.
 #pragma once
 
 #include <cstddef>

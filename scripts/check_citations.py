@@ -5,7 +5,7 @@ usage: check_citations.py [--root DIR]
 Prints one line per finding, `file:line: rule: what was found, what is allowed`. The exit code is 1 if there is any.
 The rules:
   citation  a cited document and a cited anchor exist; outside of Markdown a citation of docs/spec names an anchor
-  rule      a file outside of docs/spec that names a rule by number cites the pilot's interface, which has that rule
+  rule      a file that names a rule by number cites the pilot's manual, which has that rule
   outside   nothing outside of the repository is cited, such as an unnamed specification or a neighbouring folder
   link      the target of a link in Markdown exists: a file or folder, and the anchor or heading in it
   decision  the numbers of docs/decisions have no gap and no duplicate; a cited decision exists
@@ -22,7 +22,7 @@ from check_layers import run, tracked_files  # noqa: E402
 from doxygen_source import slug  # noqa: E402
 
 SPECIFICATION = "docs/spec/"
-INTERFACE = SPECIFICATION + "pilots_interface" + ".md"
+INTERFACE = "docs/pilots_manual.md"
 ANCHOR = re.compile(r'<a id="([^"]*)"></a>')
 HEADING = re.compile(r"^#+ +(.*?) *$", re.M)
 # A further anchor in a list of anchors. It may stand on the next line of a comment.
@@ -34,7 +34,7 @@ BLOCK = re.compile(r"^```.*?^```$", re.M | re.S)
 RULE = re.compile(r"\b[Rr]ules? (\d+(?:, \d+)*(?:,? (?:and|to|or) \d+)?)")
 DECISION = re.compile(r"\b[Dd]ecisions? (\d+(?:, \d+)*(?:,? (?:and|to|or) \d+)?)(?!\d|[.,]\d)")
 # A page of the specification, or of the texts that it was written from, without the path of its folder.
-BARE_PAGE = re.compile(r"(?<![\w/.\[-])(?:pvi|seed-map|seed_map|physics|formats|commands|pilots_interface)\.md\b")
+BARE_PAGE = re.compile(r"(?<![\w/.\[-])(?:pvi|seed-map|seed_map|physics|formats|pilots_interface)\.md\b")
 UNNAMED = re.compile(r"(?<![\w./-])" + "sp" "ec" + r"(?![\w/-])")  # split, so that this file passes its own rule
 NEIGHBOUR = re.compile(r"\.\./(?:seed|shared(?!/data\b))[\w./-]*")  # ../shared/data, for tests, is allowed
 
@@ -90,14 +90,14 @@ def check_citations(name, text, documents):
 
 
 def check_rules(name, text, documents):
-    if name.startswith(SPECIFICATION):
+    if name == INTERFACE:
         return
     for match in RULE.finditer(text):
         line = line_of(text, match.start())
         for number in re.findall(r"\d+", match.group(1)):
             if f"rule-{number}" not in documents.anchors.get(INTERFACE, ()):
                 yield line, "rule", f"rule {number} is none of {INTERFACE}"
-        if not re.search(r"spec/pilots_interface\.md", text):
+        if not re.search(r"pilots_manual\.md", text):
             yield line, "rule", f"'{match.group()}' of what? the file cites {INTERFACE} nowhere"
 
 

@@ -1,7 +1,7 @@
 // Advice for the pilot in words: what each push button and the TDC's switch do now, or why they are dead.
 // Inputs: radar state, inputs of the tick, configuration.
 // Outputs: the record PilotAdvice, for tooltips, help and programs. The words are those of the transition table.
-// Source: docs/spec/pilots_interface.md#remedies
+// Source: docs/pilots_manual.md#remedies
 #pragma once
 
 #include <cstdint>

@@ -25,7 +25,7 @@ using databuffer::PatchMap;
 using databuffer::RadarState;
 using geo::GeoPoint;
 
-constexpr double kCrossing_s = 2.0;  // edge-to-edge time at full TDC deflection; docs/spec/pilots_interface.md#tdc
+constexpr double kCrossing_s = 2.0;  // edge-to-edge time at full TDC deflection; docs/pilots_manual.md#tdc
 
 GeoPoint aircraft_of(const Inputs& inputs) {
   return {inputs.ownship.latitude_deg, inputs.ownship.longitude_deg};
@@ -148,7 +148,7 @@ using databuffer::DrawnPoint;
 using radar::RoutePoint;
 using text::text_of;
 
-constexpr std::size_t kMaxDrawn = 5;  // points; docs/spec/pilots_interface.md#rule-11. The record has space for more
+constexpr std::size_t kMaxDrawn = 5;  // points; docs/pilots_manual.md#rule-11. The record has space for more
 static_assert(kMaxDrawn <= radar::kMaxPointsDrawn);
 
 // Point of the route, or designated target, with this name; nullopt if there is none.

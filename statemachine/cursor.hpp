@@ -12,9 +12,9 @@
 
 namespace yars::statemachine {
 
-// The cursor stays at its ground position (docs/spec/pilots_interface.md#rule-12) until the TDC slews it. The ground
+// The cursor stays at its ground position (docs/pilots_manual.md#rule-12) until the TDC slews it. The ground
 // track is upward on the display. On a patch map, the map's line of sight is upward
-// (docs/spec/pilots_interface.md#rule-5). The state has the ground position under the cursor, and the coordinates that
+// (docs/pilots_manual.md#rule-5). The state has the ground position under the cursor, and the coordinates that
 // the selected navigator gives this position.
 // After a change of range or a jump to a distant point the cursor may lie outside the display. The TDC then moves the
 // cursor to the edge of the display first.
@@ -37,7 +37,7 @@ bool shows_cursor(const databuffer::RadarState& state);
 // ownship.
 void advance_cursor(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
-// Sequence points. Source: docs/spec/pilots_interface.md#rule-11.
+// Sequence points. Source: docs/pilots_manual.md#rule-11.
 
 // Selects the drawn point with the next higher number; after the highest, the lowest. The cursor jumps to that point.
 void next_sequence_point(Step& step);

@@ -40,7 +40,7 @@ void take_elevation(databuffer::RadarState& state, const Inputs& inputs);
 void request_cursor_elevation(databuffer::RadarState& state);
 
 // PSL: line through the designated target along the approach heading, and the steering onto that line.
-// Source: docs/spec/pilots_interface.md#rule-15.
+// Source: docs/pilots_manual.md#rule-15.
 
 // Acquisition switch with cursor function TGT and a designated target. Aft: the TDC turns the line. Forward:
 // steer_line_of_sight().
@@ -60,7 +60,7 @@ void advance_steering_line(databuffer::RadarState& state, const Inputs& inputs);
 void put_steering(databuffer::Outputs& outputs, const databuffer::RadarState& state, const Inputs& inputs);
 
 // CUE, TGT and MARK at the cursor, in coordinates of the selected navigator. They are refused without a valid ownship
-// or a cursor position. Source: docs/spec/pilots_interface.md#rule-14.
+// or a cursor position. Source: docs/pilots_manual.md#rule-14.
 void cue_sensor(Step& step);
 // Designates a target and cues the sensor to it. If the symbol of a point of the route is under the cursor, that point
 // becomes the target. Refused if no name is free.

@@ -1,7 +1,7 @@
 // State machine of the pilot's interface as pure functions: apply one event, advance one tick.
 // Inputs: radar state, event, inputs of the tick, configuration.
 // Outputs: the next radar state; outputs to sensors, weapons and the head-up display.
-// Source: docs/spec/pilots_interface.md#rules
+// Source: docs/pilots_manual.md#rules
 #pragma once
 
 #include <cstdint>

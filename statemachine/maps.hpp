@@ -11,7 +11,7 @@
 namespace yars::statemachine {
 
 // Freeze, recall of maps on the frozen picture, and SET.
-// Source: docs/spec/pilots_interface.md#rule-8, #rule-9, #rule-10, #rule-19, #rule-20, #rule-21.
+// Source: docs/pilots_manual.md#rule-8, #rule-9, #rule-10, #rule-19, #rule-20, #rule-21.
 void toggle_freeze(Step& step);
 void flip_recall(Step& step);   // PB 10: toggles NEW and OLD, or with a stored map NEW and STORE
 void toggle_store(Step& step);  // PB 15: stores the map shown, which PB 10 then shows instead of OLD; or releases it
@@ -33,7 +33,7 @@ void thaw_on_return(databuffer::RadarState& state);
 std::uint64_t map_to_show(const databuffer::RadarState& state);
 
 // Command, completion and cancellation of maps.
-// Source: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
+// Source: docs/pilots_manual.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 
 // TDC release with cursor MAP: commands a map at the cursor. Refused with the reason if a radar limit forbids the map,
 // or if no window fits the blank selection.

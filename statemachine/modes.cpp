@@ -36,7 +36,7 @@ void show_menu(RadarState& state, bool on) {
   state.mode = on ? static_cast<std::uint8_t>(Mode::menu) : state.resume_mode;
 }
 
-// Mode change by the pilot: also sets the range by the aircraft's height (docs/spec/pilots_interface.md#rule-1).
+// Mode change by the pilot: also sets the range by the aircraft's height (docs/pilots_manual.md#rule-1).
 void change_mode(Step& step, Mode mode) {
   if (mode == running_mode(step.state)) return;
   cancel_map(step.state, step.inputs);
@@ -86,7 +86,7 @@ RadarState state_after_power_off(const Step& step) {
   fresh.cue_longitude_deg = step.state.cue_longitude_deg;
   fresh.cue_elevation_m = step.state.cue_elevation_m;
   fresh.target_count = step.state.target_count;
-  // Navigators and marks do not depend on radar power (docs/spec/pilots_interface.md#rule-18).
+  // Navigators and marks do not depend on radar power (docs/pilots_manual.md#rule-18).
   fresh.mission = step.state.mission;
   fresh.ins = step.state.ins;
   fresh.asked_latitude_deg = step.state.asked_latitude_deg;

@@ -1,5 +1,5 @@
 // Actions on power, master mode, radar mode and main menu.
-// Source: docs/spec/pilots_interface.md#rule-18, #rule-20, #rule-21, #rule-23.
+// Source: docs/pilots_manual.md#rule-18, #rule-20, #rule-21, #rule-23.
 #pragma once
 
 #include "statemachine/step.hpp"
@@ -17,7 +17,7 @@ void close_menu(Step& step);
 // Enters the patch mode, after a commanded map is complete.
 void enter_patch(databuffer::RadarState& state);
 
-// State with the settings of power-up (docs/spec/pilots_interface.md#power-up). Power is off.
+// State with the settings of power-up (docs/pilots_manual.md#power-up). Power is off.
 databuffer::RadarState power_up_settings(const Parameters& parameters);
 
 }  // namespace yars::statemachine

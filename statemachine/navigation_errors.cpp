@@ -181,7 +181,7 @@ namespace {
 
 using databuffer::ModelStatus;
 
-constexpr std::int64_t kShownTicks = 2'000;  // 10 s: docs/spec/pilots_interface.md#rule-16
+constexpr std::int64_t kShownTicks = 2'000;  // 10 s: docs/pilots_manual.md#rule-16
 // Larger differences are not valid measurements. They could take the state beyond the limits of validate().
 constexpr double kMaxDifference_mps = 2'000.0;
 

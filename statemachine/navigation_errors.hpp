@@ -28,7 +28,7 @@ void put_variation(databuffer::RadarState& state, const Inputs& inputs, const Pa
 databuffer::NavigatorError& error_in_use(databuffer::RadarState& state);
 
 // UPDT: corrects the selected navigator. The pilot first places the cursor on the sequence point's echo in the video.
-// Source: docs/spec/pilots_interface.md#rule-13.
+// Source: docs/pilots_manual.md#rule-13.
 
 // TDC release: corrects the navigator's position so that the selected point is displayed at the cursor. The release has
 // an effect only while the display shows the offset of advance_update(). With the INS selected, INV replaces the offset
@@ -40,7 +40,7 @@ void accept_update(Step& step);
 void advance_update(databuffer::RadarState& state, const Inputs& inputs, const Parameters& parameters);
 
 // PVU and IPVU: correct the velocity of the mission navigator by radar measurements.
-// Source: docs/spec/pilots_interface.md#rule-16.
+// Source: docs/pilots_manual.md#rule-16.
 
 // One tick: takes the radar model's new velocity measurement, if there is one, and corrects the mission navigator once
 // per configured period. Shows radar velocity minus navigator velocity [m/s]: along the ground track, across it (right

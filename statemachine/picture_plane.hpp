@@ -2,7 +2,7 @@
 // Inputs: frame (apex and up direction) of the picture, selected range, record of the shown map, limits of the display.
 // Outputs: positions on the display, in multiples of PicturePlane::unit; ground positions (WGS84).
 // Errors: no projection of a map without a record.
-// Source: docs/spec/pilots_interface.md#view.
+// Source: docs/pilots_manual.md#view.
 #pragma once
 
 #include <optional>

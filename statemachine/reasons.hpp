@@ -2,7 +2,7 @@
 // Inputs: the radar state and the event; for events that were sent together, their effects and the states before the
 // first and after the last. The states between are not known.
 // Outputs: texts in printable ASCII. A remedy names the event, and its key in parentheses: "freeze (Space)".
-// Source: docs/spec/pilots_interface.md#remedies
+// Source: docs/pilots_manual.md#remedies
 #pragma once
 
 #include <cstddef>

@@ -2,7 +2,7 @@
 // Inputs: the radar state with its message, inputs of the tick, limits of the configuration.
 // Outputs: a text in printable ASCII of at most about 100 characters, such as "turn 5 deg or more left". A remedy names
 // an event with its key in parentheses: "acq fwd (PgUp)".
-// Source: docs/spec/pilots_interface.md#remedies
+// Source: docs/pilots_manual.md#remedies
 #pragma once
 
 #include <string>

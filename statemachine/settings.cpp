@@ -19,7 +19,7 @@ using databuffer::RadarState;
 using geo::Length;
 
 constexpr std::uint8_t kBlankIndex = 255;   // value of window_index while no window is selected
-constexpr double kElevationStep_deg = 0.5;  // docs/spec/pilots_interface.md#elevation: the keys [ and ]
+constexpr double kElevationStep_deg = 0.5;  // docs/pilots_manual.md#elevation: the keys [ and ]
 
 void choose_range(Step& step, std::size_t index) {
   set_flag(step.state, databuffer::kRangeSet, true);
@@ -56,12 +56,12 @@ std::optional<double> nearest_point_elevation_m(const databuffer::Ownship& ownsh
 // Reading that a radar altimeter would have, from the radar model's height above ground. NaN if this height is unknown
 // or above the altimeter's limit.
 double terrain_clearance_m(const Inputs& inputs) {
-  constexpr double kAltimeterLimit_m = 1524.0;  // 5,000 ft: docs/spec/pilots_interface.md#rule-1
+  constexpr double kAltimeterLimit_m = 1524.0;  // 5,000 ft: docs/pilots_manual.md#rule-1
   return inputs.height_above_ground_m <= kAltimeterLimit_m ? inputs.height_above_ground_m : kUnknown;
 }
 
 // Height that selects the range: above the ground by the radar altimeter, else above the nearest route point, else MSL.
-// Source: docs/spec/pilots_interface.md#rule-1.
+// Source: docs/pilots_manual.md#rule-1.
 Length height_for_range(const RadarState& state, const Inputs& inputs, const Parameters& parameters) {
   const databuffer::Ownship& ownship = inputs.ownship;
   const double radar_altitude_m =

@@ -9,7 +9,7 @@
 
 namespace yars::statemachine {
 
-// Range, scan width, window, antenna elevation. Source: docs/spec/pilots_interface.md#rule-1, #rule-2, #rule-4.
+// Range, scan width, window, antenna elevation. Source: docs/pilots_manual.md#rule-1, #rule-2, #rule-4.
 void range_up(Step& step);
 void range_down(Step& step);
 void next_scan_width(Step& step);  // FULL, HALF, QTR, FULL
@@ -30,7 +30,7 @@ void set_range_by_height(databuffer::RadarState& state, const Inputs& inputs, co
 std::string_view recorder_problem(bool recorder_present);
 
 // Switches and levels. Cyclic settings wrap around; levels stop at their ends.
-// Source: docs/spec/pilots_interface.md#buttons, #controls, #rule-9, #rule-19, #rule-22.
+// Source: docs/pilots_manual.md#buttons, #controls, #rule-9, #rule-19, #rule-22.
 void toggle_declutter(Step& step);
 void cycle_gain(Step& step);    // 3, 2, 1, 0, 3
 void toggle_looks(Step& step);  // ML1, ML2

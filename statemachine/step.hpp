@@ -133,7 +133,7 @@ inline geo::GeoPoint cursor_of(const databuffer::RadarState& state) {
 
 // Duration of a message: 600 ticks of 5 ms, 3 s. A shorter message is easily missed. A longer message delays the reason
 // why re-mapping stopped, because that reason is shown only after the message.
-// Source: docs/spec/pilots_interface.md#messages
+// Source: docs/pilots_manual.md#messages
 inline constexpr std::int64_t kMessageTicks = 600;
 
 // Shows a message for kMessageTicks.
@@ -149,7 +149,7 @@ inline void refuse(Step& step, std::string_view reason) {
 }
 
 // Refuses the event if the aircraft's position or the cursor's is unknown. Returns true if it is refused.
-// Source: docs/spec/pilots_interface.md#messages
+// Source: docs/pilots_manual.md#messages
 inline bool refuses_without_cursor(Step& step) {
   if (!step.inputs.ownship_valid) {
     refuse(step, "NO OWNSHIP");

@@ -105,7 +105,7 @@ bool stored(const RadarState& state) {
   return state.map_stored != 0;
 }
 
-// Source: docs/spec/pilots_interface.md#buttons. The conditions for freeze, SET and maps are from #rule-8,
+// Source: docs/pilots_manual.md#buttons. The conditions for freeze, SET and maps are from #rule-8,
 // #rule-10, #rule-20 and #rule-21.
 constexpr std::array kButtons{
     ButtonRow{2, kAllGround | kRanging, kSetOff, toggle_declutter, "declutter", "DCL", kSetOff, kDeclutterOn},
@@ -141,7 +141,7 @@ constexpr std::array kButtons{
     ButtonRow{20, kAllGround, kSetOff, next_band, "band", band_legend, kSetOff},
 };
 
-// Source: docs/spec/pilots_interface.md#controls. The action of a TDC release depends on the cursor function.
+// Source: docs/pilots_manual.md#controls. The action of a TDC release depends on the cursor function.
 // In A/A and ranging the display may still show a map. A TDC release acts on that map if SET is on, else it is dead.
 // TDC deflection is stored in every mode with power on, so that its return to 0 is not lost.
 constexpr std::array kControls{
@@ -234,7 +234,7 @@ Columns button_column(const databuffer::RadarState& state) {
   if (power_of(state) == radar::Power::off) return kOff;
   if (has(state, databuffer::kMenu)) return kMenu;
   const Columns column = column_of(running_mode(state));
-  // docs/spec/pilots_interface.md#rule-18: in standby the buttons are live as in RBM, except in A/A and ranging.
+  // docs/pilots_manual.md#rule-18: in standby the buttons are live as in RBM, except in A/A and ranging.
   return power_of(state) == radar::Power::standby && column != kRanging ? kRbm : column;
 }
 

@@ -1,7 +1,7 @@
 // Transition table: the action of each button and control by mode and condition, and the legends of the buttons.
 // Inputs: radar state, event.
 // Outputs: the action of an event; legends and boxes of the radar state.
-// Source: docs/spec/pilots_interface.md#buttons. The button rows in transition_table.cpp have the order of that table.
+// Source: docs/pilots_manual.md#buttons. The button rows in transition_table.cpp have the order of that table.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace yars::statemachine {
 
-// Legends that depend on the state. Source: docs/spec/pilots_interface.md#legends.
+// Legends that depend on the state. Source: docs/pilots_manual.md#legends.
 std::string_view gain_legend(const databuffer::RadarState& state);
 std::string_view looks_legend(const databuffer::RadarState& state);
 std::string_view mode_legend(const databuffer::RadarState& state);
@@ -29,7 +29,7 @@ std::string_view band_legend(const databuffer::RadarState& state);
 // Fills `legends` and `boxed` from the transition table.
 void write_legends(databuffer::RadarState& state);
 
-// Columns (modes) of the table docs/spec/pilots_interface.md#buttons. A row applies in the columns of its mask.
+// Modes of the column "live in" of the table docs/pilots_manual.md#buttons. A row applies in the modes of its mask.
 using Columns = std::uint16_t;
 inline constexpr Columns kRbm = 1U << 0;
 inline constexpr Columns kHrm = 1U << 1;    // HRM PPI

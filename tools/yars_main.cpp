@@ -1,5 +1,5 @@
 // Main program of the `yars` command. The callback of the selected subcommand runs during app.parse().
-// Exit codes: docs/spec/commands.md#exit-codes.
+// Exit codes: docs/commands.md#exit-codes.
 
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"

@@ -1,4 +1,4 @@
-// JSON object of `yars watch --json`. Source of its fields and units: docs/spec/commands.md#watch.
+// JSON object of `yars watch --json`. Source of its fields and units: docs/commands.md#watch.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,4 +1,4 @@
-// JSON object of `yars status --json`. Source of its fields and units: docs/spec/commands.md#status.
+// JSON object of `yars status --json`. Source of its fields and units: docs/commands.md#status.
 // Inputs: a session, read only. A record that fails validation counts as absent. An absent value is null,
 // omitted, or the default of its type.
 #pragma once

@@ -1,5 +1,5 @@
 // JSON object of a world, as `yars world --json` prints it. Source of its fields and units:
-// docs/spec/commands.md#world.
+// docs/commands.md#world.
 #pragma once
 
 #include <cstdint>

@@ -25,7 +25,7 @@ geo::Bearing ground_track(geo::Speed north, geo::Speed east, geo::Bearing headin
 namespace yars::databuffer {
 
 // What to do about a silent part of the set: remedies of NO OWNSHIP, NO MODEL and NO STATE MACHINE. A line of the
-// display has space for 43 characters. Source: docs/spec/pilots_interface.md#remedies.
+// display has space for 43 characters. Source: docs/pilots_manual.md#remedies.
 inline constexpr const char* kRemedyNoOwnship = "see yars status, or start a flight-model";
 inline constexpr const char* kRemedyNoModel = "start radar-model; yars status says more";
 inline constexpr const char* kRemedyNoStateMachine = "start state-machine; yars status says more";
@@ -62,7 +62,7 @@ NavigatorPosition selected_navigator_position(const Ownship& ownship, const Nav&
 // Copies the fields of the radar state that control the radar model.
 RadarCommand command_from_state(const RadarState& state);
 
-// Map timer [s] as displayed (docs/spec/pilots_interface.md#rule-6). While a map forms, it is the remaining time.
+// Map timer [s] as displayed (docs/pilots_manual.md#rule-6). While a map forms, it is the remaining time.
 // While no map forms, it is the formation time of a map at the cursor. It is then displayed only if resume_mode is RBM,
 // HRM PPI or patch, the cursor function is MAP, a window is selected, and a map can be commanded at the cursor.
 // nullopt: the display shows no timer.

@@ -109,7 +109,7 @@ std::string expected_forms(std::string_view verb) {
 }
 
 // What the radar has no event for, because buttons of the display do it.
-// Source: docs/spec/pilots_interface.md#buttons, real beam map.
+// Source: docs/pilots_manual.md#buttons, real beam map.
 struct OnButtons {
   std::string_view word;
   std::string_view buttons;

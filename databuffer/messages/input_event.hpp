@@ -4,7 +4,7 @@
 // Outputs: the event parsed from a text; the text of an event.
 // Units: degrees (antenna elevation above the horizontal), feet and feet per second as stated per kind; times [ns].
 // Errors: a text that matches no form is an Error with the valid forms of its verb.
-// Source: docs/spec/pilots_interface.md#controls.
+// Source: docs/pilots_manual.md#controls.
 #pragma once
 
 #include <string>
@@ -31,7 +31,7 @@ error::Expected<InputEvent> event_from_text(std::string_view text);
 std::string event_forms();
 
 // Shortest text that event_from_text() parses to an event of the same kind and values. An event without a text form
-// (docs/spec/pilots_interface.md#controls) gives a description that event_from_text() refuses.
+// (docs/pilots_manual.md#controls) gives a description that event_from_text() refuses.
 std::string text_of(const InputEvent& event);
 
 // Sets the name of a sequence point, as `sp NAME` does. A name of 16 bytes or more is cut to 16 bytes. The name

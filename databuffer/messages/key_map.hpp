@@ -2,7 +2,7 @@
 // Inputs: key presses and releases.
 // Outputs: input events. Their times and sequence number are zero.
 // Threads: one thread per KeyboardState object.
-// Source: docs/spec/pilots_interface.md#buttons, #controls.
+// Source: docs/pilots_manual.md#buttons, #controls.
 // Keys and their events, in the text form of input_event.hpp:
 //   2..9 a..k: pb 2..20 | arrows: tdc (full deflection while held) | Enter: tdc press, release | Tab: coolie up |
 //   Page Up, Page Down: acq fwd, aft | Space: freeze | [ ]: elevation down, up | F4: nav toggle |

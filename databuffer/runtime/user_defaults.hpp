@@ -4,7 +4,7 @@
 // Outputs: the values by the long name of their option, with ~/ replaced by the home folder.
 // Errors: an unknown name, a name given twice, no value, a path that depends on the current folder; with file and line.
 // A file that does not exist is none, unless YARS_USER_CONFIG names it.
-// Source: docs/spec/commands.md#user-file.
+// Source: docs/commands.md#user-file.
 #pragma once
 
 #include <map>

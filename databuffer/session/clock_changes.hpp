@@ -2,7 +2,7 @@
 // Session::change_clock().
 // Inputs: the clock before. Outputs: the clock after, with the present time as its base.
 // Threads: any; functions without state. They read CLOCK_MONOTONIC.
-// Source: docs/spec/commands.md#sim.
+// Source: docs/commands.md#sim.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // Display in a window: redraws on change, at most 60 times per second; keys, mouse, tooltips, help, full screen.
 // Inputs: keys and mouse of the window; the session's records through host::Display.
 // Outputs: the window; input events of the pilot; published frames.
-// Source: docs/spec/pilots_interface.md#window
+// Source: docs/pilots_manual.md#window
 #pragma once
 
 #include <cstdint>

@@ -279,8 +279,7 @@ bool Display::wait_for_read(Picture& picture) {
 
 error::Expected<void> Display::press(int button) {
   if (button < 1 || button > kButtons)
-    return error::fail("display", "a button 1 to 20", std::to_string(button),
-                       "see docs/spec/pilots_interface.md#buttons");
+    return error::fail("display", "a button 1 to 20", std::to_string(button), "see docs/pilots_manual.md#buttons");
   auto pilot = state_->pilot_of_session();
   if (!pilot) return tl::unexpected(pilot.error());
   (*pilot)->press(button);

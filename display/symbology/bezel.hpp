@@ -4,7 +4,7 @@
 // Units: panel units. One panel unit is one display unit; origin upper left of the panel, x right, y down. The
 // picture's
 //   upper left corner lies at (border, border).
-// Source: docs/spec/pilots_interface.md#bezel
+// Source: docs/pilots_manual.md#bezel
 #pragma once
 
 #include <optional>

@@ -4,7 +4,7 @@
 // Outputs: strokes and occupied boxes in a draw list; labels for label_layout.hpp.
 // Frame: the cursor is drawn at its true ground position, as is the video. Points and target are displaced from their
 // true positions by the position error of the selected navigator.
-// Source: docs/spec/pilots_interface.md#symbology
+// Source: docs/pilots_manual.md#symbology
 #pragma once
 
 #include <array>
@@ -55,7 +55,7 @@ void add_names(const databuffer::RadarState& state, const PlacedPoints& placed, 
 // turns the line, and a circle if the line is fixed. It ends before a fixed text, and is left out where too little of
 // it would remain. Draw it after the fixed texts. Returns the label with the heading. It ends in MAG, or in TRUE while
 // no magnetic variation is known. nullopt: there is no line, or the target is not on the display.
-// Source: docs/spec/pilots_interface.md#rule-15
+// Source: docs/pilots_manual.md#rule-15
 std::optional<Label> draw_steering_line(const DisplayInput& input, const PlanView& view, const ViewFrame& frame,
                                         DrawList& list);
 

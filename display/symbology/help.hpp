@@ -2,7 +2,7 @@
 // Inputs: DisplayInput, with the words of PilotAdvice; the table of keys (databuffer/messages/key_map.hpp).
 // Outputs: texts on Layer::cover of a draw list, on a black plate that leaves the legends visible.
 // Units: display units.
-// Source: docs/spec/pilots_interface.md#help
+// Source: docs/pilots_manual.md#help
 #pragma once
 
 #include <string>

@@ -2,7 +2,7 @@
 // Inputs: presses, releases and positions of the mouse on the panel; whether the display shows a cursor.
 // Outputs: input events. Their times and sequence number are zero.
 // Units: panel units (bezel.hpp).
-// Source: docs/spec/pilots_interface.md#mouse
+// Source: docs/pilots_manual.md#mouse
 #pragma once
 
 #include <optional>

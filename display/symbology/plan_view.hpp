@@ -51,7 +51,7 @@ struct ViewFrame {
   double range_m = 0.0;  // selected range, or side length of a patch map
 };
 
-// Projection from polar coordinates about the apex to display units. Source: docs/spec/pilots_interface.md#view.
+// Projection from polar coordinates about the apex to display units. Source: docs/pilots_manual.md#view.
 class PlanView {
  public:
   // Fits the configured width and height, in fractions of the selected range, into the square with equal scales.

@@ -1,7 +1,7 @@
 // Radar video on the display: light (0..1) of the eight grays, and a store of sweeps in polar coordinates.
 // Inputs: sweeps from radar-model; brightness and contrast as the pilot sets them.
 // Outputs: table of light by video level; stored sweeps with their video, sorted by azimuth.
-// Source: docs/spec/pilots_interface.md#sweeps, docs/spec/pilots_interface.md#video
+// Source: docs/pilots_manual.md#sweeps, docs/pilots_manual.md#video
 #pragma once
 
 #include <array>

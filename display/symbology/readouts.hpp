@@ -2,7 +2,7 @@
 // Inputs: radar state; DisplayInput (plan_view.hpp); the position of a click.
 // Outputs: texts in a draw list; the number of the clicked button.
 // Units: positions in display units (draw_list.hpp).
-// Source: docs/spec/pilots_interface.md#legends, docs/spec/pilots_interface.md#messages
+// Source: docs/pilots_manual.md#legends, docs/pilots_manual.md#messages
 #pragma once
 
 #include <optional>
@@ -64,7 +64,7 @@ void draw_state(const DisplayInput& input, DrawList& list);
 void draw_silent(const DisplayInput& input, DrawList& list);
 
 // Velocity differences: velocity measured by the radar minus velocity of the navigator, in ft/s. Components: along the
-// ground track, to the right, up. Source: docs/spec/pilots_interface.md#rule-16.
+// ground track, to the right, up. Source: docs/pilots_manual.md#rule-16.
 
 // IPVU: draws the differences of the last velocity measurement while the flag kVelocityShown is set.
 void draw_velocity_differences(const databuffer::RadarState& state, DrawList& list);

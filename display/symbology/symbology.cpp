@@ -185,7 +185,7 @@ void draw_gray_scale(DrawList& list) {
 
 namespace {
 
-// Elements that the display shows in a mode: one column of the table in docs/spec/pilots_interface.md#symbology.
+// Elements that the display shows in a mode. Source: column "in" of the table docs/pilots_manual.md#symbology.
 struct Format {
   bool video = false;  // sweeps
   bool map = false;    // a patch map

@@ -3,7 +3,7 @@
 // Outputs: a draw list.
 // Units: [deg]. Azimuths count from the ground track, right positive; elevations and pitch from the horizontal, up
 //   positive; roll: right wing down positive.
-// Source: docs/spec/pilots_interface.md#symbology
+// Source: docs/pilots_manual.md#symbology
 #pragma once
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 // Outputs: the dialogue on standard error; the map in `file`, on standard output if `file` is empty.
 // Errors: the device cannot be read; no control was learned; the file cannot be written, then the map goes to standard
 // output; the device was disconnected, and nobody can type that it is to be waited for.
-// Source: docs/spec/commands.md#learn
+// Source: docs/hardware.md#learning-a-map
 #pragma once
 
 #include <string>

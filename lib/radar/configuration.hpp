@@ -1,7 +1,7 @@
 // Configuration of one radar: all sections. Code that uses few sections includes the headers of these sections instead.
 // config/schema reads the values from GUF files. The defaults are the values of the APG-70.
 // Units: as the suffix of each name says.
-// Source: docs/spec/physics.md#power-and-video, docs/spec/pilots_interface.md#rule-1.
+// Source: docs/spec/physics.md#power-and-video, docs/pilots_manual.md#rule-1.
 #pragma once
 
 #include <cstdint>

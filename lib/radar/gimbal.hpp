@@ -1,6 +1,6 @@
 // Directions in airframe axes, and the limits of the antenna's gimbal.
 // Inputs: attitude of the aircraft; true azimuth and elevation above the horizontal; limits of the configuration.
-// Source: docs/spec/pilots_interface.md#rule-2.
+// Source: docs/pilots_manual.md#rule-2.
 #pragma once
 
 #include "lib/geo/quantity.hpp"

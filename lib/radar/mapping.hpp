@@ -2,7 +2,7 @@
 // A window is the square of ground that a patch map shows, or its side length. With a blank selection the pilot has
 // selected no window, and the cursor range (ground range from the aircraft to the cursor) determines the window.
 // Inputs: ranges, angles and speeds as quantities; the tables of the configuration.
-// Source: docs/spec/pilots_interface.md#rule-1 to #rule-5, docs/spec/physics.md#formation-time.
+// Source: docs/pilots_manual.md#rule-1 to #rule-5, docs/spec/physics.md#formation-time.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct HeightRanges;
 struct WindowLimits;
 
 // Range that the radar selects for a height above ground or sea. A height equal to a limit of the table gives the
-// shorter range. NaN gives the range above all limits. Source: docs/spec/pilots_interface.md#rule-1.
+// shorter range. NaN gives the range above all limits. Source: docs/pilots_manual.md#rule-1.
 geo::Length range_by_height(geo::Length height, const HeightRanges& table);
 
 // Index of the shortest range that is at least `wanted`, or of the last range if all are shorter. `ranges_nm` is in
@@ -35,7 +35,7 @@ struct CursorLimits {
 };
 
 // Cursor limits of a window; nullopt if the table has no window of this size.
-// Source: docs/spec/pilots_interface.md#rule-4 (tables 1 to 3 of the 1996 report).
+// Source: docs/pilots_manual.md#rule-4 (tables 1 to 3 of the 1996 report).
 std::optional<CursorLimits> cursor_limits(geo::Length window, const WindowLimits& table);
 
 // Index of the largest window that does not exceed `range`; nullopt if all exceed `range`. `windows_nm` ascends.
@@ -88,7 +88,7 @@ struct SyntheticArray {
 geo::Duration formation_time(const MapGeometry& geometry, const SyntheticArray& array);
 
 // True if the line of sight is in the blind zone, which lies about the ground track ahead and astern. There the Doppler
-// spread is too small for a map. Source: docs/spec/pilots_interface.md#rule-3.
+// spread is too small for a map. Source: docs/pilots_manual.md#rule-3.
 bool in_blind_zone(geo::Angle squint, double blind_zone_deg);
 
 // Azimuth resolution of the Doppler beam sharpened scan: lambda / (2 V T sin(squint)), at most the real beam width.
@@ -137,7 +137,7 @@ struct MapLimits {
 // Message of the display if a patch map about `centre` is not possible; nullopt if the map is possible. The limits of a
 // re-map are the same. A position that is not finite gives "NO CURSOR". Azimuth and elevation have to be within the
 // limits twice: relative to true heading and horizon, and in airframe axes. Else the message is "GIMBAL".
-// Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the 1996 report.
+// Source: docs/pilots_manual.md#rule-2, #rule-3, #rule-4, #rule-5; tables 3 and 4 of the 1996 report.
 std::optional<std::string_view> map_rejection(const MapViewpoint& from, const MapCentre& centre,
                                               const MapWindow& window, const MapLimits& limits);
 

@@ -1,7 +1,7 @@
 // Configuration of a mission: errors of the navigators, route, cursor range of each window, range by height.
 // config/schema reads the values from GUF files.
 // Units: as the suffix of each name says.
-// Source: docs/spec/physics.md#navigation-errors, docs/spec/pilots_interface.md#rule-1 and the sections cited below.
+// Source: docs/spec/physics.md#navigation-errors, docs/pilots_manual.md#rule-1 and the sections cited below.
 #pragma once
 
 #include <string>
@@ -35,7 +35,7 @@ struct NavigationConfiguration {
   double beam_dwell_s = 0.4;                                 // [s] dwell on each beam
 };
 
-// Sequence point of the route; names as in docs/spec/pilots_interface.md#rule-11.
+// Sequence point of the route; names as in docs/pilots_manual.md#rule-11.
 struct RoutePoint {
   std::string name;  // "2", "2.", "2.1", "2.01"
   PointKind kind = PointKind::steer;
@@ -44,7 +44,7 @@ struct RoutePoint {
 };
 
 // Limits of the cursor range for each window of a patch map, and the windows of a blank selection.
-// Source: docs/spec/pilots_interface.md#rule-4.
+// Source: docs/pilots_manual.md#rule-4.
 struct WindowLimits {
   std::vector<double> windows_nm{0.67, 1.3, 3.3, 4.7, 10, 20, 40, 80};   // [NM] side of the square, ascending
   std::vector<double> min_range_nm{4.7, 4.7, 4.7, 4.7, 10, 20, 40, 80};  // [NM] minimum cursor range of each window
@@ -55,7 +55,7 @@ struct WindowLimits {
   double power_up_nm = 4.7;                             // [NM] window selected at power-up
 };
 
-// Range that the radar selects by height above the surface. Source: docs/spec/pilots_interface.md#rule-1.
+// Range that the radar selects by height above the surface. Source: docs/pilots_manual.md#rule-1.
 struct HeightRanges {
   std::vector<double> heights_ft{500, 1000};  // [ft] ascending; a height equal to an entry has the shorter range
   std::vector<double> ranges_nm{10, 20, 40};  // [NM] range up to each height; the last value applies above all heights

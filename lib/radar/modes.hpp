@@ -1,5 +1,5 @@
 // Modes and switch positions with their numbers in records, sizes of arrays in records, names of sequence points.
-// Abbreviations: docs/spec/pilots_interface.md#controls.
+// Abbreviations: docs/pilots_manual.md#controls.
 // Inputs: a number from a record, or the name of a sequence point.
 // Outputs: texts for legends; the number and offset in a sequence point's name; the order of the names.
 // Errors: "?" for a number outside its enumeration; std::nullopt for a text that is no name of a sequence point.
@@ -69,7 +69,7 @@ std::string_view name_of(Navigator navigator);
 // Number and offset in the name of a sequence point. "7." with a dot is a target. "7" without a dot is a steer point or
 // an initial point. With one digit after the dot (`7.1` to `7.9`) it is an offset, with two (`7.01` to `7.99`) an
 // offset of a target. Numbers are 1 to 100.
-// Source: docs/spec/pilots_interface.md#rule-11.
+// Source: docs/pilots_manual.md#rule-11.
 struct PointName {
   int number = 0;       // 1 to 100
   int offset = 0;       // 1 to 99; 0 = the point itself

@@ -1,6 +1,6 @@
 // Rules of a route of sequence points: which names go together, the kind of a name, and initial points.
 // Inputs: names of points (modes.hpp) and their kinds. Outputs: kinds, conflicts, the place of an initial point.
-// Source: docs/spec/pilots_interface.md#rule-11.
+// Source: docs/pilots_manual.md#rule-11.
 #pragma once
 
 #include <array>

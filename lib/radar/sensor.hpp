@@ -8,7 +8,7 @@
 
 namespace yars::radar {
 
-// Antenna: gimbal, servo, beam and scan. Source: tables of the 1996 report and docs/spec/pilots_interface.md#rule-2.
+// Antenna: gimbal, servo, beam and scan. Source: tables of the 1996 report and docs/pilots_manual.md#rule-2.
 struct AntennaConfiguration {
   double azimuth_rate_dps = 110.0;       // [deg/s] scan rate; FULL (100 deg) takes 0.91 s + turn-around = 1 s
   double elevation_rate_dps = 110.0;     // [deg/s]

@@ -4,7 +4,7 @@
 // Frame: azimuths are true or relative to the nose, clockwise positive. Elevations are positive above the horizontal.
 // Gimbal angles are in airframe axes. A commanded direction that is not finite is ignored. A direction out of range is
 // clamped.
-// Source: docs/spec/pilots_interface.md#rule-2.
+// Source: docs/pilots_manual.md#rule-2.
 #pragma once
 
 #include <cstdint>

@@ -4,7 +4,7 @@
 // Outputs: antenna sector, resolution cells; beam directions; velocity north, east, down [m/s].
 // Errors: a velocity update with a beam outside the gimbal limits measures nothing.
 // Threads: one thread at a time may use a DopplerVelocityUpdate. No allocation after construction.
-// Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-16; docs/spec/physics.md#hrm-resolution.
+// Source: docs/pilots_manual.md#rule-2, #rule-3, #rule-16; docs/spec/physics.md#hrm-resolution.
 #pragma once
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 // Errors: a command for a map that cannot be made is completed without a map; ModelStatus::map_stopped names the
 //   exceeded limit, if there is one.
 // Threads: one at a time. The schedule makes no picture; hrm::PatchFormation does.
-// Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7, #rule-8; docs/spec/physics.md#formation-time.
+// Source: docs/pilots_manual.md#rule-5, #rule-6, #rule-7, #rule-8; docs/spec/physics.md#formation-time.
 #pragma once
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // Inputs: one ModelTick per step; terrain, scenes and traffic.
 // Outputs: Sweep records; fields of ModelStatus.
 // Threads: one at a time. Internal to the kernel.
-// Source: docs/spec/pilots_interface.md#rule-2, #rule-8, #rule-9, #rule-18.
+// Source: docs/pilots_manual.md#rule-2, #rule-8, #rule-9, #rule-18.
 #pragma once
 
 #include <cstdint>

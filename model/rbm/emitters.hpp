@@ -4,7 +4,7 @@
 // Outputs: power (full scale = 1); slant ranges and distances over ground of replies [m].
 // An emitter without configured altitude stands 10 m above the ground.
 // Threads: one thread at a time may use an instance. No allocation after construction.
-// Source: docs/spec/physics.md#jamming, docs/spec/pilots_interface.md#rule-17.
+// Source: docs/spec/physics.md#jamming, docs/pilots_manual.md#rule-17.
 #pragma once
 
 #include <cstddef>

@@ -14,7 +14,7 @@
 
 namespace yars::endtoend {
 
-// An event of the script (docs/spec/pilots_interface.md#controls), and the expected value of one field of the state
+// An event of the script (docs/pilots_manual.md#controls), and the expected value of one field of the state
 // after it.
 struct ScriptedStep {
   std::string event;

@@ -75,7 +75,7 @@ const std::vector<ScriptedStep>& steps() {
   return kSteps;
 }
 
-// Expects the legends and boxes of the real beam map according to docs/spec/pilots_interface.md#legends.
+// Expects the legends and boxes of the real beam map according to docs/pilots_manual.md#legends.
 void expect_rbm_legends(const json& state) {
   const auto& legends = state["legends"];
   EXPECT_EQ(legends["2"], "DCL");

@@ -1,5 +1,5 @@
 // The high resolution map from the first command to the return to RBM, by the whole set in lockstep: RBM, cursor, MAP
-// command, timer, patch, a second patch, freeze, OLD, STO, PPI (docs/spec/pilots_interface.md#rule-4, #rule-5, #rule-6,
+// command, timer, patch, a second patch, freeze, OLD, STO, PPI (docs/pilots_manual.md#rule-4, #rule-5, #rule-6,
 // #rule-7, #rule-8).
 #include <gtest/gtest.h>
 

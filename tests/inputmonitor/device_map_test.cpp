@@ -51,7 +51,7 @@ TEST(ReadyMap, TheCougarsButtonsAreThePushButtonsInOppositeOrder) {
   const auto maps = shipped_maps();
   DeviceDecoder decoder(*resolve_map(*named_map("mfd-cougar", maps), {}));
   // The device numbers its buttons clockwise from the top left. The MPD numbers them counter-clockwise from the top of
-  // the left side (docs/spec/pilots_interface.md#buttons).
+  // the left side (docs/pilots_manual.md#buttons).
   for (int button = 1; button <= 20; ++button) {
     const auto code = std::uint16_t(button <= 16 ? 0x120 + button - 1 : 0x2c0 + button - 17);
     const std::int64_t now_ns = button * 1'000'000'000LL;

@@ -11,7 +11,7 @@ CHECKER = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "check_citat
 DOCS = "do" + "cs"
 SPEC = f"{DOCS}/sp" + "ec"
 PHYSICS = f"{SPEC}/physics.md"
-INTERFACE = f"{SPEC}/pilots_interface.md"
+INTERFACE = f"{DOCS}/pilots_manual.md"
 OLD_PAGE = "pv" + "i.md"
 BARE_WORD = "sp" + "ec"
 RULE = "ru" + "le"
@@ -20,7 +20,7 @@ DECISION = "deci" + "sion"
 CLEAN = {
     PHYSICS: '# Physics\n\n<a id="sea"></a>\n## What the sea returns\n\n<a id="land"></a>\n## Land\n[sea](#sea)\n',
     INTERFACE: '# Interface\n\n| PB |\n| --- |\n| <a id="pb-2"></a>2 |\n\n<a id="rule-5"></a>\n### Maps\n'
-               f"[sea]({PHYSICS[10:]}#sea), [rule](#rule-5)\n",
+               f"[sea]({PHYSICS[5:]}#sea), [rule](#rule-5)\n",
     f"{DOCS}/terrain.md": "# Terrain\n\n## The `file` formats\n\n## Same\n\n## Same\n\n"
                        "[a](#the-file-formats) [b](#same-1) [c](decisions/0001-first.md) [d](../lib) [e](https://x.org/y#z)\n"
                        "```\n[f](nowhere.md)\n```\n`[g](nowhere.md)`\n",

@@ -21,7 +21,7 @@ BIN = pathlib.Path(sys.argv[1]).resolve()
 # Texts of CLI11 and of argparse, which are not in the form of the house.
 FOREIGN = re.compile(r"is required|not convert|not in range|were not expected|was not expected|requires|excludes|At Most"
                      r"|Excludes|REQUIRED|At Least|not in \{|missing$|A subcommand|override|should not see|error:|usage:")
-# Commands that print facts; docs/spec/commands.md#json has their fields.
+# Commands that print facts; docs/commands.md#json has their fields.
 WITH_JSON = ["scan", "patch", "trade", "trade maps", "terrain generate", "terrain info", "terrain profile", "terrain reduce", "terrain convert",
              "terrain pack", "scene generate", "scene info", "config check", "config user", "sim state", "sim freeze",
              "sim run", "sim rate", "sim step", "sim reset", "sim reposition", "world", "world sea", "world wind", "world rain add",

@@ -136,11 +136,11 @@ class Documents(unittest.TestCase):
             run = subprocess.run(["doxygen", "-"], input=settings, cwd=source, capture_output=True, text=True, timeout=100)
             self.assertEqual((run.returncode, run.stderr), (0, ""))
             html_folder = pathlib.Path(folder) / "html"
-            rules = (html_folder / "md_docs_spec_pilots_interface.html").read_text(encoding="utf-8")
-            self.assertIn('id="docs_spec_pilots_interface_rule-5"', rules)
+            rules = (html_folder / "md_docs_pilots_manual.html").read_text(encoding="utf-8")
+            self.assertIn('id="docs_pilots_manual_rule-5"', rules)
             self.assertIn("an open air-to-ground radar simulation", (html_folder / "index.html").read_text(encoding="utf-8"))
             choices = (html_folder / "md_docs_decisions_0013_maps_under_the_pilots_hand.html").read_text(encoding="utf-8")
-            self.assertIn('href="md_docs_spec_pilots_interface.html#docs_spec_pilots_interface_rule-5"', choices)
+            self.assertIn('href="md_docs_pilots_manual.html#docs_pilots_manual_rule-5"', choices)
 
 
 if __name__ == "__main__":

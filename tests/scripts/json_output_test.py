@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""--json prints one JSON object with the fields of docs/spec/commands.md#json; progress and escapes are for terminals.
+"""--json prints one JSON object with the fields of docs/commands.md#json; progress and escapes are for terminals.
 
 usage: json_output_test.py BIN
 """
@@ -13,7 +13,7 @@ import tempfile
 import time
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
-SOURCE = "docs/spec/commands.md#json"
+SOURCE = "docs/commands.md#json"
 DOCUMENT = pathlib.Path(__file__).resolve().parents[2] / SOURCE.partition("#")[0]
 SESSION = f"json-{os.getpid()}"
 faults = []

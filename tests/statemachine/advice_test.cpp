@@ -1,5 +1,5 @@
 // Advice for the pilot: what each button does now, or why it is dead, agrees with what the button does.
-// Source: docs/spec/pilots_interface.md#remedies.
+// Source: docs/pilots_manual.md#remedies.
 #include "statemachine/advice.hpp"
 
 #include <gmock/gmock.h>

@@ -1,5 +1,5 @@
 // CUE, TGT and MARK, and the pattern steering line (PSL) to the designated target.
-// Source: docs/spec/pilots_interface.md#rule-14, #rule-15.
+// Source: docs/pilots_manual.md#rule-14, #rule-15.
 #include <gtest/gtest.h>
 
 #include "statemachine/machine.hpp"

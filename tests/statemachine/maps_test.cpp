@@ -1,5 +1,5 @@
 // Patch maps: commands, rejections, re-maps, cancelled maps, and the maps kept in memory.
-// Source: docs/spec/pilots_interface.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
+// Source: docs/pilots_manual.md#rule-3, #rule-4, #rule-5, #rule-6, #rule-7, #rule-8.
 #include <gtest/gtest.h>
 
 #include <string_view>

@@ -1,5 +1,5 @@
 // Errors of the navigators: effect on symbols and cursor, drift and random walk, and correction by UPDT.
-// Source: docs/spec/physics.md#navigation-errors, docs/spec/pilots_interface.md#rule-13.
+// Source: docs/spec/physics.md#navigation-errors, docs/pilots_manual.md#rule-13.
 #include <gtest/gtest.h>
 
 #include "databuffer/messages/derived_values.hpp"

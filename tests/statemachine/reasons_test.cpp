@@ -1,5 +1,5 @@
 // Reasons of events that were sent together, and the press of the TDC.
-// Source: docs/spec/commands.md#inject.
+// Source: docs/commands.md#inject.
 #include "statemachine/reasons.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // The frozen patch map: recall of NEW, OLD and STORE, SET, and the cursor on the map.
-// Source: docs/spec/pilots_interface.md#rule-5, #rule-8, #rule-10, #rule-21.
+// Source: docs/pilots_manual.md#rule-5, #rule-8, #rule-10, #rule-21.
 #include <gtest/gtest.h>
 
 #include "tests/statemachine/pilot.hpp"

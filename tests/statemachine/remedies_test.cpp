@@ -1,5 +1,5 @@
 // Remedies of messages: what the pilot is told to do makes the map possible.
-// Source: docs/spec/pilots_interface.md#remedies.
+// Source: docs/pilots_manual.md#remedies.
 #include "statemachine/remedies.hpp"
 
 #include <gmock/gmock.h>

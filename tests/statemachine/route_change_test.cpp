@@ -1,5 +1,5 @@
 // An instructor changes the sequence points: selection, designated target and drawn points follow; the cursor stays.
-// Source: docs/spec/pilots_interface.md#rule-11.
+// Source: docs/pilots_manual.md#rule-11.
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Rules of docs/spec/pilots_interface.md#rules that need no patch map and no designation: power-up, controls, SNIFF,
+// Rules of docs/pilots_manual.md#rules that need no patch map and no designation: power-up, controls, SNIFF,
 // recorder, restart.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Range, window, scan width and antenna elevation. Source: docs/spec/pilots_interface.md#rule-1, #rule-2, #rule-4.
+// Range, window, scan width and antenna elevation. Source: docs/pilots_manual.md#rule-1, #rule-2, #rule-4.
 #include <gtest/gtest.h>
 
 #include "tests/statemachine/pilot.hpp"

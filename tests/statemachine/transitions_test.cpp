@@ -1,5 +1,5 @@
 // Effect of each event in each mode, frozen and not frozen, and the legends. Expected values: tables (*.csv) written by
-// hand from docs/spec/pilots_interface.md#buttons and #controls.
+// hand from docs/pilots_manual.md#buttons and #controls.
 #include <gtest/gtest.h>
 
 #include <set>

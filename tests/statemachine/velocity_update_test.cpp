@@ -1,5 +1,5 @@
 // PVU and IPVU: measured velocities correct the mission navigator, and the differences are shown.
-// Source: docs/spec/pilots_interface.md#rule-16.
+// Source: docs/pilots_manual.md#rule-16.
 #include <gtest/gtest.h>
 
 #include "databuffer/messages/validation.hpp"

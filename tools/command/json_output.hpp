@@ -1,7 +1,7 @@
 // Option --json of the commands that print facts, and the output of one JSON object.
 // Inputs: a command; an object. Outputs: the object on standard output. Text that is not valid UTF-8, as in a file
 // name, is replaced.
-// Source of the fields: docs/spec/commands.md#json.
+// Source of the fields: docs/commands.md#json.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>

@@ -1,5 +1,5 @@
 // `yars dataset`: checks its options and becomes `python3 -m yars.dataset`, which makes the data set.
-// Source of option names: docs/spec/commands.md#dataset, docs/datasets.md.
+// Source of option names: docs/commands.md#dataset, docs/datasets.md.
 
 #include <unistd.h>
 

@@ -1,6 +1,6 @@
 // `yars patch`: computes one patch map in this process. Writes a picture or numbers to the file of --out, if given.
 // Prints what was computed, shares, run time and hash, or the same and more as JSON. Source of option names and JSON
-// fields: docs/spec/commands.md#patch.
+// fields: docs/commands.md#patch.
 
 #include <algorithm>
 #include <array>

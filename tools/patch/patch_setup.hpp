@@ -1,7 +1,7 @@
 // Options of one patch map, and what follows from them. `yars patch` and the Python module share them.
 // Inputs: options of a command line. Outputs: configuration, order, checks against the radar's limits.
 // Errors: the check_... functions throw CommandFailed.
-// Source of names and ranges: docs/spec/commands.md#patch.
+// Source of names and ranges: docs/commands.md#patch.
 #pragma once
 
 #include <array>

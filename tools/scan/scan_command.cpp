@@ -1,6 +1,6 @@
 // `yars scan`: computes one scan of the real beam map in this process. Writes a picture or numbers, and prints what was
 // computed, shares, run time and hash, or the same and more as JSON. Source of option names and JSON fields:
-// docs/spec/commands.md#scan.
+// docs/commands.md#scan.
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Options of one scan, and what follows from them. `yars scan` and the Python module share them.
 // Inputs: options of a command line. Outputs: configuration, scan request.
 // Errors: check_scan() throws CommandFailed.
-// Source of names and ranges: docs/spec/commands.md#scan.
+// Source of names and ranges: docs/commands.md#scan.
 #pragma once
 
 #include <optional>

@@ -69,7 +69,7 @@ using databuffer::Session;
 
 constexpr const char* kSubject = "yars inject";  // with what its errors begin
 
-constexpr std::int64_t kTimeout_ns = 2'000'000'000;  // [ns] 2 s: docs/spec/commands.md#inject
+constexpr std::int64_t kTimeout_ns = 2'000'000'000;  // [ns] 2 s: docs/commands.md#inject
 
 // Parses the arguments. Either all arguments together are one event (pb 13), or each is one event ('pb 13' 'sp 2').
 std::vector<InputEvent> parse_events(const std::vector<std::string>& arguments) {

@@ -61,7 +61,7 @@ bool has_programs(const Session& session) {
 }
 
 // Polls a live session. After a write error the process continues, so that the display can report the problem
-// (docs/spec/pilots_interface.md#rule-22).
+// (docs/pilots_manual.md#rule-22).
 void record_live(Session& session, const std::string& name, Recorder& recorder,
                  const recording::RecordingWriter& writer) {
   int quiet_polls = 0;

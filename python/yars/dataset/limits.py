@@ -1,6 +1,6 @@
 """Limits of a radar for patch maps, read from its configuration: blind zone, gimbal, ranges of each window. Geometry that no draw can
 make possible is found by them when a specification is read. Source: `yars config print`;
-docs/spec/pilots_interface.md#rule-2, #rule-3 and #rule-4."""
+docs/pilots_manual.md#rule-2, #rule-3 and #rule-4."""
 import dataclasses
 import functools
 import math

@@ -10,7 +10,7 @@
 namespace yars::databuffer {
 namespace {
 
-// A state in which the timer is shown (docs/spec/pilots_interface.md#rule-6): cursor function MAP, a selected window,
+// A state in which the timer is shown (docs/pilots_manual.md#rule-6): cursor function MAP, a selected window,
 // and a cursor at which a map may be made.
 class MapTimer : public ::testing::Test {
  protected:

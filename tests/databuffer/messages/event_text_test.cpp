@@ -1,5 +1,5 @@
 // Tests of events as text: event_from_text() reads them and text_of() writes them, as
-// docs/spec/pilots_interface.md#controls spells them.
+// docs/pilots_manual.md#controls spells them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Help over the picture, remedies below messages, states without a picture. Source: docs/spec/pilots_interface.md#help,
+// Help over the picture, remedies below messages, states without a picture. Source: docs/pilots_manual.md#help,
 // #remedies, #states.
 #include "display/symbology/help.hpp"
 

@@ -1,4 +1,4 @@
-// The bezel around the picture, tooltips, and the mouse. Source: docs/spec/pilots_interface.md#bezel, #mouse.
+// The bezel around the picture, tooltips, and the mouse. Source: docs/pilots_manual.md#bezel, #mouse.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

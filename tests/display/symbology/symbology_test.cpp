@@ -53,7 +53,7 @@ TEST(Symbology, StandbyShowsLegendsAndStbyAndNoScales) {
   EXPECT_FALSE(shows_video(input.state));
 }
 
-// The columns are those of the table in docs/spec/pilots_interface.md#symbology.
+// The modes are those of the column "in" of the table docs/pilots_manual.md#symbology.
 TEST(Symbology, EachModeShowsTheElementsOfItsColumn) {
   struct Column {
     Mode mode;

@@ -1,5 +1,5 @@
 // Rules of lib/radar: range by height, windows of patch maps, sequence points, names of modes and settings.
-// Also random::standard_normal(). Source: docs/spec/pilots_interface.md#rule-1, #rule-4, #rule-11.
+// Also random::standard_normal(). Source: docs/pilots_manual.md#rule-1, #rule-4, #rule-11.
 #include <gtest/gtest.h>
 
 #include <algorithm>

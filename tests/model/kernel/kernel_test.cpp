@@ -315,7 +315,7 @@ TEST(RadarKernel, SaysWhyNothingCanBeMappedAtTheCursor) {
     double bearing_deg, range_nm, window_nm;
     const char* why;
   };
-  // The track is 45 degrees. Source: docs/spec/pilots_interface.md#rule-3, #rule-4.
+  // The track is 45 degrees. Source: docs/pilots_manual.md#rule-3, #rule-4.
   const Row rows[] = {{50.0, 20.0, 4.7, "BLIND ZONE"},
                       {120.0, 20.0, 4.7, "GIMBAL"},
                       {80.0, 3.0, 4.7, "MIN RANGE"},

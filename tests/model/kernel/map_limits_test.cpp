@@ -1,5 +1,5 @@
 // Limits of commanded maps and of re-maps: blind zone, gimbal, ranges of the window.
-// Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4, #rule-5, #rule-7.
+// Source: docs/pilots_manual.md#rule-2, #rule-3, #rule-4, #rule-5, #rule-7.
 #include <gtest/gtest.h>
 
 #include <array>

@@ -1,5 +1,5 @@
 // MapSchedule: which patch map forms when. Formation time, progress, re-maps in STAB and PROG, cancellation.
-// Source: docs/spec/pilots_interface.md#rule-5, #rule-6, #rule-7; docs/spec/physics.md#formation-time.
+// Source: docs/pilots_manual.md#rule-5, #rule-6, #rule-7; docs/spec/physics.md#formation-time.
 #include "model/kernel/map_schedule.hpp"
 
 #include <gtest/gtest.h>

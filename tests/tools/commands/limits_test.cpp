@@ -50,7 +50,7 @@ TEST(PatchLimits, EachErrorHasTheLimitTheValueAndForceAsTheRemedy) {
     std::vector<std::string> more;
     const char *name, *limit, *found;
   };
-  // Source: docs/spec/pilots_interface.md#rule-2, #rule-3, #rule-4.
+  // Source: docs/pilots_manual.md#rule-2, #rule-3, #rule-4.
   const Row rows[] = {
       {2.0, 20.0, {}, "BLIND ZONE", "8 to 172 deg off the ground track", "found one 2."},
       {-7.0, 20.0, {}, "BLIND ZONE", "8 to 172 deg", "found one 7."},
