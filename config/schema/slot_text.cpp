@@ -257,18 +257,27 @@ const std::vector<FormGroup>& groups() {
   return table;
 }
 
-// Heading and table of one form, in Markdown.
+// Row of one slot in the table of its form, in Markdown.
+std::string slot_row(const FormSchema& form, std::size_t index) {
+  const SlotSchema& slot = form.slots[index];
+  const std::string default_value = default_text(form, slot);
+  return "| " + std::to_string(index + 1) + " | `" + std::string(slot.name) + "` | " + value_kind(slot) + " | " +
+         (default_value.empty() ? "" : "`` " + default_value + " ``") + " | " + std::string(slot.purpose) +
+         use_of(form, slot) + " |\n";
+}
+
+// Heading and table of one form, in Markdown. The table leaves out slots that are equal to those of the form's base.
 std::string form_table(const FormSchema& form) {
-  std::string text = "## " + std::string(form.name) + "\n\n" + heading(form) +
-                     ".\n\n| position | slot | value | default | for |\n| --- | --- | --- | --- | --- |\n";
+  const FormSchema* const base = form.base.empty() ? nullptr : find_form(form.base).schema;
+  std::string rows;
   for (std::size_t i = 0; i < form.slots.size(); ++i) {
-    const SlotSchema& slot = form.slots[i];
-    const std::string default_value = default_text(form, slot);
-    text += "| " + std::to_string(i + 1) + " | `" + std::string(slot.name) + "` | " + value_kind(slot) + " | " +
-            (default_value.empty() ? "" : "`` " + default_value + " ``") + " | " + std::string(slot.purpose) +
-            use_of(form, slot) + " |\n";
+    const std::string row = slot_row(form, i);
+    const bool is_of_base = base != nullptr && i < base->slots.size() && row == slot_row(*base, i);
+    if (!is_of_base) rows += row;
   }
-  return text + "\n";
+  const std::string text = "## " + std::string(form.name) + "\n\n" + heading(form) + ".\n\n";
+  if (rows.empty()) return text;
+  return text + "| position | slot | value | default | for |\n| --- | --- | --- | --- | --- |\n" + rows + "\n";
 }
 
 }  // namespace
