@@ -158,7 +158,9 @@ TEST(DamagedInput, ATradeThatLeavesPartsOutNamesThemAndFailsAfterTheResult) {
       EXPECT_EQ(done.code, 1) << done.errors;
       EXPECT_THAT(done.output, HasSubstr("draft")) << "the result is written";
       EXPECT_THAT(done.errors, AllOf(HasSubstr(trade.part), HasSubstr("found 1 part left out")));
-      if (json) EXPECT_THAT(done.output, HasSubstr(trade.part));
+      if (json) {
+        EXPECT_THAT(done.output, HasSubstr(trade.part));
+      }
     }
 }
 
