@@ -5,7 +5,7 @@ Inputs: commands and entries of help_text.py. Outputs: a list of words, or what 
 import re
 
 FILES, FOLDERS, SESSIONS, NOTHING = "files", "folders", "sessions", "nothing"
-MADE = "Made from --help by packaging/help/write.py."
+MADE = "Made from --help when YARS was built."
 
 
 def shape(entry):
