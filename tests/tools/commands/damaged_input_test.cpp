@@ -144,7 +144,7 @@ TEST(DamagedInput, ATradeThatLeavesPartsOutNamesThemAndFailsAfterTheResult) {
   };
   const std::vector<Trade> trades = {
       {{"trade", "--scene", "37.5,-120.1,15000,90,20", "--terrain", folder.path() / "cells"}, "n37.dt0"},
-      {{"trade", "maps", "--view", "37.5,-120.1,15000,37.6,-119.8,4.7", "--terrain", folder.path() / "cells"},
+      {{"trade", "maps", "--view", "37.5,-120.4,15000,37.6,-120.0,4.7", "--terrain", folder.path() / "cells"},
        "n37.dt0"},
       {{"trade", "maps", "--view", "37.5,-120.5,15000,37.7,-120.4,4.7", "--scene", scene}, "hangar.flt is not there"}};
   for (const Trade& trade : trades)
