@@ -135,7 +135,7 @@ class BuildProgress(unittest.TestCase):
         self.run_plainly()
         targets = (self.folder / "targets").read_text().split("--target ")[1].split()
         self.assertEqual(sorted(targets),
-                         ["flight-model", "input-monitor", "radar-display", "radar-model", "state-machine", "yars", "yars-station"])
+                         ["flight-model", "input-monitor", "radar-display", "radar-model", "state-machine", "yars", "yars-station", "yars_help"])
 
 
 if __name__ == "__main__":
