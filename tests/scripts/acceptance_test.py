@@ -278,7 +278,7 @@ class Acceptance:
 
     def recording(self, path):
         self.count("recordings")
-        self.run("recordings", path, "--json", names=[path.name])
+        self.run("recordings", path, names=[path.name])
         self.run("replay", "--print", path, names=[path.name])
         self.run("replay", "--events", path, names=[path.name])
 
