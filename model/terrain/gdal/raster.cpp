@@ -139,10 +139,10 @@ class CellReader {
   // Output: the number of pixels with impossible heights.
   error::Expected<std::size_t> read() {
     if (const double pixels = pixels_in_cell(); pixels > kMaxPixelsPerCell) {
-      std::array<char, 32> found{};
-      std::snprintf(found.data(), found.size(), "about %.1g", pixels);
-      return error::fail(raster_.subject, "at most 4e10 pixels in a one-degree cell, 0.5 m apart", found.data(),
-                         "make larger pixels, as with `gdalwarp -tr`");
+      std::array<char, 64> most{}, found{};
+      std::snprintf(most.data(), most.size(), "at most %.0e pixels in a one-degree cell", kMaxPixelsPerCell);
+      std::snprintf(found.data(), found.size(), "about %.0e", pixels);
+      return error::fail(raster_.subject, most.data(), found.data(), "make larger pixels, as with `gdalwarp -tr`");
     }
     size_ = block_size();
     const PostRange range = touched_posts(raster_, grid_);
@@ -159,7 +159,8 @@ class CellReader {
  private:
   static constexpr int kTile = 256;  // [posts] edge of a tile; bounds the memory for pixels
 
-  static constexpr double kMaxPixelsPerCell = 4e10;  // read in about a minute; without a bound a raster takes for ever
+  // Bounds the time that a cell takes, because each of its pixels is read. These are about 0.5 m apart.
+  static constexpr double kMaxPixelsPerCell = 4e10;
 
   // Pixels per post interval in the middle of the cell.
   PixelStep middle_step() const {

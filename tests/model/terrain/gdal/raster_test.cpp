@@ -340,8 +340,7 @@ TEST(GeoTiff, ACellOfMorePixelsThanCanBeReadIsRefused) {
   ASSERT_TRUE(index->contains(slot_of(corner)));
   const auto reading = read_cell(index->at(slot_of(corner)), corner);
   ASSERT_FALSE(reading.has_value());
-  EXPECT_NE(reading.error().message().find(
-                "expected at most 4e10 pixels in a one-degree cell, 0.5 m apart, found about 1e+12"),
+  EXPECT_NE(reading.error().message().find("expected at most 4e+10 pixels in a one-degree cell, found about 1e+12"),
             std::string::npos)
       << reading.error().message();
 }
