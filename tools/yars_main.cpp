@@ -3,6 +3,7 @@
 
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/program.hpp"
+#include "radar/failure.hpp"
 #include "tools/command/command.hpp"
 
 namespace {
@@ -28,6 +29,11 @@ void add_commands(databuffer::Command app, const tools::CommonOptions& common) {
   tools::add_replay_command(app, common);
 }
 
+int end_with(const tools::CommandFailed& failed) {
+  if (!failed.message.empty()) databuffer::print_failure("yars", failed.message);
+  return failed.code;
+}
+
 int run(int argc, char** argv) {
   databuffer::CommandLine app("YARS: an open air-to-ground radar simulation", "yars");
   app.require_subcommand();
@@ -47,9 +53,10 @@ int run(int argc, char** argv) {
   app.add_help_command();
   try {
     return app.parse(argc, argv).value_or(0);
+  } catch (const radar::Failure& failure) {
+    return end_with(tools::failure_of(failure.error));
   } catch (const tools::CommandFailed& failed) {
-    if (!failed.message.empty()) databuffer::print_failure("yars", failed.message);
-    return failed.code;
+    return end_with(failed);
   } catch (const std::exception& problem) {
     databuffer::print_failure("yars", databuffer::message_of(problem));
     return databuffer::kExitFailure;

@@ -74,7 +74,7 @@ bool is_finite(Vector3 vector) {
 
 std::optional<error::Error> fault_of(memory::Bytes packet) {
   const auto error = [](std::string expected, std::string found) {
-    return error::Error{"dis", std::move(expected), std::move(found), {}, false};
+    return error::Error{"dis", std::move(expected), std::move(found), {}};
   };
   if (packet.size() < kStateBytes)
     return error("an Entity State PDU of at least 144 bytes", text::counted(packet.size(), "byte"));

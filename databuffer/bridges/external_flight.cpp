@@ -53,8 +53,7 @@ std::optional<error::Error> outside(std::string_view source, std::string_view fi
       std::string(source),
       std::string(field) + " in [" + text::text_of_number(lower) + ", " + text::text_of_number(upper) + ']',
       text::text_of_number(value),
-      {},
-      false};
+      {}};
 }
 
 // [deg] Tolerance for the rounding error of 90 or 180 deg that were sent in radians as a float.

@@ -123,7 +123,7 @@ error::Error missing_columns(const std::vector<std::string_view>& labels, const 
   const std::string found = std::to_string(labels.size()) + " columns without " + missing +
                             (geocentric ? " (the given latitude is geocentric, up to 11 NM off)" : "");
   return {"jsbsim", "columns of position, attitude and velocity", found,
-          "put <property>NAME</property> for each of them into the <output> of the aircraft", false};
+          "put <property>NAME</property> for each of them into the <output> of the aircraft"};
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ int run_body(CommandLine& app, const ProgramOptions& options, const ProgramBody&
     log::report_suppressed(log::SuppressedKinds::all);
     if (!error) return 0;
     print_failure(app.name(), error->message());
-    return error->bad_usage ? kExitUsage : kExitFailure;
+    return error->bad_usage() ? kExitUsage : kExitFailure;
   } catch (const std::exception& problem) {
     print_failure(app.name(), message_of(problem));
     return kExitFailure;

@@ -62,7 +62,7 @@ error::Expected<std::optional<HeldRole>> take_role(const std::string& session_na
     if (!occupation.lasts(std::as_const(*waiting), role)) {
       auto held = open_and_claim(session_name, role, program);
       if (held) return std::optional<HeldRole>(std::move(*held));
-      if (!held.error().bad_usage) return tl::unexpected(held.error());
+      if (!held.error().bad_usage()) return tl::unexpected(held.error());
     }
     if (!std::exchange(reported, true))
       log::info("stands by: another process holds the role " + std::string(name_of(role)));

@@ -55,7 +55,7 @@ UsageMessage unknown_command(const CLI::App* command, const std::string& word) {
   const auto names = names_below(*command);
   const std::string meant = text::did_you_mean(word, names);
   return message_of(
-      command, {"", meant.empty() ? "a command: " + joined_by_or(names) : "a command", "'" + word + "'", meant, true});
+      command, {"", meant.empty() ? "a command: " + joined_by_or(names) : "a command", "'" + word + "'", meant, ErrorCode::argument});
 }
 
 // Words that no command has taken, in the order of the command line.
@@ -71,13 +71,13 @@ UsageMessage unknown_option(const std::vector<const CLI::App*>& chain, const std
     for (const CLI::Option* option : (*command)->get_options())
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   const std::string name = word.substr(0, word.find('='));
-  return message_of(chain.back(), {"", "an option", "'" + name + "'", text::did_you_mean(name, names), true});
+  return message_of(chain.back(), {"", "an option", "'" + name + "'", text::did_you_mean(name, names), ErrorCode::argument});
 }
 
 UsageMessage about_word_left(const std::vector<const CLI::App*>& chain, const std::string& word) {
   if (is_option_like(word)) return unknown_option(chain, word);
   if (!commands_below(*chain.back()).empty()) return unknown_command(chain.back(), word);
-  return message_of(chain.back(), {"", "no further argument", "'" + word + "'", "", true});
+  return message_of(chain.back(), {"", "no further argument", "'" + word + "'", "", ErrorCode::argument});
 }
 
 // "--out FILE", "DIR or --terrain DIR", "LAT".
@@ -94,10 +94,10 @@ std::optional<UsageMessage> about_what_is_required(const std::vector<const CLI::
     for (const CLI::Option* option : command->get_options())
       if (option->get_required() && option->count() == 0)
         names += (names.empty() ? "" : ", ") + name_with_value(*option);
-  if (!names.empty()) return message_of(chain.back(), {"", names, "none", "", true});
+  if (!names.empty()) return message_of(chain.back(), {"", names, "none", "", ErrorCode::argument});
   const CLI::App* command = chain.back();
   if (command->get_require_subcommand_min() == 0) return std::nullopt;
-  return message_of(command, {"", "a command: " + joined_by_or(names_below(*command)), "none", "", true});
+  return message_of(command, {"", "a command: " + joined_by_or(names_below(*command)), "none", "", ErrorCode::argument});
 }
 
 std::optional<UsageMessage> about_relations(const std::vector<const CLI::App*>& chain) {
@@ -106,11 +106,11 @@ std::optional<UsageMessage> about_relations(const std::vector<const CLI::App*>& 
       if (option->count() == 0) continue;
       for (const CLI::Option* other : option->get_needs())
         if (other->count() == 0)
-          return message_of(chain.back(), {option->get_name(), other->get_name() + " with it", "none", "", true});
+          return message_of(chain.back(), {option->get_name(), other->get_name() + " with it", "none", "", ErrorCode::argument});
       for (const CLI::Option* other : option->get_excludes())
         if (other->count() > 0)
           return message_of(chain.back(),
-                            {option->get_name(), "no " + other->get_name() + " with it", "both", "", true});
+                            {option->get_name(), "no " + other->get_name() + " with it", "both", "", ErrorCode::argument});
     }
   return std::nullopt;
 }
@@ -132,7 +132,7 @@ std::optional<Error> too_many_values(const std::vector<const CLI::App*>& chain) 
       const int found = static_cast<int>(option->count());
       if (max <= 0 || found <= max) continue;
       return Error{option->get_name(), max == 1 ? "the option once" : values_text(max),
-                   max == 1 ? "it " + text::counted(found, "time") : std::to_string(found), "", true};
+                   max == 1 ? "it " + text::counted(found, "time") : std::to_string(found), "", ErrorCode::argument};
     }
   return std::nullopt;
 }
@@ -144,7 +144,7 @@ std::optional<Error> flag_with_value(const std::vector<const CLI::App*>& chain, 
     if (!is_option_like(word) || equals == std::string::npos) continue;
     const CLI::Option* option = option_named(chain, word.substr(0, equals));
     if (option == nullptr || option->get_items_expected_max() > 0) continue;
-    return Error{word.substr(0, equals), "no value", "'" + word.substr(equals + 1) + "'", "", true};
+    return Error{word.substr(0, equals), "no value", "'" + word.substr(equals + 1) + "'", "", ErrorCode::argument};
   }
   return std::nullopt;
 }
@@ -155,7 +155,7 @@ std::optional<Error> option_as_value(const std::vector<const CLI::App*>& chain) 
     for (const CLI::Option* option : command->get_options())
       for (const std::string& value : option->results())
         if (option->nonpositional() && is_option_like(value) && option_named(chain, value) != nullptr)
-          return Error{option->get_name(), expected_value(*option), "the option '" + value + "'", "", true};
+          return Error{option->get_name(), expected_value(*option), "the option '" + value + "'", "", ErrorCode::argument};
   return std::nullopt;
 }
 
@@ -167,8 +167,8 @@ std::optional<Error> missing_value(const std::vector<const CLI::App*>& chain, co
     const CLI::Option* option = is_option_like(word) ? option_named(chain, word) : nullptr;
     if (option == nullptr) continue;
     const int min = option->get_items_expected_min();
-    if (min == 1) return Error{word, expected_value(*option), "nothing", "", true};
-    return Error{word, values_text(min), std::to_string(after), "", true};
+    if (min == 1) return Error{word, expected_value(*option), "nothing", "", ErrorCode::argument};
+    return Error{word, values_text(min), std::to_string(after), "", ErrorCode::argument};
   }
   return std::nullopt;
 }
@@ -193,7 +193,7 @@ const CLI::App* command_below(const CLI::App& command, const std::string& name) 
   for (const CLI::App* below : commands_below(command))
     if (below->get_name() == name) return below;
   if (commands_below(command).empty())
-    throw message_of(&command, {"", "no further argument", "'" + name + "'", "", true});
+    throw message_of(&command, {"", "no further argument", "'" + name + "'", "", ErrorCode::argument});
   throw unknown_command(&command, name);
 }
 
@@ -211,7 +211,7 @@ UsageMessage usage_message(const CLI::App& app, const CLI::ParseError& outcome, 
   if (message) return *message;
   std::string all;
   for (const std::string& word : words) all += (all.empty() ? "'" : " ") + word;
-  return message_of(chain.back(), {"", "a command line as in its help", all + "'", "", true});
+  return message_of(chain.back(), {"", "a command line as in its help", all + "'", "", ErrorCode::argument});
 }
 
 }  // namespace yars::databuffer

@@ -45,7 +45,7 @@ tl::unexpected<error::Error> fail_read_only(std::string_view subject) {
 Expected<void> check_session_name(const std::string& name) {
   if (name_is_valid(name)) return {};
   return tl::unexpected(error::Error{"session name", "1 to 40 letters, digits, '-' or '_', and no '-' at the front",
-                                     "\"" + name + "\"", "choose another --session", true});
+                                     "\"" + name + "\"", "choose another --session", error::ErrorCode::argument});
 }
 
 std::optional<std::size_t> counted_role(std::string_view name) {

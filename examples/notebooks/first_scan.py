@@ -26,9 +26,9 @@ print(terrain.elevation(numpy.linspace(37.4, 38.2, 5), -122.2).round(1), "m MSL 
 # options of the command `yars scan`. The antenna looks 4 degrees down.
 
 # %%
-pose = {"lat": 37.45, "lon": -122.3, "heading": 5, "range_nm": 40, "elevation": -4, "seed": 1}
+pose = {"latitude_deg": 37.45, "longitude_deg": -122.3, "heading_deg": 5, "range_nm": 40, "elevation_deg": -4, "seed": 1}
 radar = yars.Radar("standard")
-scan = radar.scan(terrain, alt_ft=12000, **pose)
+scan = radar.scan(terrain, altitude_ft=12000, **pose)
 print(scan)
 for name in ("video", "power", "shadow", "height", "slant_range", "latitude"):
     array = getattr(scan, name)
@@ -72,7 +72,7 @@ figure.savefig("python_scan.png", dpi=80)
 altitudes_ft = (5000, 10000, 20000, 40000)
 figure, axes = pyplot.subplots(1, 4, figsize=(16, 3.5), constrained_layout=True)
 for ax, altitude_ft in zip(axes, altitudes_ft):
-    seen = radar.scan(terrain, alt_ft=altitude_ft, **pose)
+    seen = radar.scan(terrain, altitude_ft=altitude_ft, **pose)
     plot.ppi(seen, ax=ax)
     ax.set_title(f"{altitude_ft:,} ft MSL: {100 * seen.shadow.mean():.1f} % in shadow")
 figure.savefig("python_altitudes.png", dpi=70)
@@ -85,7 +85,7 @@ figure.savefig("python_altitudes.png", dpi=70)
 # %%
 figure, axes = pyplot.subplots(1, 4, figsize=(16, 3.5), constrained_layout=True)
 for ax, preset in zip(axes, ("1996", "draft", "standard", "reference")):
-    seen = yars.Radar(preset).scan(terrain, alt_ft=12000, **pose)
+    seen = yars.Radar(preset).scan(terrain, altitude_ft=12000, **pose)
     plot.ppi(seen, ax=ax)
     ax.set_title(f"{preset}: {seen.video.shape[0]} sweeps of {seen.video.shape[1]}")
 figure.savefig("python_presets.png", dpi=70)

@@ -35,10 +35,10 @@ RANGE_NM = 8
 def pose_from(bearing_deg):
     """Arguments of a patch map of the town, with the line of sight along a true bearing."""
     back = numpy.radians(bearing_deg + 180)
-    return {"lat": CENTRE[0] + RANGE_NM / 60 * numpy.cos(back),
-            "lon": CENTRE[1] + RANGE_NM / 60 * numpy.sin(back) / numpy.cos(numpy.radians(CENTRE[0])),
-            "alt_ft": 14000, "heading": (bearing_deg + 40) % 360, "speed_kt": 480, "target_lat": CENTRE[0],
-            "target_lon": CENTRE[1], "window_nm": 0.67, "looks": 3, "seed": 1}
+    return {"latitude_deg": CENTRE[0] + RANGE_NM / 60 * numpy.cos(back),
+            "longitude_deg": CENTRE[1] + RANGE_NM / 60 * numpy.sin(back) / numpy.cos(numpy.radians(CENTRE[0])),
+            "altitude_ft": 14000, "heading_deg": (bearing_deg + 40) % 360, "speed_kt": 480, "target_latitude_deg": CENTRE[0],
+            "target_longitude_deg": CENTRE[1], "window_nm": 0.67, "looks": 3, "seed": 1}
 
 
 one = radar.patch(terrain, scene, **pose_from(45))

@@ -8,7 +8,7 @@
 
 #include "lib/text/plain_text.hpp"
 
-namespace yars::error {
+namespace yars {
 
 std::string Error::message() const {
   std::string text = (subject.empty() ? "" : text::shortened(subject) + ": ") + "expected " + expected + ", found " +
@@ -17,13 +17,17 @@ std::string Error::message() const {
   return text::printable(text);
 }
 
+}  // namespace yars
+
+namespace yars::error {
+
 Error usage_error(Error error) {
-  error.bad_usage = true;
+  error.code = ErrorCode::argument;
   return error;
 }
 
 Error usage_error(std::string subject, std::string expected, std::string found, std::string action) {
-  return {std::move(subject), std::move(expected), std::move(found), std::move(action), true};
+  return {std::move(subject), std::move(expected), std::move(found), std::move(action), ErrorCode::argument};
 }
 
 std::string reason_of(int code, std::string_view absent) {

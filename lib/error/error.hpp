@@ -8,32 +8,20 @@
 #include <sstream>
 #include <string>
 #include <string_view>
-#include <tl/expected.hpp>
+
+#include "yars/error.hpp"
 
 namespace yars::error {
 
-// Fault of input from outside the program: a file, an option, a record.
-struct Error {
-  std::string subject;     // path, option or record that the error is about; may be empty
-  std::string expected;    // description of a valid value
-  std::string found;       // description of the actual value
-  std::string action;      // what the user can do; may be empty
-  bool bad_usage = false;  // true: a usage error (wrong command line), with exit code 2 instead of 1
-
-  // "SUBJECT: expected EXPECTED, found FOUND; ACTION" on one line; control characters are escaped, and parts of more
-  // than 500 bytes are cut. Without a subject or an action its part is left out.
-  std::string message() const;
-};
-
-// A value or an Error.
-template <class T>
-using Expected = tl::expected<T, Error>;
+using yars::Error;
+using yars::ErrorCode;
+using yars::Expected;
 
 // Makes an Error, which converts to every Expected<T>. If the error ends the program, the exit code is 1.
 inline tl::unexpected<Error> fail(std::string subject, std::string expected, std::string found,
                                   std::string action = {}) {
   return tl::unexpected<Error>(
-      Error{std::move(subject), std::move(expected), std::move(found), std::move(action), false});
+      Error{std::move(subject), std::move(expected), std::move(found), std::move(action)});
 }
 
 // Marks an error as a usage error (wrong command line), or makes one. If it ends the program, the exit code is 2.

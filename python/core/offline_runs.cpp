@@ -4,9 +4,11 @@
 
 #include <filesystem>
 
+#include "lib/radar/configuration.hpp"
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "python/core/calls.hpp"
+#include "radar/stores.hpp"
 #include "tools/scene/generate_command.hpp"
 #include "tools/terrain/generate_command.hpp"
 #include "tools/trade/trade_command.hpp"
@@ -21,9 +23,9 @@ std::string measured(const AddOptions& add_options, const std::shared_ptr<Terrai
   Options options;
   read_options("yars.trade", words, [&](databuffer::Command line) { add_options(line, options); });
   tools::check_trade_output(options);
-  radar::RadarConfiguration configuration = radar.configuration();
+  radar::RadarConfiguration configuration = radar.radar().configuration();
   tools::apply_options(options.configuration, configuration);
-  if (terrain) configuration.terrain = terrain->configuration();
+  if (terrain) configuration.terrain = terrain->terrain().stores()->configuration();
   Warnings warnings;
   std::string text;
   without_interpreter([&](const parallel::GoesOn& goes_on) {

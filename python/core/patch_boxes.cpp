@@ -1,30 +1,26 @@
 #include "python/core/patch_boxes.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "lib/geo/earth.hpp"
-#include "lib/radar/mapping.hpp"
-#include "tools/patch/patch_setup.hpp"
 
 namespace yars::python {
 
 namespace hrm = model::hrm;
 
-Geo geo_of(const hrm::PatchGeometry& geometry, int size) {
+Geo geo_of(const PatchFacts& facts) {
   Geo geo{};
-  geo.origin_latitude = geometry.apex().latitude_deg;
-  geo.origin_longitude = geometry.apex().longitude_deg;
-  const std::array<double, 6> plane = tools::plane_from_pixel(geometry, size);
-  std::copy(plane.begin(), plane.end(), &geo.plane_from_pixel[0]);
-  geo.up_deg = geometry.up().degrees();
-  geo.distance_m = geometry.distance_m();
-  geo.slant_range_m = geometry.slant_range_m();
-  geo.grazing_deg = std::asin(geometry.sin_grazing()) / geo::kRadiansPerDegree;
-  geo.plane_msl_m = geometry.plane_msl_m();
-  geo.window_m = geometry.window_m();
-  geo.resolution_m = radar::map_resolution(geo::Length::metres(geometry.window_m())).metres();
+  geo.origin_latitude = facts.latitude_deg;
+  geo.origin_longitude = facts.longitude_deg;
+  std::ranges::copy(facts.plane_from_pixel, &geo.plane_from_pixel[0]);
+  geo.up_deg = facts.up_deg;
+  geo.distance_m = facts.ground_range_m;
+  geo.slant_range_m = facts.slant_range_m;
+  geo.grazing_deg = facts.grazing_deg;
+  geo.plane_msl_m = facts.target_height_m;
+  geo.window_m = facts.window_m;
+  geo.resolution_m = facts.resolution_m;
   return geo;
 }
 
@@ -55,24 +51,24 @@ double layover_factor(const hrm::PatchGeometry& geometry, hrm::MapPoint point, d
 }
 }  // namespace
 
-void Boxes::add(std::int64_t order, const hrm::PatchGeometry& geometry, const std::vector<std::int32_t>& labels) {
+void Boxes::add(std::int64_t order, const hrm::PatchGeometry& geometry, std::span<const std::int32_t> labels) {
   for (const std::int32_t object : labels)
     if (object >= 0) ++pixels_[static_cast<std::size_t>(object)];
   const geo::GeoPoint centre = geometry.position_of({});
-  for (const FootprintGroup& group : scene_.groups()) {
+  for (const radar::FootprintGroup& group : scene_.parts().groups) {
     const double north_m = (group.origin.latitude_deg - centre.latitude_deg) * geo::kMetresPerDegree;
     if (std::abs(north_m) > 1.1 * (group.reach_m + geometry.window_m())) continue;
     const GroupOnMap transform(geometry, group.origin);
     const double reach_m = 0.5 * geometry.window_m() + group.reach_m;
     if (std::abs(transform.at.right_m) > reach_m || std::abs(transform.at.up_m) > 1.5 * reach_m) continue;
-    for (const Footprint& footprint : group.footprints) add_box(order, geometry, transform, footprint);
+    for (const radar::Footprint& footprint : group.footprints) add_box(order, geometry, transform, footprint);
   }
   for (const std::int32_t object : labels)
     if (object >= 0) pixels_[static_cast<std::size_t>(object)] = 0;
 }
 
 void Boxes::add_box(std::int64_t order, const hrm::PatchGeometry& geometry, const GroupOnMap& transform,
-                    const Footprint& footprint) {
+                    const radar::Footprint& footprint) {
   const double pixels_per_m = size_ / geometry.window_m();
   const hrm::MapPoint middle = transform.of(footprint.east_m, footprint.north_m);
   // One factor serves the whole footprint, because it changes little over an object.

@@ -4,10 +4,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "model/hrm/patch_geometry.hpp"
-#include "python/core/places.hpp"
+#include "radar/stores.hpp"
+#include "yars/patch.hpp"
 
 namespace yars::python {
 
@@ -17,7 +19,7 @@ struct Geo {
   double plane_from_pixel[6];
   double up_deg, distance_m, slant_range_m, grazing_deg, plane_msl_m, window_m, resolution_m;
 };
-Geo geo_of(const model::hrm::PatchGeometry& geometry, int size);
+Geo geo_of(const PatchFacts& facts);
 
 // Linear transform from the plane of a group of footprints to the map, about the group's origin.
 struct GroupOnMap;
@@ -37,18 +39,18 @@ struct Box {
 class Boxes {
  public:
   // Boxes of objects with fewer than `min_pixels` labelled pixels are left out. `size`: pixels on an edge of a map.
-  Boxes(const Scene& scene, int size, int min_pixels)
+  Boxes(const yars::Scene& scene, int size, int min_pixels)
       : scene_(scene), size_(size), min_pixels_(min_pixels), pixels_(scene.objects().size(), 0) {}
 
   // Adds those of one map. `order`: its index. `labels`: object of each pixel.
-  void add(std::int64_t order, const model::hrm::PatchGeometry& geometry, const std::vector<std::int32_t>& labels);
+  void add(std::int64_t order, const model::hrm::PatchGeometry& geometry, std::span<const std::int32_t> labels);
   const std::vector<Box>& boxes() const { return boxes_; }
 
  private:
   void add_box(std::int64_t order, const model::hrm::PatchGeometry& geometry, const GroupOnMap& transform,
-               const Footprint& footprint);
+               const radar::Footprint& footprint);
 
-  const Scene& scene_;
+  const yars::Scene& scene_;
   int size_, min_pixels_;
   std::vector<std::int32_t> pixels_;  // by object: pixels with its label in the current map
   std::vector<Box> boxes_;

@@ -3,30 +3,24 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
-#include <functional>
 #include <initializer_list>
 #include <limits>
 #include <optional>
 #include <utility>
 
 #include "lib/geo/earth.hpp"
-#include "lib/parallel/thread_pool.hpp"
-#include "lib/radar/mapping.hpp"
-#include "lib/text/plain_text.hpp"
-#include "model/hrm/patch_formation.hpp"
+#include "lib/values/request_fields.hpp"
 #include "python/core/patch_boxes.hpp"
-#include "tools/command/command.hpp"
-#include "tools/patch/patch_setup.hpp"
+#include "radar/failure.hpp"
+#include "radar/limits.hpp"
+#include "radar/patch_work.hpp"
 
 namespace yars::python {
 
 namespace {
-
-namespace hrm = model::hrm;
 
 // Entries of the structured arrays. Their fields are named in order below, for Python.
 struct Order {
@@ -34,7 +28,7 @@ struct Order {
   std::int32_t looks;
   std::uint32_t map;
 };
-struct Mover {
+struct MoverEntry {
   std::int64_t order;
   double latitude, longitude, heading, speed_kt, cross_section_m2, height_m;
 };
@@ -118,16 +112,16 @@ struct Outputs {
   std::int32_t* object_of_many = nullptr;  // if not
 
   bool objects() const { return object != nullptr || object_of_many != nullptr; }
-  hrm::LabelUse labels() const {
-    if (height != nullptr || grazing != nullptr) return hrm::LabelUse::heights;
-    return shadow != nullptr || layover != nullptr || material != nullptr || objects() ? hrm::LabelUse::surfaces
-                                                                                       : hrm::LabelUse::none;
+  LabelUse labels() const {
+    if (height != nullptr || grazing != nullptr) return LabelUse::heights;
+    return shadow != nullptr || layover != nullptr || material != nullptr || objects() ? LabelUse::surfaces
+                                                                                       : LabelUse::none;
   }
 };
 
 Outputs make_outputs(const SeriesRequest& request, std::size_t count, int size) {
   const bool few_objects =
-      request.scene && request.scene->objects().size() <= std::size_t{std::numeric_limits<std::int16_t>::max()};
+      request.scene && request.scene->scene().objects().size() <= std::size_t{std::numeric_limits<std::int16_t>::max()};
   Outputs outputs;
   const std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(count), size, size};
   const auto make = [&](const std::string& name, auto*& data) {
@@ -161,89 +155,86 @@ Outputs make_outputs(const SeriesRequest& request, std::size_t count, int size) 
   return outputs;
 }
 
-// A number of an entry with its limits, for messages.
-struct LimitedField {
-  const char* name;
+// A number of an entry, with the field of the request that it becomes.
+struct Number {
+  const char* name;   // of the entry's field
+  const char* field;  // of the request
   double value;
-  tools::Limits limits;
 };
-// Throws ValueError that names the first field beyond its limits, with its value. `entry`: such as "orders[3]".
-void check_fields(const std::string& entry, std::initializer_list<LimitedField> fields) {
-  for (const LimitedField& field : fields)
-    if (!field.limits.contain(field.value))
-      raise_value_error("yars.Radar.patches: " + entry + ": " + field.name + ": expected " +
-                        text::text_of_number(field.limits.min) + " to " + text::text_of_number(field.limits.max) +
-                        ", found " + text::text_of_number(field.value));
-}
 
-// Those of the options of `yars patch`.
-void check_numbers(const std::string& entry, const Order& order) {
-  check_fields(entry, {{"latitude", order.latitude, tools::kLatitudes_deg},
-                       {"longitude", order.longitude, tools::kLongitudes_deg},
-                       {"altitude_ft", order.altitude_ft, tools::kAltitudes_ft},
-                       {"heading", order.heading, tools::kHeadings_deg},
-                       {"speed_kt", order.speed_kt, tools::kSpeeds_kt},
-                       {"target_latitude", order.target_latitude, tools::kLatitudes_deg},
-                       {"target_longitude", order.target_longitude, tools::kLongitudes_deg},
-                       {"window_nm", order.window_nm, tools::kWindows_nm},
-                       {"time_s", order.time_s, tools::kTimes_s},
-                       {"looks", static_cast<double>(order.looks), tools::kLooks}});
-}
-
-void check_numbers(const std::string& entry, const Mover& mover, std::size_t orders) {
-  constexpr tools::Limits kCrossSections_m2{1e-3, 1e7}, kHeights_m{0.0, 1000.0};
-  if (orders == 0) raise_value_error("yars.Radar.patches: movers: expected none without an order, found some");
-  check_fields(entry, {{"order", static_cast<double>(mover.order), {0.0, static_cast<double>(orders - 1)}},
-                       {"latitude", mover.latitude, tools::kLatitudes_deg},
-                       {"longitude", mover.longitude, tools::kLongitudes_deg},
-                       {"heading", mover.heading, tools::kHeadings_deg},
-                       {"speed_kt", mover.speed_kt, tools::kSpeeds_kt},
-                       {"cross_section_m2", mover.cross_section_m2, kCrossSections_m2},
-                       {"height_m", mover.height_m, kHeights_m}});
-}
-
-hrm::PatchOrder order_of(const Order& order) {
-  hrm::PatchOrder map;
-  map.apex = {order.latitude, order.longitude};
-  map.altitude = geo::AltitudeMsl::feet(order.altitude_ft);
-  map.ground_track = geo::Bearing::degrees(order.heading);
-  map.ground_speed = geo::Speed::knots(order.speed_kt);
-  map.centre = {order.target_latitude, order.target_longitude};
-  map.window = geo::Length::nautical_miles(order.window_nm);
-  map.looks = order.looks;
-  map.sim_time = geo::Duration::seconds(order.time_s);
-  map.map = order.map;
-  return map;
-}
-
-// Movers of each order, as moving points.
-std::vector<std::vector<model::physics::MovingPoint>> traffic_of(const py::object& movers,
-                                                                 const std::vector<Order>& orders) {
-  std::vector<std::vector<model::physics::MovingPoint>> traffic(orders.size());
-  if (movers.is_none()) return traffic;
-  const auto all = entries_of<Mover>(py::cast<py::array>(movers), mover_type(), "movers");
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const Mover& mover = all[i];
-    check_numbers("movers[" + std::to_string(i) + "]", mover, orders.size());
-    const auto order = static_cast<std::size_t>(mover.order);
-    traffic[order].push_back(model::physics::moving_point({{mover.latitude, mover.longitude},
-                                                           geo::Bearing::degrees(mover.heading),
-                                                           geo::Speed::knots(mover.speed_kt).metres_per_second(),
-                                                           geo::Duration::seconds(orders[order].time_s)},
-                                                          mover.cross_section_m2, mover.height_m));
+// Throws ValueError that names the first number beyond its field's limits. `entry`: such as "orders[3]".
+void check_numbers(const std::string& entry, std::initializer_list<Number> numbers) {
+  for (const Number& number : numbers) {
+    const auto& fields = values::kPatchRequestFields;
+    const auto field = std::ranges::find(fields, std::string_view(number.field), &values::Field::name);
+    if (!field->contains(number.value))
+      radar::fail(radar::beyond_field("yars.Radar.patches: " + entry + ": " + number.name, *field, number.value));
   }
-  return traffic;
+}
+
+PatchRequest request_of(const std::string& entry, const Order& order, bool force) {
+  check_numbers(entry, {{"latitude", "latitude_deg", order.latitude},
+                        {"longitude", "longitude_deg", order.longitude},
+                        {"altitude_ft", "altitude_ft", order.altitude_ft},
+                        {"heading", "heading_deg", order.heading},
+                        {"speed_kt", "speed_kt", order.speed_kt},
+                        {"target_latitude", "target_latitude_deg", order.target_latitude},
+                        {"target_longitude", "target_longitude_deg", order.target_longitude},
+                        {"window_nm", "window_nm", order.window_nm},
+                        {"time_s", "time_s", order.time_s},
+                        {"looks", "looks", static_cast<double>(order.looks)}});
+  PatchRequest request;
+  request.latitude_deg = order.latitude;
+  request.longitude_deg = order.longitude;
+  request.altitude_ft = order.altitude_ft;
+  request.heading_deg = order.heading;
+  request.speed_kt = order.speed_kt;
+  request.target_latitude_deg = order.target_latitude;
+  request.target_longitude_deg = order.target_longitude;
+  request.window_nm = order.window_nm;
+  request.time_s = order.time_s;
+  request.looks = order.looks;
+  request.map = order.map;
+  request.force = force;
+  return request;
+}
+
+void check_field(const std::string& entry, const char* name, double value, double low, double high) {
+  if (!(value >= low && value <= high))
+    radar::fail(radar::beyond_field("yars.Radar.patches: " + entry + ": " + name, {"", "", "", low, high, "", "", {}}, value));
+}
+
+// Movers of each order.
+std::vector<std::vector<Mover>> movers_of(const py::object& given, std::size_t orders) {
+  std::vector<std::vector<Mover>> movers(orders);
+  if (given.is_none()) return movers;
+  const auto all = entries_of<MoverEntry>(py::cast<py::array>(given), mover_type(), "movers");
+  if (orders == 0 && !all.empty())
+    raise_value_error("yars.Radar.patches: movers: expected none without an order, found some");
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const MoverEntry& mover = all[i];
+    const std::string entry = "movers[" + std::to_string(i) + "]";
+    check_field(entry, "order", static_cast<double>(mover.order), 0.0, static_cast<double>(orders - 1));
+    check_numbers(entry, {{"latitude", "latitude_deg", mover.latitude},
+                          {"longitude", "longitude_deg", mover.longitude},
+                          {"heading", "heading_deg", mover.heading},
+                          {"speed_kt", "speed_kt", mover.speed_kt}});
+    check_field(entry, "cross_section_m2", mover.cross_section_m2, 1e-3, 1e7);
+    check_field(entry, "height_m", mover.height_m, 0.0, 1000.0);
+    movers[static_cast<std::size_t>(mover.order)].push_back({mover.latitude, mover.longitude, mover.heading,
+                                                             mover.speed_kt, mover.cross_section_m2, mover.height_m});
+  }
+  return movers;
 }
 
 // Moves or copies the result of one map to entry `index` of the outputs.
-void store(const hrm::PatchFormation& formation, std::size_t index, const Outputs& outputs) {
-  const std::size_t count = formation.picture().size();
-  const std::size_t at = index * count;
-  const hrm::PixelLabels& labels = formation.labels();
+void store(const Patch& patch, std::size_t index, const Outputs& outputs) {
+  const std::size_t at = index * patch.video().size();
+  const PatchLabels labels = patch.labels();
   const auto copy = [&](const auto& from, auto* to) {
     if (to != nullptr) std::copy(from.begin(), from.end(), to + at);
   };
-  copy(formation.picture(), outputs.video);
+  copy(patch.video(), outputs.video);
   copy(labels.shadow, outputs.shadow);
   copy(labels.layover, outputs.layover);
   if (outputs.object != nullptr)
@@ -253,7 +244,7 @@ void store(const hrm::PatchFormation& formation, std::size_t index, const Output
   copy(labels.material, outputs.material);
   copy(labels.height_m, outputs.height);
   if (outputs.power != nullptr)
-    std::transform(formation.image().power.begin(), formation.image().power.end(), outputs.power + at,
+    std::transform(patch.power().begin(), patch.power().end(), outputs.power + at,
                    [](float power) { return power < 0.0F ? std::numeric_limits<float>::quiet_NaN() : power; });
   if (outputs.grazing != nullptr)
     std::transform(labels.sin_grazing.begin(), labels.sin_grazing.end(), outputs.grazing + at,
@@ -267,30 +258,36 @@ py::array structured(const py::dtype& type, const void* data, std::size_t count)
 // Maps of a series, one after the other, on the threads of the request.
 class Series {
  public:
-  Series(Formation& formation, const SeriesRequest& request, const Outputs& outputs)
-      : configuration_(formation.configuration),
-        request_(request),
-        outputs_(outputs),
-        formation_(formation.patch_formation),
-        scenes_(request.scene ? request.scene->scenes() : configuration_.world.scenes) {
-    if (request.scene && outputs.objects())
-      boxes_.emplace(*request.scene, configuration_.fidelity.map_size, request.min_pixels);
+  Series(const yars::Radar& radar, std::unique_ptr<Patch> patch, const SeriesRequest& request, const Outputs& outputs)
+      : radar_(radar), request_(request), outputs_(outputs), patch_(std::move(patch)) {
+    if (request.scene && outputs.objects()) boxes_.emplace(request.scene->scene(), radar.map_size(), request.min_pixels);
   }
 
-  // Forms map `index`. Throws CommandFailed that names the index.
-  void form(std::size_t index, const Order& order, std::vector<model::physics::MovingPoint> traffic,
-            const parallel::GoesOn& goes_on) {
-    try {
-      begin(order, std::move(traffic), goes_on);
-    } catch (tools::CommandFailed& failed) {
-      failed.message = "yars.Radar.patches: orders[" + std::to_string(index) + "]: " + failed.message;
-      throw;
+  // Forms map `index`. Throws an error that names the index.
+  void form(std::size_t index, const Order& order, const std::vector<Mover>& movers, const parallel::GoesOn& goes_on) {
+    const std::string entry = "orders[" + std::to_string(index) + "]";
+    PatchRequest request = request_of(entry, order, request_.force);
+    request.threads = request_.threads;
+    const PatchSubject subject{request_.scene ? &request_.scene->scene() : nullptr, movers, outputs_.labels()};
+    const yars::Terrain& terrain = request_.terrain->terrain();
+    Expected<void> done;
+    if (patch_) {
+      done = patch_->prepare_next(terrain, request, subject, warnings_.call(goes_on));
+    } else if (auto made = Patch::prepare(radar_, terrain, request, subject, warnings_.call(goes_on))) {
+      patch_ = std::make_unique<Patch>(std::move(*made));
+    } else {
+      done = tl::unexpected(made.error());
     }
-    for (; formation_.state() != hrm::PatchState::done; formation_.advance()) parallel::check(goes_on);
-    store(formation_, index, outputs_);
-    hashes_.push_back(tools::picture_hash(formation_.picture()));
-    geometries_.push_back(geo_of(formation_.geometry(), configuration_.fidelity.map_size));
-    if (boxes_) boxes_->add(static_cast<std::int64_t>(index), formation_.geometry(), formation_.labels().object);
+    if (!done) {
+      Error error = done.error();
+      error.subject = "yars.Radar.patches: " + entry + (error.subject.empty() ? "" : ": " + error.subject);
+      raise(error);
+    }
+    check_done(patch_->run({.goes_on = goes_on}));
+    store(*patch_, index, outputs_);
+    hashes_.push_back(patch_->hash());
+    geometries_.push_back(geo_of(patch_->facts()));
+    if (boxes_) boxes_->add(static_cast<std::int64_t>(index), *patch_->work().geometry, patch_->labels().object);
   }
 
   // Adds geometry, boxes and hashes to the arrays. Call it with the interpreter's lock.
@@ -306,24 +303,13 @@ class Series {
     return arrays;
   }
 
- private:
-  void begin(const Order& given, std::vector<model::physics::MovingPoint> traffic, const parallel::GoesOn& goes_on) {
-    const hrm::PatchOrder order = order_of(given);
-    check_arguments([&] { tools::check_order(order, configuration_, request_.force); });
-    const hrm::PatchNeed need = formation_.begin(order);
-    hrm::PatchEnvironment environment = request_.terrain->with_theatre(
-        scenes_, model::scene::SceneUse::triangles, warnings_, goes_on,
-        [&](tools::Theatre& theatre) { return theatre.prepare(need, warnings_.sink()); });
-    if (!request_.force) check_arguments([&] { tools::check_heights(order, environment, configuration_); });
-    environment.traffic = std::move(traffic);
-    formation_.set_environment(environment);
-  }
+  std::unique_ptr<Patch> take_patch() { return std::move(patch_); }
 
-  const radar::RadarConfiguration& configuration_;
+ private:
+  const yars::Radar& radar_;
   const SeriesRequest& request_;
   const Outputs& outputs_;
-  hrm::PatchFormation& formation_;
-  const std::vector<radar::Scene>& scenes_;
+  std::unique_ptr<Patch> patch_;  // null before the first map
   std::optional<Boxes> boxes_;
   std::vector<std::uint64_t> hashes_;
   std::vector<Geo> geometries_;
@@ -332,61 +318,43 @@ class Series {
 
 }  // namespace
 
-Formation::Formation(const radar::RadarConfiguration& given, std::size_t threads, hrm::LabelUse labels)
-    : configuration(given),
-      use(labels),
-      workers(threads),
-      patch_formation(configuration,
-                      {threads, [this](const std::function<void(std::size_t)>& job) { workers.run(job); }},
-                      hrm::kMaxSectorPoints, labels) {}
-
 // Their destructors would wait for threads that do not exist here.
-void FormationPool::forget_those_of_the_parent() {
+void PatchPool::forget_those_of_the_parent() {
   if (process_ == ::getpid()) return;
-  for (std::unique_ptr<Formation>& formation : free_) static_cast<void>(formation.release());
+  for (Free& one : free_) static_cast<void>(one.patch.release());
   free_.clear();
   process_ = ::getpid();
 }
 
-std::unique_ptr<Formation> FormationPool::take(const radar::RadarConfiguration& configuration, std::size_t threads,
-                                               hrm::LabelUse labels) {
-  {
-    const std::lock_guard guard(mutex_);
-    forget_those_of_the_parent();
-    const auto found = std::find_if(free_.begin(), free_.end(), [&](const std::unique_ptr<Formation>& formation) {
-      return formation->workers.threads() == threads && formation->use == labels;
-    });
-    if (found != free_.end()) {
-      std::unique_ptr<Formation> formation = std::move(*found);
-      free_.erase(found);
-      return formation;
-    }
-  }
-  return std::make_unique<Formation>(configuration, threads, labels);
+std::unique_ptr<Patch> PatchPool::take(std::size_t threads, LabelUse labels) {
+  const std::lock_guard guard(mutex_);
+  forget_those_of_the_parent();
+  const auto found = std::ranges::find_if(free_, [&](const Free& one) {
+    return one.patch->facts().threads == threads && one.labels == labels;
+  });
+  if (found == free_.end()) return nullptr;
+  std::unique_ptr<Patch> patch = std::move(found->patch);
+  free_.erase(found);
+  return patch;
 }
 
-void FormationPool::give_back(std::unique_ptr<Formation> formation) {
+void PatchPool::give_back(std::unique_ptr<Patch> patch, LabelUse labels) {
   constexpr std::size_t kKept = 4;
   const std::lock_guard guard(mutex_);
-  if (free_.size() < kKept) free_.push_back(std::move(formation));
+  if (patch && free_.size() < kKept) free_.push_back({std::move(patch), labels});
 }
 
-py::dict patch_series(const radar::RadarConfiguration& configuration, FormationPool& pool,
-                      const SeriesRequest& request) {
+py::dict patch_series(const yars::Radar& radar, PatchPool& pool, const SeriesRequest& request) {
   const auto orders = entries_of<Order>(request.orders, order_type(), "orders");
-  for (std::size_t i = 0; i < orders.size(); ++i) check_numbers("orders[" + std::to_string(i) + "]", orders[i]);
-  auto traffic = traffic_of(request.movers, orders);
-  if (request.threads < 1 || request.threads > 256)
-    raise_value_error("yars.Radar.patches: threads: expected 1 to 256, found " + std::to_string(request.threads));
-  const Outputs outputs = make_outputs(request, orders.size(), configuration.fidelity.map_size);
-  std::unique_ptr<Formation> formation =
-      pool.take(configuration, static_cast<std::size_t>(request.threads), outputs.labels());
-  Series series(*formation, request, outputs);
+  for (std::size_t i = 0; i < orders.size(); ++i) request_of("orders[" + std::to_string(i) + "]", orders[i], true);
+  const auto movers = movers_of(request.movers, orders.size());
+  const Outputs outputs = make_outputs(request, orders.size(), radar.map_size());
+  Series series(radar, pool.take(static_cast<std::size_t>(request.threads), outputs.labels()), request, outputs);
   without_interpreter([&](const parallel::GoesOn& goes_on) {
-    for (std::size_t i = 0; i < orders.size(); ++i) series.form(i, orders[i], std::move(traffic[i]), goes_on);
+    for (std::size_t i = 0; i < orders.size(); ++i) series.form(i, orders[i], movers[i], goes_on);
   });
   py::dict arrays = series.finish();
-  pool.give_back(std::move(formation));
+  pool.give_back(series.take_patch(), outputs.labels());
   return arrays;
 }
 

@@ -10,12 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "lib/parallel/thread_pool.hpp"
-#include "lib/radar/configuration.hpp"
-#include "model/hrm/patch_formation.hpp"
 #include "python/core/calls.hpp"
 #include "python/core/places.hpp"
 #include "python/core/support.hpp"
+#include "yars/radar.hpp"
 
 namespace yars::python {
 
@@ -30,34 +28,28 @@ struct SeriesRequest {
   int min_pixels = 0;  // boxes of objects with fewer labelled pixels are left out
 };
 
-// A patch formation with its threads. The configuration must not move, because the formation refers to it.
-struct Formation {
-  Formation(const radar::RadarConfiguration& configuration, std::size_t threads, model::hrm::LabelUse labels);
-  radar::RadarConfiguration configuration;
-  model::hrm::LabelUse use;
-  parallel::ThreadPool workers;
-  model::hrm::PatchFormation patch_formation;
-};
-
-// Formations of one configuration that no call uses. A new one costs as much as some ten small maps.
-// A child of fork() has no threads of its parent; it makes formations of its own.
-class FormationPool {
+// Maps of one radar that no call uses, with their threads and memory. A new one costs as much as some ten small maps.
+// A child of fork() has no threads of its parent; it makes maps of its own.
+class PatchPool {
  public:
-  ~FormationPool() { forget_those_of_the_parent(); }
-  std::unique_ptr<Formation> take(const radar::RadarConfiguration& configuration, std::size_t threads,
-                                  model::hrm::LabelUse labels);
-  void give_back(std::unique_ptr<Formation> formation);
+  ~PatchPool() { forget_those_of_the_parent(); }
+  // A map with these threads and labels; nullptr: none is free.
+  std::unique_ptr<Patch> take(std::size_t threads, LabelUse labels);
+  void give_back(std::unique_ptr<Patch> patch, LabelUse labels);
 
  private:
   void forget_those_of_the_parent();
 
+  struct Free {
+    std::unique_ptr<Patch> patch;
+    LabelUse labels;
+  };
   std::mutex mutex_;
-  std::vector<std::unique_ptr<Formation>> free_;
-  int process_ = 0;  // that has made the formations
+  std::vector<Free> free_;
+  int process_ = 0;  // that has made the maps
 };
 
-py::dict patch_series(const radar::RadarConfiguration& configuration, FormationPool& pool,
-                      const SeriesRequest& request);
+py::dict patch_series(const yars::Radar& radar, PatchPool& pool, const SeriesRequest& request);
 
 // Adds PATCH_ORDER and MOVER.
 void add_series(py::module_& module);

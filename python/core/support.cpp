@@ -4,11 +4,15 @@
 #include <pybind11/stl.h>
 #include <xxhash.h>
 
+#include <array>
+#include <span>
 #include <string_view>
 #include <unordered_set>
 #include <utility>
 
 #include "lib/text/plain_text.hpp"
+#include "radar/failure.hpp"
+#include "radar/limits.hpp"
 #include "tools/command/command.hpp"
 
 namespace yars::python {
@@ -20,25 +24,62 @@ py::object error_class() {
 }
 }  // namespace
 
+namespace {
+
+// Names of files may have any bytes.
+py::object text_of(const std::string& text) {
+  return py::reinterpret_steal<py::object>(
+      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "backslashreplace"));
+}
+
+py::object value_error() {
+  return py::reinterpret_borrow<py::object>(PyExc_ValueError);
+}
+
+// The message with Python's keywords: heading_deg=45, force=True.
+std::string message_in_python(Error error) {
+  const auto spell = [](const values::Field& field, std::string_view value) {
+    return std::string(field.name) + (value.empty() ? "" : value == "true" ? "=True" : '=' + std::string(value));
+  };
+  for (const std::span<const values::Field> fields : {std::span<const values::Field>(values::kScanRequestFields),
+                                                      std::span<const values::Field>(values::kPatchRequestFields)})
+    error = radar::spelled(std::move(error), fields, spell);
+  return error.message();
+}
+
+void set_error(const Error& error) {
+  static constexpr std::array kCodes{"failed", "argument", "range", "limit", "cancelled"};
+  const py::object type = error.code == ErrorCode::failed ? error_class() : value_error();
+  const py::object problem = type(text_of(message_in_python(error)));
+  problem.attr("code") = kCodes[static_cast<std::size_t>(error.code)];
+  problem.attr("field") = text_of(error.subject);
+  problem.attr("expected") = text_of(error.expected);
+  problem.attr("found") = text_of(error.found);
+  problem.attr("action") = text_of(error.action);
+  problem.attr("low") = error.low;
+  problem.attr("high") = error.high;
+  PyErr_SetObject(type.ptr(), problem.ptr());
+}
+
+}  // namespace
+
 void register_exceptions(py::module_& /*module*/) {
   py::register_exception_translator(
       [](std::exception_ptr pointer) {  // NOLINT(performance-unnecessary-value-param): pybind11's form
         try {
           if (pointer) std::rethrow_exception(pointer);
+        } catch (const radar::Failure& failure) {
+          set_error(failure.error);
         } catch (const tools::CommandFailed& failed) {
-          const py::object type = failed.code == databuffer::kExitUsage
-                                      ? py::reinterpret_borrow<py::object>(PyExc_ValueError)
-                                      : error_class();
-          // Names of files may have any bytes.
-          const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(
-              failed.message.data(), static_cast<py::ssize_t>(failed.message.size()), "backslashreplace"));
-          PyErr_SetObject(type.ptr(), text.ptr());
+          const py::object type = failed.code == databuffer::kExitUsage ? value_error() : error_class();
+          PyErr_SetObject(type.ptr(), text_of(failed.message).ptr());
         }
       });
 }
 
-void raise(const error::Error& error) {
-  tools::throw_failure(error);
+void raise(const Error& error) {
+  if (error.code == ErrorCode::cancelled) throw parallel::Stopped{};
+  radar::fail(error);
 }
 void raise_value_error(const std::string& message) {
   throw tools::CommandFailed{message, databuffer::kExitUsage};
@@ -50,17 +91,6 @@ void read_options(const std::string& name, const std::vector<std::string>& words
   databuffer::CommandLine line("", name);
   add_options(line);
   if (const auto fault = line.read(words)) raise_value_error(*fault);
-}
-
-void Warnings::explain(tools::CommandFailed& failed) const {
-  constexpr std::string_view kReference = "see the lines above; ";
-  const std::size_t at = failed.message.find(kReference);
-  if (at == std::string::npos) return;
-  std::string reason;
-  for (const std::string& line : lines_)
-    if (failed.message.find(line) == std::string::npos && reason.find(line) == std::string::npos)
-      reason += "because of " + line + "; ";
-  failed.message.replace(at, kReference.size(), reason);
 }
 
 void Warnings::show(const std::string& function, int frames) {

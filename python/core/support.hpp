@@ -1,7 +1,6 @@
 // What all parts of yars._core share: errors, warnings, arguments in the form of command-line options, arrays without
 // copies.
-// Errors: a usage error is ValueError, every other failure is yars.Error; both have the message that the commands
-// print.
+// Errors: a wrong value of the caller is ValueError, every other failure is yars.Error.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -15,7 +14,9 @@
 
 #include "databuffer/runtime/command_line.hpp"
 #include "lib/error/error.hpp"
-#include "tools/command/input_checks.hpp"
+#include "lib/parallel/thread_pool.hpp"
+#include "radar/theatre.hpp"
+#include "tools/command/command.hpp"
 
 namespace yars::python {
 
@@ -27,19 +28,19 @@ void register_exceptions(py::module_& module);
 // Adds xxh3() and xxh3_items(): hashes of the bytes of arrays.
 void add_hashes(py::module_& module);
 
-// Throws ValueError for a usage error, else yars.Error.
-[[noreturn]] void raise(const error::Error& error);
+// Throws ValueError for a wrong value of the caller, else yars.Error, with the fields of the error as attributes. An
+// error of a call that was ended throws parallel::Stopped.
+[[noreturn]] void raise(const Error& error);
 [[noreturn]] void raise_value_error(const std::string& message);
 
-// Runs a check of arguments. What it throws becomes a ValueError, also where the command ends with code 1.
-template <class Check>
-void check_arguments(const Check& check) {
-  try {
-    check();
-  } catch (tools::CommandFailed& failed) {
-    failed.code = databuffer::kExitUsage;
-    throw;
-  }
+// The value of a call of the library; or its error, raised.
+template <class Value>
+Value value_of(Expected<Value>&& given) {
+  if (!given) raise(given.error());
+  return std::move(*given);
+}
+inline void check_done(const Expected<void>& done) {
+  if (!done) raise(done.error());
 }
 
 // Reads words of a command line, which arguments.py makes, by a table of options. `name`: of the function, for
@@ -50,11 +51,11 @@ void read_options(const std::string& name, const std::vector<std::string>& words
 // Collects warnings while the interpreter's lock is released, and hands them to Python's module warnings afterwards.
 class Warnings {
  public:
-  tools::Warn sink() {
+  radar::Warn sink() {
     return [this](const std::string& warning) { lines_.push_back(warning); };
   }
-  // Puts the lines into the message of a failure that refers to "the lines above".
-  void explain(tools::CommandFailed& failed) const;
+  // For a call of the library.
+  Call call(const parallel::GoesOn& goes_on) { return {.warn = sink(), .goes_on = goes_on}; }
   // Each line once, at most five of a call. Call with the interpreter's lock. `function`: prefix of each line, such as
   // "yars.Radar.scan". `frames`: of this package below the caller, whom the warning names.
   void show(const std::string& function, int frames = 1);

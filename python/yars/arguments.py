@@ -4,9 +4,11 @@ What this module refuses is a TypeError for a wrong kind of value, and a ValueEr
 function and the argument, and says what was expected and found.
 """
 import difflib
+import math
 import numbers
 import os
 import re
+import warnings
 
 from . import Error
 
@@ -129,6 +131,67 @@ def _digits(where, value):
     return str(value)
 
 
+class Request:
+    """Keyword arguments of a function that are the fields of a request (requests.idl). An older keyword gives a warning.
+
+    kind: the compiled class. rows: its fields, as the compiled part lists them.
+    """
+
+    def __init__(self, function, kind, rows):
+        self.function, self.kind = function, kind
+        self.rows = {row[0]: row[2:] for row in rows}
+        self.older = {row[1]: row[0] for row in rows if row[1] != row[0]}
+
+    def of(self, given):
+        """The request with the arguments given."""
+        fields = {}
+        for key, value in given.items():
+            name = key if key in self.rows else self._renamed(key)
+            if name in fields:
+                raise TypeError(f"{self.function}: expected {name} once, found it twice: {key} is an older word for it")
+            kind, optional, low, high = self.rows[name]
+            value = plain(value)
+            if value is not None or not (optional or kind == "truth value"):
+                fields[name] = self._checked(f"{self.function}: {key}", kind, value, low, high)
+        return self.kind(fields)
+
+    def _renamed(self, key):
+        name = self.older.get(key)
+        if name is None:
+            near = difflib.get_close_matches(key, [*self.rows, *self.older], 1)
+            raise ValueError(f"{self.function}: expected arguments of {', '.join(self.rows)}, found {ascii(key)[:_LONGEST]}"
+                             + (f"; did you mean {near[0]}?" if near else f"; see help({self.function})"))
+        warnings.warn(f"{self.function}: {key} is an older word for {name}, and goes with the next version", DeprecationWarning, stacklevel=4)
+        return name
+
+    @staticmethod
+    def _checked(where, kind, value, low, high):
+        if kind == "truth value":
+            return truth(where, value)
+        if kind == "whole number":
+            return whole(where, value, *((int(low), int(high)) if math.isfinite(high) else (0, 2 ** 64 - 1)))
+        if kind == "number":
+            return number(where, value)
+        if not isinstance(value, str):
+            raise kind_error(where, f"one of {', '.join(kind)}", value)
+        if value not in kind:
+            raise ValueError(f"{where}: expected one of {', '.join(kind)}, found {shown(value)}")
+        return kind.index(value)
+
+
+def number(where, value):
+    """A finite number as float."""
+    if isinstance(value, bool) or not (isinstance(value, numbers.Real) or type(value).__name__ == "Decimal"):
+        raise kind_error(where, "a number", value)
+    try:
+        value = float(value)
+    except OverflowError:
+        raise ValueError(f"{where}: expected a number, found {shown(value)}, which is too large") from None
+    if not math.isfinite(value):
+        raise ValueError(f"{where}: expected a finite number, found {value}")
+    return value
+
+
 class Options:
     """Keyword arguments of a function that are the options of a command.
 
@@ -204,6 +267,11 @@ class Said:
     def __exit__(self, kind, problem, _):
         if kind is not ValueError and kind is not Error:
             return
+        if hasattr(problem, "expected"):  # an error of the library, which names arguments as Python does
+            message = str(problem)
+            said = kind(message if message.startswith("yars.") else f"{self.function}: {message}")
+            vars(said).update(vars(problem))
+            raise said from None
         message = re.sub(r"^(yars\.[\w.]+: )?--out:", lambda found: (found[1] or "") + self.out + ":", str(problem))
         message = in_python(message)
         raise kind(message if message.startswith("yars.") else f"{self.function}: {message}") from None

@@ -1,6 +1,6 @@
 """Pictures of results by matplotlib: PPI of a scan, patch map, map with coast and footprints, front of a trade.
 
-    ax = yars.plot.ppi(radar.scan(terrain, lat=38.39, lon=-121.02, alt_ft=15000, heading=195, range_nm=40))
+    ax = yars.plot.ppi(radar.scan(terrain, latitude_deg=38.39, longitude_deg=-121.02, altitude_ft=15000, heading_deg=195, range_nm=40))
     ax.figure.savefig("scan.png")
 
 Each function draws into `ax`, or into a figure of its own, and returns the Axes. Axes have units; values with a unit have a

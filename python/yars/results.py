@@ -1,12 +1,14 @@
 """Terrain, scenes and a radar in this process: scans of the real beam map and patch maps as NumPy arrays.
 
     radar = yars.Radar("standard", samples=480)
-    scan = radar.scan(yars.Terrain("DIR"), lat=36.5, lon=-121.5, alt_ft=15000, heading=30, range_nm=20, seed=1)
+    scan = radar.scan(yars.Terrain("DIR"), latitude_deg=36.5, longitude_deg=-121.5, altitude_ft=15000, heading_deg=30,
+                      range_nm=20, seed=1)
     scan.power, scan.units["power"], scan.to_xarray()
 
-Arguments are the options of the commands `yars scan` and `yars patch`, checked by the same table: --alt-ft is alt_ft. The
-arrays are bit for bit those of the commands, and `hash` is the hash that they print. Arrays cannot be written: copy them first.
-Errors: TypeError and ValueError for arguments, yars.Error for files; the message is that of the command in Python's words. Problems of single files are
+Arguments are the fields of ScanRequest and PatchRequest of the C++ library, which has the limits. The arrays are bit for bit
+those of the commands `yars scan` and `yars patch`, and `hash` is the hash that they print. Arrays cannot be written: copy them first.
+Errors: TypeError and ValueError for arguments, yars.Error for files. Errors of the library have the attributes code, field,
+expected, found, action, low and high. Problems of single files are
 warnings. While a picture is computed other threads of Python run.
 """
 import functools
@@ -18,7 +20,7 @@ import numpy
 
 from . import Error, _core, _require
 from ._core import MOVER, PATCH_ORDER
-from .arguments import Held, Options, Said, absolute, instance, kind_error, path, plain, several, shown, text, truth, whole
+from .arguments import Held, Options, Request, Said, absolute, instance, kind_error, number, path, plain, several, shown, text, truth, whole
 from .places import Scene, Terrain
 from .recordings import Recording
 
@@ -132,7 +134,7 @@ class _Picture:
 class Scan(_Picture):
     """One scan of the real beam map: arrays of shape (azimuth, sample), sweeps clockwise, samples from near to far.
 
-    >>> scan = yars.Radar("draft").scan(yars.Terrain(), lat=37.8, lon=-122.5, range_nm=10, seed=1)
+    >>> scan = yars.Radar("draft").scan(yars.Terrain(), latitude_deg=37.8, longitude_deg=-122.5, range_nm=10, seed=1)
     >>> scan.power.shape == (len(scan.azimuth), len(scan.sample))
     True
     >>> scan.units["slant_range"], scan.axes
@@ -164,7 +166,8 @@ class Patch(_Picture):
     material and object are those of the surface with the strongest return there.
 
     >>> radar = yars.Radar("draft", map_size=64)
-    >>> patch = radar.patch(yars.Terrain(), lat=37.5, lon=-122.5, heading=350, target_lat=37.62, target_lon=-122.4, window_nm=1.3)
+    >>> patch = radar.patch(yars.Terrain(), latitude_deg=37.5, longitude_deg=-122.5, heading_deg=350, target_latitude_deg=37.62,
+    ...                     target_longitude_deg=-122.4, window_nm=1.3)
     >>> patch.video.shape, patch.video.dtype.name
     ((64, 64), 'uint8')
     >>> bool(patch.ground_range[0, 0] > patch.ground_range[-1, 0])  # row 0 is the far edge
@@ -185,12 +188,8 @@ class Patch(_Picture):
         return self._result.array("y")
 
 
-_POSE = ("lat", "lon", "alt_ft", "heading")
-_SCAN = Options("yars.Radar.scan", (*_POSE, "range_nm", "scan_width", "elevation", "force", "samples", "gain", "band", "channel",
-                                    "time_s", "threads", "seed"), flags=("force",), optional=("samples", "seed"))
-_PATCH = Options("yars.Radar.patch", (*_POSE, "speed_kt", "target_lat", "target_lon", "window_nm", "force", "looks", "size", "time_s",
-                                      "threads", "seed", "map"),
-                 flags=("force",), optional=("window_nm", "looks", "size", "threads", "seed"))
+_SCAN = Request("yars.Radar.scan", _core.ScanRequest, _core.ScanRequest_fields)
+_PATCH = Request("yars.Radar.patch", _core.PatchRequest, _core.PatchRequest_fields)
 _TRADE = ("presets", "knob", "base", "ruler", "repeat", "csv", "out", "scene")
 _TRADES = {maps: Options("yars.trade", (*_TRADE, *more), lists=("knob", "scene", "view", "scene_without"), commas=("presets",),
                          paths=("csv", "out"), optional=("knob", "csv", "out", "scene", "view", "scene_without"))
@@ -201,7 +200,7 @@ _PRESETS = ("1996", "draft", "standard", "fine", "reference")
 @functools.lru_cache(maxsize=None)
 def _knobs():
     """Names of the slots of the form Fidelity, in lower case."""
-    slots = re.findall(r":(\w+)", re.search(r"\( Fidelity\b(.*?)\)\s", _core.make_radar(None, None, "", {}).guf, re.S)[1])
+    slots = re.findall(r":(\w+)", re.search(r"\( Fidelity\b(.*?)\)\s", _core.make_radar("", b"", "", []).guf, re.S)[1])
     return tuple(_knob_name(slot) for slot in slots if slot != "preset")
 
 
@@ -209,16 +208,22 @@ def _knob_name(slot):
     return re.sub("[A-Z]", lambda letter: "_" + letter[0].lower(), slot)
 
 
+def _slot(name):
+    return re.sub("_([a-z0-9])", lambda letter: letter[1].upper(), name)
+
+
 def _knob(name, value):
     """A knob's value as number, truth value or text."""
     where = f"yars.Radar: {name}"
     value = plain(value)
-    if isinstance(value, (bool, int, float)):
+    if isinstance(value, bool):
         return value
+    if isinstance(value, (int, float)):
+        return number(where, value)
     if isinstance(value, str):
         return text(where, value)
     if hasattr(value, "__index__") and not hasattr(value, "ndim"):
-        return value.__index__()
+        return float(value.__index__())
     if isinstance(value, (bytes, complex)) or value is None or not hasattr(value, "__float__") or getattr(value, "ndim", 0):
         raise kind_error(where, "a number, True, False or a name", value)
     return float(value)
@@ -246,9 +251,9 @@ class Radar(Held):
 
     >>> yars.Radar("fine", samples=320).samples
     320
-    >>> yars.Radar("fast")  # doctest: +ELLIPSIS
+    >>> yars.Radar("fast")
     Traceback (most recent call last):
-    ValueError: yars.Radar:1:20: expected one of 1996, draft, standard, fine, reference, auto for :preset, found the identifier fast; ...
+    ValueError: yars.Radar: preset: expected one of 1996, draft, standard, fine, reference, found 'fast'
     """
 
     def __init__(self, preset=None, *, config=None, settings="", **knobs):
@@ -267,7 +272,8 @@ class Radar(Held):
         for name in knobs:
             if _knob_name(name) not in _knobs():
                 raise ValueError(f"{where}: expected preset, config, settings or knobs of {', '.join(_knobs())}; found {ascii(name)[:60]}")
-        self._made(preset, config, settings, {name: _knob(name, value) for name, value in knobs.items()})
+        knobs = [(_slot(name), _knob(name, value)) for name, value in knobs.items()]
+        self._made("" if preset is None else str(preset), config or b"", settings, knobs)
 
     def _make(self, *arguments):
         with Said("yars.Radar"):
@@ -301,29 +307,29 @@ class Radar(Held):
         """The whole configuration as GUF text."""
         return self._core.guf
 
-    def scan(self, terrain, scene=None, **options):
+    def scan(self, terrain, scene=None, **fields):
         """One scan of the real beam map, as `yars scan`. Returns a Scan.
 
         terrain: Terrain. scene: Scene on it; None: the scenes in the terrain's folder, and of the configuration.
-        options: lat, lon [deg], alt_ft [ft MSL], heading [deg true], range_nm [NM], scan_width, elevation [deg], gain 0 to
-        3, band A to E, channel 1 to 8, samples, time_s [s], threads, seed, force (beyond gimbal limits, below ground).
+        fields: latitude_deg, longitude_deg, altitude_ft [ft MSL], heading_deg (true), range_nm, width_deg, elevation_deg,
+        gain 0 to 3, band A to E, channel 1 to 8, samples, time_s, threads, seed, force (beyond gimbal limits, below ground).
         """
         places = self._places("yars.Radar.scan", terrain, scene)
-        words = _SCAN.words(options)
+        request = _SCAN.of(fields)
         with Said("yars.Radar.scan"):
-            return Scan(self._core.scan(*places, words))
+            return Scan(self._core.scan(*places, request))
 
-    def patch(self, terrain, scene=None, **options):
+    def patch(self, terrain, scene=None, **fields):
         """One patch map, as `yars patch`. Returns a Patch.
 
-        terrain, scene: as scan(). options: lat, lon [deg], alt_ft [ft MSL], heading [deg true], speed_kt [kt], target_lat,
-        target_lon [deg], window_nm [NM], looks 1 to 16, size [pixels], map (number, selects the noise with the seed),
-        time_s [s], threads, seed, force (beyond the radar's limits).
+        terrain, scene: as scan(). fields: latitude_deg, longitude_deg, altitude_ft [ft MSL], heading_deg (true), speed_kt,
+        target_latitude_deg, target_longitude_deg, window_nm, looks 1 to 16, size [pixels], map (number, selects the noise
+        with the seed), time_s, threads, seed, force (beyond the radar's limits).
         """
         places = self._places("yars.Radar.patch", terrain, scene)
-        words = _PATCH.words(options)
+        request = _PATCH.of(fields)
         with Said("yars.Radar.patch"):
-            return Patch(self._core.patch(*places, words))
+            return Patch(self._core.patch(*places, request))
 
     def patches(self, terrain, orders, scene=None, *, movers=None, arrays=PATCHES, threads=1, force=False,
                 min_pixels=0):

@@ -24,7 +24,7 @@ import typing
 from . import Error
 
 MAGIC, LINE, SLOTS = 0x314D485353524159, 64, 4
-# begin: databuffer/messages/generate.py
+# begin: lib/values/generate.py
 VERSION, SIZE, HASH = 3, 27471872, 0xEB33F49407411935
 AT_CLOCK, AT_OWNSHIP_PRIORITY, AT_OWNSHIP, AT_NAV = 448, 1024, 1088, 4416
 AT_RADAR_STATE, AT_MODEL_STATUS, AT_OUTPUTS, AT_SWEEPS = 7744, 13440, 16320, 543680
@@ -253,7 +253,7 @@ class NavFlags(enum.IntFlag):
     ATTITUDE_INVALID = 1  # the display crosses out the pitch ball, its symbol of the aircraft's pitch
     # the attitude is that of the attitude and heading reference system: the pitch ball is square instead of round
     ATTITUDE_FROM_AHRS = 2
-# end: databuffer/messages/generate.py
+# end: lib/values/generate.py
 
 # Expected values by struct code, for messages.
 EXPECTED = {"d": "a number", "q": "a whole number of 64 bits", "Q": "a whole number of 64 bits, 0 or more",

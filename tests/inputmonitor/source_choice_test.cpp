@@ -60,7 +60,7 @@ TEST(SourceChoice, AnythingElseIsBadUsage) {
        {"", "script", "script:", "tour:", "tour:,pilot", "keyboard", "evdev", "evdev:", "evdev:,map"}) {
     const auto choice = parse_source(text);
     ASSERT_FALSE(choice) << text;
-    EXPECT_TRUE(choice.error().bad_usage);
+    EXPECT_TRUE(choice.error().bad_usage());
     EXPECT_THAT(choice.error().message(),
                 HasSubstr("window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto"));
   }
@@ -80,7 +80,7 @@ TEST(SourceChoice, ADeviceMayBeFollowedByTheNameOfItsMap) {
 TEST(SourceChoice, TheErrorNamesAMissingScript) {
   const auto source = open_sources({{SourceKind::script, "/nonexistent/x.script", {}}}, {});
   ASSERT_FALSE(source);
-  EXPECT_FALSE(source.error().bad_usage);
+  EXPECT_FALSE(source.error().bad_usage());
   EXPECT_THAT(source.error().message(), HasSubstr("/nonexistent/x.script"));
 }
 

@@ -61,7 +61,7 @@ class Arguments(Folder):
 
     def test_truth_values_of_numpy(self):
         terrain, radar = yars.Terrain(), yars.Radar("draft")
-        steep = {**SCAN, "elevation": -80.0}
+        steep = {**SCAN, "elevation_deg": -80.0}
         self.assertEqual(radar.scan(terrain, **steep, force=np.bool_(True)).hash, radar.scan(terrain, **steep, force=True).hash)
         with self.assertRaises(ValueError):
             radar.scan(terrain, **steep, force=np.bool_(False))
@@ -69,7 +69,7 @@ class Arguments(Folder):
     def test_elevation(self):
         terrain = yars.Terrain()
         for latitude, longitude in ((91, 0), (float("nan"), 0), (0, 181), (0, float("inf"))):
-            self.refused(ValueError, "latitudes from -90 to 90", lambda: terrain.elevation(latitude, longitude))
+            self.refused(ValueError, "(latitude|longitude)_deg: expected -(90|180) to (90|180) deg, found", lambda: terrain.elevation(latitude, longitude))
         for value in ("a", None, 1j, b"3", True, [["1"]], np.array(["1"]), np.array([None])):
             self.refused(TypeError, "latitude: expected numbers of degrees, found", lambda: terrain.elevation(value, 3))
         self.refused(ValueError, r"broadcast, found \(2,\) and \(3,\)", lambda: terrain.elevation([1, 2], [1, 2, 3]))
@@ -132,23 +132,23 @@ class Arguments(Folder):
     def test_arrays_are_no_whole_numbers(self):
         terrain, radar = yars.Terrain(), yars.Radar("draft")
         wanted = radar.scan(terrain, **SCAN)
-        for kind in (np.array, np.float64, lambda value: np.ma.array(value), fractions.Fraction, decimal.Decimal, str):
-            self.assertEqual(radar.scan(terrain, **{**SCAN, "lat": kind(SCAN["lat"])}).facts["latitude"], wanted.facts["latitude"])
-        for value in (np.array([37.8]), [37.8], (37.8,), np.zeros((1, 1)), 1j, b"37", None, True, False, np.bool_(True), terrain):
-            self.refused(TypeError, "yars.Radar.scan: lat: expected", lambda: radar.scan(terrain, **{**SCAN, "lat": value}))
-        for value in ("", " ", "37 --lon=5", "a\0", "\udcff", 10 ** 400, "nan"):
-            self.refused(ValueError, "yars.Radar.scan: lat: expected", lambda: radar.scan(terrain, **{**SCAN, "lat": value}))
+        for kind in (np.array, np.float64, lambda value: np.ma.array(value), fractions.Fraction, decimal.Decimal):
+            self.assertEqual(radar.scan(terrain, **{**SCAN, "latitude_deg": kind(SCAN["latitude_deg"])}).facts["latitude"], wanted.facts["latitude"])
+        for value in (np.array([37.8]), [37.8], (37.8,), np.zeros((1, 1)), 1j, b"37", None, True, False, np.bool_(True), terrain, "37.8"):
+            self.refused(TypeError, "yars.Radar.scan: latitude_deg: expected", lambda: radar.scan(terrain, **{**SCAN, "latitude_deg": value}))
+        for value in (10 ** 400, float("nan"), float("inf")):
+            self.refused(ValueError, "yars.Radar.scan: latitude_deg: expected", lambda: radar.scan(terrain, **{**SCAN, "latitude_deg": value}))
         self.refused(ValueError, "gain: expected a whole number", lambda: radar.scan(terrain, **SCAN, gain=np.array(2.9)))
         self.refused(ValueError, "seed: expected a whole number from 0 to 18446744073709551615", lambda: radar.scan(terrain, seed=2 ** 64))
         for value in (2, "no", [True], 1.0):
             self.refused(TypeError, "force: expected True or False", lambda: radar.scan(terrain, **SCAN, force=value))
         for name in ("alt", "help", "json", "lat-x", "\udcff", ""):
-            self.refused(ValueError, "yars.Radar.scan: expected arguments of lat, lon", lambda: radar.scan(terrain, **{name: 1}))
+            self.refused(ValueError, "yars.Radar.scan: expected arguments of latitude_deg, longitude_deg", lambda: radar.scan(terrain, **{name: 1}))
 
     def test_messages_are_in_words_of_python(self):
         terrain, radar = yars.Terrain(), yars.Radar("draft")
-        self.refused(ValueError, r"give force=True", lambda: radar.scan(terrain, **{**SCAN, "elevation": -80}))
-        self.refused(ValueError, r"see help\(yars.Radar.scan\)$", lambda: radar.scan(terrain, **{**SCAN, "gain": 4}))
+        self.refused(ValueError, r"give force=True", lambda: radar.scan(terrain, **{**SCAN, "elevation_deg": -80}))
+        self.refused(ValueError, "gain: expected a whole number from 0 to 3, found int 4", lambda: radar.scan(terrain, **{**SCAN, "gain": 4}))
         self.refused(yars.Error, r"make one with yars.Terrain.generate\(\)", lambda: yars.Terrain("/absent"))
         self.refused(ValueError, "found 1e\\+308", lambda: terrain.elevation(1e308, 0))
         self.refused(yars.Error, "expected a folder, found none", lambda: yars.trade(terrain, out="/absent/x.json"))
@@ -206,7 +206,7 @@ class Arguments(Folder):
         self.assertEqual(terrain.directory, str(self.folder / "land"))
         self.assertEqual(pickle.loads(pickle.dumps(terrain)).elevation(37.5, -122.5), wanted)
         self.assertEqual(len(pickle.loads(pickle.dumps(scene)).objects), len(scene.objects))
-        scan = [yars.Radar("draft").scan(one, scene, lat=37.4, lon=-122.5, range_nm=10, seed=1).hash for one in (terrain, other)]
+        scan = [yars.Radar("draft").scan(one, scene, latitude_deg=37.4, longitude_deg=-122.5, range_nm=10, seed=1).hash for one in (terrain, other)]
         self.assertEqual(scan[0], scan[1])  # one folder, however spelled
 
 

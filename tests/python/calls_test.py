@@ -71,7 +71,7 @@ wanted = float(terrain.elevation(37.5, -122.5))
 def call():
     while not stop:
         terrain.elevation(37.1 + 0.8 * numpy.random.rand(300000), -122.5)
-        yars.Radar("draft").scan(terrain, lat=37.5, lon=-122.5).shadow
+        yars.Radar("draft").scan(terrain, latitude_deg=37.5, longitude_deg=-122.5).shadow
 thread = threading.Thread(target=call)
 thread.start()
 codes = []
@@ -80,7 +80,7 @@ for turn in range(12):
     child = os.fork()
     if child == 0:
         signal.alarm(20)
-        same = terrain.elevation(37.5, -122.5) == wanted and yars.Radar("draft").scan(terrain, lat=37.5, lon=-122.5).shadow.any() in (True, False)
+        same = terrain.elevation(37.5, -122.5) == wanted and yars.Radar("draft").scan(terrain, latitude_deg=37.5, longitude_deg=-122.5).shadow.any() in (True, False)
         os._exit(0 if same else 3)
     codes.append(os.waitpid(child, 0)[1])
 stop.append(1)
@@ -129,7 +129,7 @@ class Signals(Folder):
     """Ctrl-C while a call computes."""
 
     CALLS = {
-        "scan": "yars.Radar('reference', samples=2048).scan(terrain, alt_ft=30000, range_nm=100)",
+        "scan": "yars.Radar('reference', samples=2048).scan(terrain, altitude_ft=30000, range_nm=100)",
         "shadow": "scan.shadow",
         "patch": "yars.Radar('reference', map_size=1024).patch(terrain, looks=16, force=True)",
         "patches": "yars.Radar('draft', map_size=64).patches(terrain, numpy.repeat(order, 10 ** 6), arrays=())",
@@ -147,7 +147,7 @@ import os, signal, threading, time, numpy, yars
 folder, terrain = {str(self.folder)!r}, yars.Terrain()
 order = numpy.zeros(1, yars.PATCH_ORDER)
 for field, value in {order_of(PATCH)!r}.items(): order[field] = value
-scan = yars.Radar('reference', samples=2048).scan(terrain, alt_ft=30000, range_nm=100) if {name!r} == 'shadow' else None
+scan = yars.Radar('reference', samples=2048).scan(terrain, altitude_ft=30000, range_nm=100) if {name!r} == 'shadow' else None
 threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
 try:
     {call}
@@ -165,8 +165,8 @@ import os, signal, threading, yars
 terrain, heights = yars.Terrain(), []
 signal.signal(signal.SIGINT, lambda *_: heights.append(float(terrain.elevation(37.5, -122.5))))
 threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
-first = yars.Radar('reference', samples=200).scan(terrain, alt_ft=30000, range_nm=100, seed=1).hash
-print(len(heights) <= 1, first == yars.Radar('reference', samples=200).scan(terrain, alt_ft=30000, range_nm=100, seed=1).hash)
+first = yars.Radar('reference', samples=200).scan(terrain, altitude_ft=30000, range_nm=100, seed=1).hash
+print(len(heights) <= 1, first == yars.Radar('reference', samples=200).scan(terrain, altitude_ft=30000, range_nm=100, seed=1).hash)
 """)
         self.assertEqual(said, ("True True\n", "", 0))
 
@@ -241,7 +241,7 @@ class Memory(unittest.TestCase):
 
         terrain, radar = yars.Terrain(), yars.Radar("draft", map_size=32, samples=30)
         orders = orders_of(PATCH)
-        small = {**SCAN, "scan_width": 5}
+        small = {**SCAN, "width_deg": 5}
 
         def calls(count):
             for _ in range(count):
@@ -249,7 +249,7 @@ class Memory(unittest.TestCase):
                 radar.patches(terrain, orders)
                 terrain.elevation([37.0, 37.5], -122.5)
                 try:
-                    radar.scan(terrain, lat=91)
+                    radar.scan(terrain, latitude_deg=91)
                 except ValueError:
                     pass
 

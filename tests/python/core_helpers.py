@@ -20,12 +20,21 @@ import numpy as np
 import yars
 
 YARS = str(BUILD / "bin/yars")
-SCAN = {"lat": 37.8, "lon": -122.5, "alt_ft": 15000, "heading": 30, "range_nm": 10, "seed": 7}
-PATCH = {"lat": 37.5, "lon": -122.5, "alt_ft": 12000, "heading": 350, "target_lat": 37.62, "target_lon": -122.4, "window_nm": 1.3, "seed": 3}
+SCAN = {"latitude_deg": 37.8, "longitude_deg": -122.5, "altitude_ft": 15000, "heading_deg": 30, "range_nm": 10, "seed": 7}
+PATCH = {"latitude_deg": 37.5, "longitude_deg": -122.5, "altitude_ft": 12000, "heading_deg": 350, "target_latitude_deg": 37.62, "target_longitude_deg": -122.4, "window_nm": 1.3, "seed": 3}
+
+
+KEYWORDS = {name: keyword for rows in (yars.Radar.scan.__globals__["_SCAN"], yars.Radar.scan.__globals__["_PATCH"])
+            for keyword, name in rows.older.items()}
+
+
+def option(name):
+    """The option of a field of a request."""
+    return "--" + KEYWORDS.get(name, name).replace("_", "-")
 
 
 def options(arguments):
-    return [f"--{name.replace('_', '-')}={value}" for name, value in arguments.items()]
+    return [f"{option(name)}={value}" for name, value in arguments.items()]
 
 
 def command(*words, code=0, text=False):
@@ -58,8 +67,8 @@ class Folder(unittest.TestCase):
 
 
 def order_of(patch):
-    return {"latitude": patch["lat"], "longitude": patch["lon"], "altitude_ft": patch["alt_ft"], "heading": patch["heading"], "speed_kt": 480.0,
-            "target_latitude": patch["target_lat"], "target_longitude": patch["target_lon"], "window_nm": patch["window_nm"], "looks": 1, "map": 1}
+    return {"latitude": patch["latitude_deg"], "longitude": patch["longitude_deg"], "altitude_ft": patch["altitude_ft"], "heading": patch["heading_deg"], "speed_kt": 480.0,
+            "target_latitude": patch["target_latitude_deg"], "target_longitude": patch["target_longitude_deg"], "window_nm": patch["window_nm"], "looks": 1, "map": 1}
 
 
 def orders_of(*patches):

@@ -66,7 +66,7 @@ class Shapes(unittest.TestCase):
     def test_geometry_of_a_map(self):
         facts, patch = self.patch.facts, self.patch
         middle = 0.25 * sum(patch.latitude[i, j] for i in (31, 32) for j in (31, 32))
-        self.assertAlmostEqual(middle, PATCH["target_lat"], 5)
+        self.assertAlmostEqual(middle, PATCH["target_latitude_deg"], 5)
         self.assertAlmostEqual(patch.y[0], -patch.y[-1])
         self.assertGreater(patch.y[0], 0)
         self.assertGreater(patch.ground_range[0].mean(), patch.ground_range[-1].mean())
@@ -91,18 +91,18 @@ class Shapes(unittest.TestCase):
 
     def test_azimuth_does_not_jump_at_north(self):
         for heading in (0, 5, 90, 180, 350, 359.9, -10):
-            azimuth = yars.Radar("draft").scan(yars.Terrain(), **{**SCAN, "heading": heading}).azimuth
+            azimuth = yars.Radar("draft").scan(yars.Terrain(), **{**SCAN, "heading_deg": heading}).azimuth
             self.assertTrue((np.diff(azimuth) > 0).all())
             self.assertTrue(0 <= azimuth[len(azimuth) // 2] < 360)
         try:
-            data = yars.Radar("draft").scan(yars.Terrain(), **{**SCAN, "heading": 0}).to_xarray("video")
+            data = yars.Radar("draft").scan(yars.Terrain(), **{**SCAN, "heading_deg": 0}).to_xarray("video")
         except yars.MissingPart:
             self.skipTest("python3-xarray is not installed")
         self.assertLess(abs(data.sel(azimuth=0, method="nearest").azimuth.item()), 0.5)
         self.assertEqual(set(data.data_vars), {"video"})
 
     def test_north_is_one_heading(self):
-        scans = [yars.Radar("draft").scan(yars.Terrain(), **{**SCAN, "heading": heading}) for heading in (0, 360, -360, -0.0)]
+        scans = [yars.Radar("draft").scan(yars.Terrain(), **{**SCAN, "heading_deg": heading}) for heading in (0, 360, -360, -0.0)]
         self.assertEqual(len({scan.hash for scan in scans}), 1)
         self.assertIn(f"hash {scans[0].hash:016x}>", repr(scans[0]))
 
@@ -178,18 +178,18 @@ class Commands(Folder):
         scan = radar.scan(terrain, **SCAN)
         np.testing.assert_allclose(scan.height, terrain.elevation(scan.latitude, scan.longitude), atol=0.01)
 
-    def test_errors_are_those_of_the_commands(self):
+    def test_errors_name_the_field_and_its_limits(self):
         terrain, radar = yars.Terrain(), yars.Radar()
+        nan, inf = float("nan"), float("inf")
         for name, call, faults in (
-                ("scan", radar.scan, [{"lat": 91}, {"lat": float("nan")}, {"heading": float("inf")}, {"range_nm": -1}, {"samples": 5000},
-                                      {"samples": 0}, {"samples": -3}, {"threads": 0}, {"threads": 10**30}, {"seed": -1}, {"gain": 4},
-                                      {"band": "Z"}, {"lat": "x"}, {"scan_width": 121}, {"elevation": -80}, {"alt_ft": -2000},
-                                      {"time_s": float("nan")}, {"samples": 10.5}]),
-                ("patch", radar.patch, [{"target_lat": 100}, {"window_nm": 0}, {"size": -1}, {"size": 10**9}, {"looks": 17},
-                                        {"map": -1}, {"map": 2**32}, {"speed_kt": float("nan")}, {"lat": 60}, {"heading": 33}, {"heading": 250},
-                                        {"window_nm": 1.31}, {"alt_ft": -2000}])):
-            for fault in faults:
-                given = {**(SCAN if name == "scan" else PATCH), **fault}
+                ("scan", radar.scan, [("latitude_deg", 91), ("latitude_deg", nan), ("heading_deg", inf), ("range_nm", -1), ("samples", 5000), ("samples", 0),
+                                      ("threads", 0), ("threads", 10**30), ("seed", -1), ("gain", 4), ("band", "Z"), ("width_deg", 121), ("elevation_deg", -80),
+                                      ("altitude_ft", -2000), ("time_s", nan), ("samples", 10.5)]),
+                ("patch", radar.patch, [("target_latitude_deg", 100), ("window_nm", 0), ("size", -1), ("size", 10**9), ("looks", 17), ("map", -1),
+                                        ("map", 2**32), ("speed_kt", nan), ("heading_deg", 33), ("heading_deg", 250), ("window_nm", 1.31),
+                                        ("altitude_ft", -2000)])):
+            for field, value in faults:
+                given = {**(SCAN if name == "scan" else PATCH), field: value}
                 said = ""
                 for code in (2, 1):  # limits of the radar end with 1
                     try:
@@ -198,16 +198,27 @@ class Commands(Folder):
                     except AssertionError as failure:
                         problem = failure
                 self.assertTrue(said, problem if not said else "")
-                with self.assertRaises(ValueError, msg=str(fault)) as caught:
+                with self.assertRaises(ValueError, msg=f"{field} {value}") as caught:
                     call(terrain, **given)
-                # The command's words in Python's form: the function for the command, arguments for options.
                 text = str(caught.exception)
-                said = said.replace(f"yars {name}", f"yars.Radar.{name}").replace("give --force", "give force=True")
-                said = re.sub(r"give --([a-z-]+) (-?[0-9.]+)", r"give \1=\2", re.sub(r"see ([\w.]+) --help", r"see help(\1)", said))
-                said = re.sub(r"--([a-z-]+)", lambda found: found[1].replace("-", "_"), said)
-                if not {"seed", "threads"} & set(fault):  # whole numbers beyond 64 bits, and seeds, are refused before
-                    self.assertEqual(text.partition(": ")[2], said.partition(": ")[2], fault)
-                    self.assertTrue(text.startswith(f"yars.Radar.{name}: "), text)
+                self.assertTrue(text.startswith(f"yars.Radar.{name}: "), text)
+                self.assertRegex(text, "expected .*, found ")
+                if getattr(caught.exception, "code", "") == "limit":  # one message, in the words of each
+                    words = re.sub(r"`?\b(\w+)=(True|-?[0-9.]+)`?", lambda found: option(found[1]) + ("" if found[2] == "True" else f" {found[2]}"), text)
+                    words = re.sub(r"\b(\w+)\b", lambda found: option(found[1]) if found[1] in KEYWORDS or found[1] == "window_nm" else found[1], words)
+                    self.assertEqual(words.partition(": ")[2], said.partition(": ")[2])
+                elif getattr(caught.exception, "code", "") == "range":
+                    self.assertEqual((caught.exception.field, caught.exception.low <= caught.exception.high), (field, True))
+                    self.assertIn(option(field), said)
+                else:  # refused before the call
+                    self.assertIn(field, text)
+
+    def test_older_words_give_a_warning(self):
+        terrain, radar = yars.Terrain(), yars.Radar("draft")
+        with self.assertWarnsRegex(DeprecationWarning, "lat is an older word for latitude_deg"):
+            old = radar.scan(terrain, lat=37.8, lon=-122.5, alt_ft=15000, heading=30, range_nm=10, seed=7)
+        self.assertEqual(old.hash, radar.scan(terrain, **SCAN).hash)
+        self.refused(TypeError, "expected latitude_deg once", lambda: radar.scan(terrain, latitude_deg=37, lat=37))
 
 
 class Trades(Folder):

@@ -30,7 +30,7 @@ except ImportError:
 ENVIRONMENT = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "YARS_BUILD_FOLDER": str(BUILD), "SOURCE_DATE_EPOCH": "1700000000",
                "PIP_DISABLE_PIP_VERSION_CHECK": "1", "PIP_NO_CACHE_DIR": "1", "LC_ALL": "C.UTF-8"}
 SCAN = """import yars
-scan = yars.Radar("draft").scan(yars.Terrain(), lat=37.8, lon=-122.5, alt_ft=15000, heading=30, range_nm=10, seed=7)
+scan = yars.Radar("draft").scan(yars.Terrain(), latitude_deg=37.8, longitude_deg=-122.5, altitude_ft=15000, heading_deg=30, range_nm=10, seed=7)
 print(scan.hash, yars.Radar(config="apg68.guf").name, yars.__file__, sep="\\n")
 """
 

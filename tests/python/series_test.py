@@ -26,7 +26,7 @@ class Series(Folder):
         path = yars.Scene.generate(self.folder / "town.flt", kind="town", triangles=4000, seed=1, origin=(37.62, -122.4, 20))
         self.scene = yars.Scene(path, self.terrain)
         self.radar = yars.Radar("standard", map_size=96)
-        self.patches = [{**PATCH, "window_nm": 0.67}, {**PATCH, "window_nm": 0.67, "heading": 355, "lon": -122.45}, {**PATCH, "window_nm": 1.3}]
+        self.patches = [{**PATCH, "window_nm": 0.67}, {**PATCH, "window_nm": 0.67, "heading_deg": 355, "longitude_deg": -122.45}, {**PATCH, "window_nm": 1.3}]
         for patch in self.patches:
             del patch["seed"]
 
@@ -62,7 +62,7 @@ class Series(Folder):
             self.assertEqual(box["pixels"], (maps["object"][box["order"]] == box["object"]).sum())
             centre = self.patches[box["order"]]
             heading = np.radians(one["heading_deg"])
-            x, y = plane_of((centre["target_lat"], centre["target_lon"]), one["latitude"], one["longitude"])
+            x, y = plane_of((centre["target_latitude_deg"], centre["target_longitude_deg"]), one["latitude"], one["longitude"])
             up = np.radians(geo["up_deg"])
             pixel_m = geo["window_m"] / 96
             corners = []
@@ -116,7 +116,7 @@ class Series(Folder):
                 self.refused(ValueError, rf"orders\[2\]: {field}: expected .* to .*, found {value}",
                              lambda: self.radar.patches(self.terrain, bad, force=force))
         bad = good.copy()
-        bad["heading"][1] = 20
+        bad["heading_deg"][1] = 20
         self.refused(ValueError, r"orders\[1\]: BLIND ZONE", lambda: self.radar.patches(self.terrain, bad))
         self.assertTrue(np.isnan(self.radar.patches(self.terrain, bad, arrays=["power"], force=True)["power"][1]).any())
         for given in (np.zeros(3), good[None], good.astype(good.dtype.newbyteorder(">")), [1, 2], good[["latitude"]]):

@@ -38,11 +38,11 @@ height: NDArray[np.float64] = terrain.elevation([37.0, 37.5], -122.0)
 path: str = yars.Scene.generate("town.flt", kind="town", triangles=1000, seed=1, origin=(37.5, -122.3))
 scene = yars.Scene(path, terrain, without=["tower*"])
 radar = yars.Radar("draft", map_size=128, settings="( Sea :state 3 )")
-scan = radar.scan(terrain, scene, lat=37.8, lon=-122.5, alt_ft=15000, heading=30, range_nm=10, seed=1)
+scan = radar.scan(terrain, scene, latitude_deg=37.8, longitude_deg=-122.5, altitude_ft=15000, heading_deg=30, range_nm=10, seed=1)
 power: NDArray[np.float32] = scan.power
 shadow: NDArray[np.bool_] = scan.shadow
 unit: str = scan.units["power"]
-patch = radar.patch(terrain, lat=37.5, lon=-122.5, target_lat=37.6, target_lon=-122.4, window_nm=1.3)
+patch = radar.patch(terrain, latitude_deg=37.5, longitude_deg=-122.5, target_latitude_deg=37.6, target_longitude_deg=-122.4, window_nm=1.3)
 video: NDArray[np.uint8] = patch.video
 orders = np.zeros(3, yars.PATCH_ORDER)
 maps = radar.patches(terrain, orders, scene, arrays=("video", "object"), threads=2)

@@ -1,10 +1,18 @@
 #include "tools/command/command.hpp"
 
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <span>
+#include <type_traits>
 #include <utility>
 
 #include "config/schema/load.hpp"
+#include "lib/text/plain_text.hpp"
+#include "lib/values/request_fields.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/openflight/node_tree.hpp"
+#include "radar/limits.hpp"
 
 namespace yars::tools {
 
@@ -57,24 +65,87 @@ radar::RadarConfiguration read_configuration(const std::string& file, const Conf
 void apply_options(const ConfigurationOptions& options, radar::RadarConfiguration& configuration) {
   if (!options.fidelity.empty()) configuration.fidelity = *radar::fidelity_preset(options.fidelity);
   if (!options.terrain.empty()) configuration.terrain.directory = options.terrain;
-  if (options.seed) configuration.seed = *options.seed;
   if (auto added = model::scene::add_scenes(configuration.world.scenes, options.scenes, options.without); !added)
     throw_failure(error::usage_error(added.error()));
 }
 
-void add_seed_option(databuffer::Command command, ConfigurationOptions& options) {
-  command.option("--seed", options.seed, "seed of the noise").otherwise("the configuration's");
+namespace {
+
+// The number of a value that may be left out.
+template <class Number>
+Number number_in(const std::optional<Number>&);
+template <class Number>
+Number number_in(const Number&);
+
+// Adds the option of one field.
+template <class Value>
+void add_field(databuffer::Command command, const values::Field& field, Value& value) {
+  const std::string name = "--" + std::string(field.option);
+  const std::string help =
+      (field.unit.empty() ? "" : '[' + std::string(field.unit) + "] ") + std::string(field.purpose);
+  if constexpr (std::is_same_v<Value, bool>) {
+    command.flag(name, value, help);
+  } else if constexpr (std::is_enum_v<Value>) {
+    std::vector<std::string> names;
+    for (const std::string_view one : field.values)
+      if (!one.empty()) names.emplace_back(one);
+    const auto text = std::make_shared<std::string>(names[static_cast<std::size_t>(value)]);
+    command.option(name, *text, help).one_of(names).transform([text, names, &value](const std::string& given) {
+      const auto found = std::ranges::find(names, given);
+      if (found != names.end()) value = static_cast<Value>(found - names.begin());
+      return given;
+    });
+  } else {
+    using Number = std::remove_cvref_t<decltype(number_in(value))>;
+    databuffer::Option option = command.option(name, value, help);
+    if (field.high < values::kAny) option.range(static_cast<Number>(field.low), static_cast<Number>(field.high));
+    if (!field.otherwise.empty()) option.otherwise(std::string(field.otherwise));
+  }
 }
 
-void add_pose_options(databuffer::Command command, PoseOptions& options) {
-  command.option("--lat", options.latitude_deg, "[deg] latitude of the aircraft")
-      .range(kLatitudes_deg.min, kLatitudes_deg.max);
-  command.option("--lon", options.longitude_deg, "[deg] longitude of the aircraft")
-      .range(kLongitudes_deg.min, kLongitudes_deg.max);
-  command.option("--alt-ft", options.altitude_ft, "[ft] altitude of the aircraft above mean sea level")
-      .range(kAltitudes_ft.min, kAltitudes_ft.max);
-  command.option("--heading", options.heading_deg, "[deg] true heading; also the ground track")
-      .range(kHeadings_deg.min, kHeadings_deg.max);
+template <class Request>
+void add_all(databuffer::Command command, Request& request) {
+  values::visit_fields(request,
+                       [&](const values::Field& field, auto& value) { add_field(command, field, value); });
+}
+
+}  // namespace
+
+void add_request_options(databuffer::Command command, ScanRequest& request) {
+  add_all(command, request);
+}
+void add_request_options(databuffer::Command command, PatchRequest& request) {
+  add_all(command, request);
+}
+
+CommandFailed failure_of(const error::Error& error) {
+  // Both requests spell a field alike.
+  error::Error in_options = error;
+  if (in_options.subject == "scene") in_options.subject = "--scene";
+  const auto spell = [](const values::Field& field, std::string_view value) {
+    return "--" + std::string(field.option) + (value.empty() || value == "true" ? "" : ' ' + std::string(value));
+  };
+  for (const std::span<const values::Field> fields :
+       {std::span<const values::Field>(values::kScanRequestFields), std::span<const values::Field>(values::kPatchRequestFields)})
+    in_options = radar::spelled(std::move(in_options), fields, spell);
+  return {in_options.message(), error.bad_usage() ? databuffer::kExitUsage : databuffer::kExitFailure};
+}
+
+void throw_failure(const error::Error& error) {
+  throw failure_of(error);
+}
+
+Warn warn_as(const char* command) {
+  return [command](const std::string& warning) {
+    std::fprintf(stderr, "%s: %s\n", command, text::printable(warning).c_str());
+  };
+}
+
+void fail_if_left_out(const std::vector<std::string>& left_out) {
+  if (!left_out.empty())
+    throw_failure({"terrain and scenes", "files that are read whole",
+                   text::counted(left_out.size(), "part") + " left out, named above",
+                   "repair or remove the files, or leave parts of a scene out with --scene-without"});
 }
 
 }  // namespace yars::tools

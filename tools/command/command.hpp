@@ -10,6 +10,8 @@
 
 #include "databuffer/runtime/command_line.hpp"
 #include "lib/error/error.hpp"
+#include "radar/theatre.hpp"
+#include "yars/requests.hpp"
 
 namespace yars::model::scene {
 class NameFilter;
@@ -25,10 +27,9 @@ struct CommandFailed {
   int code = 1;         // 1 failure, 2 bad usage; other codes are documented at the command
 };
 
-// Throws CommandFailed with code 2 for an error of bad usage, else 1.
-[[noreturn]] inline void throw_failure(const error::Error& error) {
-  throw CommandFailed{error.message(), error.bad_usage ? 2 : 1};
-}
+// The failure of an error: code 2 for bad usage, else 1. Fields of requests that the error names become options.
+CommandFailed failure_of(const error::Error& error);
+[[noreturn]] void throw_failure(const error::Error& error);
 
 // Options that all subcommands share. They are parsed before any callback runs.
 struct CommonOptions {
@@ -42,7 +43,6 @@ struct ConfigurationOptions {
   std::string fidelity;              // name of a preset
   std::vector<std::string> scenes;   // FILE or FILE@LAT,LON,HDG; added to the configured scenes
   std::vector<std::string> without;  // names of objects or groups to leave out of scenes
-  std::optional<std::uint64_t> seed;
 };
 
 // Adds --terrain, a folder of elevation cells. The user's file may set its default.
@@ -63,23 +63,16 @@ radar::RadarConfiguration read_configuration(const std::string& file, const Conf
 // Changes a configuration by `options`. Throws CommandFailed for a scene option that is not valid.
 void apply_options(const ConfigurationOptions& options, radar::RadarConfiguration& configuration);
 
-// Limits of a number, which are valid values.
-struct Limits {
-  double min, max;
-  bool contain(double value) const { return value >= min && value <= max; }  // NaN: no
-};
-inline constexpr Limits kLatitudes_deg{-90.0, 90.0}, kLongitudes_deg{-180.0, 180.0}, kAltitudes_ft{-3000.0, 600000.0},
-    kHeadings_deg{-360.0, 360.0};
+// Adds an option for each field of a request (lib/values/requests.idl).
+void add_request_options(databuffer::Command command, ScanRequest& request);
+void add_request_options(databuffer::Command command, PatchRequest& request);
 
-// Pose of the aircraft: altitude above mean sea level, true heading. The ground track equals the heading.
-struct PoseOptions {
-  double latitude_deg = 37.8, longitude_deg = -122.5, altitude_ft = 15000.0, heading_deg = 0.0;
-};
-
-// Adds --seed, which replaces that of the configuration.
-void add_seed_option(databuffer::Command command, ConfigurationOptions& options);
-// Adds --lat, --lon, --alt-ft and --heading.
-void add_pose_options(databuffer::Command command, PoseOptions& options);
+using radar::LeftOut;
+using radar::Warn;
+// Prints warnings on standard error. `command`: prefix of each line, such as "yars scan".
+Warn warn_as(const char* command);
+// Throws CommandFailed with code 1 if something was left out (LeftOut). Call after the results are written.
+void fail_if_left_out(const std::vector<std::string>& left_out);
 
 void add_scan_command(databuffer::Command app, const CommonOptions& common);
 void add_patch_command(databuffer::Command app, const CommonOptions& common);

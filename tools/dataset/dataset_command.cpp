@@ -35,7 +35,7 @@ std::string package_folder() {
   for (const char* folder : {"python", "lib/python3/dist-packages"})
     if (std::filesystem::exists(prefix / folder / "yars/dataset/__main__.py")) return (prefix / folder).string();
   throw_failure({"yars dataset", "the Python package yars in " + prefix.string(), "none",
-                 "install the Debian package python3-yars, or build the target yars_python", false});
+                 "install the Debian package python3-yars, or build the target yars_python"});
 }
 
 std::vector<std::string> words_of(const DatasetOptions& options) {
@@ -69,7 +69,7 @@ std::vector<std::string> words_of(const DatasetOptions& options) {
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
   ::execvp(python.c_str(), arguments.data());
-  throw_failure({"yars dataset", "Python as " + python, error::reason_of(errno), "install python3", false});
+  throw_failure({"yars dataset", "Python as " + python, error::reason_of(errno), "install python3"});
 }
 
 }  // namespace

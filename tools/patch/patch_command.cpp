@@ -9,22 +9,23 @@
 #include <ctime>
 #include <filesystem>
 #include <limits>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "databuffer/runtime/program.hpp"
 #include "lib/imageio/png.hpp"
-#include "lib/parallel/thread_pool.hpp"
 #include "lib/text/plain_text.hpp"
-#include "model/hrm/patch_formation.hpp"
 #include "model/terrain/gdal/map_writer.hpp"
 #include "model/terrain/gdal/raster.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
-#include "tools/patch/patch_setup.hpp"
+#include "yars/radar.hpp"
 
 namespace yars::tools {
 
@@ -43,26 +44,24 @@ void check_patch_output(const PatchOutput& output);
 // Writes the file. A power of 1 is the return of level ground with gamma 1 at the map's centre. With the preset `1996`
 // the power values are brightness 0 to 1. With any preset, the power of pixels in the blind zone is "no data" in a .tif
 // and -1 in a .f32.
-void write_patch(const PatchOutput& output, const model::hrm::PatchOrder& order,
-                 const model::hrm::PatchFormation& patch_formation);
+void write_patch(const PatchOutput& output, const Patch& patch);
 
 namespace {
 
 namespace gdal = model::terrain::gdal;
-namespace hrm = model::hrm;
 
-void write_raster(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchFormation& patch_formation) {
-  const int size = patch_formation.image().size;
+void write_raster(const PatchOutput& output, const Patch& patch) {
+  const PatchFacts facts = patch.facts();
   gdal::MapPicture picture;
-  picture.columns = picture.rows = size;
-  picture.origin_latitude_deg = order.apex.latitude_deg;
-  picture.origin_longitude_deg = order.apex.longitude_deg;
-  picture.plane_from_pixel = plane_from_pixel(patch_formation.geometry(), size);
+  picture.columns = picture.rows = patch.size();
+  picture.origin_latitude_deg = facts.latitude_deg;
+  picture.origin_longitude_deg = facts.longitude_deg;
+  picture.plane_from_pixel = facts.plane_from_pixel;
   if (output.pixels == "video") {
-    picture.pixels = patch_formation.picture();
+    picture.pixels = std::vector<std::uint8_t>(patch.video().begin(), patch.video().end());
     picture.description = "video, 0 black to 255 white";
   } else {
-    std::vector<float> power(patch_formation.image().power.begin(), patch_formation.image().power.end());
+    std::vector<float> power(patch.power().begin(), patch.power().end());
     std::replace_if(
         power.begin(), power.end(), [](float value) { return value < 0.0F; }, std::numeric_limits<float>::quiet_NaN());
     picture.pixels = std::move(power);
@@ -83,48 +82,45 @@ void check_patch_output(const PatchOutput& output) {
   check_file_name("--out", output.file, {".png", ".tif", ".f32"});
 }
 
-void write_patch(const PatchOutput& output, const hrm::PatchOrder& order, const hrm::PatchFormation& patch_formation) {
+void write_patch(const PatchOutput& output, const Patch& patch) {
   const std::filesystem::path path(output.file);
   const std::string suffix = ending_of(output.file);
   if (suffix == ".f32") {
-    if (auto written = write_floats(path, patch_formation.image().power); !written) throw_failure(written.error());
+    if (auto written = write_floats(path, patch.power()); !written) throw_failure(written.error());
     return;
   }
-  if (suffix == ".tif") return write_raster(output, order, patch_formation);
-  imageio::Image picture{patch_formation.image().size, patch_formation.image().size, 1, patch_formation.picture()};
+  if (suffix == ".tif") return write_raster(output, patch);
+  imageio::Image picture{patch.size(), patch.size(), 1, {patch.video().begin(), patch.video().end()}};
   if (auto written = imageio::write_png(path, picture); !written) throw_failure(written.error());
 }
 
 namespace {
 
-namespace hrm = model::hrm;
-
-// Times of one map [ms]: wall time of all stages together, and of each stage of PatchFormation.
+// Times of one map [ms]: wall time of all steps together, and of each of Patch::steps().
 struct Timing {
   double whole_ms = 0.0;
-  double cpu_ms = 0.0;  // processor time of all threads, all stages together
-  std::array<double, hrm::kPatchStages.size()> stages_ms{};
+  double cpu_ms = 0.0;  // processor time of all threads, all steps together
+  std::map<std::string_view, double> steps_ms;
 };
 
-struct PatchCommandOptions : PatchOptions {
+struct PatchCommandOptions {
+  ConfigurationOptions configuration;
+  PatchRequest request;
   PatchOutput output;
   int repeat = 1;
   bool json = false;
 };
 
-Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& order,
-                const hrm::PatchEnvironment& environment) {
+Timing run_once(Patch& patch) {
   Timing timing;
-  patch_formation.begin(order);
   const double begin_ms = wall_ms();
   const double cpu_begin_ms = processor_ms();
-  patch_formation.set_environment(environment);
-  while (patch_formation.state() != hrm::PatchState::done) {
-    const auto stage = static_cast<std::size_t>(patch_formation.stages_done());
-    const double stage_begin_ms = wall_ms();
-    patch_formation.advance();
-    timing.stages_ms[stage] += wall_ms() - stage_begin_ms;  // large maps come by sectors
-  }
+  double step_begin_ms = begin_ms;
+  const auto done = patch.run({.progress = [&](std::string_view step, double) {
+    timing.steps_ms[step] += wall_ms() - step_begin_ms;  // large maps come by sectors
+    step_begin_ms = wall_ms();
+  }});
+  if (!done) throw_failure(done.error());
   timing.whole_ms = wall_ms() - begin_ms;
   timing.cpu_ms = processor_ms() - cpu_begin_ms;
   return timing;
@@ -132,10 +128,10 @@ Timing run_once(hrm::PatchFormation& patch_formation, const hrm::PatchOrder& ord
 
 // Names the cause of black pixels on standard error, because the picture does not show it: the blind zone; or shadow
 // and horizon, if no pixel has a return.
-void report_dark_pixels(const hrm::MapImage& image) {
-  const auto pixels = static_cast<double>(image.power.size());
-  const auto blind = std::count_if(image.power.begin(), image.power.end(), [](float power) { return power < 0.0F; });
-  const bool seen = std::any_of(image.power.begin(), image.power.end(), [](float power) { return power > 0.0F; });
+void report_dark_pixels(std::span<const float> powers) {
+  const auto pixels = static_cast<double>(powers.size());
+  const auto blind = std::ranges::count_if(powers, [](float power) { return power < 0.0F; });
+  const bool seen = std::ranges::any_of(powers, [](float power) { return power > 0.0F; });
   if (blind > 0)
     std::fprintf(stderr, "yars patch: %.1f %% of the map lie in the blind zone and are blank\n",
                  100.0 * static_cast<double>(blind) / pixels);
@@ -144,14 +140,13 @@ void report_dark_pixels(const hrm::MapImage& image) {
 }
 
 // Prints the summary for people.
-void print_text(const PatchCommandOptions& options, const nlohmann::ordered_json& line, const hrm::PatchOrder& order,
-                const hrm::MapImage& image) {
+void print_text(const PatchCommandOptions& options, const nlohmann::ordered_json& line, const Patch& patch) {
   const auto percent = [&](auto&& has) {
-    return 100.0 * static_cast<double>(std::ranges::count_if(image.power, has)) /
-           static_cast<double>(image.power.size());
+    return 100.0 * static_cast<double>(std::ranges::count_if(patch.power(), has)) /
+           static_cast<double>(patch.power().size());
   };
-  std::printf("map     %d x %d pixels, %g NM, preset %s, %s of scenes\n", image.size, image.size,
-              order.window.nautical_miles(), line["fidelity"].get<std::string>().c_str(),
+  std::printf("map     %d x %d pixels, %g NM, preset %s, %s of scenes\n", patch.size(), patch.size(),
+              geo::Length::metres(patch.facts().window_m).nautical_miles(), line["fidelity"].get<std::string>().c_str(),
               text::counted(line["triangles"].get<std::size_t>(), "triangle").c_str());
   std::printf("pixels  %.1f %% with an echo, %.1f %% without, %.1f %% in the blind zone\n",
               percent([](float power) { return power > 0.0F; }), percent([](float power) { return power == 0.0F; }),
@@ -165,49 +160,42 @@ void print_text(const PatchCommandOptions& options, const nlohmann::ordered_json
 
 void patch(const CommonOptions& common, const PatchCommandOptions& options) {
   check_patch_output(options.output);
-  radar::RadarConfiguration configuration = read_configuration(common.config, {});
-  configure_patch(options, configuration);
-  const hrm::PatchOrder order = order_of(options, configuration);
-  check_order(order, configuration, options.force);
-  Theatre theatre(configuration.terrain, configuration.world.scenes, model::scene::SceneUse::triangles);
-  parallel::ThreadPool workers(threads_of(options));
-  hrm::PatchFormation patch_formation(
-      configuration,
-      {workers.threads(), [&workers](const std::function<void(std::size_t)>& job) { workers.run(job); }});
+  const Radar radar(read_configuration(common.config, options.configuration));
+  const auto terrain = radar.terrain();
+  if (!terrain) throw_failure(terrain.error());
   const double begin_ms = wall_ms();
-  const hrm::PatchEnvironment environment = theatre.prepare(patch_formation.begin(order), warn_as("yars patch"));
-  if (!options.force) check_heights(order, environment, configuration);
+  auto patch = Patch::prepare(radar, *terrain, options.request, {}, {.warn = warn_as("yars patch")});
+  if (!patch) throw_failure(patch.error());
   const double database_ms = wall_ms() - begin_ms;
   std::vector<double> whole_ms, cpu_ms;
-  std::array<std::vector<double>, hrm::kPatchStages.size()> stages_ms;
+  std::map<std::string_view, std::vector<double>> steps_ms;
   for (int run = 0; run <= options.repeat; ++run) {
-    const Timing timing = run_once(patch_formation, order, environment);
+    const Timing timing = run_once(*patch);
     if (run == 0) continue;  // warm-up: its time is not used
     whole_ms.push_back(timing.whole_ms);
     cpu_ms.push_back(timing.cpu_ms);
-    for (std::size_t stage = 0; stage < stages_ms.size(); ++stage) stages_ms[stage].push_back(timing.stages_ms[stage]);
+    for (const auto& [step, time_ms] : timing.steps_ms) steps_ms[step].push_back(time_ms);
   }
+  const PatchFacts facts = patch->facts();
   nlohmann::ordered_json line;
-  line["size"] = patch_formation.image().size;
-  line["triangles"] = patch_formation.triangles();
+  line["size"] = patch->size();
+  line["triangles"] = facts.triangles;
   line["kernel_ms"] = median(whole_ms);
   line["cpu_ms"] = median(cpu_ms);
-  for (std::size_t stage = 0; stage < stages_ms.size(); ++stage)
-    line["stages_ms"][std::string(hrm::kPatchStages[stage])] = median(stages_ms[stage]);
+  for (const std::string_view step : Patch::steps()) line["stages_ms"][std::string(step)] = median(steps_ms[step]);
   line["database_ms"] = database_ms;
-  line["formation_s"] = patch_formation.formation().seconds();
-  line["resolution_ft"] = radar::map_resolution(order.window).feet();
-  line["terrain_bytes"] = environment.window->resident_bytes() + environment.path->resident_bytes();
-  line["threads"] = workers.threads();
-  line["fidelity"] = configuration.fidelity.name;
-  line["hash"] = picture_hash(patch_formation.picture());
-  const std::vector<std::string> left_out = theatre.left_out();
-  line["left_out"] = left_out;
-  report_dark_pixels(patch_formation.image());
-  if (names_file(options.output.file)) write_patch(options.output, order, patch_formation);
-  options.json ? print_json(line) : print_text(options, line, order, patch_formation.image());
+  line["formation_s"] = facts.formation_s;
+  line["resolution_ft"] = geo::Length::metres(facts.resolution_m).feet();
+  line["terrain_bytes"] = facts.terrain_bytes;
+  line["threads"] = facts.threads;
+  line["fidelity"] = facts.preset;
+  line["hash"] = patch->hash();
+  line["left_out"] = patch->left_out();
+  report_dark_pixels(patch->power());
+  if (names_file(options.output.file)) write_patch(options.output, *patch);
+  options.json ? print_json(line) : print_text(options, line, *patch);
   std::fflush(stdout);
-  fail_if_left_out(left_out);
+  fail_if_left_out(patch->left_out());
 }
 
 }  // namespace
@@ -218,7 +206,7 @@ void add_patch_command(databuffer::Command app, const CommonOptions& common) {
   add_terrain_option(command, options->configuration.terrain).otherwise("the configuration's");
   add_scene_options(command, options->configuration);
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset").otherwise("the configuration's");
-  add_patch_options(command, *options);
+  add_request_options(command, options->request);
   command.option("--repeat", options->repeat, "number of maps to time, after one untimed map").range(1, 1000000);
   command
       .option("--out", options->output.file,

@@ -118,7 +118,7 @@ error::Expected<void> RecordingWriter::check_place() {
   if (error_) return tl::unexpected(*error_);
   if (is_at_path()) return {};
   error_ = error::Error{(folder_->path() / name_).string(), "the recording under its name",
-                        "that it was removed or renamed", "leave it in place until the recorder has ended", false};
+                        "that it was removed or renamed", "leave it in place until the recorder has ended"};
   return tl::unexpected(*error_);
 }
 
@@ -193,7 +193,7 @@ error::Expected<void> RecordingWriter::begin_next() {
 error::Expected<void> RecordingWriter::set_aside() {
   if (!folder_->rename_file(name_, name_ + ".before") && errno != ENOENT) {
     error_ = error::Error{(folder_->path() / (name_ + ".before")).string(), "a name for the recording that is full",
-                          std::strerror(errno), "remove what is there", false};
+                          std::strerror(errno), "remove what is there"};
     return tl::unexpected(*error_);
   }
   set_aside_due_ = false;
@@ -212,8 +212,7 @@ tl::unexpected<error::Error> RecordingWriter::write_failed(int error_number) {
                         space ? "free space on the disk" : "a recording that can be written",
                         error::reason_of(error_number, "no folder for it"),
                         (space ? "" : std::string(file::write_advice(error_number)) + "; ") +
-                            std::string("the blocks already in the file can be read"),
-                        false};
+                            std::string("the blocks already in the file can be read")};
   return tl::unexpected(*error_);
 }
 

@@ -18,19 +18,17 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/messages/model_records.hpp"
 #include "databuffer/runtime/program.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/text/plain_text.hpp"
-#include "model/kernel/offline_scan.hpp"
 #include "model/kernel/sweep_chain.hpp"
+#include "radar/scan_work.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
-#include "tools/scan/scan_setup.hpp"
-#include "tools/trade/scan_errors.hpp"
+#include "yars/radar.hpp"
 
 namespace yars::tools {
 
@@ -39,44 +37,44 @@ namespace yars::tools {
 
 enum class ScanColor : std::uint8_t { green, gray };
 
-// `sweeps`: at least one, all of one scan, in clockwise order, with the same apex position and range.
-imageio::Image scan_picture(std::span<const databuffer::Sweep> sweeps, const radar::ViewConfiguration& view,
-                            ScanColor color);
+imageio::Image scan_picture(const Scan& scan, const radar::ViewConfiguration& view, ScanColor color);
 
 namespace {
-
-using databuffer::Sweep;
 
 // Factors [0, 1] of red, green and blue. Each channel of a pixel is the video level (0 to 255) times its factor.
 constexpr std::array<double, 3> kGreen{0.35, 1.0, 0.45};
 constexpr std::array<double, 3> kGray{1.0, 1.0, 1.0};
 
-// The sweep whose wedge contains this azimuth [deg true]; nullptr outside the scan. All wedges have the same width.
-const Sweep* sweep_at(std::span<const Sweep> sweeps, double azimuth_deg) {
-  const double from_left_deg = geo::wrapped_degrees(azimuth_deg - sweeps.front().azimuth_left_deg);
-  const double width_deg = geo::wrapped_degrees(sweeps.front().azimuth_right_deg - sweeps.front().azimuth_left_deg);
+// Index of the sweep whose wedge contains this azimuth [deg true]; nullopt outside the scan. All wedges have the same
+// width.
+std::optional<std::size_t> sweep_at(const ScanSweep& first, std::size_t sweeps, double azimuth_deg) {
+  const double from_left_deg = geo::wrapped_degrees(azimuth_deg - first.azimuth_left_deg);
+  const double width_deg = geo::wrapped_degrees(first.azimuth_right_deg - first.azimuth_left_deg);
   // wrapped_degrees() makes azimuths 180 deg or more clockwise of the first sweep's left edge negative.
   const double offset_deg = from_left_deg < 0.0 ? from_left_deg + 360.0 : from_left_deg;
   const auto index = static_cast<std::size_t>(offset_deg / width_deg);
-  return index < sweeps.size() ? &sweeps[index] : nullptr;
+  return index < sweeps ? std::optional(index) : std::nullopt;
 }
 
 }  // namespace
 
-imageio::Image scan_picture(std::span<const Sweep> sweeps, const radar::ViewConfiguration& view, ScanColor color) {
+imageio::Image scan_picture(const Scan& scan, const radar::ViewConfiguration& view, ScanColor color) {
   const int size = view.size_pixels;
   imageio::Image image{size, size, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(size) * size * 3, 0)};
   const std::array<double, 3>& tint = color == ScanColor::green ? kGreen : kGray;
-  const double track_deg = sweeps.front().ground_track_deg;
+  const double track_deg = scan.facts().ground_track_deg;
+  const ScanSweep first = scan.sweep(0);
   for (int row = 0; row < size; ++row) {
     const double up = view.height_max - (row + 0.5) / size * (view.height_max - view.height_min);
     for (int column = 0; column < size; ++column) {
       const double right = view.width_min + (column + 0.5) / size * (view.width_max - view.width_min);
       const double range = std::hypot(right, up);
       if (range >= 1.0) continue;
-      const Sweep* sweep = sweep_at(sweeps, track_deg + std::atan2(right, up) / geo::kRadiansPerDegree);
-      if (sweep == nullptr) continue;
-      const double level = sweep->video[static_cast<std::size_t>(range * sweep->samples)];
+      const auto index =
+          sweep_at(first, scan.sweeps(), track_deg + std::atan2(right, up) / geo::kRadiansPerDegree);
+      if (!index) continue;
+      const auto sample = static_cast<std::size_t>(range * static_cast<double>(scan.samples()));
+      const double level = scan.sweep(*index).video[sample];
       std::uint8_t* pixel = &image.pixels[(static_cast<std::size_t>(row) * size + column) * 3];
       for (std::size_t channel = 0; channel < 3; ++channel) {
         pixel[channel] = static_cast<std::uint8_t>(std::lround(level * tint[channel]));
@@ -93,7 +91,7 @@ imageio::Image scan_picture(std::span<const Sweep> sweeps, const radar::ViewConf
 // slant range; latitude and longitude are then the aircraft's.
 // `samples` has the same number of elements for each sweep.
 void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader> positions,
-                  std::span<const trade::RaySample> samples);
+                  std::span<const radar::RaySample> samples);
 
 namespace {
 constexpr const char* kUnknown = "-";
@@ -108,12 +106,12 @@ void write_known(std::ostream& out, double value) {
 }  // namespace
 
 void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader> positions,
-                  std::span<const trade::RaySample> samples) {
+                  std::span<const radar::RaySample> samples) {
   out << "sweep,azimuth_deg,ground_range_m,latitude_deg,longitude_deg,elevation_m,lit\n";
   out.precision(kDigits);
   const std::size_t count = samples.size() / positions.size();
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const trade::RaySample& sample = samples[i];
+    const radar::RaySample& sample = samples[i];
     const std::size_t sweep = i / count;
     out << sweep << ',' << model::kernel::geometry_of(positions[sweep]).azimuth.degrees() << ',';
     write_known(out, sample.distance_m);
@@ -125,7 +123,9 @@ void write_shadow(std::ostream& out, std::span<const model::kernel::SweepHeader>
 
 namespace {
 
-struct ScanCommandOptions : ScanOptions {
+struct ScanCommandOptions {
+  ConfigurationOptions configuration;
+  ScanRequest request;
   std::string out = kNoFile, shadow = kNoFile;  // kNoFile: computed and reported, nothing written
   std::string color = "green";
   std::optional<int> size;  // nullopt: as configured
@@ -134,20 +134,21 @@ struct ScanCommandOptions : ScanOptions {
 };
 
 radar::RadarConfiguration configure(const CommonOptions& common, const ScanCommandOptions& options) {
-  radar::RadarConfiguration configuration = read_configuration(common.config, {});
-  configure_scan(options, configuration);
+  radar::RadarConfiguration configuration = read_configuration(common.config, options.configuration);
   if (options.size) configuration.view.size_pixels = *options.size;
   return configuration;
 }
 
 // A header line, then one row for each sweep: number, azimuths of edges, range, hash, video [0, 255] of all samples.
-void write_csv(std::ostream& file, std::span<const databuffer::Sweep> sweeps) {
+void write_csv(std::ostream& file, const Scan& scan) {
   file << "sweep,azimuth_left_deg,azimuth_right_deg,range_m,hash,video...\n";
   file.precision(12);
-  for (const databuffer::Sweep& sweep : sweeps) {
-    file << sweep.number << ',' << sweep.azimuth_left_deg << ',' << sweep.azimuth_right_deg << ',' << sweep.range_m
-         << ',' << sweep.hash;
-    for (std::uint32_t i = 0; i < sweep.samples; ++i) file << ',' << static_cast<int>(sweep.video[i]);
+  const double range_m = scan.facts().range_m;
+  for (std::size_t number = 0; number < scan.sweeps(); ++number) {
+    const ScanSweep sweep = scan.sweep(number);
+    file << number << ',' << sweep.azimuth_left_deg << ',' << sweep.azimuth_right_deg << ',' << range_m << ','
+         << sweep.hash;
+    for (const std::uint8_t level : sweep.video) file << ',' << static_cast<int>(level);
     file << '\n';
   }
 }
@@ -156,22 +157,20 @@ void write_text_file(const std::string& path, const std::ostringstream& text) {
   if (const auto written = file::write_file(path, text.view()); !written) throw_failure(written.error());
 }
 
-void write_result(const ScanCommandOptions& options, const radar::ViewConfiguration& view,
-                  const model::kernel::OfflineScan& work) {
+void write_result(const ScanCommandOptions& options, const radar::ViewConfiguration& view, const Scan& scan) {
   const std::filesystem::path path(options.out);
-  const std::span<const databuffer::Sweep> sweeps = work.sweeps();
   if (ending_of(options.out) == ".f32") {
-    if (auto written = write_floats(path, work.power()); !written) throw_failure(written.error());
+    if (auto written = write_floats(path, scan.power()); !written) throw_failure(written.error());
     return;
   }
   if (ending_of(options.out) == ".png") {
     const ScanColor color = options.color == "gray" ? ScanColor::gray : ScanColor::green;
-    if (auto written = imageio::write_png(path, scan_picture(sweeps, view, color)); !written)
+    if (auto written = imageio::write_png(path, scan_picture(scan, view, color)); !written)
       throw_failure(written.error());
     return;
   }
   std::ostringstream file;
-  write_csv(file, sweeps);
+  write_csv(file, scan);
   write_text_file(options.out, file);
 }
 
@@ -188,15 +187,19 @@ struct Times {
   std::vector<double> cpu_ms;      // [ms] processor time of all threads in the same scan
 };
 
+// Ends with the error of a call.
+void check(const Expected<void>& done) {
+  if (!done) throw_failure(done.error());
+}
+
 // Runs one scan. Then, `repeat` times, runs a warm scan to the video and another warm scan to the power only.
 // `begin_ms`: value of wall_ms() when the reading of terrain began.
-Times run_scans(model::kernel::OfflineScan& work, const model::physics::Environment& environment, int repeat,
-                double begin_ms) {
+Times run_scans(Scan& scan, int repeat, double begin_ms) {
   Times times;
   for (int run = 0; run <= repeat; ++run) {
     const double run_begin_ms = wall_ms();
     const double cpu_begin_ms = processor_ms();
-    work.run(environment);
+    check(scan.run());
     if (run == 0) {
       times.first_ms = wall_ms() - begin_ms;
       continue;
@@ -204,18 +207,17 @@ Times run_scans(model::kernel::OfflineScan& work, const model::physics::Environm
     times.whole_ms.push_back(wall_ms() - run_begin_ms);
     times.cpu_ms.push_back(processor_ms() - cpu_begin_ms);
     const double measure_begin_ms = wall_ms();
-    work.measure(environment);
+    scan.measure();
     times.measure_ms.push_back(wall_ms() - measure_begin_ms);
   }
   return times;
 }
 
-nlohmann::ordered_json summary(std::span<const databuffer::Sweep> sweeps, const Times& times, double index_ms) {
+nlohmann::ordered_json summary(const Scan& scan, const Times& times, double index_ms) {
   const double kernel_ms = median(times.whole_ms);
-  const double samples = static_cast<double>(sweeps.size()) * sweeps.front().samples;
   nlohmann::ordered_json line;
-  line["sweeps"] = sweeps.size();
-  line["samples"] = sweeps.front().samples;
+  line["sweeps"] = scan.sweeps();
+  line["samples"] = scan.samples();
   line["kernel_ms"] = kernel_ms;
   line["mean_ms"] =
       std::accumulate(times.whole_ms.begin(), times.whole_ms.end(), 0.0) / static_cast<double>(times.whole_ms.size());
@@ -223,25 +225,25 @@ nlohmann::ordered_json summary(std::span<const databuffer::Sweep> sweeps, const 
   line["sweep_ms"] = median(times.measure_ms);
   line["first_ms"] = times.first_ms;
   line["index_ms"] = index_ms;
-  line["samples_per_second"] = samples / (kernel_ms * 1e-3);
+  line["samples_per_second"] = static_cast<double>(scan.power().size()) / (kernel_ms * 1e-3);
   return line;
 }
 
 // Prints the summary for people.
 void print_text(const ScanCommandOptions& options, const nlohmann::ordered_json& line,
-                std::span<const trade::RaySample> samples) {
+                std::span<const radar::RaySample> samples) {
   const auto percent = [&](auto&& has) {
     return 100.0 * static_cast<double>(std::ranges::count_if(samples, has)) / static_cast<double>(samples.size());
   };
-  const auto is_void = [](const trade::RaySample& sample) { return std::isnan(sample.ground.elevation_m); };
+  const auto is_void = [](const radar::RaySample& sample) { return std::isnan(sample.ground.elevation_m); };
   std::printf("scan    %zu sweeps of %u samples, %g NM, preset %s\n", line["sweeps"].get<std::size_t>(),
-              line["samples"].get<unsigned>(), options.range_nm, line["fidelity"].get<std::string>().c_str());
+              line["samples"].get<unsigned>(), options.request.range_nm, line["fidelity"].get<std::string>().c_str());
   std::printf("ground  %.1f %% lit, %.1f %% in shadow, %.1f %% without elevation\n",
-              percent([&](const trade::RaySample& sample) { return !is_void(sample) && sample.lit; }),
-              percent([&](const trade::RaySample& sample) { return !is_void(sample) && !sample.lit; }),
+              percent([&](const radar::RaySample& sample) { return !is_void(sample) && sample.lit; }),
+              percent([&](const radar::RaySample& sample) { return !is_void(sample) && !sample.lit; }),
               percent(is_void));
   std::printf("time    %.1f ms on %s, median of %d\n", line["kernel_ms"].get<double>(),
-              text::counted(options.threads, "thread").c_str(), options.repeat);
+              text::counted(options.request.threads, "thread").c_str(), options.repeat);
   std::printf("hash    %llu\n", line["hash"].get<unsigned long long>());
   for (const std::string& file : {options.out, options.shadow})
     if (names_file(file)) std::printf("file    %s\n", text::printable(file).c_str());
@@ -249,40 +251,36 @@ void print_text(const ScanCommandOptions& options, const nlohmann::ordered_json&
 
 void scan(const CommonOptions& common, const ScanCommandOptions& options) {
   check_output(options);
-  const radar::RadarConfiguration configuration = configure(common, options);
-  const model::kernel::ScanRequest request = request_of(options);
-  check_scan(options, configuration);
+  const Radar radar(configure(common, options));
   const double opening_ms = wall_ms();
-  Theatre theatre(configuration.terrain, configuration.world.scenes, model::scene::SceneUse::scatterers);
+  const auto terrain = radar.terrain();
+  if (!terrain) throw_failure(terrain.error());
   const double index_ms = wall_ms() - opening_ms;
-  model::kernel::OfflineScan work(configuration, request, options.threads);
-
   const double begin_ms = wall_ms();
-  const auto [terrain, scene] = theatre.prepare(request, configuration.fidelity, warn_as("yars scan"));
-  check_scan_height(options, *terrain);
-  const Times times = run_scans(work, {*terrain, scene.get()}, options.repeat, begin_ms);
+  auto scan = Scan::prepare(radar, *terrain, options.request, nullptr, {.warn = warn_as("yars scan")});
+  if (!scan) throw_failure(scan.error());
+  const Times times = run_scans(*scan, options.repeat, begin_ms);
 
-  nlohmann::ordered_json line = summary(work.sweeps(), times, index_ms);
-  line["rays"] = work.rays();
-  line["terrain_bytes"] = terrain->resident_bytes();
-  if (scene) line["scene_bytes"] = scene->resident_bytes();
-  line["threads"] = options.threads;
-  line["fidelity"] = configuration.fidelity.name;
-  line["hash"] = model::kernel::scan_hash(work.sweeps());
-  const std::vector<std::string> left_out = theatre.left_out();
-  line["left_out"] = left_out;
-  if (names_file(options.out)) write_result(options, configuration.view, work);
-  std::vector<trade::RaySample> samples;
-  if (names_file(options.shadow) || !options.json)
-    samples = trade::ray_samples(configuration, work.headers(), *terrain);
+  const ScanFacts facts = scan->facts();
+  nlohmann::ordered_json line = summary(*scan, times, index_ms);
+  line["rays"] = facts.rays;
+  line["terrain_bytes"] = facts.terrain_bytes;
+  if (scan->work().environment.scene) line["scene_bytes"] = facts.scene_bytes;
+  line["threads"] = options.request.threads;
+  line["fidelity"] = facts.preset;
+  line["hash"] = scan->hash();
+  line["left_out"] = scan->left_out();
+  if (names_file(options.out)) write_result(options, radar.configuration().view, *scan);
+  std::vector<radar::RaySample> samples;
+  if (names_file(options.shadow) || !options.json) samples = scan->work().ray_samples();
   if (names_file(options.shadow)) {
     std::ostringstream file;
-    write_shadow(file, work.headers(), samples);
+    write_shadow(file, scan->work().headers(), samples);
     write_text_file(options.shadow, file);
   }
   options.json ? print_json(line) : print_text(options, line, samples);
   std::fflush(stdout);
-  fail_if_left_out(left_out);
+  fail_if_left_out(scan->left_out());
 }
 
 }  // namespace
@@ -293,7 +291,7 @@ void add_scan_command(databuffer::Command app, const CommonOptions& common) {
   add_terrain_option(command, options->configuration.terrain).otherwise("the configuration's");
   add_scene_options(command, options->configuration);
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset").otherwise("the configuration's");
-  add_scan_options(command, *options);
+  add_request_options(command, options->request);
   command.option("--repeat", options->repeat, "number of warm scans to time, after the first scan").range(1, 1000000);
   command.option("--size", options->size, "[pixels] per side of the picture")
       .range(16, 8192)

@@ -15,7 +15,6 @@
 #include "model/scene/openflight/model.hpp"
 #include "model/scene/openflight/reader.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/input_checks.hpp"
 #include "tools/command/output.hpp"
 
 namespace yars::tools {
@@ -229,7 +228,7 @@ void draw(const SceneImageOptions& options) {
   if (!model->left_out.empty())
     throw_failure({options.file, "a file that is read whole",
                    text::counted(model->left_out.size(), "part") + " left out, named above",
-                   "repair the file, or leave the parts out with --without", false});
+                   "repair the file, or leave the parts out with --without"});
 }
 
 }  // namespace

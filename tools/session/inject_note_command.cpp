@@ -204,7 +204,7 @@ std::string advice_on_point(const statemachine::AppliedSequence& applied, const 
     advice = "send an event alone for its reason";
   else if (advice.empty())
     advice = "see points, cursor and limits in `yars watch --json`";
-  throw_failure({kSubject, "events that can be carried out", refused, advice, false});
+  throw_failure({kSubject, "events that can be carried out", refused, advice});
 }
 
 struct InjectOptions {
@@ -235,12 +235,12 @@ void inject(const CommonOptions& common, const InjectOptions& options) {
     }
     if (!sent)
       throw_failure({kSubject, "free space in the input lane", "a full lane",
-                     "start state-machine, or send fewer events at once", false});
+                     "start state-machine, or send fewer events at once"});
   }
   const Outcome outcome = wait_until_applied(*session, static_cast<std::uint32_t>(lane->lane()), cursor, events.size());
   if (outcome.size() < events.size())
     throw_failure({kSubject, events_text(events.size()) + " applied within 2 s", std::to_string(outcome.size()),
-                   "check with `yars status` that state-machine and the clock run", false});
+                   "check with `yars status` that state-machine and the clock run"});
   const databuffer::RadarState after = published_state(*session);
   const auto advice = databuffer::read_valid(session->layout().advice).value_or(databuffer::PilotAdvice{});
   const statemachine::AppliedSequence applied{

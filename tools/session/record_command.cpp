@@ -139,7 +139,7 @@ Trunk open_trunk(const RecordOptions& options, const Session& session) {
   if (!point) throw_failure(point.error());
   if (Recorder::holds_branch(session) && !Recorder::is_branch(session, *point))
     throw_failure({"--from", "a session that goes on from that recording, at that time", "another session",
-                   "start both by --fly-out of the start script", false});
+                   "start both by --fly-out of the start script"});
   return {std::move(*reader), std::move(*point)};
 }
 

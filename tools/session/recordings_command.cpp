@@ -158,7 +158,7 @@ std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& fo
   }
   if (code)
     throw_failure(
-        {folder.string(), "a folder that can be read", error::reason_of(code.value()), "check the path", false});
+        {folder.string(), "a folder that can be read", error::reason_of(code.value()), "check the path"});
   return files;
 }
 

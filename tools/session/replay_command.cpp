@@ -20,7 +20,6 @@
 #include "lib/text/plain_text.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/input_checks.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/recording/branch.hpp"
 #include "tools/recording/recording_reader.hpp"
@@ -101,7 +100,7 @@ void report_missing(const recording::RecordingReader& reader, const std::string&
     ticks += (i == 0 ? "" : ", ") + text_of_ticks(missing[i]);
   if (missing.size() > kMaxListed) ticks += ", and more";
   throw_failure({file, "undamaged blocks", text::counted(missing.size(), "damaged block") + "; missing ticks: " + ticks,
-                 "the rest was read", false});
+                 "the rest was read"});
 }
 
 void print_entries(recording::RecordingReader& reader) {
@@ -129,7 +128,7 @@ void print_entries(recording::RecordingReader& reader) {
 }
 
 error::Error no_ticks(const std::string& file) {
-  return {file, "at least one tick", "none", "record while radar-model runs", false};
+  return {file, "at least one tick", "none", "record while radar-model runs"};
 }
 
 // World of a player that computes the sweeps. Empty for a recording with video. `world` keeps what the result refers
@@ -276,7 +275,7 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
   KernelRerun run(world);
   while (auto entry = reader.next()) {
     if (databuffer::stop_requested())
-      throw_failure({options.file, "the whole recording to be read", "a request to stop", "", false});
+      throw_failure({options.file, "the whole recording to be read", "a request to stop", ""});
     if (reader.take_damage_flag()) run.pass_over_damage();
     run.take(*entry);
   }
@@ -292,11 +291,10 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
   const auto& comparison = run.replay().comparison();
   if (comparison.different() > 0)
     throw_failure({options.file, "the sweeps of the recording",
-                   text::counted(comparison.different(), "different sweep"), cause_of_difference(run, reader), false});
+                   text::counted(comparison.different(), "different sweep"), cause_of_difference(run, reader)});
   if (comparison.equal() == 0 && comparison.missing() > 0)
     throw_failure({options.file, "the sweeps of the recording", "none of these sweeps",
-                   "replay with the same configuration; a recording shorter than a scan may have no sweep of its own",
-                   false});
+                   "replay with the same configuration; a recording shorter than a scan may have no sweep of its own"});
   report_missing(reader, options.file);
   fail_if_left_out(left_out.sentences());
 }

@@ -40,12 +40,12 @@ Session open_live_session(const CommonOptions& common) {
   if (!running) throw_failure(running.error());
   if (std::as_const(*running).layout().lockstep.enabled.load() != 0)
     throw_failure({"yars sim", "a live session", "a session in lockstep, whose sim time only its programs advance",
-                   "use yars sim on a live session", false});
+                   "use yars sim on a live session"});
   auto session = Session::open(common.session, "yars sim");
   if (!session) throw_failure(session.error());
   if (session->has_foreign_clock())
     throw_failure({"yars sim", "the CLOCK_MONOTONIC of the session's programs", "another one, as in a time namespace",
-                   "run yars sim in the namespace of the session's programs", false});
+                   "run yars sim in the namespace of the session's programs"});
   return std::move(*session);
 }
 
@@ -119,7 +119,7 @@ void step(const SimOptions& options, std::int64_t ticks) {
                  [&](const ClockState& clock) { return databuffer::stepped(clock, clock.epoch == epoch ? ticks : 0); });
     if (session.clock().epoch != epoch)
       throw_failure(
-          {"step", "no new epoch while stepping", "a reset or repositioning by another program", "step again", false});
+          {"step", "no new epoch while stepping", "a reset or repositioning by another program", "step again"});
     ticks -= databuffer::kStepPortion_ticks;
     pause(session);
   }

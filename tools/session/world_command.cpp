@@ -21,6 +21,7 @@
 #include "databuffer/session/session_world.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/text/plain_text.hpp"
+#include "lib/values/request_fields.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 
@@ -125,7 +126,7 @@ void print_world(const WorldOptions& options) {
   const auto world = databuffer::newest_world(std::as_const(*session).layout());
   if (!world)
     throw_failure(
-        {"world", "a world that radar-model has published", "none", "start radar-model, or let it run a tick", false});
+        {"world", "a world that radar-model has published", "none", "start radar-model, or let it run a tick"});
   report(*session, *world, "", options.json);
 }
 
@@ -208,12 +209,9 @@ void add_id(databuffer::Command command, Place& place) {
 }
 
 void add_position(databuffer::Command command, Place& place) {
-  command.option("LAT", place.latitude_deg, "[deg] north positive")
-      .range(kLatitudes_deg.min, kLatitudes_deg.max)
-      .required();
-  command.option("LON", place.longitude_deg, "[deg] east positive")
-      .range(kLongitudes_deg.min, kLongitudes_deg.max)
-      .required();
+  const auto& [latitude, longitude] = values::kPosition;
+  command.option("LAT", place.latitude_deg, "[deg] north positive").range(latitude.low, latitude.high).required();
+  command.option("LON", place.longitude_deg, "[deg] east positive").range(longitude.low, longitude.high).required();
 }
 
 using Shared = std::shared_ptr<WorldOptions>;

@@ -153,7 +153,7 @@ error::Expected<DirectoryIndex> index_of(const TerrainBatch& batch, FileSentence
   if (lies_in(batch.out, batch.in))
     return tl::unexpected(error::Error{"yars terrain " + batch.command, "--out outside of --in",
                                        batch.out + " inside of " + batch.in,
-                                       "give another folder: the input is never overwritten", true});
+                                       "give another folder: the input is never overwritten", error::ErrorCode::argument});
   return index_directory(batch.in, &unused);
 }
 
@@ -167,7 +167,7 @@ error::Expected<std::filesystem::path> convert_cell(const TerrainBatch& batch, c
   if (empty)
     notes.add_problem(error::Error{file.path.string(), "a cell with heights",
                                    text::counted(reading->cell.post_count(), "post") + " without any",
-                                   "see whether its no-data value is right; the cell is written as void", false}
+                                   "see whether its no-data value is right; the cell is written as void"}
                           .message());
   const std::filesystem::path target = std::filesystem::path(batch.out) / batch.name(corner, reading->cell);
   std::error_code code;
@@ -234,7 +234,7 @@ std::size_t copy_scenes(const TerrainBatch& batch, std::vector<std::string>& fai
     if (entry->is_directory(ignored)) continue;
     if (links_outside(path, root)) {
       failed.push_back(error::Error{path.string(), "a file inside " + root.string(), "a link that leads out",
-                                    "copy the file into the folder", false}
+                                    "copy the file into the folder"}
                            .message());
       continue;
     }

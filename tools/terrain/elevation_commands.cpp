@@ -71,7 +71,7 @@ void report_outside(const ProfileOptions& options, const CoveredArea& covered, l
   const error::Error error{options.terrain.directory, "cells along the geodesic",
                            "none at " + std::to_string(outside) + " of " + std::to_string(samples) +
                                " samples: the folder covers " + covered.text(),
-                           "samples without a cell count as sea; check --from and --to and their signs", false};
+                           "samples without a cell count as sea; check --from and --to and their signs"};
   if (outside == samples) throw_failure(error);
   std::fprintf(stderr, "yars terrain profile: %s\n", error.message().c_str());
 }
@@ -102,7 +102,7 @@ struct ProfileSample {
 void profile(const ProfileOptions& options) {
   if (!on_the_earth(options.from_deg) || !on_the_earth(options.to_deg))
     throw_failure({"terrain profile", "latitudes in [-90, 90] and longitudes in [-360, 360] degrees", "a value outside",
-                   "check --from and --to", true});
+                   "check --from and --to", error::ErrorCode::argument});
   auto store = model::terrain::open_terrain(options.terrain);
   if (!store) throw_failure(store.error());
   const geo::GeoPoint from{options.from_deg[0], options.from_deg[1]};

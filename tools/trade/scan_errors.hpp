@@ -1,5 +1,4 @@
-// Errors of a scan against the ruler, the scan of the reference algorithm. Also the lit and the shadowed samples of a
-// scan, for `yars scan --shadow`.
+// Errors of a scan against the ruler, the scan of the reference algorithm.
 // Units: metres, percent of samples, dB RMS, gray levels RMS.
 #pragma once
 
@@ -12,6 +11,7 @@
 #include "model/kernel/offline_scan.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
+#include "radar/ray_samples.hpp"
 
 namespace yars::radar {
 struct RadarConfiguration;
@@ -19,23 +19,7 @@ struct RadarConfiguration;
 
 namespace yars::tools::trade {
 
-// One sample of the middle ray of a sweep: position on the exact geodesic, ground, lit or in shadow. The configured
-// algorithm computes `lit`. Beam, smears and number of rays do not change `lit`.
-struct RaySample {
-  double distance_m = 0.0;         // [m] ground range; NaN: no ground at the sample's slant range
-  geo::GeoPoint position;          // the aircraft's position where distance_m is NaN
-  model::terrain::Surface ground;  // void where distance_m is NaN
-  bool lit = false;                // false: in shadow, void or not loaded
-  // True: power above 1e-8 of full scale, seen with a beam nearly 180 deg wide in elevation. Rain also gives power to
-  // samples in shadow.
-  bool returns = false;
-};
-
-// Samples of all sweeps: sweep after sweep, from near to far. This and other long functions here ask `goes_on` between
-// sweeps, and throw parallel::Stopped.
-std::vector<RaySample> ray_samples(const radar::RadarConfiguration& configuration,
-                                   std::span<const model::kernel::SweepHeader> positions,
-                                   const model::terrain::TerrainView& terrain, const parallel::GoesOn& goes_on = {});
+// Long functions here ask `goes_on` between sweeps, and throw parallel::Stopped.
 
 // One scan computed with one fidelity, without noise. Order of the arrays: sweep by sweep, from near to far.
 struct ScanObservation {

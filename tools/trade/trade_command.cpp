@@ -20,7 +20,6 @@
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/input_checks.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
 #include "tools/trade/scenes.hpp"
@@ -156,7 +155,7 @@ class SceneTerrain {
     auto store = model::terrain::open_terrain(configuration_);
     if (!store) throw_failure(store.error());
     auto view = (*store)->prepare({request_.pose.position, request_.range.metres(), detail});
-    check_terrain_read(warn_, configuration_.directory, **store);
+    radar::check_terrain_read(warn_, configuration_.directory, **store);
     left_out_.add(**store);
     return *by_detail_.emplace(detail, std::move(view)).first->second;
   }

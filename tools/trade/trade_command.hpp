@@ -9,7 +9,6 @@
 #include "lib/geo/geodesy.hpp"
 #include "lib/parallel/thread_pool.hpp"
 #include "tools/command/command.hpp"
-#include "tools/command/input_checks.hpp"
 #include "tools/trade/candidate.hpp"
 #include "tools/trade/trade_table.hpp"
 

@@ -12,7 +12,6 @@
 #include "lib/radar/configuration.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tools/command/input_checks.hpp"
 #include "tools/command/output.hpp"
 #include "tools/trade/map_errors.hpp"
 #include "tools/trade/scenes.hpp"
@@ -46,7 +45,7 @@ class ViewEnvironment {
     auto store = model::terrain::open_terrain(configuration_.terrain);
     if (!store) throw_failure(store.error());
     auto view = (*store)->prepare(region);
-    check_terrain_read(warn_, configuration_.terrain.directory, **store);
+    radar::check_terrain_read(warn_, configuration_.terrain.directory, **store);
     left_out_.add(**store);
     return known.emplace(region.detail, std::move(view)).first->second;
   }
@@ -56,7 +55,7 @@ class ViewEnvironment {
     if (!scenes) throw_failure(scenes.error());
     if (!*scenes) return nullptr;
     auto view = (*scenes)->prepare(need.window);
-    check_scenes_read(warn_, **scenes);
+    radar::check_scenes_read(warn_, **scenes);
     left_out_.add(**scenes);
     return view;
   }

@@ -205,7 +205,7 @@ error::Expected<std::vector<IndexedScene>> index_scenes(const std::vector<radar:
     for (const fs::path& file : files) {
       if (terrain::links_outside(file, root)) {
         problems.push_back(error::Error{file.string(), "a file inside " + root.string(), "a link that leads out",
-                                        "copy the scene into that folder, or give the path of the file", false}
+                                        "copy the scene into that folder, or give the path of the file"}
                                .message());
         continue;
       }

@@ -197,8 +197,7 @@ std::optional<error::Error> NameFilter::unmatched_error(const std::string& subje
   return error::Error{subject, "a part to leave out with the name '" + names.front() + "'", "none",
                       seen_.empty() ? "no part has a name"
                                     : std::to_string(seen_.size()) + " names exist; the most similar are " +
-                                          closest_names(names.front(), seen_),
-                      false};
+                                          closest_names(names.front(), seen_)};
 }
 
 }  // namespace yars::model::scene

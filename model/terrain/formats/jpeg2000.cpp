@@ -118,7 +118,7 @@ Image image_of(const HeightGrid& grid) {
 }
 
 error::Error coding_failed(const Messages& messages) {
-  return {"JPEG 2000", "heights that can be coded", messages.first.empty() ? "a failure" : messages.first, {}, false};
+  return {"JPEG 2000", "heights that can be coded", messages.first.empty() ? "a failure" : messages.first, {}};
 }
 
 Stream stream_over(Source& source) {

@@ -177,7 +177,7 @@ void report_unused_cultures(const DirectoryIndex& index, const std::vector<std::
   for (const std::filesystem::path& culture : cultures)
     if (!used.contains(culture))
       problems.push_back(error::Error{culture.string(), "beside it the elevation file that its cell is read from",
-                                      "none of its name", "give both the same name, as n36.dt1 and n36.smc.png", false}
+                                      "none of its name", "give both the same name, as n36.dt1 and n36.smc.png"}
                              .message());
 }
 
@@ -199,8 +199,7 @@ std::string unread_form(const std::filesystem::path& path, ElevationKind kind) {
   return error::Error{path.string(), "DTED, HGT, DED, a pack or a raster by its name", "a name of another form",
                       kind == ElevationKind::convertible
                           ? "read it with `yars terrain convert --in FILE --out DIR`"
-                          : "unpack it, give it the ending of its form, or make a GeoTIFF of it with gdal_translate",
-                      false}
+                          : "unpack it, give it the ending of its form, or make a GeoTIFF of it with gdal_translate"}
       .message();
 }
 
@@ -230,7 +229,7 @@ std::optional<std::string> unreadable_folder(const std::filesystem::directory_en
   const std::filesystem::directory_iterator first(entry.path(), code);
   if (!code) return std::nullopt;
   return error::Error{entry.path().string(), "a folder that can be read", lower_first(error::reason_of(code.value())),
-                      "check its permissions", false}
+                      "check its permissions"}
       .message();
 }
 
@@ -261,7 +260,7 @@ error::Expected<DirectoryIndex> index_directory(const std::filesystem::path& dir
       add_file(entry->path(), candidates, problems);
     else
       problems.push_back(error::Error{entry->path().string(), "a file inside " + root.string(), "a link that leads out",
-                                      "copy the cell into the folder, or give the folder of its target", false}
+                                      "copy the cell into the folder, or give the folder of its target"}
                              .message());
   }
   if (code)

@@ -89,8 +89,7 @@ void DirectoryTerrainStore::note_outside_coverage(const TerrainRegion& region) {
     sentences_.problems.push_back(
         error::Error{folder_, where.data(), "none: the folder covers " + coverage_text(index_),
                      std::string("the ground there counts as ") + (options_.missing_cell_is_sea ? "sea" : "void") +
-                         "; check the position and its signs",
-                     false}
+                         "; check the position and its signs"}
             .message());
   }
   outside_coverage_ = outside;

@@ -65,7 +65,7 @@ TEST(BridgeSource, AJsbsimAddressMayNameTheColumns) {
       "jsbsim:1138,Time,lat-geod-deg,long-gc-deg,h-sl-ft,phi-deg,theta-deg,psi-deg,v-north-fps,v-east-fps,v-down-fps"));
   const auto refused = open_bridge("jsbsim:1138,Time,lat-geod-deg");
   ASSERT_FALSE(refused);
-  EXPECT_TRUE(refused.error().bad_usage);
+  EXPECT_TRUE(refused.error().bad_usage());
   EXPECT_THAT(refused.error().message(), HasSubstr("position/long-gc-deg"));
 }
 
@@ -75,7 +75,7 @@ TEST(BridgeSource, AnInvalidAddressIsBadUsageAndTheMessageShowsTheSyntax) {
                            "xplane::49000", "xplane:host:49000,1", "dis:", "balloon:1"}) {
     const auto source = open_bridge(text);
     ASSERT_FALSE(source) << text;
-    EXPECT_TRUE(source.error().bad_usage) << text;
+    EXPECT_TRUE(source.error().bad_usage()) << text;
     EXPECT_THAT(source.error().message(), HasSubstr("PORT")) << text;
   }
 }

@@ -1,5 +1,5 @@
 // Compares the offsets and sizes of databuffer/client/yars.h with the layout in C++, at compile time. A failed
-// assertion means that the layout has changed and the C headers have not. `databuffer/messages/generate.py --write`
+// assertion means that the layout has changed and the C headers have not. `lib/values/generate.py --write`
 // makes yars_records.h again.
 #pragma once
 

@@ -35,7 +35,7 @@ TEST(FlightSource, TheShippedRouteOpens) {
 TEST(FlightSource, AnInvalidSourceIsBadUsage) {
   for (const auto* text : {"", "route:", "csv:", "fixed:", "fixed:1,2,3", "balloon:3", "route"}) {
     const auto error = refusal_of(text);
-    EXPECT_TRUE(error.bad_usage) << text;
+    EXPECT_TRUE(error.bad_usage()) << text;
     EXPECT_FALSE(error.expected.empty()) << text;
   }
 }
@@ -46,7 +46,7 @@ TEST(FlightSource, ARefusalNamesTheExternalProgramsToo) {
 
 TEST(FlightSource, AMissingFileIsAnErrorButNotBadUsage) {
   const auto error = refusal_of("route:/nonexistent/x.route");
-  EXPECT_FALSE(error.bad_usage);
+  EXPECT_FALSE(error.bad_usage());
   EXPECT_THAT(error.message(), HasSubstr("/nonexistent/x.route"));
 }
 

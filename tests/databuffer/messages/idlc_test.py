@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Cyclone DDS's idlc takes databuffer/messages/records.idl without a word: it is standard IDL. Its C structures have the
+"""Cyclone DDS's idlc takes lib/values/records.idl without a word: it is standard IDL. Its C structures have the
 fields that the generator reads. Exit 77 where idlc is not installed."""
 import pathlib
 import re
@@ -9,7 +9,7 @@ import sys
 import tempfile
 
 sys.dont_write_bytecode = True
-RECORDS = pathlib.Path(__file__).resolve().parents[3] / "databuffer/messages/records.idl"
+RECORDS = pathlib.Path(__file__).resolve().parents[3] / "lib/values/records.idl"
 sys.path.insert(0, str(RECORDS.parent))
 from generator import idl, schema  # noqa: E402
 

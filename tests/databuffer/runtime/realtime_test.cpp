@@ -29,7 +29,7 @@ TEST(CpuList, RefusesAnInvalidList) {
   for (const auto* text : {"", ",", "1,", "a", "-1", "1-", "4-2", "1 2", "99999999999", "0-999999"}) {
     const auto cpus = parse_cpu_list(text);
     ASSERT_FALSE(cpus) << text;
-    EXPECT_TRUE(cpus.error().bad_usage);
+    EXPECT_TRUE(cpus.error().bad_usage());
     EXPECT_THAT(cpus.error().message(), HasSubstr("--cpus")) << text;
   }
 }

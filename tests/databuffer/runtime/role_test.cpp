@@ -47,7 +47,7 @@ TEST_F(RoleTest, WithoutStandbyAHeldRoleIsAUsageError) {
   ASSERT_TRUE(first && *first);
   const auto second = take_role(name_, kRole, "state-machine", false);
   ASSERT_FALSE(second);
-  EXPECT_TRUE(second.error().bad_usage);
+  EXPECT_TRUE(second.error().bad_usage());
 }
 
 TEST_F(RoleTest, AStandbyTakesTheRoleWhenItsHolderHasEnded) {

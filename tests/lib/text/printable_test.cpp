@@ -43,7 +43,7 @@ TEST(Printable, UnfinishedBytesCountsAnIncompleteCharacterAtTheEnd) {
 }
 
 TEST(Printable, AnErrorIsOneLineForAnyFileName) {
-  const error::Error error{"evil\n\x1b[2J.dt1", "a cell", "none", "", false};
+  const error::Error error{"evil\n\x1b[2J.dt1", "a cell", "none", ""};
   EXPECT_EQ(error.message(), "evil\\n\\x1b[2J.dt1: expected a cell, found none");
 }
 
@@ -53,7 +53,7 @@ TEST(Shortened, ALongTextIsCutBehindACharacterAndTellsItsLength) {
   std::string umlauts = "x";
   for (int i = 0; i < 300; ++i) umlauts += "ä";
   EXPECT_EQ(shortened(umlauts), umlauts.substr(0, 499) + "... (601 bytes)");
-  const error::Error error{std::string(70'000, 'a'), "a cell", std::string(70'000, 'b'), "", false};
+  const error::Error error{std::string(70'000, 'a'), "a cell", std::string(70'000, 'b'), ""};
   EXPECT_LT(error.message().size(), 1'200U);
 }
 

@@ -174,13 +174,13 @@ TEST(TickAt, IsWithinTheRecording) {
   for (const double outside : {0.0, 11.0, -1.0, std::nan("")}) {
     const auto tick = tick_at(*reader, outside, "made", "--at");
     ASSERT_FALSE(tick);
-    EXPECT_TRUE(tick.error().bad_usage);
+    EXPECT_TRUE(tick.error().bad_usage());
     EXPECT_NE(tick.error().message().find("0.500 to 10.005 s"), std::string::npos) << tick.error().message();
   }
   const auto empty = test::reader_of(test::recorded({}));
   const auto none = tick_at(*empty, 1.0, "made", "--at");
   ASSERT_FALSE(none);
-  EXPECT_FALSE(none.error().bad_usage);
+  EXPECT_FALSE(none.error().bad_usage());
 }
 
 TEST(RecordingWriter, LocksItsFileWhileItWrites) {

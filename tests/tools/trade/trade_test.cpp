@@ -136,7 +136,7 @@ TEST(Trade, PresetsAllNamesEveryPreset) {
 }
 
 void expect_refused(const error::Error& error) {
-  EXPECT_TRUE(error.bad_usage);
+  EXPECT_TRUE(error.bad_usage());
   EXPECT_FALSE(error.message().empty());
   EXPECT_EQ(error.message().find('\n'), std::string::npos) << error.message();
 }

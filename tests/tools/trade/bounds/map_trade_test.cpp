@@ -149,7 +149,7 @@ TEST(MapKnobs, AreOnlyThoseOfMaps) {
   for (const char* sweep : {"samples=240", "mapSize=15", "mapSize=1025", "mapOversampling=5", "mapDetail=1", ""}) {
     const auto refused = knob_candidates(sweep, base, Subject::map);
     ASSERT_FALSE(refused) << sweep;
-    EXPECT_TRUE(refused.error().bad_usage);
+    EXPECT_TRUE(refused.error().bad_usage());
   }
 }
 
@@ -162,7 +162,7 @@ TEST(MapViewOf, TakesSixNumbersWithinTheirLimits) {
         "37.6,-122.5,15000,37.8,-122.3,40", "37.6,-122.5,15000,37.8,-122.3,nan"}) {
     const auto refused = map_view_of(text);
     ASSERT_FALSE(refused) << text;
-    EXPECT_TRUE(refused.error().bad_usage);
+    EXPECT_TRUE(refused.error().bad_usage());
   }
 }
 

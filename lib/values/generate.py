@@ -2,6 +2,7 @@
 """Generates code and documents from the IDL of the records (records.idl in this folder).
 
 usage: generate.py --build FOLDER   the C++ headers and sources, and the IDL for DDS, into FOLDER; the build calls it
+       generate.py --requests FOLDER  of requests.idl: <yars/requests.hpp> and the table of its fields, into FOLDER
        generate.py --write YARS     databuffer/client/yars_records.h, and the marked parts of python/yars/session.py and
                                     docs/shared_memory.md
        generate.py --check YARS     checks that these files equal what --write would write; exit 1 if not
@@ -17,14 +18,14 @@ import sys
 sys.dont_write_bytecode = True
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
-from generator import clients, cpp, dds, idl, schema, stability, tables  # noqa: E402
+from generator import clients, cpp, dds, idl, requests, schema, stability, tables  # noqa: E402
 
 ROOT = HERE.parents[1]
 HEADER = "databuffer/client/yars_records.h"
 PYTHON = "python/yars/session.py"
 DOCUMENT = "docs/shared_memory.md"
-MARKS = {PYTHON: ("# begin: databuffer/messages/generate.py\n", "# end: databuffer/messages/generate.py\n"),
-         DOCUMENT: ("<!-- begin: databuffer/messages/generate.py -->\n", "<!-- end: databuffer/messages/generate.py -->\n")}
+MARKS = {PYTHON: ("# begin: lib/values/generate.py\n", "# end: lib/values/generate.py\n"),
+         DOCUMENT: ("<!-- begin: lib/values/generate.py -->\n", "<!-- end: lib/values/generate.py -->\n")}
 
 
 class StaleError(Exception):
@@ -43,6 +44,10 @@ def build(folder, chapters):
     made["databuffer/client/yars_records_check.hpp"] = clients.c_asserts(chapters)
     made["gateway/yars_records.idl"] = dds.idl(chapters)
     made["gateway/dds/yars_records_check.cpp"] = dds.asserts(chapters)
+    write_all(folder, made)
+
+
+def write_all(folder, made):
     for name, text in made.items():
         write_if_changed(folder / name, text)
 
@@ -85,9 +90,11 @@ def tree_files(chapters, layout, root):
 
 
 def main(arguments):
-    if len(arguments) != 2 or arguments[0] not in ("--build", "--write", "--check"):
+    if len(arguments) != 2 or arguments[0] not in ("--build", "--requests", "--write", "--check"):
         sys.exit(__doc__)
     what, where = arguments
+    if what == "--requests":
+        return write_all(pathlib.Path(where), requests.files(idl.read(HERE, "requests.idl")[-1]))
     chapters = idl.read(HERE)
     if what == "--build":
         return build(pathlib.Path(where), chapters)
@@ -101,7 +108,7 @@ def main(arguments):
             print(f"{name}: written")
     elif stale:
         raise StaleError(f"{', '.join(stale)}: expected what records.idl says, found otherwise; "
-                         f"run databuffer/messages/generate.py --write {where}")
+                         f"run lib/values/generate.py --write {where}")
     return None
 
 

@@ -1,10 +1,11 @@
 // Theatre: terrain and scenes in which scans and patch maps are computed, without a session. The stores stay open, so
 // that later scans and maps find in memory what earlier ones have read. Inputs: folder of elevation cells, scene files;
-// regions of scans and maps. Outputs: views of terrain and scene. Errors: the functions throw CommandFailed for files
+// regions of scans and maps. Outputs: views of terrain and scene. Errors: the functions throw Failure for files
 // that cannot be opened, or a region whose files are all unreadable. Threads: one at a time. Any number of threads may
 // read the views.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,14 +16,41 @@
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
 #include "model/terrain/store/cell_files.hpp"
-#include "tools/command/input_checks.hpp"
+#include "yars/call.hpp"
 
 namespace yars::radar {
+
 struct Fidelity;
 struct TerrainConfiguration;
-}  // namespace yars::radar
 
-namespace yars::tools {
+// Takes a warning: one sentence.
+using Warn = std::function<void(const std::string&)>;
+
+// That of a call; one that does nothing where the caller gives none.
+inline Warn warn_of(const Call& call) {
+  return call.warn ? call.warn : [](const std::string&) {};
+}
+
+// Warn of each problem of reading; that of terrain warns of notes, too. They then count the files of the region, the
+// ground that the last prepare() has loaded. If some of these files are unreadable, they say how many. If all are
+// unreadable, they throw Failure.
+// Call after prepare() of the stores. `folder`: terrain folder, for messages. `path_store`: optional second store of
+// the same folder, for the ground between aircraft and map. Problems of this store are told, but are no failure.
+void check_terrain_read(const Warn& warn, const std::string& folder, model::terrain::TerrainStore& store,
+                        model::terrain::TerrainStore* path_store = nullptr);
+void check_scenes_read(const Warn& warn, model::scene::SceneStore& scenes);
+
+// What stores lack of their files, in all regions so far. Each sentence once, in the order of the calls.
+class LeftOut {
+ public:
+  void add(const model::terrain::TerrainStore& store);
+  void add(const model::scene::SceneStore& scenes);
+  const std::vector<std::string>& sentences() const { return sentences_; }
+
+ private:
+  void add(const std::vector<std::string>& sentences);
+  std::vector<std::string> sentences_;
+};
 
 // Views for one scan.
 struct ScanEnvironment {
@@ -33,11 +61,10 @@ struct ScanEnvironment {
 class Theatre {
  public:
   // Opens the stores. `use`: triangles for maps, scatterers for scans. Scenes of the terrain's own folder are added.
-  Theatre(const radar::TerrainConfiguration& terrain, const std::vector<radar::Scene>& scenes,
-          model::scene::SceneUse use);
+  Theatre(const TerrainConfiguration& terrain, const std::vector<radar::Scene>& scenes, model::scene::SceneUse use);
 
   // Reads what a scan or a map needs. `warn` takes the problems of files.
-  ScanEnvironment prepare(const model::kernel::ScanRequest& request, const radar::Fidelity& fidelity, const Warn& warn);
+  ScanEnvironment prepare(const model::kernel::ScanRequest& request, const Fidelity& fidelity, const Warn& warn);
   model::hrm::PatchEnvironment prepare(const model::hrm::PatchNeed& need, const Warn& warn);
 
   // What the regions so far lack of their files, one sentence each: files of the terrain's folder that are not used,
@@ -58,4 +85,4 @@ class Theatre {
   std::unique_ptr<model::scene::SceneStore> scenes_;                         // null: none
 };
 
-}  // namespace yars::tools
+}  // namespace yars::radar

@@ -11,10 +11,10 @@ from .schema import IdlError
 
 TOKEN = re.compile(r"""(?P<blank>[ \t\r]+)|(?P<line>\n)|(?P<comment>//[^\n]*)|(?P<include>\#include[ ]+"[^"\n]+")
     |(?P<number>(?:\d+\.\d*(?:[eE][-+]?\d+)?|\d+[eE][-+]?\d+|0[xX][0-9a-fA-F]+|\d+))|(?P<string>"(?:[^"\\\n]|\\.)*")
-    |(?P<name>(?:::)?[A-Za-z]\w*(?:::[A-Za-z]\w*)*)|(?P<mark>[@(){}\[\]<>;,=+\-*/])""", re.X)
+    |(?P<name>(?:::)?[A-Za-z]\w*(?:::[A-Za-z]\w*)*)|(?P<mark>[@(){}\[\]<>;:,=+\-*/])""", re.X)
 ARITHMETIC = {"+": lambda a, b: a + b, "-": lambda a, b: a - b, "*": lambda a, b: a * b}
 ANNOTATIONS = {"final", "nested", "bit_bound", "position", "unit", "range", "min", "max", "default", "nan", "counted_by", "cut",
-               "by_hand"}
+               "by_hand", "request", "option", "otherwise", "optional"}
 TYPES = {**schema.INTEGERS, **schema.REALS}
 
 
@@ -32,7 +32,7 @@ class Scanner:
         while at < len(text):
             found = TOKEN.match(text, at)
             if not found:
-                raise IdlError(f"{name}:{line}", "IDL", repr(text[at]), "databuffer/messages/fields.md has what is understood")
+                raise IdlError(f"{name}:{line}", "IDL", repr(text[at]), "lib/values/fields.md has what is understood")
             kind, at = found.lastgroup, found.end()
             if kind == "comment":
                 alone = not self.tokens or self.tokens[-1].line != line
@@ -234,9 +234,12 @@ class Parser:
 
     def record(self, notes, first):
         where, name = self.where, self.expect_name("a record")
-        if "final" not in notes:
-            raise IdlError(where, f"@final at {name}", "none", "a record has a fixed layout")
-        record = schema.Record(name, self.comment_above(first), where, self.module, nested="nested" in notes)
+        if ("final" in notes) == ("request" in notes):
+            raise IdlError(where, f"@final or @request at {name}", "both" if "final" in notes else "none",
+                           "a record has a fixed layout, a request has none")
+        record = schema.Record(name, self.comment_above(first), where, self.module, nested="nested" in notes, request="request" in notes)
+        if self.is_next(":"):
+            record.fields += self.find(self.expect_name("a request"), "the name of a request", schema.Record).fields
         self.expect("{")
         while not self.is_next("}"):
             record.fields += self.fields()
@@ -269,7 +272,7 @@ class Parser:
         if self.token.kind != "name":
             raise IdlError(self.where, "a type", f"'{self.token.text}'")
         name = self.next().text
-        if name in TYPES:
+        if name in TYPES or name == schema.BOOLEAN:
             return name
         if name == "string":
             self.expect("<")
@@ -313,6 +316,9 @@ class Parser:
         field.nan = parameter("nan") if "nan" in notes else None
         field.counted_by = parameter("counted_by") if "counted_by" in notes else None
         field.cut, field.by_hand = "cut" in notes, "by_hand" in notes
+        field.option = parameter("option") if "option" in notes else field.name.replace("_", "-")
+        field.otherwise = parameter("otherwise") if "otherwise" in notes else ""
+        field.optional = "optional" in notes
 
     # ---- expressions: sums and products of numbers and constants
     def expression(self):

@@ -11,6 +11,7 @@ import re
 INTEGERS = {f"{sign}int{bits}": (bits // 8, -(1 << bits - 1) if not sign else 0, (1 << bits - (not sign)) - 1)
             for sign in ("", "u") for bits in (8, 16, 32, 64)}
 REALS = {"double": 8, "float": 4}
+BOOLEAN = "boolean"  # of requests alone: a record has bits of flags
 
 # Last word of a field's name -> unit of the field.
 SUFFIXES = {"deg": "deg", "m": "m", "m2": "m2", "mps": "m/s", "dps": "deg/s", "nm": "NM", "s": "s", "ns": "ns",
@@ -76,6 +77,9 @@ class Field(Declaration):
     counted_by: str = None  # name of the field with the number of entries in use; None: all are in use
     cut: bool = False  # True: a ring copies only the entries in use
     by_hand: bool = False  # True: hand-written code checks the range, the generated code does not
+    option: str = ""  # of requests: name of the option of the command line
+    optional: bool = False  # of requests: the field may be left out
+    otherwise: str = ""  # of requests: what holds then
     offset: int = 0
 
     @property
@@ -128,6 +132,7 @@ class Field(Declaration):
 class Record(Declaration):
     fields: list = dataclasses.field(default_factory=list)
     nested: bool = False  # occurs only inside other records
+    request: bool = False  # what a program asks of the library, without a layout
     size: int = 0
     alignment: int = 1
 
@@ -236,9 +241,26 @@ def check_record(record):
         names[field.name.lower()] = field
         check_unit(field)
         check_limits(field)
+    if record.request:
+        return check_request(record)
     for field in record.fields:
+        if field.type == BOOLEAN:
+            raise IdlError(field.where, f"a number, a text or a record for {field.name}", BOOLEAN, "use a bit mask")
         check_count(record, field)
-    lay_out(record)
+    return lay_out(record)
+
+
+def check_request(request):
+    options = [field.option for field in request.fields]
+    for field in request.fields:
+        if options.count(field.option) > 1:
+            raise IdlError(field.where, f"one option {field.option} in {request.name}", "two", "give one another @option")
+        if field.dimensions or isinstance(field.type, (int, Record, Bitmask)):
+            raise IdlError(field.where, f"a number, boolean or enumeration for {field.name}", "another type")
+        if field.optional != bool(field.otherwise):
+            raise IdlError(field.where, f"@optional with @otherwise at {field.name}", "one of them", "say what holds without the field")
+        if field.type in INTEGERS and not field.optional and not field.default:
+            raise IdlError(field.where, f"@default or @optional at {field.name}", "none")
 
 
 def records_of(chapters):

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Facts about databuffer/messages/generate.py: what it reads, what it refuses, what it writes, what it finds stale."""
+"""Facts about lib/values/generate.py: what it reads, what it refuses, what it writes, what it finds stale."""
 import contextlib
 import enum
 import io
@@ -260,7 +260,7 @@ class TheFilesOfTheTree(unittest.TestCase):
 
     def test_are_written_and_then_found_fresh(self):
         self.refuses(generate.StaleError, "python/yars/session.py, docs/shared_memory.md: expected what records.idl says, found otherwise; run "
-                                          "databuffer/messages/generate.py --write")
+                                          "lib/values/generate.py --write")
         self.run_with("--write")
         self.run_with("--check")
         for name in generate.MARKS:
@@ -279,7 +279,7 @@ class TheFilesOfTheTree(unittest.TestCase):
 
     def test_need_their_marks(self):
         (self.root / generate.PYTHON).write_text("nothing\n")
-        self.refuses(generate.StaleError, "python/yars/session.py: expected the lines '# begin: databuffer/messages/generate.py'")
+        self.refuses(generate.StaleError, "python/yars/session.py: expected the lines '# begin: lib/values/generate.py'")
 
     def test_need_a_program_of_the_same_records(self):
         layout = layout_of(self.chapters)

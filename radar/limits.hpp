@@ -1,0 +1,45 @@
+// Limits of the requests, and of the radar for a scan and a patch map.
+// Errors: check_fields() throws Failure; the beyond_... and beneath_... functions return an Error if a limit is
+// exceeded, else nullopt. Messages name fields of requests.idl in backquotes, with a value as `heading_deg=45`;
+// spelled() puts the words of a command line or of keywords there.
+// Source: lib/radar/mapping.hpp (limits of maps).
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "lib/error/error.hpp"
+#include "lib/radar/mapping.hpp"
+#include "lib/values/request_fields.hpp"
+#include "model/hrm/patch_geometry.hpp"
+
+namespace yars::radar {
+struct AntennaConfiguration;
+
+// Throws Failure if a field lies beyond its limits.
+void check_fields(const ScanRequest& request);
+void check_fields(const PatchRequest& request);
+// The error of a number beyond the limits of a field. `subject`: the field's name, or the path of an entry.
+Error beyond_field(std::string subject, const values::Field& field, double found);
+
+// Limits of a patch map in level flight along the ground track, by radar::map_rejection(). `target_ground_m` [m] MSL:
+// terrain elevation at the map's centre; NaN: void, counts as sea level; nullopt: not known yet, so the elevation angle
+// to the target is not checked.
+std::optional<Error> beyond_limits(const model::hrm::PatchOrder& order, const MapLimits& limits,
+                                   std::optional<double> target_ground_m = std::nullopt);
+
+// Gimbal limits of a scan centred on the nose, in level flight: antenna elevation above the horizontal, and scan width
+// from edge to edge.
+std::optional<Error> beyond_gimbal(geo::Angle elevation, geo::Angle width, const AntennaConfiguration& antenna);
+
+// `ground_m` [m] MSL: terrain elevation below the aircraft; NaN: void, which is not checked.
+std::optional<Error> beneath_ground(geo::AltitudeMsl altitude, double ground_m);
+
+// An error with other words for the fields that it names. spell(field, value): value is empty where none is given.
+using Spell = std::function<std::string(const values::Field& field, std::string_view value)>;
+Error spelled(Error error, std::span<const values::Field> fields, const Spell& spell);
+
+}  // namespace yars::radar

@@ -1,0 +1,136 @@
+#include "radar/theatre.hpp"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "lib/radar/fidelity.hpp"
+#include "model/kernel/tick_inputs.hpp"
+#include "model/terrain/store/directory_store.hpp"
+#include "radar/failure.hpp"
+
+namespace yars::radar {
+
+namespace {
+std::unique_ptr<model::terrain::TerrainStore> open_store(const TerrainConfiguration& terrain) {
+  auto store = model::terrain::open_terrain(terrain);
+  if (!store) fail(store.error());
+  return std::move(*store);
+}
+}  // namespace
+
+Theatre::Theatre(const TerrainConfiguration& terrain, const std::vector<Scene>& scenes,
+                 model::scene::SceneUse use)
+    : folder_(terrain.directory), window_store_(open_store(terrain)) {
+  if (use == model::scene::SceneUse::triangles) path_store_ = open_store(terrain);
+  auto opened = model::scene::open_scenes(scenes, terrain, use);
+  if (!opened) fail(opened.error());
+  scenes_ = std::move(*opened);
+}
+
+ScanEnvironment Theatre::prepare(const model::kernel::ScanRequest& request, const Fidelity& fidelity,
+                                 const Warn& warn) {
+  const model::terrain::TerrainRegion region{request.pose.position, request.range.metres(),
+                                             model::kernel::scan_detail(fidelity, request.range)};
+  ScanEnvironment environment{window_store_->prepare(region), scenes_ ? scenes_->prepare(region) : nullptr};
+  check_terrain_read(warn, folder_, *window_store_);
+  if (scenes_) check_scenes_read(warn, *scenes_);
+  return environment;
+}
+
+model::hrm::PatchEnvironment Theatre::prepare(const model::hrm::PatchNeed& need, const Warn& warn) {
+  model::hrm::PatchEnvironment environment{window_store_->prepare(need.window), path_store_->prepare(need.path),
+                                           scenes_ ? scenes_->prepare(need.window) : nullptr};
+  if (scenes_) check_scenes_read(warn, *scenes_);
+  check_terrain_read(warn, folder_, *window_store_, path_store_.get());
+  return environment;
+}
+
+std::vector<std::string> Theatre::left_out() const {
+  LeftOut all;
+  for (const auto* store : {window_store_.get(), path_store_.get()})
+    if (store != nullptr) all.add(*store);
+  if (scenes_) all.add(*scenes_);
+  return all.sentences();
+}
+
+model::scene::SceneViewPointer Theatre::scenes_near(geo::GeoPoint position, double radius_m, const Warn& warn) {
+  if (!scenes_) return nullptr;
+  auto view = scenes_->prepare({position, radius_m, 0});
+  check_scenes_read(warn, *scenes_);
+  return view;
+}
+
+const model::terrain::DirectoryIndex* Theatre::index() const {
+  const auto* const files = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(window_store_.get());
+  return files == nullptr ? nullptr : &files->index();
+}
+
+model::terrain::TerrainViewPointer Theatre::terrain_at(geo::GeoPoint position, const Warn& warn) {
+  auto view = window_store_->prepare({position, 0.0, 0});
+  check_terrain_read(warn, folder_, *window_store_);
+  return view;
+}
+
+namespace {
+
+// Warns of the number of unreadable files. Throws Failure if all are unreadable. `things`: what the files are, in the
+// plural. `first`: the first problem of reading.
+void check_unreadable(const Warn& warn, const std::string& subject, const char* things, std::size_t total,
+                      std::size_t unreadable, const std::string& first) {
+  if (unreadable == 0) return;
+  const std::string count = std::to_string(unreadable) + " of " + std::to_string(total);
+  if (unreadable == total)
+    fail({subject, std::string(things) + " that can be read", "none: " + count + " cannot",
+          (first.empty() ? "" : "because of " + first + "; ") + "repair or replace the files"});
+  warn(count + ' ' + things + " cannot be read; the picture is made without them");
+}
+
+}  // namespace
+
+void check_terrain_read(const Warn& warn, const std::string& folder, model::terrain::TerrainStore& store,
+                        model::terrain::TerrainStore* path_store) {
+  std::set<std::string> warned;
+  std::string first;
+  const auto warn_once = [&](const std::vector<std::string>& sentences) {
+    for (const std::string& sentence : sentences)
+      if (warned.insert(sentence).second) warn(sentence);
+  };
+  for (model::terrain::TerrainStore* const one : {&store, path_store}) {
+    if (one == nullptr) continue;
+    const std::vector<std::string> problems = one->take_problems();
+    if (first.empty() && !problems.empty()) first = problems.front();
+    warn_once(problems);
+    warn_once(one->take_notes());
+  }
+  for (model::terrain::TerrainStore* const one : {path_store, &store})
+    if (auto* const files = dynamic_cast<model::terrain::DirectoryTerrainStore*>(one)) files->report_again();
+  const auto* const directory = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(&store);
+  if (directory == nullptr) return;  // the built-in hills have no files
+  const model::terrain::RegionCells& cells = directory->region_cells();
+  check_unreadable(warn, folder, "cells of the region", cells.files, cells.unreadable, first);
+}
+
+void check_scenes_read(const Warn& warn, model::scene::SceneStore& scenes) {
+  const std::vector<std::string> problems = scenes.take_problems();
+  for (const std::string& problem : problems) warn(problem);
+  check_unreadable(warn, "scene", "scenes of the region", scenes.wanted().files, scenes.wanted().unreadable,
+                   problems.empty() ? "" : problems.front());
+}
+
+void LeftOut::add(const std::vector<std::string>& sentences) {
+  for (const std::string& sentence : sentences)
+    if (std::ranges::find(sentences_, sentence) == sentences_.end()) sentences_.push_back(sentence);
+}
+
+void LeftOut::add(const model::terrain::TerrainStore& store) {
+  if (const auto* const files = dynamic_cast<const model::terrain::DirectoryTerrainStore*>(&store))
+    add(files->left_out());
+}
+
+void LeftOut::add(const model::scene::SceneStore& scenes) {
+  add(scenes.left_out());
+}
+
+}  // namespace yars::radar
