@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 MESSAGES = ROOT / "databuffer/messages"
 sys.path.insert(0, str(MESSAGES))
 import generate  # noqa: E402
-from generator import clients, cpp, dds, idl, schema, stability, tables  # noqa: E402
+from generator import clients, cpp, dds, idl, schema, stability  # noqa: E402
 
 GOOD = """// One record.
 module yars {
@@ -236,10 +236,9 @@ class TheFilesOfTheTree(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         self.root = pathlib.Path(self.folder.name)
-        for name, (begin, end) in generate.MARKS.items():
-            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
-            (self.root / name).write_text(f"before\n{begin}{end}after\n")
-        (self.root / generate.HEADER).parent.mkdir(parents=True)
+        for name in (generate.PYTHON, generate.HEADER, generate.LAYOUT):
+            (self.root / name).parent.mkdir(parents=True)
+        (self.root / generate.PYTHON).write_text(f"before\n{generate.BEGIN}{generate.END}after\n")
         self.program = self.root / "yars"
         self.tell(layout_of(self.chapters))
         self.tree, generate.ROOT = generate.ROOT, self.root
@@ -259,23 +258,32 @@ class TheFilesOfTheTree(unittest.TestCase):
         self.assertIn(message, str(caught.exception))
 
     def test_are_written_and_then_found_fresh(self):
-        self.refuses(generate.StaleError, "python/yars/session.py, docs/shared_memory.md: expected what records.idl says, found otherwise; run "
+        self.refuses(generate.StaleError, "python/yars/session.py: expected what records.idl says, found otherwise; run "
                                           "databuffer/messages/generate.py --write")
         self.run_with("--write")
         self.run_with("--check")
-        for name in generate.MARKS:
-            text = (self.root / name).read_text()
-            self.assertTrue(text.startswith("before\n") and text.endswith("after\n"))
+        text = (self.root / generate.PYTHON).read_text()
+        self.assertTrue(text.startswith("before\n") and text.endswith("after\n"))
 
     def test_are_found_stale_one_by_one(self):
-        for name in (generate.HEADER, generate.PYTHON, generate.DOCUMENT):
+        for name in (generate.HEADER, generate.PYTHON, generate.LAYOUT):
             self.run_with("--write")
             path = self.root / name
             path.write_text(path.read_text().replace("latitude_deg", "latitude_rad"))
             with self.assertRaises((generate.StaleError, stability.MovedError)) as caught:
                 self.run_with("--check")
-            self.assertIn("latitude_rad" if name == generate.DOCUMENT else f"{name}: expected", str(caught.exception))
+            self.assertIn("latitude_rad" if name == generate.LAYOUT else f"{name}: expected", str(caught.exception))
             path.write_text(path.read_text().replace("latitude_rad", "latitude_deg"))
+
+    def test_hold_the_layout_that_the_tables_are_made_of(self):
+        self.run_with("--write")
+        page = self.root / "made/records.md"
+        generate.main(["--tables", str(page)])
+        text = page.read_text()
+        self.assertIn("Layout version 3, 4096 bytes, hash `0123456789abcdef`.\n", text)
+        self.assertIn("| 64 | `clock` | LatestValue | X | 8 of 8 bytes; ", text)
+        self.assertRegex(text, r"\n## Nav: \d+ bytes\n")
+        self.assertIn("\n## Values\n", text)
 
     def test_need_their_marks(self):
         (self.root / generate.PYTHON).write_text("nothing\n")
@@ -293,7 +301,7 @@ class TheFilesOfTheTree(unittest.TestCase):
 class ALayout(unittest.TestCase):
     def text(self, text=GOOD, digits="0123456789abcdef"):
         chapters = chapters_of(text)
-        return tables.document(chapters, {**layout_of(chapters), "hash": digits})
+        return stability.text(chapters, {**layout_of(chapters), "hash": digits})
 
     def test_with_its_hash_keeps_its_fields(self):
         moved = self.text(changed("    Gear gear;\n    uint8 reserved[3];\n", "    uint8 reserved[3];\n    Gear gear;\n"))
