@@ -27,6 +27,13 @@ endif()
 add_custom_target(yars_records_page ALL DEPENDS ${records})
 install(FILES ${records} DESTINATION ${documents}/docs)
 
+# The keys of data sets, likewise. Made while configuring.
+set(keys ${PROJECT_SOURCE_DIR}/python/yars/dataset/keys.py)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${keys})
+execute_process(COMMAND ${Python3_EXECUTABLE} ${keys} OUTPUT_FILE ${PROJECT_BINARY_DIR}/install/doc/dataset_keys.md
+  COMMAND_ERROR_IS_FATAL ANY)
+install(FILES ${PROJECT_BINARY_DIR}/install/doc/dataset_keys.md DESTINATION ${documents}/docs)
+
 # The start script: installed it finds the programs beside it.
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/start DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-start)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/supervise ${PROJECT_SOURCE_DIR}/scripts/nearest_word.py DESTINATION libexec/yars)
