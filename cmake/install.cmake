@@ -13,13 +13,33 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${documents} FILES_MATC
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION ${documents})
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${documents} RENAME copyright)
 
+# Tables of the segment's records, a document of the installation. No target of its own is needed to install it.
+find_package(Python3 COMPONENTS Interpreter REQUIRED)
+set(generator ${PROJECT_SOURCE_DIR}/lib/values/generate.py)
+set(records ${PROJECT_BINARY_DIR}/install/doc/records.md)
+file(GLOB chapters CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/lib/values/*.idl
+  ${PROJECT_SOURCE_DIR}/lib/values/generator/*.py)
+add_custom_command(OUTPUT ${records} COMMAND Python3::Interpreter ${generator} --tables ${records}
+  DEPENDS ${chapters} ${generator} ${PROJECT_SOURCE_DIR}/lib/values/layout.tsv COMMENT "Tables of the records" VERBATIM)
+if(NOT EXISTS ${records})
+  execute_process(COMMAND ${Python3_EXECUTABLE} ${generator} --tables ${records} COMMAND_ERROR_IS_FATAL ANY)
+endif()
+add_custom_target(yars_records_page ALL DEPENDS ${records})
+install(FILES ${records} DESTINATION ${documents}/docs)
+
+# The keys of data sets, likewise. Made while configuring.
+set(keys ${PROJECT_SOURCE_DIR}/python/yars/dataset/keys.py)
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${keys})
+execute_process(COMMAND ${Python3_EXECUTABLE} ${keys} OUTPUT_FILE ${PROJECT_BINARY_DIR}/install/doc/dataset_keys.md
+  COMMAND_ERROR_IS_FATAL ANY)
+install(FILES ${PROJECT_BINARY_DIR}/install/doc/dataset_keys.md DESTINATION ${documents}/docs)
+
 # The start script: installed it finds the programs beside it.
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/start DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-start)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/supervise ${PROJECT_SOURCE_DIR}/scripts/nearest_word.py DESTINATION libexec/yars)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/network_identities DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-network-identities)
 
 # Man pages and completions, with the options that --help of the programs prints. Python's page is of another package.
-find_package(Python3 COMPONENTS Interpreter REQUIRED)
 set(help ${PROJECT_BINARY_DIR}/install/help)
 set(programs)
 foreach(program radar-model radar-display state-machine input-monitor flight-model yars yars-station gateway)

@@ -45,7 +45,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
 # Each package has the components of a group.
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
-set(CPACK_COMPONENTS_ALL programs display idl Unspecified python)
+set(CPACK_COMPONENTS_ALL programs display radar idl Unspecified python)
 get_property(has_python GLOBAL PROPERTY YARS_HAS_PYTHON)
 if(has_python)
   list(APPEND CPACK_COMPONENTS_ALL python_core)
@@ -66,9 +66,10 @@ set(CPACK_DEBIAN_YARS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_YARS_PACKAGE_DEPENDS "libegl1, libgl1, python3:any")
 set(CPACK_DEBIAN_YARS_PACKAGE_RECOMMENDS "libgl1-mesa-dri${also_rasters}")
 set(CPACK_DEBIAN_YARS_PACKAGE_SUGGESTS "python3-yars")
-# For libyars-display: what a package that is linked with it depends on, and a run of ldconfig by dpkg's trigger.
+# For libyars-display and libyars-radar: what a package that is linked with them depends on, and a run of ldconfig by dpkg's trigger.
 file(WRITE ${PROJECT_BINARY_DIR}/install/shlibs
-  "libyars-display ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} yars (>= ${PROJECT_VERSION})\n")
+  "libyars-display ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} yars (>= ${PROJECT_VERSION})\n"
+  "libyars-radar ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} yars (>= ${PROJECT_VERSION})\n")
 file(WRITE ${PROJECT_BINARY_DIR}/install/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_YARS_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/install/shlibs ${PROJECT_BINARY_DIR}/install/triggers)
 
@@ -101,7 +102,7 @@ set(CPACK_POST_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/packaging/debian/repack.cmake
 include(CPack)
 cpack_add_component_group(yars)
 cpack_add_component_group(python3-yars)
-foreach(component programs display idl Unspecified)
+foreach(component programs display radar idl Unspecified)
   cpack_add_component(${component} GROUP yars)
 endforeach()
 foreach(component python python_core)

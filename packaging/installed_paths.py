@@ -26,6 +26,8 @@ PLACES = {
     "scripts/network_identities": "yars-network-identities", "build/release/bin": "bin",
     "scripts/supervise": "libexec/yars/supervise", "scripts/nearest_word.py": "libexec/yars/nearest_word.py",
     "build/terrain/default": "~/.cache/yars/terrain", "build/start.log": "yars-start's log",
+    "build/release/install/doc/records.md": "share/doc/yars/docs/records.md",
+    "build/release/install/doc/dataset_keys.md": "share/doc/yars/docs/dataset_keys.md",
     "build/release/systemd": "lib/systemd/user", "python/yars/session.py": "yars/session.py", "databuffer/client/yars.h": "yars/yars.h",
     "databuffer/client/yars_records.h": "yars/yars_records.h", "databuffer/client/yars_segment.h": "yars/yars_segment.h",
     "display/library/yars_display.h": "yars/yars_display.h", "gateway/yars_network.idl": "share/yars/idl/yars_network.idl",

@@ -2,7 +2,6 @@
 // Threads: Terrain::Stores serves one call at a time; a lock makes others wait.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -28,11 +27,13 @@ class Terrain::Stores {
   const radar::TerrainConfiguration& configuration() const { return configuration_; }
 
   // What work(theatre) gives, with the theatre of these scenes and this use, which is opened when first asked for. After
-  // a Failure the files are read anew next time. Throws parallel::Stopped while it waits for another call.
+  // a Failure the files are read anew next time. Throws parallel::Stopped.
   template <class Work>
   auto with_theatre(const std::vector<radar::Scene>& scenes, model::scene::SceneUse use,
                     const parallel::GoesOn& goes_on, const Work& work) {
-    const std::shared_ptr<void> taken = take_ ? take_(goes_on) : own_lock(goes_on);
+    const std::shared_ptr<void> taken =
+        take_ ? take_(goes_on) : std::make_shared<std::unique_lock<std::mutex>>(mutex_);
+    parallel::check(goes_on);
     const std::string key = key_of(scenes, use);
     try {
       std::unique_ptr<radar::Theatre>& theatre = (*theatres_)[key];
@@ -54,17 +55,12 @@ class Terrain::Stores {
   }
 
  private:
-  std::shared_ptr<void> own_lock(const parallel::GoesOn& goes_on) {
-    auto lock = std::make_shared<std::unique_lock<std::timed_mutex>>(mutex_, std::defer_lock);
-    while (!lock->try_lock_for(std::chrono::milliseconds(50))) parallel::check(goes_on);
-    return lock;
-  }
   static std::string key_of(const std::vector<radar::Scene>& scenes, model::scene::SceneUse use);
 
   using Theatres = std::map<std::string, std::unique_ptr<radar::Theatre>>;
   radar::TerrainConfiguration configuration_;
-  std::timed_mutex mutex_;
-  Take take_;  // empty: own_lock()
+  std::mutex mutex_;
+  Take take_;  // empty: the lock of mutex_
   std::unique_ptr<Theatres> theatres_ = std::make_unique<Theatres>();
 };
 

@@ -72,8 +72,7 @@ class Arguments {
         error::Error{command_ + ": " + name,
                      expected,
                      found == object_.end() ? "nothing" : found->dump(-1, ' ', true, json::error_handler_t::replace),
-                     {},
-                     false};
+                     {}};
   }
 
   const json& object_;

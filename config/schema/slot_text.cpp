@@ -257,13 +257,17 @@ const std::vector<FormGroup>& groups() {
   return table;
 }
 
+// A default as code in Markdown. A list begins with a backtick itself.
+std::string code_span(const std::string& text) {
+  if (text.empty()) return text;
+  return text.find('`') == std::string::npos ? "`" + text + "`" : "`` " + text + " ``";
+}
+
 // Row of one slot in the table of its form, in Markdown.
 std::string slot_row(const FormSchema& form, std::size_t index) {
   const SlotSchema& slot = form.slots[index];
-  const std::string default_value = default_text(form, slot);
   return "| " + std::to_string(index + 1) + " | `" + std::string(slot.name) + "` | " + value_kind(slot) + " | " +
-         (default_value.empty() ? "" : "`` " + default_value + " ``") + " | " + std::string(slot.purpose) +
-         use_of(form, slot) + " |\n";
+         code_span(default_text(form, slot)) + " | " + std::string(slot.purpose) + use_of(form, slot) + " |\n";
 }
 
 // Heading and table of one form, in Markdown. The table leaves out slots that are equal to those of the form's base.
@@ -275,7 +279,7 @@ std::string form_table(const FormSchema& form) {
     const bool is_of_base = base != nullptr && i < base->slots.size() && row == slot_row(*base, i);
     if (!is_of_base) rows += row;
   }
-  const std::string text = "## " + std::string(form.name) + "\n\n" + heading(form) + ".\n\n";
+  const std::string text = "## " + std::string(form.name) + "\n" + heading(form) + ".\n\n";
   if (rows.empty()) return text;
   return text + "| position | slot | value | default | for |\n| --- | --- | --- | --- | --- |\n" + rows + "\n";
 }

@@ -1,7 +1,7 @@
 // Layout of a session's segment: its parts in order, and the identity by which a program recognizes the layout.
 // Errors: a segment with another identity is refused by every program (shm/segment.hpp).
 // Threads: the container of each field states its writers and readers.
-// Source: docs/shared_memory.md, which lists every offset.
+// Source: docs/shared_memory.md; lib/values/layout.tsv lists every offset.
 #pragma once
 
 #include <algorithm>

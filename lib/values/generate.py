@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Generates code and documents from the IDL of the records (records.idl in this folder).
+"""Generates code and tables from the IDL of the records (records.idl in this folder).
 
 usage: generate.py --build FOLDER   the C++ headers and sources, and the IDL for DDS, into FOLDER; the build calls it
        generate.py --requests FOLDER  of requests.idl: <yars/requests.hpp> and the table of its fields, into FOLDER
-       generate.py --write YARS     databuffer/client/yars_records.h, and the marked parts of python/yars/session.py and
-                                    docs/shared_memory.md
+       generate.py --tables FILE    the page of all records, fields and values, in Markdown; needs no build
+       generate.py --write YARS     layout.tsv in this folder, databuffer/client/yars_records.h, and the marked part of
+                                    python/yars/session.py
        generate.py --check YARS     checks that these files equal what --write would write; exit 1 if not
 YARS is the command `yars` built from the same records, such as build/dev/bin/yars. It prints the offsets of the
 segment's containers (`yars status --layout`). A fault in the IDL is reported in one line: file:line, what was expected,
@@ -23,9 +24,8 @@ from generator import clients, cpp, dds, idl, requests, schema, stability, table
 ROOT = HERE.parents[1]
 HEADER = "databuffer/client/yars_records.h"
 PYTHON = "python/yars/session.py"
-DOCUMENT = "docs/shared_memory.md"
-MARKS = {PYTHON: ("# begin: lib/values/generate.py\n", "# end: lib/values/generate.py\n"),
-         DOCUMENT: ("<!-- begin: lib/values/generate.py -->\n", "<!-- end: lib/values/generate.py -->\n")}
+LAYOUT = "lib/values/layout.tsv"
+BEGIN, END = "# begin: lib/values/generate.py\n", "# end: lib/values/generate.py\n"  # the part of PYTHON
 
 
 class StaleError(Exception):
@@ -69,28 +69,28 @@ def layout_of(program, chapters):
 
 
 def with_part(name, text, part):
-    """(text of the file with `part` between its marks, the old text between them). StaleError if a mark is absent."""
-    begin, end = MARKS[name]
-    before, found, rest = text.partition(begin)
-    inside, closed, after = rest.partition(end)
+    """Text of the file with `part` between its marks. StaleError if a mark is absent."""
+    before, found, rest = text.partition(BEGIN)
+    _, closed, after = rest.partition(END)
     if not found or not closed:
-        raise StaleError(f"{name}: expected the lines '{begin.strip()}' and '{end.strip()}', found not both; put them back")
-    return before + begin + part + end + after, inside
+        raise StaleError(f"{name}: expected the lines '{BEGIN.strip()}' and '{END.strip()}', found not both; put them back")
+    return before + BEGIN + part + END + after
+
+
+def text_of(path):
+    return path.read_text(encoding="utf-8") if path.is_file() else ""
 
 
 def tree_files(chapters, layout, root):
     """{path of a generated file: (its present text, its generated text)}"""
-    found = {}
-    path = root / HEADER
-    found[HEADER] = (path.read_text(encoding="utf-8") if path.is_file() else "", clients.c_header(chapters, layout))
-    for name, part in ((PYTHON, clients.python_records(chapters, layout)), (DOCUMENT, tables.document(chapters, layout))):
-        text = (root / name).read_text(encoding="utf-8")
-        found[name] = (text, with_part(name, text, part)[0])
-    return found
+    made = {LAYOUT: stability.text(chapters, layout), HEADER: clients.c_header(chapters, layout)}
+    python = text_of(root / PYTHON)
+    made[PYTHON] = with_part(PYTHON, python, clients.python_records(chapters, layout))
+    return {name: (text_of(root / name), text) for name, text in made.items()}
 
 
 def main(arguments):
-    if len(arguments) != 2 or arguments[0] not in ("--build", "--requests", "--write", "--check"):
+    if len(arguments) != 2 or arguments[0] not in ("--build", "--requests", "--tables", "--write", "--check"):
         sys.exit(__doc__)
     what, where = arguments
     if what == "--requests":
@@ -98,9 +98,11 @@ def main(arguments):
     chapters = idl.read(HERE)
     if what == "--build":
         return build(pathlib.Path(where), chapters)
+    if what == "--tables":
+        return write_if_changed(pathlib.Path(where), tables.document(chapters, (ROOT / LAYOUT).read_text(encoding="utf-8")))
     layout = layout_of(where, chapters)
     files = tree_files(chapters, layout, ROOT)
-    stability.check(files[DOCUMENT][0], files[DOCUMENT][1])
+    stability.check(*files[LAYOUT])
     stale = [name for name, (found, expected) in files.items() if found != expected]
     if what == "--write":
         for name in stale:

@@ -22,7 +22,7 @@ ALL = "YARS_TEST_FULL" in os.environ  # each kind of installation by each way; w
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 SESSION = f"foreign-{os.getpid()}"
 # Components: all but the programs, which are large with the sanitizers, and the compiled part of the Python module.
-PARTS = ("Unspecified", "display", "python")
+PARTS = ("Unspecified", "display", "radar", "python")
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")  # a search crashes beside Mesa's threads
 # The strictest reader of the headers. The client's comes first, as it says.
 STRICT = """#include <yars/yars.h>
@@ -87,8 +87,19 @@ def unpacked(folder):
     return folder / "root/usr"
 
 
-def library_of(prefix):
-    return next(prefix.glob("lib/**/libyars-display.so"))
+def library_of(prefix, name="display"):
+    return next(prefix.glob(f"lib/**/libyars-{name}.so"))
+
+
+def check_radar(how, program, **environment):
+    """The example gives the hashes of the commands."""
+    done = run(program, **environment)
+    expect(f"{how}: first_picture runs", done.returncode == 0, done)
+    for command in (["scan", "--range-nm", "20"], ["patch", "--window-nm", "1.3"]):
+        wanted = json.loads(must(BUILD / "bin/yars", *command, "--json"))["hash"]
+        expect(f"{how}: first_picture has the hash of yars {command[0]}", f"hash {wanted}\n" in done.stdout, done.stdout)
+    absent = run(program, "/nowhere", **environment)
+    expect(f"{how}: first_picture says what is wrong", absent.returncode == 1 and "/nowhere: expected a directory" in absent.stderr, absent)
 
 
 def check_picture(how, path):
@@ -148,6 +159,7 @@ def by_cmake(folder, prefix, kind):
     must(CMAKE, "-S", documented, "-B", documented / "build", *options)
     must(CMAKE, "--build", documented / "build")
     check_programs(f"{kind}, find_package", built, prefix)
+    check_radar(f"{kind}, find_package", built / "first_picture")
 
 
 def by_pkg_config(folder, prefix, kind):
@@ -164,6 +176,9 @@ def by_pkg_config(folder, prefix, kind):
     must(CC, *FLAGS, examples / "fly.c", *client, "-lm", "-o", built / "fly")
     must(CXX, *FLAGS, "-std=c++17", examples / "host_display.cpp", *display, "-o", built / "host_display")
     check_programs(f"{kind}, pkg-config", built, prefix, LD_LIBRARY_PATH=library)
+    must(CXX, *FLAGS, "-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Werror", examples / "first_picture.cpp",
+         *of("--cflags", "--libs", "yars-radar"), "-o", built / "first_picture")
+    check_radar(f"{kind}, pkg-config", built / "first_picture", LD_LIBRARY_PATH=library)
     for compiler, name, more in ((CC, "strict.c", ["-std=c99", "-pedantic"]),
                                  (CXX, "strict.cpp", ["-std=c++11", "-Wno-missing-field-initializers"])):
         (built / name).write_text(STRICT)
@@ -173,11 +188,14 @@ def by_pkg_config(folder, prefix, kind):
 
 
 def check_symbols(prefix):
-    """The library shows the functions of its header and nothing else, which could clash with the host's."""
+    """The libraries show what their headers declare and nothing else, which could clash with the host's."""
     shown = {line.split()[-1] for line in must("nm", "-D", "--defined-only", library_of(prefix)).splitlines()}
     header = (prefix / "include/yars/yars_display.h").read_text()
     declared = set(re.findall(r"^YARS_DISPLAY_API.*?(yars_display_\w+)\(", header, re.M))
     expect("functions of libyars-display", len(declared) > 10 and shown == declared, sorted(shown ^ declared)[:20])
+    shown = {line.split(" ", 2)[-1] for line in must("nm", "-DC", "--defined-only", library_of(prefix, "radar")).splitlines()}
+    of_classes = {name for name in shown if re.match(r"(typeinfo.* for )?yars::(Error|Patch|Radar|Scan|Scene|Terrain)\b", name)}
+    expect("names of libyars-radar", len(shown) > 40 and shown == of_classes, sorted(shown - of_classes)[:20])
 
 
 def check_refusals(folder):
@@ -209,6 +227,7 @@ def check_python(prefix):
     expect("yars/session.py where Debian's python3 looks", at == ["/usr/lib/python3/dist-packages"], looks)
 
 
+expect("README has the example of the library", "```cpp\n" + (SOURCE / "examples/first_picture.cpp").read_text() + "```" in (SOURCE / "README.md").read_text())
 with tempfile.TemporaryDirectory(dir=BUILD) as top:
     top = pathlib.Path(top)
     for kind in ("tree", "deb", "headers"):

@@ -58,6 +58,7 @@ def check(prefix, elsewhere):
         expect(f"completion of {program}", (share / f"bash-completion/completions/{program}").is_file()
                and (share / f"fish/vendor_completions.d/{program}.fish").is_file()
                and program in (share / "zsh/vendor-completions/_yars").read_text().splitlines()[0].split())
+    expect("the tables of the records", "## Ownship: " in (share / "doc/yars/docs/records.md").read_text())
     expect("the licence", (share / "doc/yars/copyright").is_file())
     expect("the configurations' includes", {file.name for file in (share / "yars/config").glob("*.guf")} >= {
         "apg70.guf", "apg70nd.guf", "apg70d.guf", "apg68.guf"})

@@ -1,8 +1,14 @@
-"""Writer of the tables in docs/shared_memory.md: containers with offsets, fields with type, unit and range, values."""
-import re
-
-from . import schema
+"""Writer of the page records.md: containers with offsets, fields with type, unit and range, values."""
+from . import schema, stability
 from .schema import Bitmask, Constant, Enumeration
+
+HEAD = """# Records of the shared segment
+
+Offsets of containers count from the beginning of the segment, those of fields from the beginning of the record, in
+bytes. Both ends of a range belong to it. A number without a range may have any value. Made from the IDL of the records
+by `lib/values/generate.py`. How to read and write the segment: `docs/shared_memory.md`.
+
+"""
 
 
 def shown_unit(unit):
@@ -15,23 +21,14 @@ def cell(text):
 
 def container_rows(layout):
     """Table of the containers: offset of each in the segment, and offsets of the parts inside one container."""
-    yield "| offset | what | container | record | inside, from its begin |\n| ---: | --- | --- | --- | --- |\n"
-    for name, offset in layout["offsets"].items():
-        part = dict(layout["containers"].get(name, {}))
-        kind, record = part.pop("kind", ""), part.pop("record", "")
-        count, stride = part.pop("count", 1), part.pop("stride", 0)
-        times = f"{count} of {stride} bytes; " if count > 1 else ""
-        slots = [f"{key.removeprefix('slot_')} {part.pop(key)}" for key in list(part) if re.match("slot_(?!count|stride)", key)]
-        if slots:
-            slots = [f"{part.pop('slot_count')} slots of {part.pop('slot_stride')} bytes from {part.pop('slots', 0)}: "
-                     + ", ".join(slots)]
-        inside = "; ".join([f"{key} {value}" for key, value in part.items()] + slots).replace("_", " ")
-        yield f"| {offset} | `{name}` | {kind} | {record} | {times}{inside} |\n"
+    yield "| offset | what | container | record | inside, from its beginning |\n| ---: | --- | --- | --- | --- |\n"
+    for offset, name, kind, record, inside in stability.rows_of(layout, "container"):
+        yield f"| {offset} | `{name}` | {kind} | {record} | {inside} |\n"
     yield "\n"
 
 
 def record_table(record):
-    yield f"### {record.name}: {record.size} bytes\n\n" + (" ".join(record.doc) + "\n\n" if record.doc else "")
+    yield f"## {record.name}: {record.size} bytes\n\n" + (" ".join(record.doc) + "\n\n" if record.doc else "")
     yield "| offset | bytes | field | type | unit | range | |\n| ---: | ---: | --- | --- | --- | --- | --- |\n"
     for field in record.fields:
         if field.reserved:
@@ -61,8 +58,9 @@ def values(chapters):
 
 
 def document(chapters, layout):
-    """Text for the generated part of docs/shared_memory.md, which lies between two marks."""
-    text = f"Layout version {layout['version']}, {layout['size']} bytes, hash `{layout['hash']}`.\n\n"
+    """The page. `layout`: text of layout.tsv, which has the offsets of the containers."""
+    version, size, digits = stability.rows_of(layout, "layout")[0]
+    text = HEAD + f"Layout version {version}, {size} bytes, hash `{digits}`.\n\n## Containers\n\n"
     text += "".join(container_rows(layout))
     text += "".join("".join(record_table(one)) for one in schema.records_of(chapters))
-    return text + "### Values\n\n" + "".join(values(chapters))
+    return text + "## Values\n\n" + "".join(values(chapters))

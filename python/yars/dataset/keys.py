@@ -1,5 +1,6 @@
-"""Table of all keys of a specification: kind, range, unit, default, purpose. yars.dataset.spec checks files by it, and
-`python3 -m yars.dataset --keys` prints it for docs/datasets.md. A key of a list's item has the path of its list."""
+"""Table of all keys of a specification: kind, range, unit, default, purpose. yars.dataset.spec checks files by it.
+`yars dataset --keys` prints it, and the build makes the page dataset_keys.md of it: `python3 keys.py`, which needs no
+other module of the package. A key of a list's item has the path of its list."""
 import collections
 import math
 
@@ -148,16 +149,20 @@ def value_text(key):
 
 
 def markdown():
-    """Tables of all keys for docs/datasets.md."""
+    """Tables of all keys."""
     lines = []
     for section in ("",) + SECTIONS:
         names = children(section)
         if not names:
             continue
-        lines += [f"### {section or 'The file'}", "", "| key | value | drawn | default | means |", "| --- | --- | --- | --- | --- |"]
+        lines += [f"## {section or 'The file'}", "", "| key | value | drawn | default | means |", "| --- | --- | --- | --- | --- |"]
         for name in names:
             key = KEYS[f"{section}.{name}" if section else name]
             value = value_text(key) if key.kind not in ("any", "place") else key.kind.replace("any", "see right")
             lines.append(f"| `{name}` | {value} | {'yes' if key.drawn else ''} | {key.default} | {key.text} |")
         lines.append("")
     return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print("# Keys of a data set's specification\n\nHow a specification is used: `docs/datasets.md`.\n\n" + markdown())

@@ -13,10 +13,10 @@ import unittest
 
 sys.dont_write_bytecode = True
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-MESSAGES = ROOT / "databuffer/messages"
+MESSAGES = ROOT / "lib/values"
 sys.path.insert(0, str(MESSAGES))
 import generate  # noqa: E402
-from generator import clients, cpp, dds, idl, schema, stability, tables  # noqa: E402
+from generator import clients, cpp, dds, idl, requests, schema, stability  # noqa: E402
 
 GOOD = """// One record.
 module yars {
@@ -74,7 +74,7 @@ class TheParser(unittest.TestCase):
     def test_says_what_it_expected_and_found(self):
         self.refuses(changed("uint32 count;", "uint32 count"), "records.idl:15: expected ';', found 'Gear'")
         self.refuses(changed("uint32 count;", "uint count;"), "or the name of an enumeration, bit mask or record, found 'uint'; declare")
-        self.refuses(changed("@final\n", ""), "expected @final at Place, found none")
+        self.refuses(changed("@final\n", ""), "expected @final or @request at Place, found none")
         self.refuses(changed("  @bit_bound(8)\n", ""), "expected @bit_bound(8), (16), (32) or (64), found none")
         self.refuses(changed("Gear_up", "up"), "expected a value named Gear_..., found 'up'")
         self.refuses(changed("@unit(", "@units("), "found @units")
@@ -182,6 +182,55 @@ class TheRecordsOfTheTree(unittest.TestCase):
             self.assertTrue(one.doc, one.name)
 
 
+REQUESTS = """module yars {
+  @bit_bound(8)
+  enum Band { Band_A, Band_B };
+
+  @request @nested
+  struct Pose {
+    @option("lat") @unit("deg") @range(min=-90.0, max=90.0) @default(37.8) double latitude_deg;  // of the aircraft
+  };
+
+  // One look.
+  @request
+  struct Look : Pose {
+    boolean force;  // ignore limits
+    @optional @otherwise("the configuration's") @range(min=1, max=16) int32 looks;  // to average
+    Band band;  // of the radar
+  };
+};
+"""
+
+
+class Requests(unittest.TestCase):
+    def test_become_a_struct_and_a_table(self):
+        structs, table = requests.files(chapters_of(REQUESTS)[-1]).values()
+        self.assertIn("enum class Band : std::uint8_t { A, B };", structs)
+        self.assertIn("struct Look {\n  double latitude_deg = 37.8;  // [deg] -90 to 90: of the aircraft\n", structs)
+        self.assertIn("bool force = false;", structs)
+        self.assertIn("std::optional<int> looks;    // 1 to 16: to average; left out: the configuration's", structs)
+        self.assertIn("Band band = Band::A;", structs)
+        self.assertNotIn("struct Pose", structs)
+        self.assertIn('Field{"latitude_deg", "lat", "deg", -90, 90, "of the aircraft", "", {}}', table)
+        self.assertIn('Field{"looks", "looks", "", 1, 16, "to average", "the configuration\'s", {}}', table)
+        self.assertIn('"of the radar", "", {"A", "B"}}', table)
+
+    def test_that_contradict_themselves_are_refused(self):
+        for old, new, message in (('@option("lat")', '@option("looks")', "expected one option looks in Look, found two"),
+                                  (' @otherwise("the configuration\'s")', "", "expected @optional with @otherwise at looks, found one of them"),
+                                  ("boolean force;", "boolean force[2];", "expected a number, boolean or enumeration for force"),
+                                  ("@default(37.8)", "@default(97.8)", "expected a default of latitude_deg in [-90, 90], found 97.8"),
+                                  ("@request\n  struct Look", "@request @final\n  struct Look", "expected @final or @request at Look, found both"),
+                                  (": Pose {", ": Place {", "expected the name of a request, found 'Place'")):
+            assert old in REQUESTS, old
+            with self.assertRaises(schema.IdlError) as caught:
+                chapters_of(REQUESTS.replace(old, new))
+            self.assertIn(message, str(caught.exception))
+        with self.assertRaises(schema.IdlError) as caught:
+            chapters_of(changed("uint32 count;", "boolean count;").replace("@range(min=0, max=4) ", ""))
+        self.assertIn("expected a number, a text or a record for count, found boolean", str(caught.exception))
+
+
 class TheIdlForDds(unittest.TestCase):
     def test_has_numbers_for_enumerations_and_bytes_for_texts(self):
         text = dds.idl(chapters_of(GOOD))
@@ -236,10 +285,9 @@ class TheFilesOfTheTree(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         self.root = pathlib.Path(self.folder.name)
-        for name, (begin, end) in generate.MARKS.items():
-            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
-            (self.root / name).write_text(f"before\n{begin}{end}after\n")
-        (self.root / generate.HEADER).parent.mkdir(parents=True)
+        for name in (generate.PYTHON, generate.HEADER, generate.LAYOUT):
+            (self.root / name).parent.mkdir(parents=True)
+        (self.root / generate.PYTHON).write_text(f"before\n{generate.BEGIN}{generate.END}after\n")
         self.program = self.root / "yars"
         self.tell(layout_of(self.chapters))
         self.tree, generate.ROOT = generate.ROOT, self.root
@@ -259,23 +307,32 @@ class TheFilesOfTheTree(unittest.TestCase):
         self.assertIn(message, str(caught.exception))
 
     def test_are_written_and_then_found_fresh(self):
-        self.refuses(generate.StaleError, "python/yars/session.py, docs/shared_memory.md: expected what records.idl says, found otherwise; run "
+        self.refuses(generate.StaleError, "python/yars/session.py: expected what records.idl says, found otherwise; run "
                                           "lib/values/generate.py --write")
         self.run_with("--write")
         self.run_with("--check")
-        for name in generate.MARKS:
-            text = (self.root / name).read_text()
-            self.assertTrue(text.startswith("before\n") and text.endswith("after\n"))
+        text = (self.root / generate.PYTHON).read_text()
+        self.assertTrue(text.startswith("before\n") and text.endswith("after\n"))
 
     def test_are_found_stale_one_by_one(self):
-        for name in (generate.HEADER, generate.PYTHON, generate.DOCUMENT):
+        for name in (generate.HEADER, generate.PYTHON, generate.LAYOUT):
             self.run_with("--write")
             path = self.root / name
             path.write_text(path.read_text().replace("latitude_deg", "latitude_rad"))
             with self.assertRaises((generate.StaleError, stability.MovedError)) as caught:
                 self.run_with("--check")
-            self.assertIn("latitude_rad" if name == generate.DOCUMENT else f"{name}: expected", str(caught.exception))
+            self.assertIn("latitude_rad" if name == generate.LAYOUT else f"{name}: expected", str(caught.exception))
             path.write_text(path.read_text().replace("latitude_rad", "latitude_deg"))
+
+    def test_hold_the_layout_that_the_tables_are_made_of(self):
+        self.run_with("--write")
+        page = self.root / "made/records.md"
+        generate.main(["--tables", str(page)])
+        text = page.read_text()
+        self.assertIn("Layout version 3, 4096 bytes, hash `0123456789abcdef`.\n", text)
+        self.assertIn("| 64 | `clock` | LatestValue | X | 8 of 8 bytes; ", text)
+        self.assertRegex(text, r"\n## Nav: \d+ bytes\n")
+        self.assertIn("\n## Values\n", text)
 
     def test_need_their_marks(self):
         (self.root / generate.PYTHON).write_text("nothing\n")
@@ -285,7 +342,7 @@ class TheFilesOfTheTree(unittest.TestCase):
         layout = layout_of(self.chapters)
         layout["records"]["Nav"]["fields"]["flags"] = [0, 4]
         self.tell(layout)
-        self.refuses(generate.StaleError, "expected the Nav of messages/records.idl, found another; build it anew")
+        self.refuses(generate.StaleError, "expected the Nav of values/records.idl, found another; build it anew")
         self.program.write_text("#!/bin/sh\nexit 1\n")
         self.refuses(generate.StaleError, "to print the layout, found:")
 
@@ -293,7 +350,7 @@ class TheFilesOfTheTree(unittest.TestCase):
 class ALayout(unittest.TestCase):
     def text(self, text=GOOD, digits="0123456789abcdef"):
         chapters = chapters_of(text)
-        return tables.document(chapters, {**layout_of(chapters), "hash": digits})
+        return stability.text(chapters, {**layout_of(chapters), "hash": digits})
 
     def test_with_its_hash_keeps_its_fields(self):
         moved = self.text(changed("    Gear gear;\n    uint8 reserved[3];\n", "    uint8 reserved[3];\n    Gear gear;\n"))
