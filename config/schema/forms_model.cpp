@@ -268,9 +268,10 @@ std::vector<SlotSchema> map_fidelity_slots() {
   return {
       {.name = "mapSize",
        .lowest = 16,
-       .highest = 1024,
+       .highest = 4096,
        .binding = IntegerSlot{YARS_FIELD(radar.fidelity.map_size)},
-       .purpose = "pixels along the edge of a patch map; the resolution remains 1/480 of the window"},
+       .purpose = "pixels along the edge of a patch map; the resolution remains 1/480 of the window; at most 1024 in a "
+                  "session and with the algorithm reference"},
       {.name = "mapOversampling",
        .lowest = 1,
        .highest = 4,

@@ -73,7 +73,7 @@ FormSchema real_beam_mode() {
 SlotSchema map_edge(std::string_view name, IntegerSlot binding, std::string_view purpose) {
   return {.name = name,
           .lowest = 16,
-          .highest = 1024,
+          .highest = 4096,
           .binding = binding,
           .purpose = purpose,
           .same_as = "mapSize of Fidelity"};

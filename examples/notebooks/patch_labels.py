@@ -67,11 +67,9 @@ for code, pixels in zip(*numpy.unique(one.material[~one.shadow], return_counts=T
 
 # %%
 order = numpy.zeros(1, yars.PATCH_ORDER)
-for field, option in {"latitude": "lat", "longitude": "lon", "altitude_ft": "alt_ft", "target_latitude": "target_lat",
-                      "target_longitude": "target_lon"}.items():
-    order[field] = pose_from(45)[option]
-for field in ("heading", "speed_kt", "window_nm", "looks"):
-    order[field] = pose_from(45)[field]
+for name, value in pose_from(45).items():
+    if name != "seed":
+        order[name.removesuffix("_deg")] = value
 boxes = radar.patches(terrain, order, scene)["boxes"]
 tall = [box for box in boxes if scene.objects[box["object"]]["height_m"] > 8 and box["pixels"] > 0]
 print(f"{len(boxes)} boxes, {len(tall)} of objects taller than 8 m that return; the first:", tall[0])

@@ -44,7 +44,7 @@ struct Fidelity {
   bool pulse_smear = true;         // smear over the pulse length
   BeamPattern beam = BeamPattern::cosecant_squared;
   // Parameters of patch maps.
-  int map_size = 480;              // [pixels] edge of the map, 16 to 1024
+  int map_size = 480;              // [pixels] edge of the map, 16 to 4096; in a session at most 1024
   int map_oversampling = 1;        // cells of the polar grid (range, azimuth) per pixel, in each direction, 1 to 4
   bool map_layover = true;         // slant range geometry with layover; false: orthographic
   bool map_response = true;        // impulse response with sidelobes

@@ -4,8 +4,8 @@
 usage: generate.py --build FOLDER   the C++ headers and sources, and the IDL for DDS, into FOLDER; the build calls it
        generate.py --requests FOLDER  of requests.idl: <yars/requests.hpp> and the table of its fields, into FOLDER
        generate.py --tables FILE    the page of all records, fields and values, in Markdown; needs no build
-       generate.py --write YARS     layout.tsv in this folder, databuffer/client/yars_records.h, and the marked part of
-                                    python/yars/session.py
+       generate.py --write YARS     layout.tsv in this folder, databuffer/client/yars_records.h, and the marked parts of
+                                    python/yars/session.py and results.pyi
        generate.py --check YARS     checks that these files equal what --write would write; exit 1 if not
 YARS is the command `yars` built from the same records, such as build/dev/bin/yars. It prints the offsets of the
 segment's containers (`yars status --layout`). A fault in the IDL is reported in one line: file:line, what was expected,
@@ -24,6 +24,7 @@ from generator import clients, cpp, dds, idl, requests, schema, stability, table
 ROOT = HERE.parents[1]
 HEADER = "databuffer/client/yars_records.h"
 PYTHON = "python/yars/session.py"
+STUB = "python/yars/results.pyi"
 LAYOUT = "lib/values/layout.tsv"
 BEGIN, END = "# begin: lib/values/generate.py\n", "# end: lib/values/generate.py\n"  # the part of PYTHON
 
@@ -68,13 +69,13 @@ def layout_of(program, chapters):
     return layout
 
 
-def with_part(name, text, part):
+def with_part(name, text, part, begin=BEGIN, end=END):
     """Text of the file with `part` between its marks. StaleError if a mark is absent."""
-    before, found, rest = text.partition(BEGIN)
-    _, closed, after = rest.partition(END)
+    before, found, rest = text.partition(begin)
+    _, closed, after = rest.partition(end)
     if not found or not closed:
-        raise StaleError(f"{name}: expected the lines '{BEGIN.strip()}' and '{END.strip()}', found not both; put them back")
-    return before + BEGIN + part + END + after
+        raise StaleError(f"{name}: expected the lines '{begin.strip()}' and '{end.strip()}', found not both; put them back")
+    return before + begin + part + end + after
 
 
 def text_of(path):
@@ -86,6 +87,10 @@ def tree_files(chapters, layout, root):
     made = {LAYOUT: stability.text(chapters, layout), HEADER: clients.c_header(chapters, layout)}
     python = text_of(root / PYTHON)
     made[PYTHON] = with_part(PYTHON, python, clients.python_records(chapters, layout))
+    stub = text_of(root / STUB)
+    for name, part in requests.stubs(idl.read(HERE, "requests.idl")[-1]).items():
+        stub = with_part(STUB, stub, part, f"        # begin: lib/values/generate.py, {name}\n", f"        # end: {name}\n")
+    made[STUB] = stub
     return {name: (text_of(root / name), text) for name, text in made.items()}
 
 

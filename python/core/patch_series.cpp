@@ -345,6 +345,7 @@ void PatchPool::give_back(std::unique_ptr<Patch> patch, LabelUse labels) {
 }
 
 py::dict patch_series(const yars::Radar& radar, PatchPool& pool, const SeriesRequest& request) {
+  if (request.scene) radar::check_same_terrain(&request.scene->scene(), request.terrain->terrain());
   const auto orders = entries_of<Order>(request.orders, order_type(), "orders");
   for (std::size_t i = 0; i < orders.size(); ++i) request_of("orders[" + std::to_string(i) + "]", orders[i], true);
   const auto movers = movers_of(request.movers, orders.size());

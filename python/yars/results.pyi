@@ -13,7 +13,6 @@ from .places import Terrain as Terrain
 from .recordings import Recording as Recording
 
 _Preset = Literal["1996", "draft", "standard", "fine", "reference"]
-_Band = Literal["A", "B", "C", "D", "E"]
 
 UNITS: dict[str, str]
 MEANINGS: dict[str, str]
@@ -90,42 +89,46 @@ class Radar(Held):
         terrain: Terrain,
         scene: Scene | None = None,
         *,
-        lat: float = ...,
-        lon: float = ...,
-        alt_ft: float = ...,
-        heading: float = ...,
-        range_nm: float = ...,
-        scan_width: float = ...,
-        elevation: float = ...,
-        force: bool = False,
-        samples: int | None = None,
-        gain: int = ...,
-        band: _Band = "A",
-        channel: int = ...,
-        time_s: float = ...,
-        threads: int = 1,
-        seed: int | None = None,
+        # begin: lib/values/generate.py, ScanRequest
+        latitude_deg: float = ...,  # [deg] -90 to 90: latitude of the aircraft
+        longitude_deg: float = ...,  # [deg] -180 to 180: longitude of the aircraft
+        altitude_ft: float = ...,  # [ft] -3000 to 600000: altitude of the aircraft above mean sea level
+        heading_deg: float = ...,  # [deg] -360 to 360: true heading; also the ground track
+        range_nm: float = ...,  # [NM] 0.1 to 1000: range of the scan
+        width_deg: float = ...,  # [deg] 1 to 120: width of the scan in azimuth
+        elevation_deg: float = ...,  # [deg] -90 to 90: antenna elevation above the horizontal
+        force: bool = ...,  # allow angles beyond the gimbal limits, and an aircraft below the ground
+        samples: int | None = ...,  # 1 to 4096: samples of a sweep; left out: the configuration's
+        gain: int = ...,  # 0 to 3: receiver gain
+        band: Literal["A", "B", "C", "D", "E"] = ...,  # band of the radar; a jammer acts only in its own bands
+        channel: int = ...,  # 1 to 8: frequency channel
+        time_s: float = ...,  # [s] 0 to 1e8: sim time of the first sweep, for moving targets
+        threads: int = ...,  # 1 to 256: number of threads
+        seed: int | None = ...,  # seed of the noise; left out: the configuration's
+        # end: ScanRequest
     ) -> Scan: ...
     def patch(
         self,
         terrain: Terrain,
         scene: Scene | None = None,
         *,
-        lat: float = ...,
-        lon: float = ...,
-        alt_ft: float = ...,
-        heading: float = ...,
-        speed_kt: float = ...,
-        target_lat: float = ...,
-        target_lon: float = ...,
-        window_nm: float | None = None,
-        force: bool = False,
-        looks: int | None = None,
-        size: int | None = None,
-        time_s: float = ...,
-        threads: int | None = None,
-        seed: int | None = None,
-        map: int = 1,
+        # begin: lib/values/generate.py, PatchRequest
+        latitude_deg: float = ...,  # [deg] -90 to 90: latitude of the aircraft
+        longitude_deg: float = ...,  # [deg] -180 to 180: longitude of the aircraft
+        altitude_ft: float = ...,  # [ft] -3000 to 600000: altitude of the aircraft above mean sea level
+        heading_deg: float = ...,  # [deg] -360 to 360: true heading; also the ground track
+        speed_kt: float = ...,  # [kt] 0 to 10000: speed over ground
+        target_latitude_deg: float = ...,  # [deg] -90 to 90: latitude of the map's centre
+        target_longitude_deg: float = ...,  # [deg] -180 to 180: longitude of the map's centre
+        window_nm: float | None = ...,  # [NM] 0.01 to 200: side of the map; left out: the configuration's at power-up
+        force: bool = ...,  # ignore the radar's limits; the blind zone stays blank
+        looks: int | None = ...,  # 1 to 16: number of looks to average; left out: that of ML1
+        size: int | None = ...,  # [pixels] 16 to 4096: per side; up to 1024 with the preset reference; left out: the configuration's
+        time_s: float = ...,  # [s] 0 to 1e8: sim time at the start, for moving targets
+        threads: int | None = ...,  # 1 to 256: number of threads; left out: one for each processor
+        seed: int | None = ...,  # seed of the noise; left out: the configuration's
+        map: int = ...,  # 0 to 4294967295: number of the map; selects the noise together with the seed
+        # end: PatchRequest
     ) -> Patch: ...
     def patches(
         self,

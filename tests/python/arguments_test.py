@@ -149,7 +149,7 @@ class Arguments(Folder):
         terrain, radar = yars.Terrain(), yars.Radar("draft")
         self.refused(ValueError, r"give force=True", lambda: radar.scan(terrain, **{**SCAN, "elevation_deg": -80}))
         self.refused(ValueError, "gain: expected a whole number from 0 to 3, found int 4", lambda: radar.scan(terrain, **{**SCAN, "gain": 4}))
-        self.refused(yars.Error, r"make one with yars.Terrain.generate\(\)", lambda: yars.Terrain("/absent"))
+        self.refused(yars.Error, r"make one with `yars terrain generate --out DIR`", lambda: yars.Terrain("/absent"))
         self.refused(ValueError, "found 1e\\+308", lambda: terrain.elevation(1e308, 0))
         self.refused(yars.Error, "expected a folder, found none", lambda: yars.trade(terrain, out="/absent/x.json"))
         path = yars.Scene.generate(self.folder / "a.flt", kind="town", triangles=500, origin=(37, -122))

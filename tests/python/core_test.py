@@ -10,7 +10,7 @@ import re
 import unittest
 import warnings
 
-from core_helpers import PATCH, SCAN, Folder, command, np, options, yars
+from core_helpers import KEYWORDS, PATCH, SCAN, Folder, command, np, option, options, yars
 
 # Array -> type, unit; of scans and maps.
 ARRAYS = {"power": (np.float32, "1"), "video": (np.uint8, ""), "shadow": (np.bool_, ""), "layover": (np.bool_, ""),
@@ -218,7 +218,9 @@ class Commands(Folder):
         with self.assertWarnsRegex(DeprecationWarning, "lat is an older word for latitude_deg"):
             old = radar.scan(terrain, lat=37.8, lon=-122.5, alt_ft=15000, heading=30, range_nm=10, seed=7)
         self.assertEqual(old.hash, radar.scan(terrain, **SCAN).hash)
-        self.refused(TypeError, "expected latitude_deg once", lambda: radar.scan(terrain, latitude_deg=37, lat=37))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self.refused(TypeError, "expected latitude_deg once", lambda: radar.scan(terrain, latitude_deg=37, lat=37))
 
 
 class Trades(Folder):

@@ -116,7 +116,7 @@ class Series(Folder):
                 self.refused(ValueError, rf"orders\[2\]: {field}: expected .* to .*, found {value}",
                              lambda: self.radar.patches(self.terrain, bad, force=force))
         bad = good.copy()
-        bad["heading_deg"][1] = 20
+        bad["heading"][1] = 20
         self.refused(ValueError, r"orders\[1\]: BLIND ZONE", lambda: self.radar.patches(self.terrain, bad))
         self.assertTrue(np.isnan(self.radar.patches(self.terrain, bad, arrays=["power"], force=True)["power"][1]).any())
         for given in (np.zeros(3), good[None], good.astype(good.dtype.newbyteorder(">")), [1, 2], good[["latitude"]]):

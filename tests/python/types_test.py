@@ -102,7 +102,9 @@ class Stubs(unittest.TestCase):
             stub = ast.parse((BUILD / "python/yars/results.pyi").read_text())
             radar = next(one for one in stub.body if isinstance(one, kind) and one.name == "Radar")
             method = next(part for part in radar.body if isinstance(part, ast.FunctionDef) and part.name == name)
-            self.assertEqual({one.arg for one in method.args.kwonlyargs}, {one for one in options if one})
+            request = _core.ScanRequest_fields if name == "scan" else _core.PatchRequest_fields
+            self.assertEqual([one.arg for one in method.args.kwonlyargs], [row[0] for row in request])
+            self.assertEqual({row[1] for row in request}, {one for one in options if one})
 
     def test_a_program_of_a_user(self):
         mypy = shutil.which("mypy", path="/usr/bin")

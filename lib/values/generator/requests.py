@@ -78,3 +78,16 @@ def table(chapter):
 def files(chapter):
     """{path below the build's generated files: text}"""
     return {STRUCTS: structs(chapter), FIELDS: table(chapter)}
+
+
+def python_type(field):
+    if isinstance(field.type, Enumeration):
+        return f"Literal[{', '.join(chr(34) + name + chr(34) for name, _ in field.type.values)}]"
+    kind = {"double": "float", "boolean": "bool"}.get(field.type, "int")
+    return f"{kind} | None" if field.optional else kind
+
+
+def stubs(chapter):
+    """{request: keyword arguments with type and purpose, as lines of a stub}"""
+    return {one.name: "".join(f"        {field.name}: {python_type(field)} = ...,  # {about(field)}\n" for field in one.fields)
+            for one in declarations(chapter, Record)}

@@ -129,6 +129,14 @@ TEST(Trade, AKnobSweepNamesEachCandidateAndSetsOnlyThatKnob) {
   EXPECT_EQ((*knob_candidates("beam=hard-edge", base, Subject::scan))[0].fidelity.beam, radar::BeamPattern::hard_edge);
 }
 
+TEST(Trade, AKnobHasTheLimitsOfItsSlot) {
+  const auto base = *radar::fidelity_preset("standard");
+  EXPECT_EQ((*knob_candidates("geodesicKnots=1", base, Subject::map))[0].fidelity.geodesic_knots, 1);
+  EXPECT_EQ((*knob_candidates("mapSize=4096", base, Subject::map))[0].fidelity.map_size, 4096);
+  EXPECT_EQ(knob_candidates("samples=4097", base, Subject::scan).error().message(),
+            "--knob samples: expected an integer in [1, 4096], found '4097'");
+}
+
 TEST(Trade, PresetsAllNamesEveryPreset) {
   EXPECT_EQ(preset_candidates("all")->size(), radar::fidelity_names().size());
   EXPECT_EQ((*preset_candidates("draft,fine"))[1].name, "fine");
@@ -145,7 +153,7 @@ TEST(Trade, RefusesBadInputWithAMessageOfOneLine) {
   const radar::Fidelity base;
   for (const char* sweep :
        {"", "samples", "samples=", "samples=0", "samples=4097", "samples=12x", "samples=120,,240", "sample=5",
-        "geodesicKnots=1", "geodesicKnots=10", "interpolation=best", "postsPerSample=-1", "postsPerSample=nan",
+        "geodesicKnots=10", "earth=sphere :samples 3", "interpolation=best", "postsPerSample=-1", "postsPerSample=nan",
         "earth=disc", "subBeams=16", "sweepsPerRay=2", "crossTrackSlope=1", "beam=hard", "mapSize=480"}) {
     const auto found = knob_candidates(sweep, base, Subject::scan);
     ASSERT_FALSE(found) << sweep;

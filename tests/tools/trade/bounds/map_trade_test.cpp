@@ -146,7 +146,7 @@ TEST(MapKnobs, AreOnlyThoseOfMaps) {
   EXPECT_EQ((*knob_candidates("mapOversampling=2", base, Subject::map))[0].fidelity.map_oversampling, 2);
   EXPECT_EQ((*knob_candidates("mapSize=1024", base, Subject::map))[0].fidelity.map_size, 1024);
   EXPECT_FALSE((*knob_candidates("mapLayover=false", base, Subject::map))[0].fidelity.map_layover);
-  for (const char* sweep : {"samples=240", "mapSize=15", "mapSize=1025", "mapOversampling=5", "mapDetail=1", ""}) {
+  for (const char* sweep : {"samples=240", "mapSize=15", "mapSize=4097", "mapOversampling=5", "mapDetail=1", ""}) {
     const auto refused = knob_candidates(sweep, base, Subject::map);
     ASSERT_FALSE(refused) << sweep;
     EXPECT_TRUE(refused.error().bad_usage());
