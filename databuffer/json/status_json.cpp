@@ -1,372 +1,403 @@
 #include "databuffer/json/status_json.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "databuffer/json/network_json.hpp"
-#include "databuffer/json/session_json.hpp"
-#include "databuffer/messages/validation.hpp"
+#include "databuffer/messages/derived_values.hpp"
 #include "databuffer/runtime/receivers.hpp"
-#include "databuffer/runtime/tick_loop.hpp"
-#include "databuffer/session/picture_pool.hpp"
-#include "databuffer/session/session.hpp"
-#include "databuffer/session/validated.hpp"
+#include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::databuffer {
 
-// All entries of the process table, and the needed roles that do not run. The roles come first, in the order of
-// kSetRoles.
-// [{name, pid (0: not running here), heartbeat_ms (age of the last heartbeat; null: not running), hangs, host (where it
-// runs; null: nowhere, or unknown), restarts, restarts_last_minute}]. pid of a role of another host: the gateway's.
-// A role of kSetRoles hangs if its heartbeat is older than 2 s. Only restarts by the supervisor count.
-// `network`: of network_json().
-nlohmann::ordered_json roles_json(const Session& session, const nlohmann::ordered_json& network);
-
-// How far each role of kLockstepRoleNames lags behind the clock: {ROLE: {"skipped": ticks, "share": of the ticks that
-// were due, "seconds": in which ticks were skipped}}, over the last kLag_s. Roles that skipped none, and a frozen
-// clock's roles, are left out.
-nlohmann::ordered_json lag_json(const Session& session);
-
-// {"state": "OK", "DEGRADED" or "NOTHING RUNS", "reasons": [texts]}. `status` must have watch, model, roles, recorder,
-// lag, ownship_lanes, frames_failing, input, refusals, clock_problem, named and network.
-nlohmann::ordered_json health_json(const nlohmann::ordered_json& status);
-
 namespace {
 
 using nlohmann::ordered_json;
+using text::text_of;
 
-constexpr double kHangsAfter_ms = 2000.0;
-// The machine is too slow if a role skips more than this share of its ticks within kLag_s, in at least kMinLagging_s
-// different seconds. A single stall, as by a program that starts, is no reason.
-constexpr double kMaxSkipped = 0.05;
-constexpr std::int64_t kLag_s = 10;
-constexpr int kMinLagging_s = 3;
-constexpr double kMostSkipped = 0.5;  // above it one second less is enough, because stalls may last seconds
-constexpr std::int64_t kLastMinute_ns = 60'000'000'000;
-
-struct SetRole {
-  const char* name;
-  bool needed;  // the radar does not work without this role
-};
-constexpr std::array<SetRole, 7> kSetRoles{{{"state-machine", true},
-                                            {"radar-model", true},
-                                            {"flight-model", false},
-                                            {"input-monitor", false},
-                                            {"radar-display", false},
-                                            {"recorder", false},
-                                            {"gateway", false}}};
-
-// Index in kSetRoles; kSetRoles.size() for another process.
-std::size_t set_index(std::string_view name) {
-  return static_cast<std::size_t>(
-      std::ranges::find(kSetRoles, name, [](const SetRole& role) { return std::string_view(role.name); }) -
-      kSetRoles.begin());
+template <class Value>
+ordered_json value_or_null(const std::optional<Value>& value) {
+  return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
-ordered_json role_json(const ProcessInfo& process, std::int64_t now_ns) {
-  const double heartbeat_ms = static_cast<double>(now_ns - process.heartbeat_ns) * 1e-6;
-  // Other processes need not send heartbeats.
-  const bool hangs = set_index(process.name) < kSetRoles.size() && heartbeat_ms > kHangsAfter_ms;
-  return {{"name", process.name}, {"pid", process.pid}, {"heartbeat_ms", heartbeat_ms}, {"hangs", hangs}};
+// JSON has no NaN, so an unknown value (NaN) becomes null.
+ordered_json number_or_null(double value) {
+  return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-// True if the role runs, on this host or another one.
-bool runs(const ordered_json& role) {
-  return role["pid"] != 0 || !role["host"].is_null();
+bool has(const RadarState& state, std::uint32_t flag) {
+  return (state.flags & flag) != 0U;
 }
 
-// True if a gateway has died that kept roles for other hosts, and nobody has taken them since.
-bool misses_gateway(const Session& session) {
-  if (session.role_is_held(Role::gateway)) return false;
-  return std::ranges::any_of(std::array{Role::radar_model, Role::state_machine},
-                             [&](auto role) { return session.is_mirrored(role) && !session.role_is_held(role); });
+void add_clock(ordered_json& object, const Watch& watch) {
+  object["sim_time"] = static_cast<double>(watch.sim_time_ns) * 1e-9;
+  object["epoch"] = watch.clock.epoch;
+  object["tick"] = watch.model.tick;
+  object["rate"] = watch.clock.rate;
+  object["running"] = watch.clock.running != 0;
 }
 
-// Restarts have counters in the segment, because the flight recorder keeps only its last 1,000 lines.
-void add_restarts(ordered_json& role, const Session& session, std::int64_t now_ns) {
-  const auto index = counted_role(role["name"].get<std::string>());
-  const RecentCount none{};
-  const auto& restarts = index ? session.layout().counters.restarts[*index] : none;
-  role["restarts"] = restarts.count.load();
-  role["restarts_last_minute"] = restarts.within(kLastMinute_ns, now_ns);
+void add_switches(ordered_json& object, const RadarState& state) {
+  object["power"] = radar::name_of(static_cast<radar::Power>(state.power));
+  object["mode"] = radar::name_of(static_cast<radar::Mode>(state.mode));
+  object["master"] = radar::name_of(static_cast<radar::Master>(state.master));
+  object["range_nm"] = state.range_nm;
+  object["scan"] = radar::name_of(static_cast<radar::ScanWidth>(state.scan));
+  object["gain"] = state.gain;
+  object["brightness"] = state.brightness;
+  object["contrast"] = state.contrast;
+  object["declutter"] = has(state, kDeclutter);
+  object["freeze"] = has(state, kFreeze);
+  object["sniff"] = has(state, kSniff);
+  object["ipvu"] = has(state, kIpvu);
+  object["vtr"] = has(state, kVtr);
+  object["set"] = has(state, kSet);
+  object["menu"] = has(state, kMenu);
 }
 
-void add_role_reasons(const ordered_json& roles, std::vector<std::string>& reasons) {
-  for (const auto& role : roles) {
-    const auto name = role["name"].get<std::string>();
-    if (!runs(role)) reasons.push_back(name + " is not running");
-    if (role["hangs"].get<bool>())
-      reasons.push_back((name == "radar-display" ? "the display" : name) + " hangs (heartbeat " +
-                        std::to_string(static_cast<int>(role["heartbeat_ms"].get<double>() / 1000.0)) + " s old)");
-    const int restarts = role["restarts_last_minute"];
-    if (restarts == 0) continue;
-    reasons.push_back(name + " was started again " + (restarts == 1 ? "once" : std::to_string(restarts) + " times") +
-                      " in the last minute");
+// The north from which bearing and heading of the display count: magnetic, or true while no variation is known.
+const char* north_of(const RadarState& state) {
+  return has(state, kVariationKnown) ? "magnetic" : "true";
+}
+
+void add_cursor(ordered_json& object, const RadarState& state) {
+  object["cursor_function"] = radar::name_of(static_cast<radar::CursorFunction>(state.cursor_function));
+  if (!has(state, kCursorValid)) {
+    object["cursor"] = nullptr;
+    return;
+  }
+  object["cursor"] = {{"bearing_deg", number_or_null(state.cursor_bearing_deg)},
+                      {"north", north_of(state)},
+                      {"range_nm", number_or_null(state.cursor_range_nm)},
+                      {"lat", number_or_null(state.cursor_believed_latitude_deg)},
+                      {"lon", number_or_null(state.cursor_believed_longitude_deg)},
+                      {"elevation_ft", number_or_null(state.cursor_elevation_m / geo::kMetresPerFoot)}};
+}
+
+ordered_json recall_word(const RadarState& state) {
+  switch (static_cast<radar::Recall>(state.recall)) {
+    case radar::Recall::newest:
+      return "NEW";
+    case radar::Recall::old:
+      return "OLD";
+    case radar::Recall::store:
+      return "STORE";
+    default:
+      return nullptr;
   }
 }
 
-// What a user can do for a role that is too slow at a clock of this rate.
-std::string remedy_of_lag(const std::string& role, double rate) {
-  std::string remedy;
-  if (rate > 1.0) remedy = "let time run slower (yars sim rate 1), ";
-  if (role == "radar-model") remedy += "choose a lower fidelity (( Fidelity :preset draft ) or :automatic true), ";
-  if (role == "radar-display") remedy += "make the display smaller (--size), ";
-  return remedy + (remedy.empty() ? "" : "or ") + "end other programs";
+void add_map(ordered_json& object, const RadarState& state) {
+  object["window_nm"] = state.window_nm > 0.0 ? ordered_json(state.window_nm) : ordered_json(nullptr);
+  object["multi_look"] = has(state, kMultiLook2) ? "ML2" : "ML1";
+  object["stabilizing"] = has(state, kProgressive) ? "PROG" : "STAB";
+  object["recall"] = recall_word(state);
+  object["message"] = text_of(state.message);
 }
 
-std::string reason_of_lag(const std::string& role, double share, double rate) {
-  const std::string time = std::to_string(std::lround(100.0 * share)) + " % of ";
-  const std::string found = role == "radar-display" ? "pictures of the display took longer than they may in " + time
-                                                    : role + " skipped " + time + "its ticks in ";
-  return "too slow: " + found + "the last " + std::to_string(kLag_s) + " s; " + remedy_of_lag(role, rate);
+// Result of the cursor function UPDT: distance from the displayed selected point to the cursor; null while there is
+// none. Unit as on the display: feet up to 3000 ft, NM beyond. `valid` false: the display shows INV instead.
+ordered_json update_error(const RadarState& state) {
+  if (!has(state, kUpdateShown)) return nullptr;
+  const auto distance = geo::Length::metres(std::hypot(state.update_north_m, state.update_east_m));
+  const bool far = distance.feet() > kUpdateErrorInFeet;
+  const bool ages = state.update_seconds >= 0;
+  return {{"value", far ? distance.nautical_miles() : distance.feet()},
+          {"unit", far ? "NM" : "ft"},
+          {"valid", !has(state, kUpdateInvalid)},
+          {"seconds", ages ? ordered_json(state.update_seconds) : ordered_json(nullptr)}};
 }
 
-void add_lag_reasons(const ordered_json& status, std::vector<std::string>& reasons) {
-  for (const auto& [role, lag] : status["lag"].items()) {
-    const double share = lag["share"];
-    if (share <= kMaxSkipped || lag["seconds"] < (share > kMostSkipped ? kMinLagging_s - 1 : kMinLagging_s)) continue;
-    reasons.push_back(reason_of_lag(role, share, status["watch"]["rate"]));
+// Pattern steering line (PSL): the heading on which the target is approached; null if there is none. `heading_deg`
+// counts from the north that `north` names.
+ordered_json steering_line(const RadarState& state) {
+  const auto heading = geo::Bearing::degrees(state.steering_line_deg - state.magnetic_variation_deg);
+  const auto object = [&](const char* word) {
+    return ordered_json{{"heading_deg", heading.degrees()}, {"north", north_of(state)}, {"state", word}};
+  };
+  switch (static_cast<SteeringLine>(state.steering_line)) {
+    case SteeringLine::line_of_sight:
+      return object("LOS");
+    case SteeringLine::slewing:
+      return object("SLEW");
+    case SteeringLine::fixed:
+      return object("FIXED");
+    case SteeringLine::none:
+      break;
+  }
+  return nullptr;
+}
+
+void add_navigation(ordered_json& object, const RadarState& state) {
+  object["channel"] = state.channel;
+  object["band"] = std::string(1, static_cast<char>('A' + state.band));
+  object["sequence_point"] = text_of(state.sequence_point);
+  ordered_json drawn = ordered_json::array();
+  for (int i = 0; i < state.points_drawn && i < radar::kMaxPointsDrawn; ++i)
+    drawn.push_back(text_of(state.points[i].name));
+  object["points_drawn"] = drawn;
+  object["nav_source"] = radar::name_of(static_cast<radar::Navigator>(state.navigator));
+  object["update_error"] = update_error(state);
+  object["psl"] = steering_line(state);
+}
+
+// A stored position: elevation MSL; latitude and longitude in the coordinates of the navigator then in use, which
+// contain its error.
+ordered_json position_json(double latitude_deg, double longitude_deg, double elevation_m) {
+  return {{"lat", number_or_null(latitude_deg)},
+          {"lon", number_or_null(longitude_deg)},
+          {"elevation_ft", number_or_null(elevation_m / geo::kMetresPerFoot)}};
+}
+
+// Positions stored by the cursor functions CUE, TGT and MARK.
+void add_designations(ordered_json& object, const RadarState& state) {
+  ordered_json marks = ordered_json::array();
+  for (const Mark& mark : std::span(state.marks).first(std::min<std::size_t>(state.mark_count, kMarks))) {
+    ordered_json entry = position_json(mark.latitude_deg, mark.longitude_deg, mark.elevation_m);
+    entry["sim_time"] = static_cast<double>(mark.sim_time_ns) * 1e-9;
+    marks.push_back(entry);
+  }
+  object["marks"] = marks;
+  object["cue"] = nullptr;
+  if (state.cue_count > 0) {
+    object["cue"] = position_json(state.cue_latitude_deg, state.cue_longitude_deg, state.cue_elevation_m);
+    object["cue"]["count"] = state.cue_count;
+  }
+  object["target"] = nullptr;
+  if (has(state, kTargetDesignated)) {
+    object["target"] = position_json(state.target_latitude_deg, state.target_longitude_deg, state.target_elevation_m);
+    object["target"]["name"] = text_of(state.target_name);
   }
 }
 
-bool runs(const ordered_json& roles, std::string_view name) {
-  return std::ranges::any_of(roles, [name](const auto& role) { return role["name"] == name && runs(role); });
+// From the aircraft to the designated target: slant range, true bearing, depression below the horizontal. Null without
+// a target.
+ordered_json ranging(const Outputs& outputs) {
+  if (!std::isfinite(outputs.slant_range_m)) return nullptr;
+  return {{"slant_range_nm", outputs.slant_range_m / geo::kMetresPerNauticalMile},
+          {"bearing_true_deg", number_or_null(outputs.bearing_deg)},
+          {"depression_deg", number_or_null(outputs.depression_deg)}};
 }
 
-void add_radar_reasons(const ordered_json& status, std::vector<std::string>& reasons) {
-  const auto& watch = status["watch"];
-  const auto& model = status["model"];
-  if (runs(status["roles"], "state-machine") && watch["power"] == "OFF")
-    reasons.emplace_back("the radar is off: yars inject 'power opr' switches it on");
-  // Without a running model, its status in the segment is out of date.
-  if (!runs(status["roles"], "radar-model")) return;
-  if (watch["ownship"].is_null())
-    reasons.push_back(status["ownship_lanes"].empty() ? "no ownship: no source runs"
-                                                      : "no ownship: its source is silent");
-  else if (model["terrain_bytes"] == 0 && watch["power"] == "OPR" && watch["sweeps"] > 0)
-    reasons.emplace_back("terrain missing: none is loaded at the aircraft's position");
+void add_ownship(ordered_json& object, const Watch& watch) {
+  const ModelStatus& model = watch.model;
+  object["antenna"] = {{"az_deg", model.antenna_azimuth_deg}, {"el_deg", model.antenna_elevation_deg}};
+  // The ownship in use may be in no lane here: its source runs on the model's host, and another one reaches this host.
+  if (!watch.has_ownship()) {
+    object["ownship"] = nullptr;
+    return;
+  }
+  const auto& own = model.ownship;
+  const double speed_mps = std::hypot(own.velocity_north_mps, own.velocity_east_mps);
+  object["ownship"] = {{"lat", own.latitude_deg},
+                       {"lon", own.longitude_deg},
+                       {"alt_ft", own.altitude_msl_m / geo::kMetresPerFoot},
+                       {"heading_deg", own.heading_deg},
+                       {"track_deg", ground_track_of(own).degrees()},
+                       {"ground_speed_kt", geo::Speed::metres_per_second(speed_mps).knots()},
+                       {"height_above_ground_ft", number_or_null(model.height_above_ground_m / geo::kMetresPerFoot)},
+                       {"source", name_of_source(own, model.ownship_lane)},
+                       {"age_ms", static_cast<double>(watch.sim_time_ns - model.ownship_received_ns) * 1e-6}};
 }
 
-// Adds reasons about a damaged clock, input sources that have died, and refused records (records that fail validation).
-// One refused record may be an accident. kManyRefusals within 10 s mean a faulty writer.
-void add_input_reasons(const ordered_json& status, std::vector<std::string>& reasons) {
-  constexpr int kManyRefusals = 3;
-  if (!status["clock_problem"].is_null())
-    reasons.push_back("the session's clock is damaged (" + status["clock_problem"].get<std::string>() +
-                      "): yars sim reset sets it");
-  const auto& input = status["input"];
-  if (input["sources"] == 0 && input["missing"] > 0) reasons.emplace_back("no input: all senders of events have died");
-  const auto& refusals = status["refusals"];
-  if (refusals["last_10_s"] < kManyRefusals) return;
-  const std::string newest = refusals["newest"].is_null() ? "" : ": " + refusals["newest"].get<std::string>();
-  reasons.push_back("records are being refused" + newest);
+void add_legends(ordered_json& object, const RadarState& state) {
+  ordered_json legends = ordered_json::object();
+  ordered_json boxed = ordered_json::array();
+  for (int button = 1; button <= radar::kBezelButtons; ++button) {
+    if (state.legends[button][0] != '\0') legends[std::to_string(button)] = text_of(state.legends[button]);
+    if ((state.boxed & (1U << button)) != 0U) boxed.push_back(button);
+  }
+  object["legends"] = legends;
+  object["boxed"] = boxed;
+}
+
+// Caption of the tour that runs; null without one.
+ordered_json caption_json(const std::optional<Caption>& caption) {
+  if (!caption) return nullptr;
+  ordered_json lines = ordered_json::array();
+  for (const CaptionLine& line : caption->lines)
+    if (line.text[0] != '\0') lines.push_back(text_of(line.text));
+  return {{"title", text_of(caption->title)},
+          {"step", caption->step},
+          {"steps", caption->steps},
+          {"waiting", caption->waiting != 0},
+          {"lines", lines}};
+}
+
+void add_counts(ordered_json& object, const Watch& watch) {
+  object["sweeps"] = watch.model.sweeps;
+  object["lost"] = watch.lost;
+  object["late_ticks"] = watch.model.late_ticks;
+  object["refused"] = watch.refused;
+  ordered_json processes = ordered_json::object();
+  for (const auto& process : watch.processes)
+    processes[process.name] = {
+        {"pid", process.pid}, {"heartbeat_ms", static_cast<double>(watch.monotonic_ns - process.heartbeat_ns) * 1e-6}};
+  object["processes"] = processes;
 }
 
 }  // namespace
 
-ordered_json roles_json(const Session& session, const ordered_json& network) {
-  const std::int64_t now_ns = monotonic_ns();
-  const auto processes = session.processes();
-  ordered_json roles = ordered_json::array();
-  // First the roles in the order of kSetRoles, then other processes.
-  for (std::size_t index = 0; index <= kSetRoles.size(); ++index) {
-    bool found = false;
-    for (const auto& process : processes) {
-      if (set_index(process.name) != index) continue;
-      roles.push_back(role_json(process, now_ns));
-      found = true;
-    }
-    const bool is_needed = index < kSetRoles.size() &&
-                           (kSetRoles[index].needed || (set_index("gateway") == index && misses_gateway(session)));
-    if (!found && is_needed)
-      roles.push_back({{"name", kSetRoles[index].name}, {"pid", 0}, {"heartbeat_ms", nullptr}, {"hangs", false}});
-  }
-  add_hosts(roles, network, session);
-  for (auto& role : roles) add_restarts(role, session, now_ns);
-  return roles;
+void add_radar_state(ordered_json& object, const RadarState& state) {
+  add_switches(object, state);
+  add_cursor(object, state);
+  add_map(object, state);
+  add_navigation(object, state);
+  add_designations(object, state);
+  add_legends(object, state);
 }
 
-ordered_json lag_json(const Session& session) {
-  ordered_json lags = ordered_json::object();
-  const ClockState clock = session.clock();
-  if (clock.running == 0 || !(clock.rate > 0.0)) return lags;
-  const std::int64_t now_ns = monotonic_ns();
-  for (std::size_t role = 0; role < kLockstepRoles; ++role) {
-    const auto lag = session.layout().skipped_ticks[role].within(kLag_s, now_ns);
-    if (lag.ticks == 0) continue;
-    // A late picture of the display counts by real time.
-    const bool is_display = role == static_cast<std::size_t>(LockstepRole::radar_display);
-    const double due = static_cast<double>(kLag_s) * 1e9 / static_cast<double>(radar::kTickNanoseconds) *
-                       (is_display ? 1.0 : clock.rate);
-    lags[std::string(kLockstepRoleNames[role])] = {{"skipped", lag.ticks},
-                                                   {"share", std::min(1.0, static_cast<double>(lag.ticks) / due)},
-                                                   {"seconds", lag.seconds}};
-  }
-  return lags;
-}
-
-ordered_json health_json(const ordered_json& status) {
-  const auto& roles = status["roles"];
-  if (std::ranges::none_of(roles, [](const auto& role) { return role["pid"] != 0; }))
-    return {{"state", "NOTHING RUNS"}, {"reasons", {"the session exists, but no program takes part"}}};
-  std::vector<std::string> reasons;
-  add_role_reasons(roles, reasons);
-  add_network_reasons(status["network"], reasons);
-  add_lag_reasons(status, reasons);
-  add_radar_reasons(status, reasons);
-  if (const auto& recorder = status["recorder"]; !recorder.is_null() && !recorder["problem"].is_null())
-    reasons.push_back("the recorder does not write: " + recorder["problem"].get<std::string>());
-  if (status["frames_failing"].get<bool>() && runs(roles, "radar-display"))
-    reasons.emplace_back("the display cannot write its frames: see its log");
-  add_input_reasons(status, reasons);
-  if (!status["named"].get<bool>())
-    reasons.emplace_back(
-        "the segment's name was removed from /dev/shm (systemd's RemoveIPC?); the running set continues without it");
-  return {{"state", reasons.empty() ? "OK" : "DEGRADED"}, {"reasons", reasons}};
+ordered_json watch_json(const Watch& watch) {
+  ordered_json object;
+  add_clock(object, watch);
+  add_radar_state(object, watch.radar);
+  object["remedy"] = text_of(watch.advice.remedy);
+  object["events_applied"] = watch.radar.events_applied;
+  object["map_timer_s"] = value_or_null(watch.map_timer_s);
+  object["map_progress"] = number_or_null(watch.model.map_progress);
+  object["ranging"] = ranging(watch.outputs);
+  add_ownship(object, watch);
+  object["caption"] = caption_json(watch.caption);
+  add_counts(object, watch);
+  return object;
 }
 
 namespace {
 
-using nlohmann::ordered_json;
-
-constexpr std::array<const char*, kNoteKinds> kNoteNames{"restart", "refusal", "loss", "late tick", "supervision"};
-
-std::vector<Note> notes_of(const SessionLayout& layout) {
-  std::vector<Note> notes;
-  const std::uint64_t total = layout.notes.total();
-  Note note{};
-  for (std::uint64_t i = total > kNotes ? total - kNotes : 0; i < total; ++i)
-    if (layout.notes.read(i, note)) {
-      // Limits a damaged time stamp to the time between boot (0) and now.
-      note.monotonic_ns = std::clamp<std::int64_t>(note.monotonic_ns, 0, monotonic_ns());
-      notes.push_back(note);
-    }
-  return notes;
+ordered_json role_json(const RoleStatus& role) {
+  return {{"name", role.name},
+          {"pid", role.pid},
+          {"heartbeat_ms", value_or_null(role.heartbeat_ms)},
+          {"hangs", role.hangs},
+          {"host", value_or_null(role.host)},
+          {"restarts", role.restarts},
+          {"restarts_last_minute", role.restarts_last_minute}};
 }
 
-const char* note_name(std::uint32_t kind) {
-  return kind < kNoteNames.size() ? kNoteNames[kind] : "?";
+ordered_json host_json(const HostSummary& host) {
+  return {{"name", host.name},
+          {"version", host.version},
+          {"self", host.self},
+          {"present", host.present},
+          {"left", host.left},
+          {"silent_s", value_or_null(host.silent_s)},
+          {"owns_clock", host.owns_clock},
+          {"priority", host.priority},
+          {"offset_ms", value_or_null(host.offset_ms)},
+          {"offset_error_ms", value_or_null(host.offset_error_ms)},
+          {"latency_ms", host.latency_ms},
+          {"received", host.received},
+          {"lost", host.lost},
+          {"refused", host.refused},
+          {"repeated", host.repeated},
+          {"roles", host.roles},
+          {"differences", host.differences}};
 }
 
-// Ownship lanes with a running source. A source that has ended leaves its last record in the lane; such lanes are left
-// out.
-ordered_json lanes_json(const Session& session) {
-  const SessionLayout& layout = session.layout();
-  ordered_json lanes = ordered_json::array();
-  for (std::size_t i = 0; i < kOwnshipLanes; ++i) {
-    const auto own = read_valid(layout.ownship[i]);
-    if (!own || !session.ownship_lane_is_held(i)) continue;
-    lanes.push_back({{"lane", i},
-                     {"source", name_of_source(*own, static_cast<std::uint32_t>(i))},
-                     {"priority", layout.ownship_priority[i].load()},
-                     {"records", layout.ownship[i].version()}});
-  }
-  return lanes;
+ordered_json network_json(const std::optional<NetworkSummary>& network) {
+  if (!network) return nullptr;
+  ordered_json hosts = ordered_json::array(), topics = ordered_json::array();
+  for (const HostSummary& host : network->hosts) hosts.push_back(host_json(host));
+  for (const TopicSummary& topic : network->topics)
+    topics.push_back({{"name", topic.name},
+                      {"sent", topic.sent},
+                      {"sent_bytes", topic.sent_bytes},
+                      {"received", topic.received},
+                      {"received_bytes", topic.received_bytes}});
+  return {{"joined", network->joined},
+          {"domain", network->domain},
+          {"secured", network->secured},
+          {"load", network->load},
+          {"takeovers", network->takeovers},
+          {"conflicts", network->conflicts},
+          {"age_ms", network->age_ms},
+          {"hosts", hosts},
+          {"topics", topics}};
 }
 
-// Status of the recorder; null if no recorder runs or its status fails validation.
-ordered_json recorder_json(const Session& session) {
-  const auto status = read_valid(session.layout().recorder_status);
-  if (!status || !session.role_is_held(Role::recorder)) return nullptr;
-  const std::string problem(text::text_of(status->problem));
-  return {{"writing", status->writing != 0},
-          {"bytes", status->bytes},
+ordered_json recorder_json(const std::optional<RecorderStatus>& recorder) {
+  if (!recorder) return nullptr;
+  const std::string problem(text_of(recorder->problem));
+  return {{"writing", recorder->writing != 0},
+          {"bytes", recorder->bytes},
           {"problem", problem.empty() ? ordered_json(nullptr) : ordered_json(problem)}};
 }
 
-// Frames are images of the display. pid of the process that publishes them (null: none), and id and size of the newest.
-// Null if no process publishes frames and none has done so before.
-ordered_json frames_json(const Session& session) {
-  const std::int32_t publisher = session.role_holder(Role::glass_frames);
-  GlassFrame newest{};
-  std::vector<std::uint8_t> pixels;
-  if (!read_newest_frame(session.layout(), 0, newest, pixels) || validate(newest)) newest = {};
-  if (publisher == 0 && newest.id == 0) return nullptr;
-  return {{"publisher", publisher == 0 ? ordered_json(nullptr) : ordered_json(publisher)},
-          {"newest", newest.id},
-          {"width", newest.width},
-          {"height", newest.height}};
+ordered_json frames_json(const std::optional<FrameStatus>& frames) {
+  if (!frames) return nullptr;
+  return {{"publisher", frames->publisher == 0 ? ordered_json(nullptr) : ordered_json(frames->publisher)},
+          {"newest", frames->newest.id},
+          {"width", frames->newest.width},
+          {"height", frames->newest.height}};
 }
 
-// Traffic: ships and vehicles that another program sends. pid of that program, and number of ships and vehicles. Null
-// if no process publishes traffic.
-ordered_json traffic_json(const Session& session) {
-  const std::int32_t holder = session.role_holder(Role::traffic);
-  if (holder == 0) return nullptr;
-  const auto newest = read_valid(session.layout().traffic).value_or(Traffic{});
-  return {{"holder", holder}, {"entities", newest.count}};
+ordered_json lanes_json(const std::vector<LaneStatus>& lanes) {
+  ordered_json list = ordered_json::array();
+  for (const LaneStatus& lane : lanes)
+    list.push_back(
+        {{"lane", lane.lane}, {"source", lane.source}, {"priority", lane.priority}, {"records", lane.records}});
+  return list;
 }
 
-// `sources`: number of running input sources. `missing`: sources that ended without closing their lane.
-ordered_json input_json(const Session& session) {
-  const std::uint64_t known = session.layout().counters.input_sources.load();
-  std::uint64_t held = 0, missing = 0;
-  for (std::size_t lane = 0; lane < kInputLanes; ++lane) {
-    const bool here = session.input_lane_is_held(lane);
-    held += here ? 1 : 0;
-    missing += !here && (known >> lane & 1U) != 0 ? 1 : 0;
-  }
-  return {{"sources", held}, {"missing", missing}};
+ordered_json notes_json(const Status& status) {
+  ordered_json notes = ordered_json::array();
+  for (const Note& note : status.notes)
+    notes.push_back({{"sim_time", static_cast<double>(note.sim_time_ns) * 1e-9},
+                     {"age_s", static_cast<double>(status.watch.monotonic_ns - note.monotonic_ns) * 1e-9},
+                     {"process", text_of(note.process)},
+                     {"pid", note.pid},
+                     {"kind", note_name(note.kind)},
+                     {"text", text_of(note.text)}});
+  return notes;
 }
 
-ordered_json refusals_json(const Session& session, const std::vector<Note>& notes) {
-  constexpr std::int64_t kRecently_ns = 10'000'000'000;
-  const auto newest =
-      std::ranges::find(notes.rbegin(), notes.rend(), static_cast<std::uint32_t>(NoteKind::refusal), &Note::kind);
-  const auto& refusals = session.layout().counters.refusals;
-  return {{"last_10_s", refusals.within(kRecently_ns, monotonic_ns())},
-          {"newest", newest == notes.rend() ? ordered_json(nullptr) : ordered_json(text::text_of(newest->text))}};
+ordered_json lag_json(const std::vector<RoleLag>& lags) {
+  ordered_json object = ordered_json::object();
+  for (const RoleLag& lag : lags)
+    object[std::string(lag.role)] = {{"skipped", lag.skipped}, {"share", lag.share}, {"seconds", lag.seconds}};
+  return object;
 }
 
 }  // namespace
 
-ordered_json status_json(const Session& session, const std::string& name) {
-  const auto model = read_valid(session.layout().model_status).value_or(ModelStatus{});
+ordered_json status_json(const Status& status) {
+  const ModelStatus& model = status.watch.model;
+  const Note* const refusal = status.newest_refusal();
   ordered_json object;
-  object["session"] = name;
-  object["watch"] = watch_object(session);
-  object["model"] = {{"fidelity", text::text_of(model.fidelity)},
+  object["session"] = status.session;
+  object["watch"] = watch_json(status.watch);
+  object["model"] = {{"fidelity", text_of(model.fidelity)},
                      {"load", model.load},
                      {"scan", model.scan},
                      {"terrain_bytes", model.terrain_bytes},
                      {"posts_pending", model.posts_pending}};
-  object["recorder"] = recorder_json(session);
-  object["glass_frames"] = frames_json(session);
-  object["traffic"] = traffic_json(session);
-  object["ownship_lanes"] = lanes_json(session);
+  object["recorder"] = recorder_json(status.recorder);
+  object["glass_frames"] = frames_json(status.frames);
+  object["traffic"] = status.traffic
+                          ? ordered_json{{"holder", status.traffic->pid}, {"entities", status.traffic->entities}}
+                          : ordered_json(nullptr);
+  object["ownship_lanes"] = lanes_json(status.ownship_lanes);
   ordered_json counts = ordered_json::object();
-  for (std::size_t kind = 0; kind < kNoteKinds; ++kind)
-    counts[kNoteNames[kind]] = session.layout().note_counts[kind].load();
+  for (std::uint32_t kind = 0; kind < kNoteKinds; ++kind) counts[note_name(kind)] = status.note_counts[kind];
   object["note_counts"] = counts;
-  object["notes_folded"] = session.layout().counters.notes_folded.load();
-  const std::int64_t now_ns = monotonic_ns();
-  const std::vector<Note> lines = notes_of(session.layout());
-  ordered_json notes = ordered_json::array();
-  for (const auto& note : lines)
-    notes.push_back({{"sim_time", static_cast<double>(note.sim_time_ns) * 1e-9},
-                     {"age_s", static_cast<double>(now_ns - note.monotonic_ns) * 1e-9},
-                     {"process", text::text_of(note.process)},
-                     {"pid", note.pid},
-                     {"kind", note_name(note.kind)},
-                     {"text", text::text_of(note.text)}});
-  object["notes"] = notes;
-  object["named"] = session.has_name();
-  object["network"] = network_json(session);
-  object["roles"] = roles_json(session, object["network"]);
-  object["input"] = input_json(session);
-  object["refusals"] = refusals_json(session, lines);
-  object["frames_failing"] = session.layout().counters.frames_failing.load() != 0;
-  const auto problem = session.clock_problem();
-  object["clock_problem"] = problem ? ordered_json(*problem) : ordered_json(nullptr);
-  object["lag"] = lag_json(session);
-  object["health"] = health_json(object);
+  object["notes_folded"] = status.notes_folded;
+  object["notes"] = notes_json(status);
+  object["named"] = status.named;
+  object["network"] = network_json(status.network);
+  object["roles"] = ordered_json::array();
+  for (const RoleStatus& role : status.roles) object["roles"].push_back(role_json(role));
+  object["input"] = {{"sources", status.input_sources}, {"missing", status.input_missing}};
+  object["refusals"] = {{"last_10_s", status.refusals_last_10_s},
+                        {"newest", refusal == nullptr ? ordered_json(nullptr) : ordered_json(text_of(refusal->text))}};
+  object["frames_failing"] = status.frames_failing;
+  object["clock_problem"] = value_or_null(status.clock_problem);
+  object["lag"] = lag_json(status.lags);
+  object["health"] = {{"state", name_of(status.health.verdict)}, {"reasons", status.health.reasons}};
   return object;
 }
 

@@ -1,16 +1,16 @@
-// JSON object of `yars status --json`. Source of its fields and units: docs/commands.md#status.
-// Inputs: a session, read only. A record that fails validation counts as absent. An absent value is null,
-// omitted, or the default of its type.
+// JSON objects of `yars status --json` and `yars watch --json`. Source of their fields and units:
+// docs/commands.md#status, docs/commands.md#watch. Unknown values are null.
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <string>
 
-#include "databuffer/session/session.hpp"
+#include "databuffer/json/status.hpp"
 
 namespace yars::databuffer {
 
-// The object for an open session. `name`: the session's name.
-nlohmann::ordered_json status_json(const Session& session, const std::string& name);
+nlohmann::ordered_json status_json(const Status& status);
+nlohmann::ordered_json watch_json(const Watch& watch);
+// Adds the fields that depend only on the radar state.
+void add_radar_state(nlohmann::ordered_json& object, const RadarState& state);
 
 }  // namespace yars::databuffer

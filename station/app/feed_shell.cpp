@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "databuffer/json/session_json.hpp"
+#include "databuffer/json/status_json.hpp"
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/key_map.hpp"
 #include "databuffer/runtime/receivers.hpp"
@@ -69,7 +69,7 @@ bool StationFeed::refresh_state(std::int64_t now_ns) {
 
 std::string StationFeed::state_message() const {
   nlohmann::ordered_json message;
-  message["watch"] = databuffer::watch_object(*session_);
+  message["watch"] = databuffer::watch_json(databuffer::watch_of(*session_));
   auto& buttons = message["buttons"] = nlohmann::ordered_json::array();
   for (int button = 1; button <= radar::kBezelButtons; ++button)
     buttons.push_back(nlohmann::ordered_json{{"key", std::string(databuffer::key_of_button(button))},

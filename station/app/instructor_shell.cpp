@@ -86,23 +86,26 @@ void InstructorShell::refresh(bool shown) {
 }
 
 void InstructorShell::refresh_status() {
-  ordered_json all = databuffer::status_json(*session_, name_);
+  const databuffer::Status status = databuffer::status_of(*session_, name_);
+  ordered_json all = databuffer::status_json(status);
   std::vector<int> pids;
-  for (const auto& role : all["roles"]) pids.push_back(role["pid"].get<int>());
+  for (const databuffer::RoleStatus& role : status.roles) pids.push_back(role.pid);
   const auto loads = meter_.loads(pids);
-  for (auto& role : all["roles"]) {
-    const auto load = loads.find(role["pid"].get<int>());
-    role["load"] = load == loads.end() ? ordered_json(nullptr) : ordered_json(load->second);
-    role["can_kill"] = role["pid"] != 0 && std::ranges::find(kRoles, role["name"].get<std::string>()) != kRoles.end();
+  for (std::size_t i = 0; i < status.roles.size(); ++i) {
+    const databuffer::RoleStatus& role = status.roles[i];
+    const auto load = loads.find(role.pid);
+    all["roles"][i]["load"] = load == loads.end() ? ordered_json(nullptr) : ordered_json(load->second);
+    all["roles"][i]["can_kill"] = role.pid != 0 && std::ranges::find(kRoles, role.name) != kRoles.end();
   }
   // Late ticks would leave no room for others; the health names them.
   ordered_json newest = ordered_json::array();
-  const auto& notes = all["notes"];
-  for (std::size_t i = notes.size(); i > 0 && newest.size() < kNotesShown; --i) {
-    const auto& note = notes[i - 1];
-    if (note["kind"] == "late tick") continue;
-    newest.push_back(
-        {{"sim_time", note["sim_time"]}, {"process", note["process"]}, {"kind", note["kind"]}, {"text", note["text"]}});
+  for (std::size_t i = status.notes.size(); i > 0 && newest.size() < kNotesShown; --i) {
+    const databuffer::Note& note = status.notes[i - 1];
+    if (note.kind == static_cast<std::uint32_t>(databuffer::NoteKind::late_tick)) continue;
+    newest.push_back({{"sim_time", static_cast<double>(note.sim_time_ns) * 1e-9},
+                      {"process", text::text_of(note.process)},
+                      {"kind", databuffer::note_name(note.kind)},
+                      {"text", text::text_of(note.text)}});
   }
   status_ = {{"roles", all["roles"]}, {"health", all["health"]}, {"recorder", all["recorder"]},
              {"model", all["model"]}, {"lag", all["lag"]},       {"notes", std::move(newest)}};

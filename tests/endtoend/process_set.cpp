@@ -13,7 +13,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "databuffer/json/session_json.hpp"
 #include "databuffer/json/status_json.hpp"
 #include "databuffer/session/session.hpp"
 
@@ -211,12 +210,12 @@ bool ProcessSet::is_recorded() const {
 
 nlohmann::json ProcessSet::status() const {
   const auto session = databuffer::Session::open_read_only(session_);
-  return session ? nlohmann::json(databuffer::status_json(*session, session_)) : nlohmann::json();
+  return session ? nlohmann::json(databuffer::status_json(databuffer::status_of(*session, session_))) : nlohmann::json();
 }
 
 nlohmann::json ProcessSet::watch() const {
   const auto session = databuffer::Session::open_read_only(session_);
-  return session ? nlohmann::json(databuffer::watch_object(*session)) : nlohmann::json();
+  return session ? nlohmann::json(databuffer::watch_json(databuffer::watch_of(*session))) : nlohmann::json();
 }
 
 bool ProcessSet::wait_until(const std::function<bool(const nlohmann::json&)>& condition, double timeout_s) const {

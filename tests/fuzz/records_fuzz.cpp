@@ -111,7 +111,7 @@ class Readers {
   void read_status_and_frame() const {
     const auto session = Session::open_read_only(name_);
     if (!session) return;
-    const auto object = databuffer::status_json(*session, "fuzz");
+    const auto object = databuffer::status_json(databuffer::status_of(*session, "fuzz"));
     (void)object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
     tools::print_status(object, {});
     GlassFrame frame{};

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "databuffer/json/session_json.hpp"
+#include "databuffer/json/status_json.hpp"
 #include "databuffer/json/world_json.hpp"
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/runtime/process.hpp"

@@ -5,26 +5,51 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "databuffer/messages/derived_values.hpp"
+#include "databuffer/runtime/receivers.hpp"
+#include "lib/geo/quantity.hpp"
+#include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"
 
 namespace yars::tools {
 
 namespace {
 
-using nlohmann::ordered_json;
+using databuffer::FrameStatus;
+using databuffer::HostSummary;
+using databuffer::LaneStatus;
+using databuffer::NetworkSummary;
+using databuffer::RoleStatus;
+using databuffer::Status;
+using databuffer::TrafficSource;
 
 constexpr std::size_t kNotesShown = 10;  // the newest notes that the text shows; --json has all
 
 // Text that other programs wrote, without characters that could control the terminal.
-std::string text(const ordered_json& value) {
-  std::string words = value.get<std::string>();
+std::string shown(std::string_view given) {
+  std::string words(given);
   std::replace_if(words.begin(), words.end(), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
   return words;
+}
+
+// For %llu.
+unsigned long long number(std::uint64_t value) {
+  return value;
+}
+
+template <class Texts>
+std::string joined(const Texts& texts, const char* between) {
+  std::string all;
+  for (const auto& one : texts) all += (all.empty() ? "" : between) + shown(one);
+  return all;
+}
+
+double ground_speed_kt(const databuffer::Ownship& own) {
+  return geo::Speed::metres_per_second(std::hypot(own.velocity_north_mps, own.velocity_east_mps)).knots();
 }
 
 std::string age_text(double seconds) {
@@ -46,17 +71,14 @@ std::string load_text(double fraction) {
   return buffer.data();
 }
 
-void print_verdict(const ordered_json& status) {
-  const auto& health = status["health"];
-  std::string reasons;
-  for (const auto& reason : health["reasons"]) reasons += (reasons.empty() ? "" : "; ") + text(reason);
-  const bool is_frozen = !status["watch"]["running"].get<bool>();
+void print_verdict(const Status& status) {
+  const bool is_frozen = status.watch.clock.running == 0;
+  std::string reasons = joined(status.health.reasons, "; ");
   if (reasons.empty()) reasons = is_frozen ? "the set runs, its sim time is frozen: yars sim run" : "the set runs";
-  std::printf("%s: %s\n", text(health["state"]).c_str(), reasons.c_str());
-  const auto& watch = status["watch"];
-  std::printf("session %s: sim time %.1f s, %s, rate %g, epoch %u\n", text(status["session"]).c_str(),
-              watch["sim_time"].get<double>(), watch["running"].get<bool>() ? "running" : "frozen",
-              watch["rate"].get<double>(), watch["epoch"].get<unsigned>());
+  std::printf("%s: %s\n", std::string(databuffer::name_of(status.health.verdict)).c_str(), reasons.c_str());
+  std::printf("session %s: sim time %.1f s, %s, rate %g, epoch %u\n", shown(status.session).c_str(),
+              static_cast<double>(status.watch.sim_time_ns) * 1e-9, is_frozen ? "frozen" : "running",
+              status.watch.clock.rate, status.watch.clock.epoch);
 }
 
 // [ms] with the unit that suits.
@@ -71,169 +93,186 @@ std::string interval_text(double interval_ms) {
   return buffer.data();
 }
 
-// Pid 0 and heartbeat stand for a role of another host that this host's gateway does not keep.
-void print_roles(const ordered_json& status, const std::map<int, double>& loads) {
-  const auto& roles = status["roles"];
-  const auto& network = status["network"];
-  const auto self = network.is_null() || network["hosts"].empty() ? ordered_json(nullptr) : network["hosts"][0]["name"];
+// Pid 0 and no heartbeat stand for a role of another host that this host's gateway does not keep.
+void print_roles(const Status& status, const std::map<int, double>& loads) {
+  const auto& network = status.network;
+  const auto self = network && !network->hosts.empty() ? std::optional(network->hosts.front().name) : std::nullopt;
   std::printf("  %-20s %8s %10s %8s %9s\n", "role", "pid", "heartbeat", "load", "restarts");
-  for (const auto& role : roles) {
-    const int pid = role["pid"];
-    const bool is_remote = !role["host"].is_null() && role["host"] != self;
-    const auto load = is_remote ? loads.end() : loads.find(pid);
-    const std::string beat = pid == 0 ? "none" : age_text(role["heartbeat_ms"].get<double>() / 1000.0);
-    std::printf("  %-20s %8s %10s %8s %9d%s%s\n", text(role["name"]).c_str(),
-                pid == 0 ? "-" : std::to_string(pid).c_str(), beat.c_str(),
-                load == loads.end() ? "-" : load_text(load->second).c_str(), role["restarts"].get<int>(),
-                role["hangs"].get<bool>() ? "  hangs" : "", is_remote ? ("  on " + text(role["host"])).c_str() : "");
+  for (const RoleStatus& role : status.roles) {
+    const bool is_remote = role.host && role.host != self;
+    const auto load = is_remote ? loads.end() : loads.find(role.pid);
+    const std::string beat = role.pid == 0 ? "none" : age_text(role.heartbeat_ms.value_or(0.0) / 1000.0);
+    std::printf("  %-20s %8s %10s %8s %9llu%s%s\n", shown(role.name).c_str(),
+                role.pid == 0 ? "-" : std::to_string(role.pid).c_str(), beat.c_str(),
+                load == loads.end() ? "-" : load_text(load->second).c_str(), number(role.restarts),
+                role.hangs ? "  hangs" : "", is_remote ? ("  on " + shown(*role.host)).c_str() : "");
   }
 }
 
-std::string joined_text(const ordered_json& words) {
-  std::string joined;
-  for (const auto& word : words) joined += (joined.empty() ? "" : ", ") + text(word);
-  return joined;
-}
-
-void print_host(const ordered_json& host) {
-  const bool self = host["self"];
-  std::string more = joined_text(host["roles"]);
+void print_host(const HostSummary& host) {
+  std::string more = joined(host.roles, ", ");
   const auto add = [&more](const std::string& words) { more += (more.empty() ? "" : "; ") + words; };
-  if (host["owns_clock"].get<bool>()) add("sets the clock");
-  if (!host["differences"].empty()) add(joined_text(host["differences"]));
-  const std::string heard = host["present"].get<bool>() ? "yes"
-                                                        : (host["left"].get<bool>() ? "left " : "silent ") +
-                                                              age_text(host["silent_s"].get<double>());
-  const auto& offset = host["offset_ms"];
-  const auto number = [&host](const char* field) { return std::to_string(host[field].get<std::uint64_t>()); };
-  std::printf("  %-20s %-14s %14s %10s %10s %8s %8s %9s  %s\n", (text(host["name"]) + (self ? " *" : "")).c_str(),
-              self ? "this host" : heard.c_str(),
-              self               ? "-"
-              : offset.is_null() ? "unknown"
-                                 : interval_text(offset.get<double>()).c_str(),
-              self || offset.is_null() ? "-" : interval_text(host["offset_error_ms"].get<double>()).c_str(),
-              self ? "-" : interval_text(host["latency_ms"].get<double>()).c_str(), number("lost").c_str(),
-              number("refused").c_str(), number("repeated").c_str(), more.c_str());
+  if (host.owns_clock) add("sets the clock");
+  if (!host.differences.empty()) add(joined(host.differences, ", "));
+  const std::string heard =
+      host.present ? "yes" : (host.left ? "left " : "silent ") + age_text(host.silent_s.value_or(0.0));
+  const bool is_measured = !host.self && host.offset_ms;
+  std::printf("  %-20s %-14s %14s %10s %10s %8llu %8llu %9llu  %s\n",
+              (shown(host.name) + (host.self ? " *" : "")).c_str(), host.self ? "this host" : heard.c_str(),
+              is_measured ? interval_text(*host.offset_ms).c_str() : host.self ? "-" : "unknown",
+              is_measured ? interval_text(host.offset_error_ms.value_or(0.0)).c_str() : "-",
+              host.self ? "-" : interval_text(host.latency_ms).c_str(), number(host.lost), number(host.refused),
+              number(host.repeated), more.c_str());
 }
 
-void print_network(const ordered_json& network) {
-  if (network.is_null()) return;
+void print_network(const std::optional<NetworkSummary>& network) {
+  if (!network) return;
   std::printf("hosts:\n  %-20s %-14s %14s %10s %10s %8s %8s %9s  %s\n", "name", "heard", "offset", "error", "latency",
               "lost", "refused", "repeated", "roles");
-  for (const auto& host : network["hosts"]) print_host(host);
-  std::printf("gateway: DDS domain %u, %s, %s of a core, %s, %s\n", network["domain"].get<unsigned>(),
-              network["secured"].get<bool>() ? "encrypted" : "not encrypted",
-              load_text(network["load"].get<double>()).c_str(),
-              text::counted(network["takeovers"].get<std::uint64_t>(), "takeover").c_str(),
-              text::counted(network["conflicts"].get<std::uint64_t>(), "conflict").c_str());
+  for (const HostSummary& host : network->hosts) print_host(host);
+  std::printf("gateway: DDS domain %u, %s, %s of a core, %s, %s\n", network->domain,
+              network->secured ? "encrypted" : "not encrypted", load_text(network->load).c_str(),
+              text::counted(network->takeovers, "takeover").c_str(),
+              text::counted(network->conflicts, "conflict").c_str());
 }
 
-void print_ownship(const ordered_json& status) {
-  const auto& own = status["watch"]["ownship"];
-  if (own.is_null())
+void print_ownship(const Status& status) {
+  const auto& model = status.watch.model;
+  const auto& own = model.ownship;
+  if (!status.watch.has_ownship())
     std::printf("ownship: none\n");
   else
-    std::printf("ownship: %s, %.4f %.4f, %.0f ft MSL, track %.0f deg, %.0f kt, %s old\n", text(own["source"]).c_str(),
-                own["lat"].get<double>(), own["lon"].get<double>(), own["alt_ft"].get<double>(),
-                own["track_deg"].get<double>(), own["ground_speed_kt"].get<double>(),
-                age_text(own["age_ms"].get<double>() / 1000.0).c_str());
-  for (const auto& lane : status["ownship_lanes"])
-    std::printf("  lane %d: %s, priority %u, %s so far\n", lane["lane"].get<int>(), text(lane["source"]).c_str(),
-                lane["priority"].get<unsigned>(),
-                text::counted(lane["records"].get<std::uint64_t>(), "record").c_str());
-}
-
-bool takes_part(const ordered_json& roles, std::string_view name) {
-  return std::ranges::any_of(roles, [name](const auto& role) {
-    return role["name"] == name && (role["pid"] != 0 || !role["host"].is_null());
-  });
+    std::printf("ownship: %s, %.4f %.4f, %.0f ft MSL, track %.0f deg, %.0f kt, %s old\n",
+                shown(databuffer::name_of_source(own, model.ownship_lane)).c_str(), own.latitude_deg,
+                own.longitude_deg, own.altitude_msl_m / geo::kMetresPerFoot,
+                databuffer::ground_track_of(own).degrees(), ground_speed_kt(own),
+                age_text(static_cast<double>(status.watch.sim_time_ns - model.ownship_received_ns) * 1e-9).c_str());
+  for (const LaneStatus& lane : status.ownship_lanes)
+    std::printf("  lane %zu: %s, priority %u, %s so far\n", lane.lane, shown(lane.source).c_str(), lane.priority,
+                text::counted(lane.records, "record").c_str());
 }
 
 // What the display says, each with its remedy. Power OFF shows NO STATE MACHINE alone.
-void print_display_words(const ordered_json& status) {
-  const auto& watch = status["watch"];
+void print_display_words(const Status& status) {
   const auto say = [](const std::string& words, const std::string& remedy) {
     std::printf("display says: %s%s%s\n", words.c_str(), remedy.empty() ? "" : "; ", remedy.c_str());
   };
-  const bool state_machine = takes_part(status["roles"], "state-machine"),
-             model = takes_part(status["roles"], "radar-model");
+  const bool state_machine = status.runs("state-machine"), model = status.runs("radar-model");
   if (!state_machine) say("NO STATE MACHINE", databuffer::kRemedyNoStateMachine);
-  if (watch["power"] == "OFF") return;
+  if (static_cast<radar::Power>(status.watch.radar.power) == radar::Power::off) return;
   if (!model) say("NO MODEL", databuffer::kRemedyNoModel);
-  if (model && watch["ownship"].is_null()) say("NO OWNSHIP", databuffer::kRemedyNoOwnship);
-  const std::string message = text(watch["message"]);
-  if (state_machine && !message.empty() && message != "NO OWNSHIP") say(message, text(watch["remedy"]));
+  if (model && !status.watch.has_ownship()) say("NO OWNSHIP", databuffer::kRemedyNoOwnship);
+  const std::string message = shown(text::text_of(status.watch.radar.message));
+  if (state_machine && !message.empty() && message != "NO OWNSHIP")
+    say(message, shown(text::text_of(status.watch.advice.remedy)));
 }
 
-void print_radar(const ordered_json& status) {
-  const auto& watch = status["watch"];
-  const auto& model = status["model"];
-  const std::string fidelity = text(model["fidelity"]);
+void print_radar(const Status& status) {
+  const auto& state = status.watch.radar;
+  const auto& model = status.watch.model;
+  const std::string fidelity = shown(text::text_of(model.fidelity));
   std::printf("radar: %s %s, %.1f NM, fidelity %s, kernel %s of a core, %s, terrain %.1f MB\n",
-              text(watch["power"]).c_str(), text(watch["mode"]).c_str(), watch["range_nm"].get<double>(),
-              fidelity.empty() ? "unknown" : fidelity.c_str(), load_text(model["load"].get<double>()).c_str(),
-              text::counted(watch["sweeps"].get<std::uint64_t>(), "sweep").c_str(),
-              static_cast<double>(model["terrain_bytes"].get<std::uint64_t>()) / 1e6);
+              std::string(radar::name_of(static_cast<radar::Power>(state.power))).c_str(),
+              std::string(radar::name_of(static_cast<radar::Mode>(state.mode))).c_str(), state.range_nm,
+              fidelity.empty() ? "unknown" : fidelity.c_str(), load_text(model.load).c_str(),
+              text::counted(model.sweeps, "sweep").c_str(), static_cast<double>(model.terrain_bytes) / 1e6);
   print_display_words(status);
-  const auto& recorder = status["recorder"];
-  if (recorder.is_null()) return;
-  std::printf("recorder: %s, %.1f MB", recorder["writing"].get<bool>() ? "writing" : "stopped",
-              static_cast<double>(recorder["bytes"].get<std::uint64_t>()) / 1e6);
-  if (!recorder["problem"].is_null()) std::printf(", %s", text(recorder["problem"]).c_str());
+  if (!status.recorder) return;
+  std::printf("recorder: %s, %.1f MB", status.recorder->writing != 0 ? "writing" : "stopped",
+              static_cast<double>(status.recorder->bytes) / 1e6);
+  if (status.recorder->problem[0] != '\0') std::printf(", %s", shown(text::text_of(status.recorder->problem)).c_str());
   std::printf("\n");
 }
 
-void print_frames(const ordered_json& frames) {
-  if (frames.is_null()) return;
-  const auto& pid = frames["publisher"];
+void print_frames(const std::optional<FrameStatus>& frames) {
+  if (!frames) return;
   std::printf("frames of the display: %s, newest %llu, %u x %u pixels\n",
-              pid.is_null() ? "nobody publishes" : ("pid " + std::to_string(pid.get<int>()) + " publishes").c_str(),
-              static_cast<unsigned long long>(frames["newest"].get<std::uint64_t>()), frames["width"].get<unsigned>(),
-              frames["height"].get<unsigned>());
+              frames->publisher == 0 ? "nobody publishes"
+                                     : ("pid " + std::to_string(frames->publisher) + " publishes").c_str(),
+              number(frames->newest.id), frames->newest.width, frames->newest.height);
 }
 
-void print_tour(const ordered_json& caption) {
-  if (caption.is_null()) return;
+void print_tour(const std::optional<databuffer::Caption>& caption) {
+  if (!caption) return;
   std::string words;
-  for (const auto& line : caption["lines"]) words += (words.empty() ? "" : " ") + text(line);
-  std::printf("tour: step %u of %u%s: %s\n", caption["step"].get<unsigned>(), caption["steps"].get<unsigned>(),
-              caption["waiting"].get<bool>() ? ", waits for the pilot (key n goes on)" : "", words.c_str());
+  for (const auto& line : caption->lines)
+    if (line.text[0] != '\0') words += (words.empty() ? "" : " ") + shown(text::text_of(line.text));
+  std::printf("tour: step %u of %u%s: %s\n", caption->step, caption->steps,
+              caption->waiting != 0 ? ", waits for the pilot (key n goes on)" : "", words.c_str());
 }
 
-void print_traffic(const ordered_json& traffic) {
-  if (traffic.is_null()) return;
-  std::printf("traffic: pid %d reports %s\n", traffic["holder"].get<int>(),
-              text::counted(traffic["entities"].get<unsigned>(), "ship or vehicle", "ships and vehicles").c_str());
+void print_traffic(const std::optional<TrafficSource>& traffic) {
+  if (!traffic) return;
+  std::printf("traffic: pid %d reports %s\n", traffic->pid,
+              text::counted(traffic->entities, "ship or vehicle", "ships and vehicles").c_str());
 }
 
-void print_notes(const ordered_json& status) {
+void print_notes(const Status& status) {
   std::printf("flight recorder:");
-  const char* separator = " ";
-  for (const auto& [kind, count] : status["note_counts"].items()) {
-    std::printf("%s%s %llu", separator, kind.c_str(), static_cast<unsigned long long>(count.get<std::uint64_t>()));
-    separator = ", ";
-  }
-  if (const auto folded = status["notes_folded"].get<std::uint64_t>(); folded > 0)
-    std::printf("; %llu repeated notes are counted, not listed", static_cast<unsigned long long>(folded));
+  for (std::uint32_t kind = 0; kind < status.note_counts.size(); ++kind)
+    std::printf("%s%s %llu", kind == 0 ? " " : ", ", databuffer::note_name(kind), number(status.note_counts[kind]));
+  if (status.notes_folded > 0)
+    std::printf("; %llu repeated notes are counted, not listed", number(status.notes_folded));
   std::printf("\n");
-  const auto& notes = status["notes"];
+  const auto& notes = status.notes;
   for (std::size_t i = notes.size() > kNotesShown ? notes.size() - kNotesShown : 0; i < notes.size(); ++i)
-    std::printf("  %7s ago  %-14s %-11s %s\n", age_text(notes[i]["age_s"].get<double>()).c_str(),
-                text(notes[i]["process"]).c_str(), text(notes[i]["kind"]).c_str(), text(notes[i]["text"]).c_str());
+    std::printf("  %7s ago  %-14s %-11s %s\n",
+                age_text(static_cast<double>(status.watch.monotonic_ns - notes[i].monotonic_ns) * 1e-9).c_str(),
+                shown(text::text_of(notes[i].process)).c_str(), databuffer::note_name(notes[i].kind),
+                shown(text::text_of(notes[i].text)).c_str());
 }
 
 }  // namespace
 
-void print_status(const ordered_json& status, const std::map<int, double>& loads) {
+void print_status(const Status& status, const std::map<int, double>& loads) {
   print_verdict(status);
   print_roles(status, loads);
-  print_network(status["network"]);
+  print_network(status.network);
   print_ownship(status);
   print_radar(status);
-  print_frames(status["glass_frames"]);
-  print_traffic(status["traffic"]);
-  print_tour(status["watch"]["caption"]);
+  print_frames(status.frames);
+  print_traffic(status.traffic);
+  print_tour(status.watch.caption);
   print_notes(status);
+}
+
+namespace {
+
+// Prints marks, cue and target, if they exist.
+void print_designations(const databuffer::RadarState& state, const databuffer::Outputs& outputs) {
+  if (state.mark_count > 0) std::printf("  MARKS %d", state.mark_count);
+  if (state.cue_count > 0) std::printf("  CUE %.4f %.4f", state.cue_latitude_deg, state.cue_longitude_deg);
+  if ((state.flags & databuffer::kTargetDesignated) == 0U) return;
+  std::printf("  TGT %s", shown(text::text_of(state.target_name)).c_str());
+  if (std::isfinite(outputs.slant_range_m))
+    std::printf(" %.1f NM %03.0f true %.1f down", outputs.slant_range_m / geo::kMetresPerNauticalMile,
+                outputs.bearing_deg, outputs.depression_deg);
+}
+
+// The message with its remedy: "BLIND ZONE (turn 5 deg or more left)".
+std::string message_text(const databuffer::Watch& watch) {
+  const std::string message = shown(text::text_of(watch.radar.message));
+  const std::string remedy = shown(text::text_of(watch.advice.remedy));
+  return message.empty() || remedy.empty() ? message : message + " (" + remedy + ")";
+}
+
+}  // namespace
+
+void print_watch(const databuffer::Watch& watch) {
+  const auto& state = watch.radar;
+  const auto& own = watch.model.ownship;
+  const auto flag = [&](std::uint32_t bit, const char* word) { return (state.flags & bit) != 0U ? word : ""; };
+  std::printf("%9.2f s  %-4s %-5s %5.1f NM %-4s GAIN %d %s%s%s", static_cast<double>(watch.sim_time_ns) * 1e-9,
+              std::string(radar::name_of(static_cast<radar::Power>(state.power))).c_str(),
+              std::string(radar::name_of(static_cast<radar::Mode>(state.mode))).c_str(), state.range_nm,
+              std::string(radar::name_of(static_cast<radar::ScanWidth>(state.scan))).c_str(), state.gain,
+              flag(databuffer::kFreeze, "FREEZE "), flag(databuffer::kSniff, "SNIFF "), message_text(watch).c_str());
+  if (watch.has_ownship())
+    std::printf("  %.4f %.4f %.0f ft MSL track %.0f deg %.0f kt", own.latitude_deg, own.longitude_deg,
+                own.altitude_msl_m / geo::kMetresPerFoot, databuffer::ground_track_of(own).degrees(),
+                ground_speed_kt(own));
+  print_designations(state, watch.outputs);
+  std::printf("  sweeps %llu\n", number(watch.model.sweeps));
 }
 
 }  // namespace yars::tools

@@ -1,13 +1,17 @@
-// Text of `yars status`, made of the object of `--json`.
+// Texts of `yars status` and `yars watch`, on standard output.
 #pragma once
 
 #include <map>
-#include <nlohmann/json_fwd.hpp>
+
+#include "databuffer/json/status.hpp"
 
 namespace yars::tools {
 
-// Prints the text to standard output: the health in the first line, then clock, roles, ownship, radar, counters and the
-// last notes. `status`: from status_json(). `loads`: processor load by pid; 1.0 is one fully used core.
-void print_status(const nlohmann::ordered_json& status, const std::map<int, double>& loads);
+// The health in the first line, then clock, roles, ownship, radar, counters and the last notes. `loads`: processor load
+// by pid; 1.0 is one fully used core.
+void print_status(const databuffer::Status& status, const std::map<int, double>& loads);
+
+// One line: time, switches, message, ownship, designations, sweeps.
+void print_watch(const databuffer::Watch& watch);
 
 }  // namespace yars::tools

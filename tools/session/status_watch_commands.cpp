@@ -1,5 +1,4 @@
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
@@ -11,7 +10,6 @@
 #include <thread>
 #include <vector>
 
-#include "databuffer/json/session_json.hpp"
 #include "databuffer/json/status_json.hpp"
 #include "databuffer/runtime/process.hpp"
 #include "databuffer/runtime/processor_load.hpp"
@@ -31,8 +29,6 @@ namespace {
 
 constexpr std::chrono::milliseconds kLoadWindow{100};  // duration of the load measurement
 
-using nlohmann::ordered_json;
-
 struct StatusOptions {
   bool json = false;
   bool layout = false;
@@ -45,11 +41,11 @@ struct StatusOptions {
 }
 
 // Sets the exit code: 0 OK, 3 degraded, 1 otherwise. Throws CommandFailed unless OK.
-void exit_by_health(const ordered_json& health) {
+void exit_by_health(const databuffer::Health& health) {
   constexpr int kExitDegraded = 3;
   std::fflush(stdout);
-  if (health["state"] == "DEGRADED") throw CommandFailed{"", kExitDegraded};
-  if (health["state"] != "OK") throw CommandFailed{"", 1};
+  if (health.verdict == databuffer::Verdict::degraded) throw CommandFailed{"", kExitDegraded};
+  if (health.verdict != databuffer::Verdict::ok) throw CommandFailed{"", 1};
 }
 
 void status(const CommonOptions& common, const StatusOptions& options) {
@@ -60,18 +56,18 @@ void status(const CommonOptions& common, const StatusOptions& options) {
   const auto session = databuffer::Session::open_read_only(common.session);
   if (!session && !options.json) print_nothing_runs(session.error());
   if (!session) throw_failure(session.error());
-  const auto object = databuffer::status_json(*session, common.session);
+  const databuffer::Status found = databuffer::status_of(*session, common.session);
   if (options.json) {
-    print_json(object, JsonLines::many);
-    return exit_by_health(object["health"]);
+    print_json(databuffer::status_json(found), JsonLines::many);
+    return exit_by_health(found.health);
   }
   std::vector<int> pids;
   for (const auto& process : session->processes()) pids.push_back(process.pid);
   databuffer::LoadMeter meter;
   meter.loads(pids);
   std::this_thread::sleep_for(kLoadWindow);
-  print_status(object, meter.loads(pids));
-  exit_by_health(object["health"]);
+  print_status(found, meter.loads(pids));
+  exit_by_health(found.health);
 }
 
 }  // namespace
@@ -97,50 +93,12 @@ struct WatchOptions {
   bool once = false;
 };
 
-// Prints marks, cue and target, if they exist.
-void print_designations(const nlohmann::ordered_json& object) {
-  if (!object["marks"].empty()) std::printf("  MARKS %zu", object["marks"].size());
-  const auto& cue = object["cue"];
-  const auto degrees = [](const nlohmann::ordered_json& value) {
-    return value.is_null() ? std::nan("") : value.get<double>();
-  };
-  if (!cue.is_null()) std::printf("  CUE %.4f %.4f", degrees(cue["lat"]), degrees(cue["lon"]));
-  const auto& target = object["target"];
-  if (target.is_null()) return;
-  std::printf("  TGT %s", target["name"].get<std::string>().c_str());
-  const auto& ranging = object["ranging"];
-  if (!ranging.is_null())
-    std::printf(" %.1f NM %03.0f true %.1f down", degrees(ranging["slant_range_nm"]),
-                degrees(ranging["bearing_true_deg"]), degrees(ranging["depression_deg"]));
-}
-
-// The message with its remedy: "BLIND ZONE (turn 5 deg or more left)".
-std::string message_text(const nlohmann::ordered_json& object) {
-  const auto message = object["message"].get<std::string>();
-  const auto remedy = object["remedy"].get<std::string>();
-  return message.empty() || remedy.empty() ? message : message + " (" + remedy + ")";
-}
-
-void print_text_line(const nlohmann::ordered_json& object) {
-  const auto& own = object["ownship"];
-  std::printf("%9.2f s  %-4s %-5s %5.1f NM %-4s GAIN %d %s%s%s", object["sim_time"].get<double>(),
-              object["power"].get<std::string>().c_str(), object["mode"].get<std::string>().c_str(),
-              object["range_nm"].get<double>(), object["scan"].get<std::string>().c_str(), object["gain"].get<int>(),
-              object["freeze"].get<bool>() ? "FREEZE " : "", object["sniff"].get<bool>() ? "SNIFF " : "",
-              message_text(object).c_str());
-  if (!own.is_null())
-    std::printf("  %.4f %.4f %.0f ft MSL track %.0f deg %.0f kt", own["lat"].get<double>(), own["lon"].get<double>(),
-                own["alt_ft"].get<double>(), own["track_deg"].get<double>(), own["ground_speed_kt"].get<double>());
-  print_designations(object);
-  std::printf("  sweeps %llu\n", static_cast<unsigned long long>(object["sweeps"].get<std::uint64_t>()));
-}
-
 // Returns false when standard output is closed.
-bool print(const nlohmann::ordered_json& object, bool json) {
+bool print(const databuffer::Watch& watch, bool json) {
   if (json)
-    print_json(object);
+    print_json(databuffer::watch_json(watch));
   else
-    print_text_line(object);
+    print_watch(watch);
   return std::fflush(stdout) == 0;
 }
 
@@ -155,7 +113,7 @@ void watch(const CommonOptions& common, const WatchOptions& options) {
     if (version != printed_version || now_ns - printed_ns >= kMaxInterval_ns) {
       printed_version = version;
       printed_ns = now_ns;
-      if (!print(databuffer::watch_object(*session), options.json)) return;
+      if (!print(databuffer::watch_of(*session), options.json)) return;
     }
     if (options.once) return;
     if (session->processes().empty()) {

@@ -83,7 +83,7 @@ class NetworkStatusTest : public databuffer::testing::OpenSessionTest {
   }
   ordered_json status() {
     if (gateway_) gateway_->layout().network_status.publish(status_);
-    return databuffer::status_json(*Session::open_read_only(name_), "test");
+    return databuffer::status_json(databuffer::status_of(*Session::open_read_only(name_), "test"));
   }
   std::string reasons() {
     std::string all;
