@@ -21,9 +21,9 @@ namespace yars::databuffer {
 struct RoleStatus {
   std::string name;
   std::int32_t pid = 0;                // 0: not running here. Of a role of another host: the gateway's
-  std::optional<double> heartbeat_ms;  // age of the last heartbeat; nullopt: not running here
+  std::optional<double> heartbeat_ms{};  // age of the last heartbeat; nullopt: not running here
   bool hangs = false;                  // a role of a set whose heartbeat is older than 2 s
-  std::optional<std::string> host;     // where it runs; nullopt: nowhere, or no gateway runs
+  std::optional<std::string> host{};     // where it runs; nullopt: nowhere, or no gateway runs
   std::uint64_t restarts = 0;          // by the supervisor
   std::uint64_t restarts_last_minute = 0;
 

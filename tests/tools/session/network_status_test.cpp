@@ -81,18 +81,18 @@ class NetworkStatusTest : public databuffer::testing::OpenSessionTest {
     mirror_.emplace(open("radar-model"));
     mirror_role_.emplace(*mirror_->claim(Role::radar_model));
   }
-  ordered_json status() {
+  databuffer::Status found() {
     if (gateway_) gateway_->layout().network_status.publish(status_);
-    return databuffer::status_json(databuffer::status_of(*Session::open_read_only(name_), "test"));
+    return databuffer::status_of(*Session::open_read_only(name_), "test");
   }
+  ordered_json status() { return databuffer::status_json(found()); }
   std::string reasons() {
     std::string all;
-    const ordered_json object = status();
-    for (const auto& reason : object["health"]["reasons"]) all += reason.get<std::string>() + "\n";
+    for (const std::string& reason : found().health.reasons) all += reason + "\n";
     return all;
   }
   std::string printed() {
-    const ordered_json object = status();
+    const databuffer::Status object = found();
     ::testing::internal::CaptureStdout();
     print_status(object, {{getpid(), 0.5}});
     return ::testing::internal::GetCapturedStdout();
