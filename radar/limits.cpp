@@ -53,8 +53,7 @@ Platform level_flight(const model::hrm::PatchOrder& order) {
 
 // Advice on a heading that puts the target between blind zone and gimbal limit, on the same side as now.
 // `off_track_deg`: angle from the ground track to the target, right positive.
-std::string proposed_heading(const geo::GeodesicInverse& to_target, double off_track_deg,
-                             const MapLimits& limits) {
+std::string proposed_heading(const geo::GeodesicInverse& to_target, double off_track_deg, const MapLimits& limits) {
   const double min_deg = limits.blind_zone_deg + kHeadingMargin_deg;
   const double max_deg = std::min(limits.antenna.azimuth_limit_deg, 180.0 - limits.blind_zone_deg) - kHeadingMargin_deg;
   if (min_deg > max_deg) return "no heading is possible: the configured gimbal limits lie within the blind zone";
@@ -69,46 +68,41 @@ Error blind_zone_error(const geo::GeodesicInverse& to_target, double off_deg, co
           "a target " + short_number(limits.blind_zone_deg) + " to " + short_number(180.0 - limits.blind_zone_deg) +
               " deg off the ground track",
           "one " + number(std::abs(off_deg), 1) + " deg off it",
-          proposed_heading(to_target, off_deg, limits) + ", " + kForce,
-          ErrorCode::limit};
+          proposed_heading(to_target, off_deg, limits) + ", " + kForce, ErrorCode::limit};
 }
 
 Error gimbal_error(const geo::GeodesicInverse& to_target, double off_deg, const MapLimits& limits) {
   return {"GIMBAL", "a target within " + short_number(limits.antenna.azimuth_limit_deg) + " deg of the nose",
           "one " + number(std::abs(off_deg), 1) + " deg " + (off_deg < 0.0 ? "left" : "right") + " of it",
-          proposed_heading(to_target, off_deg, limits) + ", " + kForce,
-          ErrorCode::limit};
+          proposed_heading(to_target, off_deg, limits) + ", " + kForce, ErrorCode::limit};
 }
 
 Error depression_error(geo::Angle elevation, const MapLimits& limits) {
   return {"GIMBAL", "a target at most " + short_number(limits.antenna.elevation_limit_deg) + " deg below the horizon",
           "one " + number(-elevation.degrees(), 1) + " deg below it",
-          std::string("fly lower or farther away, ") + kForce,
-          ErrorCode::limit};
+          std::string("fly lower or farther away, ") + kForce, ErrorCode::limit};
 }
 
 Error window_error(std::string_view reason, const geo::GeodesicInverse& to_target, geo::Length window,
-                          const WindowLimits& table) {
+                   const WindowLimits& table) {
   const auto limits = cursor_limits(window, table);
   const std::string side = short_number(window.nautical_miles());
   if (!limits)
     return {std::string(reason), "a window of the radar: " + list_of(table.windows_nm) + " NM", side + " NM",
-            std::string("give one of these as `window_nm`, ") + kForce,
-            ErrorCode::limit};
+            std::string("give one of these as `window_nm`, ") + kForce, ErrorCode::limit};
   return {std::string(reason),
           "for a window of " + side + " NM a target " + short_number(limits->min.nautical_miles()) + " to " +
               short_number(limits->max.nautical_miles()) + " NM away",
           number(to_target.distance.nautical_miles(), 2) + " NM",
-          std::string("move the aircraft or give another `window_nm`, ") + kForce,
-          ErrorCode::limit};
+          std::string("move the aircraft or give another `window_nm`, ") + kForce, ErrorCode::limit};
 }
 
 }  // namespace
 
 std::optional<Error> beyond_limits(const model::hrm::PatchOrder& order, const MapLimits& limits,
-                                          std::optional<double> target_ground_m) {
-  const auto reason = map_rejection({order.apex, order.altitude, level_flight(order)},
-                                           {order.centre, target_ground_m}, {order.window}, limits);
+                                   std::optional<double> target_ground_m) {
+  const auto reason = map_rejection({order.apex, order.altitude, level_flight(order)}, {order.centre, target_ground_m},
+                                    {order.window}, limits);
   if (!reason) return std::nullopt;
   const geo::GeodesicInverse to_target = geo::geodesic_inverse(order.apex, order.centre);
   const double off_deg = (to_target.azimuth_at_start - order.ground_track).degrees();
@@ -119,12 +113,11 @@ std::optional<Error> beyond_limits(const model::hrm::PatchOrder& order, const Ma
   return depression_error(elevation_to_ground(order.altitude, to_target.distance, *target_ground_m), limits);
 }
 
-std::optional<Error> beyond_gimbal(geo::Angle elevation, geo::Angle width,
-                                          const AntennaConfiguration& antenna) {
+std::optional<Error> beyond_gimbal(geo::Angle elevation, geo::Angle width, const AntennaConfiguration& antenna) {
   const auto broken = [](const char* option, double min_deg, double max_deg, geo::Angle found) {
     return Error{option,
-                        short_number(min_deg) + " to " + short_number(max_deg) + " deg, the configured gimbal limits",
-                        short_number(found.degrees()) + " deg",
+                 short_number(min_deg) + " to " + short_number(max_deg) + " deg, the configured gimbal limits",
+                 short_number(found.degrees()) + " deg",
                  std::string("give an angle within them, ") + kForce,
                  ErrorCode::limit,
                  min_deg,

@@ -42,8 +42,8 @@ radar::RadarConfiguration configured(const Radar& radar, const Terrain& terrain,
   if (request.size) configuration.fidelity.map_size = *request.size;
   if (const int most = hrm::max_map_size(configuration.fidelity.algorithm); configuration.fidelity.map_size > most)
     radar::fail({"size", "at most " + std::to_string(most) + " with the algorithm reference",
-                 std::to_string(configuration.fidelity.map_size),
-                 "give a smaller `size`, or the preset fine", ErrorCode::range, 16.0, static_cast<double>(most)});
+                 std::to_string(configuration.fidelity.map_size), "give a smaller `size`, or the preset fine",
+                 ErrorCode::range, 16.0, static_cast<double>(most)});
   return configuration;
 }
 
@@ -58,8 +58,8 @@ void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& 
   const double distance_nm = geo::geodesic_inverse(order.apex, order.centre).distance.nautical_miles();
   if (distance_nm < kMinDistanceFraction * order.window.nautical_miles())
     radar::fail({"target_latitude_deg, target_longitude_deg",
-                 "a target at a distance of at least 0.75 of the window's side", std::to_string(distance_nm) + " NM", "",
-                 ErrorCode::argument});
+                 "a target at a distance of at least 0.75 of the window's side", std::to_string(distance_nm) + " NM",
+                 "", ErrorCode::argument});
 }
 
 // Checks that the aircraft is above the ground, and that the antenna can look down at the target.

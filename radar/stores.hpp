@@ -26,13 +26,12 @@ class Terrain::Stores {
 
   const radar::TerrainConfiguration& configuration() const { return configuration_; }
 
-  // What work(theatre) gives, with the theatre of these scenes and this use, which is opened when first asked for. After
-  // a Failure the files are read anew next time. Throws parallel::Stopped.
+  // What work(theatre) gives, with the theatre of these scenes and this use, which is opened when first asked for.
+  // After a Failure the files are read anew next time. Throws parallel::Stopped.
   template <class Work>
   auto with_theatre(const std::vector<radar::Scene>& scenes, model::scene::SceneUse use,
                     const parallel::GoesOn& goes_on, const Work& work) {
-    const std::shared_ptr<void> taken =
-        take_ ? take_(goes_on) : std::make_shared<std::unique_lock<std::mutex>>(mutex_);
+    const std::shared_ptr<void> taken = take_ ? take_(goes_on) : std::make_shared<std::unique_lock<std::mutex>>(mutex_);
     parallel::check(goes_on);
     const std::string key = key_of(scenes, use);
     try {

@@ -20,8 +20,7 @@ std::unique_ptr<model::terrain::TerrainStore> open_store(const TerrainConfigurat
 }
 }  // namespace
 
-Theatre::Theatre(const TerrainConfiguration& terrain, const std::vector<Scene>& scenes,
-                 model::scene::SceneUse use)
+Theatre::Theatre(const TerrainConfiguration& terrain, const std::vector<Scene>& scenes, model::scene::SceneUse use)
     : folder_(terrain.directory), window_store_(open_store(terrain)) {
   if (use == model::scene::SceneUse::triangles) path_store_ = open_store(terrain);
   auto opened = model::scene::open_scenes(scenes, terrain, use);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <utility>
 
-#include "databuffer/json/network_summary.hpp"
 #include "databuffer/messages/derived_values.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/runtime/receivers.hpp"
@@ -196,8 +195,7 @@ void add_radar_reasons(const Status& status, std::vector<std::string>& reasons) 
   if (!status.runs("radar-model")) return;
   const ModelStatus& model = status.watch.model;
   if (!status.watch.has_ownship())
-    reasons.push_back(status.ownship_lanes.empty() ? "no ownship: no source runs"
-                                                   : "no ownship: its source is silent");
+    reasons.push_back(status.ownship_lanes.empty() ? "no ownship: no source runs" : "no ownship: its source is silent");
   else if (model.terrain_bytes == 0 && power == radar::Power::operate && model.sweeps > 0)
     reasons.emplace_back("terrain missing: none is loaded at the aircraft's position");
 }

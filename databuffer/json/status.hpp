@@ -12,49 +12,11 @@
 #include <string_view>
 #include <vector>
 
+#include "databuffer/json/participants.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/session_layout.hpp"
 
 namespace yars::databuffer {
-
-// An entry of the process table, or a needed role that does not run.
-struct RoleStatus {
-  std::string name;
-  std::int32_t pid = 0;                // 0: not running here. Of a role of another host: the gateway's
-  std::optional<double> heartbeat_ms{};  // age of the last heartbeat; nullopt: not running here
-  bool hangs = false;                  // a role of a set whose heartbeat is older than 2 s
-  std::optional<std::string> host{};     // where it runs; nullopt: nowhere, or no gateway runs
-  std::uint64_t restarts = 0;          // by the supervisor
-  std::uint64_t restarts_last_minute = 0;
-
-  bool runs() const { return pid != 0 || host; }
-};
-
-// A host of a session on several computers, as the gateway of this host knows it.
-struct HostSummary {
-  std::string name, version;
-  bool self = false, present = false, left = false, owns_clock = false;
-  std::optional<double> silent_s;  // nullopt: present
-  std::uint32_t priority = 0;
-  std::optional<double> offset_ms, offset_error_ms;  // of its clock; nullopt: not measured
-  double latency_ms = 0.0;
-  std::uint64_t received = 0, lost = 0, refused = 0, repeated = 0;  // messages
-  std::vector<std::string> roles;
-  std::vector<std::string_view> differences;  // "other layout", ...
-};
-struct TopicSummary {
-  std::string name;
-  std::uint64_t sent = 0, sent_bytes = 0, received = 0, received_bytes = 0;
-};
-struct NetworkSummary {
-  bool joined = false, secured = false;
-  std::uint32_t domain = 0;
-  double load = 0.0;  // share of a core
-  std::uint64_t takeovers = 0, conflicts = 0;
-  double age_ms = 0.0;  // of the record
-  std::vector<HostSummary> hosts;
-  std::vector<TopicSummary> topics;
-};
 
 // Ticks that a role has skipped in the last 10 s.
 struct RoleLag {
@@ -71,7 +33,7 @@ struct LaneStatus {  // an ownship lane with a running source
   std::uint64_t records = 0;
 };
 
-struct FrameStatus {  // frames that a display publishes
+struct FrameStatus {           // frames that a display publishes
   std::int32_t publisher = 0;  // pid; 0: nobody now
   GlassFrame newest{};
 };

@@ -236,8 +236,8 @@ void add_counts(ordered_json& object, const Watch& watch) {
   object["refused"] = watch.refused;
   ordered_json processes = ordered_json::object();
   for (const auto& process : watch.processes)
-    processes[process.name] = {
-        {"pid", process.pid}, {"heartbeat_ms", static_cast<double>(watch.monotonic_ns - process.heartbeat_ns) * 1e-6}};
+    processes[process.name] = {{"pid", process.pid},
+                               {"heartbeat_ms", static_cast<double>(watch.monotonic_ns - process.heartbeat_ns) * 1e-6}};
   object["processes"] = processes;
 }
 

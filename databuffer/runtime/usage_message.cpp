@@ -54,8 +54,8 @@ UsageMessage message_of(const CLI::App* command, const Error& error) {
 UsageMessage unknown_command(const CLI::App* command, const std::string& word) {
   const auto names = names_below(*command);
   const std::string meant = text::did_you_mean(word, names);
-  return message_of(
-      command, {"", meant.empty() ? "a command: " + joined_by_or(names) : "a command", "'" + word + "'", meant, ErrorCode::argument});
+  return message_of(command, {"", meant.empty() ? "a command: " + joined_by_or(names) : "a command", "'" + word + "'",
+                              meant, ErrorCode::argument});
 }
 
 // Words that no command has taken, in the order of the command line.
@@ -71,7 +71,8 @@ UsageMessage unknown_option(const std::vector<const CLI::App*>& chain, const std
     for (const CLI::Option* option : (*command)->get_options())
       for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   const std::string name = word.substr(0, word.find('='));
-  return message_of(chain.back(), {"", "an option", "'" + name + "'", text::did_you_mean(name, names), ErrorCode::argument});
+  return message_of(chain.back(),
+                    {"", "an option", "'" + name + "'", text::did_you_mean(name, names), ErrorCode::argument});
 }
 
 UsageMessage about_word_left(const std::vector<const CLI::App*>& chain, const std::string& word) {
@@ -97,7 +98,8 @@ std::optional<UsageMessage> about_what_is_required(const std::vector<const CLI::
   if (!names.empty()) return message_of(chain.back(), {"", names, "none", "", ErrorCode::argument});
   const CLI::App* command = chain.back();
   if (command->get_require_subcommand_min() == 0) return std::nullopt;
-  return message_of(command, {"", "a command: " + joined_by_or(names_below(*command)), "none", "", ErrorCode::argument});
+  return message_of(command,
+                    {"", "a command: " + joined_by_or(names_below(*command)), "none", "", ErrorCode::argument});
 }
 
 std::optional<UsageMessage> about_relations(const std::vector<const CLI::App*>& chain) {
@@ -106,11 +108,12 @@ std::optional<UsageMessage> about_relations(const std::vector<const CLI::App*>& 
       if (option->count() == 0) continue;
       for (const CLI::Option* other : option->get_needs())
         if (other->count() == 0)
-          return message_of(chain.back(), {option->get_name(), other->get_name() + " with it", "none", "", ErrorCode::argument});
+          return message_of(chain.back(),
+                            {option->get_name(), other->get_name() + " with it", "none", "", ErrorCode::argument});
       for (const CLI::Option* other : option->get_excludes())
         if (other->count() > 0)
-          return message_of(chain.back(),
-                            {option->get_name(), "no " + other->get_name() + " with it", "both", "", ErrorCode::argument});
+          return message_of(chain.back(), {option->get_name(), "no " + other->get_name() + " with it", "both", "",
+                                           ErrorCode::argument});
     }
   return std::nullopt;
 }
@@ -155,7 +158,8 @@ std::optional<Error> option_as_value(const std::vector<const CLI::App*>& chain) 
     for (const CLI::Option* option : command->get_options())
       for (const std::string& value : option->results())
         if (option->nonpositional() && is_option_like(value) && option_named(chain, value) != nullptr)
-          return Error{option->get_name(), expected_value(*option), "the option '" + value + "'", "", ErrorCode::argument};
+          return Error{option->get_name(), expected_value(*option), "the option '" + value + "'", "",
+                       ErrorCode::argument};
   return std::nullopt;
 }
 

@@ -20,8 +20,7 @@ using yars::Expected;
 // Makes an Error, which converts to every Expected<T>. If the error ends the program, the exit code is 1.
 inline tl::unexpected<Error> fail(std::string subject, std::string expected, std::string found,
                                   std::string action = {}) {
-  return tl::unexpected<Error>(
-      Error{std::move(subject), std::move(expected), std::move(found), std::move(action)});
+  return tl::unexpected<Error>(Error{std::move(subject), std::move(expected), std::move(found), std::move(action)});
 }
 
 // Marks an error as a usage error (wrong command line), or makes one. If it ends the program, the exit code is 2.

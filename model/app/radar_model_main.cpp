@@ -28,8 +28,9 @@ error::Expected<radar::RadarConfiguration> configure(const databuffer::ProgramOp
   if (!model_options.fidelity.empty()) configuration->fidelity = *radar::fidelity_preset(model_options.fidelity);
   if (model_options.samples) configuration->fidelity.samples = *model_options.samples;
   if (const int size = configuration->fidelity.map_size; size > static_cast<int>(databuffer::kMaxPatchPixels))
-    return error::fail("mapSize of Fidelity", "at most " + std::to_string(databuffer::kMaxPatchPixels) + " in a session",
-                       std::to_string(size), "set mapSize; `yars patch --size` makes larger maps");
+    return error::fail("mapSize of Fidelity",
+                       "at most " + std::to_string(databuffer::kMaxPatchPixels) + " in a session", std::to_string(size),
+                       "set mapSize; `yars patch --size` makes larger maps");
   return configuration;
 }
 

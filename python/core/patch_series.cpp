@@ -201,7 +201,8 @@ PatchRequest request_of(const std::string& entry, const Order& order, bool force
 
 void check_field(const std::string& entry, const char* name, double value, double low, double high) {
   if (!(value >= low && value <= high))
-    radar::fail(radar::beyond_field("yars.Radar.patches: " + entry + ": " + name, {"", "", "", low, high, "", "", {}}, value));
+    radar::fail(
+        radar::beyond_field("yars.Radar.patches: " + entry + ": " + name, {"", "", "", low, high, "", "", {}}, value));
 }
 
 // Movers of each order.
@@ -221,8 +222,8 @@ std::vector<std::vector<Mover>> movers_of(const py::object& given, std::size_t o
                           {"speed_kt", "speed_kt", mover.speed_kt}});
     check_field(entry, "cross_section_m2", mover.cross_section_m2, 1e-3, 1e7);
     check_field(entry, "height_m", mover.height_m, 0.0, 1000.0);
-    movers[static_cast<std::size_t>(mover.order)].push_back({mover.latitude, mover.longitude, mover.heading,
-                                                             mover.speed_kt, mover.cross_section_m2, mover.height_m});
+    movers[static_cast<std::size_t>(mover.order)].push_back(
+        {mover.latitude, mover.longitude, mover.heading, mover.speed_kt, mover.cross_section_m2, mover.height_m});
   }
   return movers;
 }
@@ -260,7 +261,8 @@ class Series {
  public:
   Series(const yars::Radar& radar, std::unique_ptr<Patch> patch, const SeriesRequest& request, const Outputs& outputs)
       : radar_(radar), request_(request), outputs_(outputs), patch_(std::move(patch)) {
-    if (request.scene && outputs.objects()) boxes_.emplace(request.scene->scene(), radar.map_size(), request.min_pixels);
+    if (request.scene && outputs.objects())
+      boxes_.emplace(request.scene->scene(), radar.map_size(), request.min_pixels);
   }
 
   // Forms map `index`. Throws an error that names the index.
@@ -329,9 +331,8 @@ void PatchPool::forget_those_of_the_parent() {
 std::unique_ptr<Patch> PatchPool::take(std::size_t threads, LabelUse labels) {
   const std::lock_guard guard(mutex_);
   forget_those_of_the_parent();
-  const auto found = std::ranges::find_if(free_, [&](const Free& one) {
-    return one.patch->facts().threads == threads && one.labels == labels;
-  });
+  const auto found = std::ranges::find_if(
+      free_, [&](const Free& one) { return one.patch->facts().threads == threads && one.labels == labels; });
   if (found == free_.end()) return nullptr;
   std::unique_ptr<Patch> patch = std::move(found->patch);
   free_.erase(found);

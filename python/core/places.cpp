@@ -9,11 +9,13 @@
 
 namespace yars::python {
 
-Terrain::Terrain(const std::string& directory) : lock_([this] {
-  if (terrain_) terrain_->stores()->renew();
-}) {
-  without_interpreter(
-      [&](const parallel::GoesOn&) { terrain_ = std::make_unique<yars::Terrain>(value_of(yars::Terrain::open({directory}))); });
+Terrain::Terrain(const std::string& directory)
+    : lock_([this] {
+        if (terrain_) terrain_->stores()->renew();
+      }) {
+  without_interpreter([&](const parallel::GoesOn&) {
+    terrain_ = std::make_unique<yars::Terrain>(value_of(yars::Terrain::open({directory})));
+  });
   terrain_->stores()->use_lock([this](const parallel::GoesOn& goes_on) {
     return std::make_shared<std::unique_lock<std::timed_mutex>>(lock_.take(goes_on));
   });

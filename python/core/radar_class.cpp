@@ -22,8 +22,8 @@ std::shared_ptr<ScanResult> Radar::scan(const std::shared_ptr<Terrain>& terrain,
   Warnings warnings;
   std::optional<Scan> scan;
   without_interpreter([&](const parallel::GoesOn& goes_on) {
-    scan = value_of(
-        radar_->scan(terrain->terrain(), request, scene ? &scene->scene() : nullptr, warnings.call(goes_on)));
+    scan =
+        value_of(radar_->scan(terrain->terrain(), request, scene ? &scene->scene() : nullptr, warnings.call(goes_on)));
   });
   warnings.show("yars.Radar.scan");
   return std::make_shared<ScanResult>(std::move(*scan));
@@ -34,8 +34,8 @@ std::shared_ptr<PatchResult> Radar::patch(const std::shared_ptr<Terrain>& terrai
   Warnings warnings;
   std::optional<Patch> patch;
   without_interpreter([&](const parallel::GoesOn& goes_on) {
-    patch = value_of(
-        radar_->patch(terrain->terrain(), request, scene ? &scene->scene() : nullptr, warnings.call(goes_on)));
+    patch =
+        value_of(radar_->patch(terrain->terrain(), request, scene ? &scene->scene() : nullptr, warnings.call(goes_on)));
   });
   warnings.show("yars.Radar.patch");
   return std::make_shared<PatchResult>(std::move(*patch));
@@ -74,8 +74,8 @@ void set_field(Value& field, const py::handle& value) {
     field = py::cast<Value>(value);
 }
 
-// Class of a request, whose constructor takes a dict, and the list of its fields: (name, older keyword, kind, whether it
-// may be None, least, greatest).
+// Class of a request, whose constructor takes a dict, and the list of its fields: (name, older keyword, kind, whether
+// it may be None, least, greatest).
 template <class Request>
 void add_request(py::module_& module, const char* name) {
   py::class_<Request>(module, name).def(py::init([](const py::dict& given) {

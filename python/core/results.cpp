@@ -107,11 +107,11 @@ py::array PatchResult::array(const std::string& name) {
   if (name == "height") return array_of<float>(self, labels.height_m.data(), shape);
   if (name == "grazing_angle") return array_of<float>(self, grazing_deg_.data(), shape);
   if (name == "x" || name == "y") return centres(name == "x");
-  const std::vector<double> PatchPositions::*numbers = name == "latitude"       ? &PatchPositions::latitude_deg
-                                                       : name == "longitude"    ? &PatchPositions::longitude_deg
-                                                       : name == "ground_range" ? &PatchPositions::ground_range_m
-                                                       : name == "slant_range"  ? &PatchPositions::slant_range_m
-                                                                                : nullptr;
+  const std::vector<double> PatchPositions::* numbers = name == "latitude"       ? &PatchPositions::latitude_deg
+                                                        : name == "longitude"    ? &PatchPositions::longitude_deg
+                                                        : name == "ground_range" ? &PatchPositions::ground_range_m
+                                                        : name == "slant_range"  ? &PatchPositions::slant_range_m
+                                                                                 : nullptr;
   if (numbers == nullptr) throw py::key_error(name);
   without_interpreter([&](const parallel::GoesOn& goes_on) {
     const auto taken = lock_.take(goes_on);

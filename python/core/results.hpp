@@ -1,5 +1,5 @@
-// Classes ScanResult and PatchResult of yars._core: one scan or one patch map (yars/scan.hpp, yars/patch.hpp) as arrays.
-// Arrays lie in the memory of the result. Labels of a scan, and positions, are computed when first asked for.
+// Classes ScanResult and PatchResult of yars._core: one scan or one patch map (yars/scan.hpp, yars/patch.hpp) as
+// arrays. Arrays lie in the memory of the result. Labels of a scan, and positions, are computed when first asked for.
 // Units: as the suffix of each name says; of arrays, as results.py lists them.
 // Source of the labels: docs/python.md, "Labels".
 #pragma once
@@ -44,7 +44,7 @@ class PatchResult : public std::enable_shared_from_this<PatchResult> {
   py::array centres(bool columns) const;
 
   Patch patch_;
-  std::vector<float> power_, grazing_deg_;  // NaN in the blind zone
+  std::vector<float> power_, grazing_deg_;   // NaN in the blind zone
   std::optional<PatchPositions> positions_;  // nullopt: not computed yet
   ObjectLock lock_{[] {}};                   // guards positions_
 };

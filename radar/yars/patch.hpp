@@ -48,11 +48,11 @@ struct PatchLabels {
 struct PatchFacts {
   double latitude_deg = 0.0, longitude_deg = 0.0, altitude_m = 0.0, ground_track_deg = 0.0;  // of the aircraft
   double target_latitude_deg = 0.0, target_longitude_deg = 0.0, target_height_m = 0.0;       // of the map's centre
-  double window_m = 0.0;                      // side of the map
-  double up_deg = 0.0;                        // true bearing of the map's centre from the aircraft
+  double window_m = 0.0;                                                                     // side of the map
+  double up_deg = 0.0;  // true bearing of the map's centre from the aircraft
   double ground_range_m = 0.0, slant_range_m = 0.0, grazing_deg = 0.0;  // of the map's centre
-  double resolution_m = 0.0;                  // edge of a resolution cell
-  double formation_s = 0.0;                   // time in which the radar forms the map
+  double resolution_m = 0.0;                                            // edge of a resolution cell
+  double formation_s = 0.0;                                             // time in which the radar forms the map
   // Position on the plane from column c and row r, in GDAL's order: x = p[0] + c p[1] + r p[2] east [m] of the
   // aircraft, y = p[3] + c p[4] + r p[5] north [m].
   std::array<double, 6> plane_from_pixel{};

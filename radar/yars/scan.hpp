@@ -25,10 +25,10 @@ class Radar;
 
 // One sweep of a scan. The spans are valid as long as the Scan.
 struct ScanSweep {
-  double azimuth_left_deg = 0.0;    // true bearing of the left edge at the aircraft
-  double azimuth_right_deg = 0.0;   // of the right edge
-  double azimuth_deg = 0.0;         // of the middle
-  std::uint64_t hash = 0;           // XXH3 of the record: place, settings, video
+  double azimuth_left_deg = 0.0;        // true bearing of the left edge at the aircraft
+  double azimuth_right_deg = 0.0;       // of the right edge
+  double azimuth_deg = 0.0;             // of the middle
+  std::uint64_t hash = 0;               // XXH3 of the record: place, settings, video
   std::span<const std::uint8_t> video;  // 0 black to 255 white
   std::span<const float> power;         // before noise and azimuth smear; 1: full scale
 };

@@ -18,25 +18,25 @@
 namespace yars {
 
 struct SceneObject {
-  std::string name;               // empty: the faces outside objects, the first object of each file
-  double latitude_deg = 0.0;      // of the middle
-  double longitude_deg = 0.0;     // of the middle
-  double base_msl_m = 0.0;        // lowest point
-  double height_m = 0.0;          // above the base
-  double length_m = 0.0;          // longer side of the box of least area, seen from above
-  double width_m = 0.0;           // its shorter side
-  double heading_deg = 0.0;       // true, of the longer side, [0, 180)
-  std::uint8_t material = 0;      // code of DFAD of most of the surface
+  std::string name;            // empty: the faces outside objects, the first object of each file
+  double latitude_deg = 0.0;   // of the middle
+  double longitude_deg = 0.0;  // of the middle
+  double base_msl_m = 0.0;     // lowest point
+  double height_m = 0.0;       // above the base
+  double length_m = 0.0;       // longer side of the box of least area, seen from above
+  double width_m = 0.0;        // its shorter side
+  double heading_deg = 0.0;    // true, of the longer side, [0, 180)
+  std::uint8_t material = 0;   // code of DFAD of most of the surface
 };
 
 // A target that moves on the ground. It is at its place when the map begins.
 struct Mover {
   double latitude_deg = 0.0;
   double longitude_deg = 0.0;
-  double heading_deg = 0.0;          // true
-  double speed_kt = 0.0;             // over ground
-  double cross_section_m2 = 100.0;   // radar cross section
-  double height_m = 0.0;             // above ground
+  double heading_deg = 0.0;         // true
+  double speed_kt = 0.0;            // over ground
+  double cross_section_m2 = 100.0;  // radar cross section
+  double height_m = 0.0;            // above ground
 };
 
 class YARS_EXPORT Scene {

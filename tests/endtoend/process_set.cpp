@@ -210,7 +210,8 @@ bool ProcessSet::is_recorded() const {
 
 nlohmann::json ProcessSet::status() const {
   const auto session = databuffer::Session::open_read_only(session_);
-  return session ? nlohmann::json(databuffer::status_json(databuffer::status_of(*session, session_))) : nlohmann::json();
+  return session ? nlohmann::json(databuffer::status_json(databuffer::status_of(*session, session_)))
+                 : nlohmann::json();
 }
 
 nlohmann::json ProcessSet::watch() const {

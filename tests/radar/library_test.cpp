@@ -1,4 +1,5 @@
-// Facts about the public library (radar/yars): requests, errors, calls from many threads, and equal pictures by each way.
+// Facts about the public library (radar/yars): requests, errors, calls from many threads, and equal pictures by each
+// way.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -39,12 +40,14 @@ TEST(Library, GivesTheScanAndTheMapOfTheCommands) {
   const Radar radar = radar_of("draft");
   const auto scan = radar.scan(hills(), near_scan());
   ASSERT_TRUE(scan) << scan.error().message();
-  EXPECT_THAT(endtoend::run_program({"yars", "scan", "--fidelity", "draft", "--range-nm", "5", "--scan-width", "10"}).output,
-              HasSubstr("hash    " + std::to_string(scan->hash())));
+  EXPECT_THAT(
+      endtoend::run_program({"yars", "scan", "--fidelity", "draft", "--range-nm", "5", "--scan-width", "10"}).output,
+      HasSubstr("hash    " + std::to_string(scan->hash())));
   const auto patch = radar.patch(hills(), small_map());
   ASSERT_TRUE(patch) << patch.error().message();
-  EXPECT_THAT(endtoend::run_program({"yars", "patch", "--fidelity", "draft", "--window-nm", "1.3", "--size", "64"}).output,
-              HasSubstr("hash    " + std::to_string(patch->hash())));
+  EXPECT_THAT(
+      endtoend::run_program({"yars", "patch", "--fidelity", "draft", "--window-nm", "1.3", "--size", "64"}).output,
+      HasSubstr("hash    " + std::to_string(patch->hash())));
 }
 
 TEST(Library, AnErrorHasCodeFieldAndLimits) {
@@ -77,9 +80,10 @@ TEST(Library, AnErrorHasCodeFieldAndLimits) {
 }
 
 TEST(Library, KnobsGoBeforeThePresetAndForms) {
-  const auto radar = Radar::make({.preset = "fine",
-                                  .guf = "( Fidelity :samples 100 )",
-                                  .knobs = {{"samples", 99.0}, {"mapLayover", false}, {"earth", std::string("sphere")}}});
+  const auto radar =
+      Radar::make({.preset = "fine",
+                   .guf = "( Fidelity :samples 100 )",
+                   .knobs = {{"samples", 99.0}, {"mapLayover", false}, {"earth", std::string("sphere")}}});
   ASSERT_TRUE(radar) << radar.error().message();
   EXPECT_EQ(radar->samples(), 99);
   EXPECT_THAT(radar->guf(), HasSubstr(":earth sphere"));
@@ -92,7 +96,8 @@ TEST(Library, OneRadarAndOneTerrainServeManyThreads) {
   std::array<std::uint64_t, 4> found{};
   std::vector<std::thread> threads;
   for (std::uint64_t& hash : found)
-    threads.emplace_back([&] { hash = radar.scan(terrain, near_scan()).map([](const Scan& s) { return s.hash(); }).value_or(0); });
+    threads.emplace_back(
+        [&] { hash = radar.scan(terrain, near_scan()).map([](const Scan& s) { return s.hash(); }).value_or(0); });
   for (std::thread& thread : threads) thread.join();
   EXPECT_THAT(found, testing::Each(wanted));
 }

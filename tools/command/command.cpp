@@ -105,8 +105,7 @@ void add_field(databuffer::Command command, const values::Field& field, Value& v
 
 template <class Request>
 void add_all(databuffer::Command command, Request& request) {
-  values::visit_fields(request,
-                       [&](const values::Field& field, auto& value) { add_field(command, field, value); });
+  values::visit_fields(request, [&](const values::Field& field, auto& value) { add_field(command, field, value); });
 }
 
 }  // namespace
@@ -125,8 +124,8 @@ CommandFailed failure_of(const error::Error& error) {
   const auto spell = [](const values::Field& field, std::string_view value) {
     return "--" + std::string(field.option) + (value.empty() || value == "true" ? "" : ' ' + std::string(value));
   };
-  for (const std::span<const values::Field> fields :
-       {std::span<const values::Field>(values::kScanRequestFields), std::span<const values::Field>(values::kPatchRequestFields)})
+  for (const std::span<const values::Field> fields : {std::span<const values::Field>(values::kScanRequestFields),
+                                                      std::span<const values::Field>(values::kPatchRequestFields)})
     in_options = radar::spelled(std::move(in_options), fields, spell);
   return {in_options.message(), error.bad_usage() ? databuffer::kExitUsage : databuffer::kExitFailure};
 }

@@ -70,8 +70,7 @@ imageio::Image scan_picture(const Scan& scan, const radar::ViewConfiguration& vi
       const double right = view.width_min + (column + 0.5) / size * (view.width_max - view.width_min);
       const double range = std::hypot(right, up);
       if (range >= 1.0) continue;
-      const auto index =
-          sweep_at(first, scan.sweeps(), track_deg + std::atan2(right, up) / geo::kRadiansPerDegree);
+      const auto index = sweep_at(first, scan.sweeps(), track_deg + std::atan2(right, up) / geo::kRadiansPerDegree);
       if (!index) continue;
       const auto sample = static_cast<std::size_t>(range * static_cast<double>(scan.samples()));
       const double level = scan.sweep(*index).video[sample];

@@ -157,8 +157,7 @@ std::vector<std::filesystem::path> recordings_in(const std::filesystem::path& fo
     if (entry->is_regular_file(kind) && may_be_recording(entry->path())) files.push_back(entry->path());
   }
   if (code)
-    throw_failure(
-        {folder.string(), "a folder that can be read", error::reason_of(code.value()), "check the path"});
+    throw_failure({folder.string(), "a folder that can be read", error::reason_of(code.value()), "check the path"});
   return files;
 }
 

@@ -119,7 +119,9 @@ void print_host(const HostSummary& host) {
   const bool is_measured = !host.self && host.offset_ms;
   std::printf("  %-20s %-14s %14s %10s %10s %8llu %8llu %9llu  %s\n",
               (shown(host.name) + (host.self ? " *" : "")).c_str(), host.self ? "this host" : heard.c_str(),
-              is_measured ? interval_text(*host.offset_ms).c_str() : host.self ? "-" : "unknown",
+              is_measured ? interval_text(*host.offset_ms).c_str()
+              : host.self ? "-"
+                          : "unknown",
               is_measured ? interval_text(host.offset_error_ms.value_or(0.0)).c_str() : "-",
               host.self ? "-" : interval_text(host.latency_ms).c_str(), number(host.lost), number(host.refused),
               number(host.repeated), more.c_str());
@@ -143,9 +145,9 @@ void print_ownship(const Status& status) {
     std::printf("ownship: none\n");
   else
     std::printf("ownship: %s, %.4f %.4f, %.0f ft MSL, track %.0f deg, %.0f kt, %s old\n",
-                shown(databuffer::name_of_source(own, model.ownship_lane)).c_str(), own.latitude_deg,
-                own.longitude_deg, own.altitude_msl_m / geo::kMetresPerFoot,
-                databuffer::ground_track_of(own).degrees(), ground_speed_kt(own),
+                shown(databuffer::name_of_source(own, model.ownship_lane)).c_str(), own.latitude_deg, own.longitude_deg,
+                own.altitude_msl_m / geo::kMetresPerFoot, databuffer::ground_track_of(own).degrees(),
+                ground_speed_kt(own),
                 age_text(static_cast<double>(status.watch.sim_time_ns - model.ownship_received_ns) * 1e-9).c_str());
   for (const LaneStatus& lane : status.ownship_lanes)
     std::printf("  lane %zu: %s, priority %u, %s so far\n", lane.lane, shown(lane.source).c_str(), lane.priority,
@@ -186,10 +188,10 @@ void print_radar(const Status& status) {
 
 void print_frames(const std::optional<FrameStatus>& frames) {
   if (!frames) return;
-  std::printf("frames of the display: %s, newest %llu, %u x %u pixels\n",
-              frames->publisher == 0 ? "nobody publishes"
-                                     : ("pid " + std::to_string(frames->publisher) + " publishes").c_str(),
-              number(frames->newest.id), frames->newest.width, frames->newest.height);
+  std::printf(
+      "frames of the display: %s, newest %llu, %u x %u pixels\n",
+      frames->publisher == 0 ? "nobody publishes" : ("pid " + std::to_string(frames->publisher) + " publishes").c_str(),
+      number(frames->newest.id), frames->newest.width, frames->newest.height);
 }
 
 void print_tour(const std::optional<databuffer::Caption>& caption) {

@@ -151,9 +151,9 @@ bool lies_in(const std::filesystem::path& inner, const std::filesystem::path& ou
 error::Expected<DirectoryIndex> index_of(const TerrainBatch& batch, FileSentences& unused) {
   if (!std::filesystem::is_directory(batch.in)) return index_file(batch.in);
   if (lies_in(batch.out, batch.in))
-    return tl::unexpected(error::Error{"yars terrain " + batch.command, "--out outside of --in",
-                                       batch.out + " inside of " + batch.in,
-                                       "give another folder: the input is never overwritten", error::ErrorCode::argument});
+    return tl::unexpected(
+        error::Error{"yars terrain " + batch.command, "--out outside of --in", batch.out + " inside of " + batch.in,
+                     "give another folder: the input is never overwritten", error::ErrorCode::argument});
   return index_directory(batch.in, &unused);
 }
 

@@ -19,12 +19,12 @@ namespace yars::tools::trade {
 namespace {
 
 using model::kernel::OfflineScan;
-using radar::kMinScanPower;
-using radar::ray_samples;
-using radar::RaySample;
 using model::kernel::ScanRequest;
 using model::physics::SweepGeometry;
+using radar::kMinScanPower;
 using radar::RadarConfiguration;
+using radar::ray_samples;
+using radar::RaySample;
 
 double position_error_m(const RadarConfiguration& configuration, const OfflineScan& scan,
                         const model::terrain::TerrainView& terrain) {

@@ -81,7 +81,8 @@ error::Expected<MapView> map_view_of(std::string_view text) {
   const MapView view{{(*values)[0], (*values)[1]}, (*values)[2], {(*values)[3], (*values)[4]}, (*values)[5]};
   if (distance_nm(view) <= view.window_nm)
     return tl::unexpected<error::Error>(error::Error{"--view", "a target farther away than the window is wide",
-                                                     short_number(distance_nm(view)) + " NM", "", error::ErrorCode::argument});
+                                                     short_number(distance_nm(view)) + " NM", "",
+                                                     error::ErrorCode::argument});
   return view;
 }
 

@@ -1,4 +1,4 @@
-#include "databuffer/json/network_summary.hpp"
+#include "databuffer/json/participants.hpp"
 
 #include <algorithm>
 #include <array>
@@ -22,8 +22,7 @@ struct Difference {
   std::string_view remedy;  // what it means and what to do, behind "host NAME "
 };
 constexpr std::array<Difference, 4> kDifferences{
-    {{kHostOtherLayout, "other layout",
-      "has another layout of the records: install the same version on both hosts"},
+    {{kHostOtherLayout, "other layout", "has another layout of the records: install the same version on both hosts"},
      {kHostOtherConfiguration, "other configuration",
       "has another configuration: start both hosts with the same --config"},
      {kHostOtherTerrain, "other terrain", "has another terrain: start both hosts with the same --terrain"},
@@ -94,8 +93,8 @@ std::optional<NetworkSummary> network_of(const Session& session) {
   network.age_ms = std::max(0.0, 1e3 * (seconds(now_ns) - seconds(status->monotonic_ns)));
   for (const auto& host : used(status->hosts, status->host_count)) network.hosts.push_back(summary_of(host, now_ns));
   for (const auto& topic : used(status->topics, status->topic_count))
-    network.topics.push_back({std::string(text::text_of(topic.name)), topic.sent, topic.sent_bytes, topic.received,
-                              topic.received_bytes});
+    network.topics.push_back(
+        {std::string(text::text_of(topic.name)), topic.sent, topic.sent_bytes, topic.received, topic.received_bytes});
   return network;
 }
 
