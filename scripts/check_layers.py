@@ -23,7 +23,7 @@ SCENE = TERRAIN + ["model/scene/openflight", "model/scene/placement"]
 PHYSICS = SCENE + ["lib/parallel", "model/physics"]
 KERNEL = PHYSICS + ["databuffer/messages", "model/antenna", "model/rbm", "model/hrm", "model/kernel"]
 WORLD = ["model/terrain/gdal", "model/terrain/store", "model/scene/index"]
-LIBRARY = KERNEL + WORLD + ["lib/values", "radar"]
+LIBRARY = KERNEL + WORLD + ["lib/values", "radar/recording", "radar"]
 # What the program of every role, and most tools, may include: records, files, log, configuration and the session.
 SHELL = RECORDS + ["lib/file", "lib/imageio", "lib/log", "config/schema", "databuffer/session", "databuffer/runtime"]
 
@@ -68,7 +68,8 @@ LAYERS = {
     "model/hrm": PHYSICS,
     "model/kernel": KERNEL,
     "model/app": SHELL + KERNEL + WORLD,
-    "radar": KERNEL + WORLD + ["config/schema", "lib/values"],
+    "radar/recording": KERNEL + WORLD,
+    "radar": KERNEL + WORLD + ["config/schema", "lib/values", "radar/recording"],
     "worldgen/scene": SCENE,
     "worldgen/terrain": TERRAIN + ["model/physics", "lib/parallel"],
     "statemachine": RECORDS + ["lib/random"],
@@ -88,16 +89,15 @@ LAYERS = {
     "station": TERRAIN + ["databuffer/messages", "model/terrain/picture"],
     "station/app": SHELL + TERRAIN + ["model/terrain/picture", "databuffer/flight", "databuffer/json", "display/symbology", "station"] + SCENE + WORLD,
     "tools/command": SHELL + LIBRARY,
-    "tools/recording": KERNEL + WORLD,
     "tools/trade": SHELL + LIBRARY + ["tools/command"],
     "tools/scan": SHELL + LIBRARY + ["tools/command"],
     "tools/patch": SHELL + LIBRARY + ["tools/command"],
     "tools/terrain": SHELL + TERRAIN + WORLD + ["model/terrain/picture", "worldgen/terrain", "tools/command", "lib/parallel"],
     "tools/scene": SHELL + SCENE + WORLD + ["worldgen/scene", "tools/command", "lib/parallel"],
     "tools/dataset": SHELL + ["tools/command"],
-    "tools/session": SHELL + LIBRARY + ["databuffer/json", "statemachine", "tools/command", "tools/recording"],
+    "tools/session": SHELL + LIBRARY + ["databuffer/json", "statemachine", "tools/command"],
     "tools": SHELL + ["gateway/checks", "tools/command", "radar"],
-    "python/core": SHELL + LIBRARY + ["tools/command", "tools/recording", "tools/trade", "tools/scene", "tools/terrain"],
+    "python/core": SHELL + LIBRARY + ["tools/command", "tools/trade", "tools/scene", "tools/terrain"],
     "examples": ["databuffer/client"],
     "tests": None,  # None: everything
 }
@@ -114,8 +114,8 @@ SYSTEM_HEADERS = {
     "png.h": ["lib/imageio", "tests"],
     "openjpeg.h": ["model/terrain/formats"],
     "zip.h": ["model/terrain/formats", "tests"],
-    "zlib.h": ["model/terrain/formats", "tools/recording", "tests"],
-    "zstd.h": ["tools/recording"],
+    "zlib.h": ["model/terrain/formats", "radar/recording", "tests"],
+    "zstd.h": ["radar/recording"],
     "arpa/": ["databuffer/app", "gateway/checks", "gateway/dds", "tests"],
     "netinet/": ["databuffer/app", "gateway/checks", "gateway/dds", "tests"],
     "openssl/": ["gateway/checks", "gateway/dds"],

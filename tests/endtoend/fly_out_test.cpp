@@ -9,17 +9,17 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "tests/endtoend/supervised_set.hpp"
-#include "tests/tools/recording/made_recording.hpp"
-#include "tools/recording/branch.hpp"
-#include "tools/recording/recording_reader.hpp"
+#include "tests/radar/recording/made_recording.hpp"
+#include "radar/recording/branch.hpp"
+#include "radar/recording/recording_reader.hpp"
 
 namespace yars::endtoend {
 namespace {
 
 using databuffer::ModelTick;
 using databuffer::RadarState;
-using tools::recording::RecordingItem;
-using tools::recording::RecordingReader;
+using recording::RecordingItem;
+using recording::RecordingReader;
 
 constexpr double kAt_s = 9.0;  // within a turn
 
@@ -31,8 +31,8 @@ std::vector<RecordingItem> items_of(const std::filesystem::path& file) {
 }
 
 std::optional<std::int64_t> tick_of(const RecordingItem& item) {
-  if (const auto* change = std::get_if<tools::recording::StateChange>(&item)) return change->state.tick;
-  return std::visit([](const auto& record) { return tools::recording::tick_of(record); }, item);
+  if (const auto* change = std::get_if<recording::StateChange>(&item)) return change->state.tick;
+  return std::visit([](const auto& record) { return recording::tick_of(record); }, item);
 }
 
 template <class T>
@@ -139,7 +139,7 @@ void expect_continuous(const ModelTick& before, const ModelTick& after) {
 void FlyOut::expect_branch(const std::string& name) {
   SCOPED_TRACE(name);
   auto reader = RecordingReader::open(original_);
-  const auto point = tools::recording::find_branch_point(
+  const auto point = recording::find_branch_point(
       *reader, static_cast<std::int64_t>(kAt_s / radar::kTickSeconds), original_.string());
   ASSERT_TRUE(point);
   const auto items = items_of(branch_of(name));
@@ -161,7 +161,7 @@ void FlyOut::expect_branch(const std::string& name) {
     expect_continuous(before, tick);
     before = tick;
   }
-  const auto states = all_of<tools::recording::StateChange>(live);
+  const auto states = all_of<recording::StateChange>(live);
   ASSERT_FALSE(states.empty());
   // Whether a recorder runs is not of the recording.
   RadarState first = states.front().state, recorded = point->state;
@@ -175,7 +175,7 @@ void FlyOut::expect_branch(const std::string& name) {
   EXPECT_EQ(first.power, recorded.power);
   EXPECT_EQ(first.antenna_elevation_deg, recorded.antenna_elevation_deg);
   EXPECT_NEAR(first.cursor_latitude_deg, recorded.cursor_latitude_deg, 1e-3);
-  EXPECT_FALSE(tools::recording::switched(recorded, first));
+  EXPECT_FALSE(recording::switched(recorded, first));
 
   const auto events = run_program({"yars", "replay", "--events", branch_of(name).string()});
   EXPECT_EQ(events.code, 0) << events.errors;

@@ -7,7 +7,7 @@
 #include <iterator>
 
 #include "tests/endtoend/lockstep_run.hpp"
-#include "tools/recording/recording_reader.hpp"
+#include "radar/recording/recording_reader.hpp"
 
 namespace yars::endtoend {
 namespace {
@@ -105,7 +105,7 @@ TEST(ReplayToTheDisplay, ACutFileIsPlayedToItsEndAndReported) {
 TEST(ReplayToTheDisplay, ADamagedBlockLosesOnlyThatBlockAndIsReportedWithItsTicks) {
   ProcessSet set("replay-damaged");
   std::string bytes = bytes_of(run().recording());
-  auto reader = tools::recording::RecordingReader::open(run().recording());
+  auto reader = recording::RecordingReader::open(run().recording());
   ASSERT_TRUE(reader);
   const auto block = reader->blocks()[reader->blocks().size() / 2];
   bytes[block.offset + 200] ^= 1;

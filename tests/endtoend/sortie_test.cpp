@@ -13,7 +13,7 @@
 #include "tests/endtoend/lockstep_run.hpp"
 #include "tests/endtoend/sortie_flight.hpp"
 #include "tests/lib/imageio/read_png.hpp"
-#include "tools/recording/recording_reader.hpp"
+#include "radar/recording/recording_reader.hpp"
 
 namespace yars::endtoend {
 namespace {
@@ -142,17 +142,17 @@ struct Recorded {
 };
 
 Recorded read_recording(const std::filesystem::path& path) {
-  auto reader = tools::recording::RecordingReader::open(path);
+  auto reader = recording::RecordingReader::open(path);
   if (!reader) throw std::runtime_error(reader.error().message());
   Recorded recorded;
   while (const auto item = reader->next()) {
-    if (const auto* change = std::get_if<tools::recording::StateChange>(&*item))
+    if (const auto* change = std::get_if<recording::StateChange>(&*item))
       recorded.states[change->state.tick] = change->state;
-    else if (const auto* report = std::get_if<tools::recording::StatusReport>(&*item))
+    else if (const auto* report = std::get_if<recording::StatusReport>(&*item))
       recorded.statuses[report->status.tick] = report->status;
     else if (const auto* outputs = std::get_if<databuffer::Outputs>(&*item))
       recorded.outputs[outputs->tick] = *outputs;
-    else if (const auto* patch = std::get_if<tools::recording::Patch>(&*item))
+    else if (const auto* patch = std::get_if<recording::Patch>(&*item))
       recorded.maps.push_back(patch->map);
   }
   return recorded;

@@ -8,7 +8,7 @@
 
 #include "databuffer/session/session.hpp"
 #include "tests/endtoend/process_set.hpp"
-#include "tools/recording/recording_reader.hpp"
+#include "radar/recording/recording_reader.hpp"
 
 namespace yars::endtoend {
 namespace {
@@ -27,7 +27,7 @@ Traffic a_convoy(std::uint32_t epoch) {
 
 std::vector<Traffic> traffic_in(const std::filesystem::path& file) {
   std::vector<Traffic> found;
-  auto reader = tools::recording::RecordingReader::open(file);
+  auto reader = recording::RecordingReader::open(file);
   if (!reader) return found;
   while (const auto item = reader->next())
     if (const auto* traffic = std::get_if<Traffic>(&*item)) found.push_back(*traffic);

@@ -11,7 +11,7 @@
 
 #include "lib/geo/quantity.hpp"
 #include "tests/endtoend/lockstep_run.hpp"
-#include "tools/recording/recording_reader.hpp"
+#include "radar/recording/recording_reader.hpp"
 
 namespace yars::endtoend {
 namespace {
@@ -48,12 +48,12 @@ TEST(InterleavedVelocityUpdates, HoldTheNavigatorsVelocityInTheRunningSet) {
   const std::vector<ScriptedStep> steps{
       {"power opr", true, "power", "OPR"}, {"pb 16", true, "ipvu", true}, {"pb 2", true, "declutter", true, 66.0}};
   const LockstepRun run("ipvu", steps, "fixed:36.5,-121.5,10000,300,250", {{}, navigator.path()});
-  auto reader = tools::recording::RecordingReader::open(run.recording());
+  auto reader = recording::RecordingReader::open(run.recording());
   ASSERT_TRUE(reader) << reader.error().message();
   std::set<std::int64_t> updates;
   int states = 0;
   while (const auto item = reader->next()) {
-    const auto* change = std::get_if<tools::recording::StateChange>(&*item);
+    const auto* change = std::get_if<recording::StateChange>(&*item);
     if (change == nullptr) continue;
     const databuffer::RadarState& state = change->state;
     if (state.velocity_updated_tick < 0) {

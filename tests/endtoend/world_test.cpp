@@ -11,14 +11,14 @@
 #include "databuffer/session/session_world.hpp"
 #include "lib/radar/modes.hpp"
 #include "tests/endtoend/process_set.hpp"
-#include "tools/recording/recording_reader.hpp"
+#include "radar/recording/recording_reader.hpp"
 
 namespace yars::endtoend {
 namespace {
 
 std::vector<std::uint64_t> edits_in(const std::filesystem::path& file) {
   std::vector<std::uint64_t> edits;
-  auto reader = tools::recording::RecordingReader::open(file);
+  auto reader = recording::RecordingReader::open(file);
   if (!reader) return edits;
   while (const auto item = reader->next())
     if (const auto* world = std::get_if<databuffer::WorldState>(&*item)) edits.push_back(world->edit);

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <cstring>
 
-#include "tests/tools/recording/made_recording.hpp"
-#include "tools/recording/block.hpp"
+#include "tests/radar/recording/made_recording.hpp"
+#include "radar/recording/block.hpp"
 
 using namespace yars;
-using namespace yars::tools::recording;
+using namespace yars::recording;
 
 namespace {
 

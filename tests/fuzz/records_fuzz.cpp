@@ -52,7 +52,7 @@ class Readers {
               YARS_REQUIRE(pixels.size(), ==, patch_bytes(map));
             }),
         flight_(session_, *flight::open_source("fixed:36.6,-121.9,20000,0,400"), kFlightLane, false),
-        writer_(*tools::recording::RecordingWriter::create("/dev/null", {})),
+        writer_(*recording::RecordingWriter::create("/dev/null", {})),
         recorder_(session_, writer_, {true, true}, true) {}
 
   void step() {
@@ -129,7 +129,7 @@ class Readers {
   display::LabelMemory labels_;
   display::DrawList list_;
   FlightShell flight_;
-  tools::recording::RecordingWriter writer_;
+  recording::RecordingWriter writer_;
   tools::Recorder recorder_;
   std::uint32_t epoch_ = 0;
 };

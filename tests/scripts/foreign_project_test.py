@@ -194,7 +194,7 @@ def check_symbols(prefix):
     declared = set(re.findall(r"^YARS_DISPLAY_API.*?(yars_display_\w+)\(", header, re.M))
     expect("functions of libyars-display", len(declared) > 10 and shown == declared, sorted(shown ^ declared)[:20])
     shown = {line.split(" ", 2)[-1] for line in must("nm", "-DC", "--defined-only", library_of(prefix, "radar")).splitlines()}
-    of_classes = {name for name in shown if re.match(r"(typeinfo.* for )?yars::(Error|Patch|Radar|Scan|Scene|Terrain)\b", name)}
+    of_classes = {name for name in shown if re.match(r"(typeinfo.* for )?yars::(Error|Patch|Radar|Recording|Scan|Scene|Terrain)\b", name)}
     expect("names of libyars-radar", len(shown) > 40 and shown == of_classes, sorted(shown - of_classes)[:20])
 
 

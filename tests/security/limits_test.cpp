@@ -22,9 +22,9 @@
 #include "model/terrain/formats/pack.hpp"
 #include "tests/model/terrain/sampling/rough_cell.hpp"
 #include "tests/security/folder.hpp"
-#include "tools/recording/block.hpp"
-#include "tools/recording/recording_reader.hpp"
-#include "tools/recording/recording_writer.hpp"
+#include "radar/recording/block.hpp"
+#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_writer.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 
 namespace yars {
@@ -229,14 +229,14 @@ std::string recording_with(std::uint32_t configuration_bytes) {
 }
 
 TEST_F(Limits, ARecordingsHeaderHoldsAtMost64KibibytesOfText) {
-  EXPECT_THAT(refusal_of(tools::recording::RecordingReader::open(write("a.yars", recording_with(65'537)))),
+  EXPECT_THAT(refusal_of(recording::RecordingReader::open(write("a.yars", recording_with(65'537)))),
               HasSubstr("longer paths"));
-  EXPECT_THAT(refusal_of(tools::recording::RecordingReader::open(write("b.yars", recording_with(65'536)))),
+  EXPECT_THAT(refusal_of(recording::RecordingReader::open(write("b.yars", recording_with(65'536)))),
               HasSubstr("cut short"));
 }
 
 TEST_F(Limits, ABlockOfARecordingIsAtMostEightMebibytesAnd16384Items) {
-  using namespace tools::recording;
+  using namespace recording;
   BlockHead head{};
   head.content = BlockContent::items;
   const auto sound = [](const BlockHead& claimed) {

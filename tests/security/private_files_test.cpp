@@ -16,7 +16,7 @@
 #include "tests/security/folder.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/segment_path.hpp"
-#include "tools/recording/recording_writer.hpp"
+#include "radar/recording/recording_writer.hpp"
 
 namespace yars {
 namespace {
@@ -24,7 +24,7 @@ namespace {
 using shm::testing::ChildProcess;
 using test::refusal_of;
 using ::testing::HasSubstr;
-using tools::recording::RecordingWriter;
+using recording::RecordingWriter;
 
 class PrivateFiles : public test::SecureFolder {
  protected:
@@ -46,7 +46,7 @@ TEST_F(PrivateFiles, ARecordingHasMode0600WhateverTheUmask) {
 TEST_F(PrivateFiles, AFileOverwrittenByARecordingGetsMode0600) {
   const auto path = write("old.yars", "what was there before");
   ASSERT_EQ(mode_of(path), 0666U);
-  ASSERT_TRUE(RecordingWriter::create(path, {}, tools::recording::Existing::overwritten));
+  ASSERT_TRUE(RecordingWriter::create(path, {}, recording::Existing::overwritten));
   EXPECT_EQ(mode_of(path), 0600U);
 }
 

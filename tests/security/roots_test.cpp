@@ -20,7 +20,7 @@
 #include "model/terrain/gdal/raster.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "tests/security/folder.hpp"
-#include "tools/recording/recording_reader.hpp"
+#include "radar/recording/recording_reader.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 
 namespace yars {
@@ -44,7 +44,7 @@ const std::vector<PathReader>& readers() {
   static const std::vector<PathReader> all{
       {"radar.guf", [](const auto& path) { return refusal_of(config::load_configuration(path)); }},
       {"flight.route", [](const auto& path) { return refusal_of(file::read_text_file(path)); }},
-      {"flight.yars", [](const auto& path) { return refusal_of(tools::recording::RecordingReader::open(path)); }},
+      {"flight.yars", [](const auto& path) { return refusal_of(recording::RecordingReader::open(path)); }},
       {"picture.png", [](const auto& path) { return refusal_of(imageio::read_indexed_png(path, 100)); }},
       {"n36.smc.png", [](const auto& path) { return refusal_of(terrain::read_culture(path, kRootCorner)); }},
       {"w122/n36.dt1", [](const auto& path) { return refusal_of(terrain::read_dted(path, kRootCorner)); }},

@@ -15,8 +15,8 @@
 #include <string>
 
 #include "lib/error/error.hpp"
-#include "tools/recording/branch.hpp"
-#include "tools/recording/replay.hpp"
+#include "radar/recording/branch.hpp"
+#include "radar/recording/replay.hpp"
 
 namespace yars::tools {
 

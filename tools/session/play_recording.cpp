@@ -19,7 +19,7 @@
 #include "lib/log/log.hpp"
 #include "lib/radar/modes.hpp"
 #include "tools/command/json_output.hpp"
-#include "tools/recording/replay.hpp"
+#include "radar/recording/replay.hpp"
 
 namespace yars::tools {
 

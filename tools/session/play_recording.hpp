@@ -9,7 +9,7 @@
 
 #include "databuffer/session/session.hpp"
 #include "lib/error/error.hpp"
-#include "tools/recording/replay.hpp"
+#include "radar/recording/replay.hpp"
 
 namespace yars::tools {
 

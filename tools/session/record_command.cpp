@@ -16,8 +16,8 @@
 #include "lib/text/plain_text.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
-#include "tools/recording/branch.hpp"
-#include "tools/recording/recording_writer.hpp"
+#include "radar/recording/branch.hpp"
+#include "radar/recording/recording_writer.hpp"
 #include "tools/session/recorder.hpp"
 
 namespace yars::tools {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "databuffer/session/session.hpp"
-#include "tools/recording/branch.hpp"
-#include "tools/recording/recorded_kinds.hpp"
-#include "tools/recording/recording_writer.hpp"
+#include "radar/recording/branch.hpp"
+#include "radar/recording/recorded_kinds.hpp"
+#include "radar/recording/recording_writer.hpp"
 
 namespace yars::tools {
 

@@ -21,9 +21,9 @@
 #include "model/terrain/store/directory_store.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
-#include "tools/recording/branch.hpp"
-#include "tools/recording/recording_reader.hpp"
-#include "tools/recording/replay.hpp"
+#include "radar/recording/branch.hpp"
+#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/replay.hpp"
 #include "tools/session/hand_over.hpp"
 #include "tools/session/play_recording.hpp"
 

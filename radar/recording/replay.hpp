@@ -18,15 +18,15 @@
 #include "model/kernel/tick_inputs.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/sampling/terrain_view.hpp"
-#include "tools/recording/branch.hpp"
-#include "tools/recording/recorded_kinds.hpp"
-#include "tools/recording/recording_reader.hpp"
+#include "radar/recording/branch.hpp"
+#include "radar/recording/recorded_kinds.hpp"
+#include "radar/recording/recording_reader.hpp"
 
 namespace yars::radar {
 struct RadarConfiguration;
 }  // namespace yars::radar
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 // Compares the hashes of replayed sweeps with those of recorded sweeps of the same epoch and number. Two sweeps may
 // have the same number, because a model killed between a sweep and its status repeats the number after its restart.
@@ -185,4 +185,4 @@ class Player {
   std::optional<databuffer::ModelStatus> status_;
 };
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

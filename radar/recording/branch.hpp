@@ -16,11 +16,11 @@
 #include "databuffer/messages/radar_state.hpp"
 #include "databuffer/messages/world_state.hpp"
 #include "lib/error/error.hpp"
-#include "tools/recording/recorded_kinds.hpp"
-#include "tools/recording/recording_reader.hpp"
-#include "tools/recording/recording_writer.hpp"
+#include "radar/recording/recorded_kinds.hpp"
+#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_writer.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 // First and last tick of a recording. nullopt: it has no ModelTick.
 struct TickRange {
@@ -53,4 +53,4 @@ error::Expected<BranchPoint> find_branch_point(RecordingReader& reader, std::int
 // decoding. Damaged blocks are left out. Errors: a failed write.
 error::Expected<void> copy_until(RecordingReader& reader, const BranchPoint& point, RecordingWriter& writer);
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

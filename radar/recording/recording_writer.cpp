@@ -1,4 +1,4 @@
-#include "tools/recording/recording_writer.hpp"
+#include "radar/recording/recording_writer.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -7,7 +7,7 @@
 #include <cerrno>
 #include <cstring>
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 namespace {
 
@@ -216,4 +216,4 @@ tl::unexpected<error::Error> RecordingWriter::write_failed(int error_number) {
   return tl::unexpected(*error_);
 }
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

@@ -1,5 +1,5 @@
 // Branch of a recording: the point at which it begins, and its items.
-#include "tools/recording/branch.hpp"
+#include "radar/recording/branch.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -9,9 +9,9 @@
 #include <set>
 
 #include "tests/shm/child_process.hpp"
-#include "tests/tools/recording/made_recording.hpp"
+#include "tests/radar/recording/made_recording.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 namespace {
 
 constexpr std::int64_t kFirstTick = 100, kLastTick = 2000;
@@ -210,4 +210,4 @@ TEST(RecordingWriter, AKilledWriterLeavesNoLockAndAFileThatIsCutShort) {
 }
 
 }  // namespace
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

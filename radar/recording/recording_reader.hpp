@@ -15,11 +15,11 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
-#include "tools/recording/block.hpp"
-#include "tools/recording/recorded_kinds.hpp"
-#include "tools/recording/recording_file.hpp"
+#include "radar/recording/block.hpp"
+#include "radar/recording/recorded_kinds.hpp"
+#include "radar/recording/recording_file.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 class RecordingReader {
  public:
@@ -75,4 +75,4 @@ class RecordingReader {
   bool hole_ = false;
 };
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

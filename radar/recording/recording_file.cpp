@@ -1,4 +1,4 @@
-#include "tools/recording/recording_file.hpp"
+#include "radar/recording/recording_file.hpp"
 
 #include <algorithm>
 #include <array>
@@ -10,11 +10,11 @@
 #include <string>
 #include <string_view>
 
-#include "tools/recording/block.hpp"
-#include "tools/recording/compression.hpp"
-#include "tools/recording/recorded_kinds.hpp"
+#include "radar/recording/block.hpp"
+#include "radar/recording/compression.hpp"
+#include "radar/recording/recorded_kinds.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 namespace {
 
@@ -265,4 +265,4 @@ RecordingIndex read_index(std::istream& file, std::uint64_t begin) {
   return {rebuilt_index(file, begin, size), true};
 }
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "lib/error/error.hpp"
-#include "tools/recording/compression.hpp"
+#include "radar/recording/compression.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 // Configuration and terrain of the recorded model. A replay needs the same configuration and terrain.
 struct RecordingHeader {
@@ -55,4 +55,4 @@ std::vector<std::byte> bytes_of(const std::vector<IndexEntry>& blocks, std::uint
 // of the blocks, up to the last complete block. Memory is limited by the length of the file.
 RecordingIndex read_index(std::istream& file, std::uint64_t begin);
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

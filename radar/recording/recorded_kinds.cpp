@@ -1,10 +1,10 @@
-#include "tools/recording/recorded_kinds.hpp"
+#include "radar/recording/recorded_kinds.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 namespace {
 
@@ -151,4 +151,4 @@ bool StatePace::takes(const RadarState& state, std::int64_t tick) {
   return true;
 }
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

@@ -18,7 +18,7 @@
 #include "databuffer/messages/radar_state.hpp"
 #include "databuffer/messages/world_state.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 // A kind is a type of record. It has a number with a permanent meaning and a name for messages. The version increases
 // when the meaning of the record changes but not its size. To add a kind: add its number and name below, and its type
@@ -194,4 +194,4 @@ class StatePace {
 // True if two states differ in more than their moving values (see StatePace).
 bool switched(const databuffer::RadarState& before, const databuffer::RadarState& after);
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

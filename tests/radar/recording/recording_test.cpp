@@ -6,11 +6,11 @@
 #include <cstdlib>
 
 #include "databuffer/flight/route_flight.hpp"
-#include "tests/tools/recording/made_recording.hpp"
-#include "tools/recording/block.hpp"
-#include "tools/recording/recorded_kinds.hpp"
+#include "tests/radar/recording/made_recording.hpp"
+#include "radar/recording/block.hpp"
+#include "radar/recording/recorded_kinds.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 namespace {
 
 using databuffer::ModelTick;
@@ -331,4 +331,4 @@ TEST(Recording, SkipsABlockWhoseHeadDoesNotMatchItsBody) {
 }
 
 }  // namespace
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

@@ -1,4 +1,4 @@
-#include "tools/recording/replay.hpp"
+#include "radar/recording/replay.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/beam.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 namespace {
 constexpr std::uint64_t kFnvPrime = 0x100000001b3ULL;
@@ -421,4 +421,4 @@ void Player::find_maps(std::size_t block, Played& played) {
   }
 }
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

@@ -15,10 +15,10 @@
 #include <string_view>
 #include <vector>
 
-#include "tools/recording/compression.hpp"
-#include "tools/recording/recorded_kinds.hpp"
+#include "radar/recording/compression.hpp"
+#include "radar/recording/recorded_kinds.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 // Limits of a block of items. The reader treats a block beyond them as damaged, which bounds its memory.
 inline constexpr std::size_t kMaxBlockBytes = std::size_t{8} << 20;  // 8 MiB; limit of raw_bytes and of body_bytes
@@ -107,4 +107,4 @@ class BlockItems {
   std::size_t at_ = 0;
 };
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

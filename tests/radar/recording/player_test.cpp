@@ -12,10 +12,10 @@
 #include "databuffer/messages/world_values.hpp"
 #include "display/symbology/radar_video.hpp"
 #include "tests/model/kernel/cockpit.hpp"
-#include "tests/tools/recording/made_recording.hpp"
-#include "tools/recording/replay.hpp"
+#include "tests/radar/recording/made_recording.hpp"
+#include "radar/recording/replay.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 namespace {
 
 using databuffer::ModelStatus;
@@ -438,4 +438,4 @@ TEST_P(RecordingPlayed, ASeekBringsTheMapsThatTheStateNames) {
 }
 
 }  // namespace
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

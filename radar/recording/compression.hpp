@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 // Zstandard compressor. All calls use one context (ZSTD_CCtx).
 class Compressor {
@@ -68,4 +68,4 @@ void append_chunk(ChunkName name, std::span<const std::byte> bytes, Compressor& 
 std::optional<std::vector<std::byte>> take_chunk(ChunkName name, std::size_t max_bytes,
                                                  std::span<const std::byte>& body);
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

@@ -3,9 +3,9 @@
 
 #include <functional>
 
-#include "tools/recording/recorded_kinds.hpp"
+#include "radar/recording/recorded_kinds.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 namespace {
 
 using databuffer::RadarState;
@@ -67,4 +67,4 @@ TEST(StatePace, TakesAStateWhenTicksGoBackwards) {
 }
 
 }  // namespace
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

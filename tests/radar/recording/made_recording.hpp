@@ -15,12 +15,12 @@
 #include <string>
 #include <vector>
 
-#include "tools/recording/recording_reader.hpp"
-#include "tools/recording/recording_writer.hpp"
+#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_writer.hpp"
 
 namespace yars::test {
 
-using tools::recording::RecordingItem;
+using recording::RecordingItem;
 
 // File name in the temporary folder. The destructor removes the file.
 class TemporaryFile {
@@ -74,8 +74,8 @@ inline databuffer::Sweep sweep_at(std::int64_t tick, std::uint32_t samples, std:
   return sweep;
 }
 
-inline tools::recording::Patch patch_at(std::int64_t tick, std::uint32_t size, std::mt19937_64& random) {
-  tools::recording::Patch patch{};
+inline recording::Patch patch_at(std::int64_t tick, std::uint32_t size, std::mt19937_64& random) {
+  recording::Patch patch{};
   patch.map.id = static_cast<std::uint64_t>(tick);
   patch.map.end_tick = tick;
   patch.map.size = size;
@@ -87,7 +87,7 @@ inline tools::recording::Patch patch_at(std::int64_t tick, std::uint32_t size, s
 // Items of all kinds, from tick 100 on: `ticks` ticks at intervals of `step`, with other records between them. Some
 // records consist of random bytes.
 inline std::vector<RecordingItem> items_of_every_kind(int ticks, int step = 1) {
-  using namespace tools::recording;
+  using namespace recording;
   std::mt19937_64 random(20261122);
   std::vector<RecordingItem> items{StartingPoint{noise_record<databuffer::ModelStatus>(random)}};
   std::get<StartingPoint>(items[0]).status.tick = 99;
@@ -139,7 +139,7 @@ inline bool same(const RecordingItem& a, const RecordingItem& b) {
   const auto bytes_of = [](const RecordingItem& item) {
     return std::visit(
         [](const auto& record) {
-          const auto parts = tools::recording::parts_of(record);
+          const auto parts = recording::parts_of(record);
           std::vector<std::byte> bytes(parts.fixed.begin(), parts.fixed.end());
           bytes.insert(bytes.end(), parts.tail.begin(), parts.tail.end());
           return bytes;
@@ -152,24 +152,24 @@ inline bool same(const RecordingItem& a, const RecordingItem& b) {
 // Bytes of the file of a closed recording.
 inline std::string recorded(const std::vector<RecordingItem>& items) {
   const TemporaryFile file;
-  auto writer = tools::recording::RecordingWriter::create(file.path(), {"made.guf", "hills"},
-                                                          tools::recording::Existing::overwritten);
+  auto writer = recording::RecordingWriter::create(file.path(), {"made.guf", "hills"},
+                                                          recording::Existing::overwritten);
   for (const auto& item : items) std::visit([&](const auto& record) { (void)writer->append(record); }, item);
   (void)writer->close();
   return file.bytes();
 }
 
-inline error::Expected<tools::recording::RecordingReader> reader_of(const std::string& bytes) {
-  return tools::recording::RecordingReader::read(std::make_unique<std::istringstream>(bytes), "made");
+inline error::Expected<recording::RecordingReader> reader_of(const std::string& bytes) {
+  return recording::RecordingReader::read(std::make_unique<std::istringstream>(bytes), "made");
 }
 
-inline std::vector<tools::recording::IndexEntry> blocks_of(const std::string& bytes) {
+inline std::vector<recording::IndexEntry> blocks_of(const std::string& bytes) {
   const auto reader = reader_of(bytes);
   return {reader->blocks().begin(), reader->blocks().end()};
 }
 
 // The items from the reader's position to the end.
-inline std::vector<RecordingItem> rest_of(tools::recording::RecordingReader& reader) {
+inline std::vector<RecordingItem> rest_of(recording::RecordingReader& reader) {
   std::vector<RecordingItem> items;
   while (auto item = reader.next()) items.push_back(std::move(*item));
   return items;

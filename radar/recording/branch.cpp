@@ -1,4 +1,4 @@
-#include "tools/recording/branch.hpp"
+#include "radar/recording/branch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 namespace {
 
@@ -266,4 +266,4 @@ error::Expected<void> copy_until(RecordingReader& reader, const BranchPoint& poi
   return {};
 }
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

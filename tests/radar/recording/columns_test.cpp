@@ -7,9 +7,9 @@
 #include <cstring>
 #include <random>
 
-#include "tools/recording/compression.hpp"
+#include "radar/recording/compression.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -81,4 +81,4 @@ TEST(Columns, RefuseAWrongLengthCountOrOrder) {
 }
 
 }  // namespace
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

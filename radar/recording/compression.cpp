@@ -1,4 +1,4 @@
-#include "tools/recording/compression.hpp"
+#include "radar/recording/compression.hpp"
 
 #include <zlib.h>
 #include <zstd.h>
@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 namespace {
 // Zstandard level. Level 5 takes twice the time of level 3 and makes a recording 1.6 % smaller. zlib at its best level
@@ -211,4 +211,4 @@ std::optional<std::vector<std::byte>> take_chunk(ChunkName name, std::size_t max
   return bytes;
 }
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

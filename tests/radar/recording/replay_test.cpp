@@ -1,5 +1,5 @@
 // Replay: the kernel computes the recorded sweeps again, also if the model was killed between a sweep and its status.
-#include "tools/recording/replay.hpp"
+#include "radar/recording/replay.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -11,7 +11,7 @@
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/made_up_objects.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 namespace {
 
 model::terrain::TerrainViewPointer hills() {
@@ -268,4 +268,4 @@ TEST(Replay, ADifferentSweepIsCounted) {
 }
 
 }  // namespace
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

@@ -16,11 +16,11 @@
 
 #include "lib/error/error.hpp"
 #include "lib/file/output_file.hpp"
-#include "tools/recording/block.hpp"
-#include "tools/recording/recorded_kinds.hpp"
-#include "tools/recording/recording_file.hpp"
+#include "radar/recording/block.hpp"
+#include "radar/recording/recorded_kinds.hpp"
+#include "radar/recording/recording_file.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 using file::Existing;  // what to do with an existing regular file at the path of the recording
 
@@ -86,4 +86,4 @@ class RecordingWriter {
   std::optional<error::Error> error_;
 };
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

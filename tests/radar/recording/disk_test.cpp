@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
-#include "tests/tools/recording/made_recording.hpp"
+#include "tests/radar/recording/made_recording.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 namespace {
 
 using test::expect_same;
@@ -220,4 +220,4 @@ TEST(Recording, ContinuesWhenTheDiskHasSpaceAgain) {
 }
 
 }  // namespace
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

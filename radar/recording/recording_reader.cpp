@@ -1,4 +1,4 @@
-#include "tools/recording/recording_reader.hpp"
+#include "radar/recording/recording_reader.hpp"
 
 #include <algorithm>
 #include <cerrno>
@@ -7,9 +7,9 @@
 #include <span>
 #include <utility>
 
-#include "tools/recording/block.hpp"
+#include "radar/recording/block.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 error::Expected<RecordingReader> RecordingReader::open(const std::filesystem::path& path) {
   std::error_code code;
@@ -113,4 +113,4 @@ std::optional<RecordingItem> RecordingReader::last_before(std::uint8_t kind) {
   return std::nullopt;
 }
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

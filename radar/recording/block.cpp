@@ -1,11 +1,11 @@
-#include "tools/recording/block.hpp"
+#include "radar/recording/block.hpp"
 
 #include <algorithm>
 #include <cstring>
 
-#include "tools/recording/compression.hpp"
+#include "radar/recording/compression.hpp"
 
-namespace yars::tools::recording {
+namespace yars::recording {
 
 namespace {
 
@@ -176,4 +176,4 @@ std::optional<RecordingItem> BlockItems::last_of(std::uint8_t kind) const {
   return item(column->second, column->second.count - 1);
 }
 
-}  // namespace yars::tools::recording
+}  // namespace yars::recording

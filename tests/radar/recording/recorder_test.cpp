@@ -12,8 +12,8 @@
 #include "tests/databuffer/session/open_session.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
-#include "tools/recording/recording_reader.hpp"
-#include "tools/recording/recording_writer.hpp"
+#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_writer.hpp"
 
 namespace yars::tools {
 namespace {
