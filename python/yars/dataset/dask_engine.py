@@ -13,7 +13,7 @@ import time
 import uuid
 
 from . import DatasetError
-from .run import HostProcess, check_answer
+from .host import HostProcess, check_answer
 
 MOST_TRIES = 30       # of a block, when workers die or host processes do
 WORKERS_WITHIN_S = 60

@@ -11,6 +11,7 @@ import os
 import re
 import select
 import signal
+import subprocess
 import sys
 import traceback
 import warnings
@@ -19,6 +20,7 @@ from . import DatasetError, files
 from .limits import as_keys
 
 MOST_DEATHS = 5  # of workers with the same block
+END_S = 10.0     # that a host may take to end
 
 
 def die_with_parent(parent):
@@ -183,6 +185,45 @@ class Host:
             os.kill(worker.pid, signal.SIGKILL)
         for worker in self._workers:
             worker.end()
+
+
+class HostProcess:
+    """A host process and its pipes. `with_parent`: it dies with the thread that starts it."""
+
+    def __init__(self, plan, folder, workers, maker, mark, with_parent=True):
+        package = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+        paths = os.pathsep.join([package] + [path for path in sys.path if path and path != package])
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "yars.dataset.host", str(plan), str(folder), str(workers), maker, mark,
+             str(os.getpid() if with_parent else 0)],
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0, start_new_session=True, env={**os.environ, "PYTHONPATH": paths})
+        self.lines = Lines(self.process.stdout.fileno())
+
+    def give(self, blocks):
+        try:
+            write_all(self.process.stdin.fileno(), json.dumps({"blocks": blocks}) + "\n")
+        except BrokenPipeError:
+            pass  # it died: seen at its other pipe
+
+    def close(self):
+        """Ends the host and its workers at once; returns when none of them runs."""
+        self.process.terminate()  # it kills its workers and waits for them
+        try:
+            code = self.process.wait(END_S)
+        except subprocess.TimeoutExpired:
+            self.process.kill()  # workers die with it: PR_SET_PDEATHSIG
+            code = self.process.wait()
+        self.process.stdin.close()
+        self.process.stdout.close()
+        return code
+
+
+def check_answer(answer):
+    """Raises DatasetError for an answer of a host that reports one."""
+    if "error" in answer:
+        raise DatasetError(answer["error"])
+    if "lost" in answer:
+        raise DatasetError(f"block {answer['lost']}: expected its files, found its worker ended each time by {answer['reason']}")
 
 
 def main(arguments):

@@ -16,13 +16,12 @@ import time
 import warnings
 
 from . import DatasetError, context, files, keys
-from .host import Lines, show_warnings_once, write_all
+from .host import HostProcess, check_answer, show_warnings_once
 from .store import absent_blocks
 
 MOST_BATCH = 8      # blocks that a worker gets at once
 MOST_RESTARTS = 5   # of the host process without a block in between
 LINE_EVERY_S, DRAW_EVERY_S = 10.0, 0.5
-END_S = 10.0        # that a host may take to end
 MOST_ERROR_LINES = 20
 
 
@@ -38,37 +37,6 @@ def raise_interrupted(number, _):
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     raise Interrupted(number)
-
-
-class HostProcess:
-    """A host process and its pipes. `with_parent`: it dies with the thread that starts it."""
-
-    def __init__(self, plan, folder, workers, maker, mark, with_parent=True):
-        package = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
-        paths = os.pathsep.join([package] + [path for path in sys.path if path and path != package])
-        self.process = subprocess.Popen(
-            [sys.executable, "-m", "yars.dataset.host", str(plan), str(folder), str(workers), maker, mark,
-             str(os.getpid() if with_parent else 0)],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0, start_new_session=True, env={**os.environ, "PYTHONPATH": paths})
-        self.lines = Lines(self.process.stdout.fileno())
-
-    def give(self, blocks):
-        try:
-            write_all(self.process.stdin.fileno(), json.dumps({"blocks": blocks}) + "\n")
-        except BrokenPipeError:
-            pass  # it died: seen at its other pipe
-
-    def close(self):
-        """Ends the host and its workers at once; returns when none of them runs."""
-        self.process.terminate()  # it kills its workers and waits for them
-        try:
-            code = self.process.wait(END_S)
-        except subprocess.TimeoutExpired:
-            self.process.kill()  # workers die with it: PR_SET_PDEATHSIG
-            code = self.process.wait()
-        self.process.stdin.close()
-        self.process.stdout.close()
-        return code
 
 
 class Progress:
@@ -173,14 +141,6 @@ def load_once(options, mark):
         code = host.close()
     if not ready:
         raise DatasetError(f"expected a host process that runs, found it dead: {files.end_of(code)}")
-
-
-def check_answer(answer):
-    """Raises DatasetError for an answer of a host that reports one."""
-    if "error" in answer:
-        raise DatasetError(answer["error"])
-    if "lost" in answer:
-        raise DatasetError(f"block {answer['lost']}: expected its files, found its worker ended each time by {answer['reason']}")
 
 
 def shard_of(text):
