@@ -89,6 +89,18 @@ std::string Radar::guf() const {
   const text::DecimalPoint numbers;
   return config::print_configuration(*configuration_);
 }
+RadarLimits Radar::limits() const {
+  const radar::WindowLimits& table = configuration_->window_limits;
+  RadarLimits limits;
+  limits.blind_zone_deg = configuration_->high_resolution.blind_zone_deg;
+  limits.azimuth_deg = configuration_->antenna.azimuth_limit_deg;
+  limits.elevation_deg = configuration_->antenna.elevation_limit_deg;
+  for (std::size_t i = 0; i < table.windows_nm.size(); ++i)
+    limits.windows.push_back({table.windows_nm[i], table.min_range_nm[i], table.max_range_nm[i]});
+  limits.power_up_nm = table.power_up_nm;
+  limits.looks = static_cast<int>(configuration_->high_resolution.looks.front());
+  return limits;
+}
 Expected<Terrain> Radar::terrain() const {
   return Terrain::open({configuration_->terrain.directory, configuration_->terrain.missing_cell_is_sea});
 }

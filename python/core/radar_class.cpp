@@ -112,6 +112,21 @@ void add_radar(py::module_& module) {
       .def("patches", &Radar::patches, py::arg("terrain").none(false), py::arg("orders"), py::arg("scene").none(true),
            py::arg("movers"), py::arg("arrays"), py::arg("threads"), py::arg("force"), py::arg("min_pixels"))
       .def_property_readonly("guf", [](const Radar& radar) { return radar.radar().guf(); })
+      .def_property_readonly("limits",
+                             [](const Radar& radar) {
+                               const RadarLimits found = radar.radar().limits();
+                               py::dict windows, limits;
+                               for (const MapWindow& window : found.windows)
+                                 windows[py::float_(window.window_nm)] =
+                                     py::make_tuple(window.least_nm, window.greatest_nm);
+                               limits["blind_zone_deg"] = found.blind_zone_deg;
+                               limits["azimuth_deg"] = found.azimuth_deg;
+                               limits["elevation_deg"] = found.elevation_deg;
+                               limits["windows"] = windows;
+                               limits["power_up_nm"] = found.power_up_nm;
+                               limits["looks"] = found.looks;
+                               return limits;
+                             })
       .def_property_readonly("name", [](const Radar& radar) { return radar.radar().name(); })
       .def_property_readonly("fidelity", [](const Radar& radar) { return radar.radar().preset(); })
       .def_property_readonly("map_size", [](const Radar& radar) { return radar.radar().map_size(); })

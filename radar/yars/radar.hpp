@@ -39,6 +39,19 @@ struct RadarSettings {
   std::vector<Knob> knobs{};  // go before the preset's
 };
 
+// Limits of the radar for patch maps, which PatchRequest::force ignores.
+struct MapWindow {
+  double window_nm = 0.0;                  // side of the map
+  double least_nm = 0.0, greatest_nm = 0.0;  // ground range of the map's centre
+};
+struct RadarLimits {
+  double blind_zone_deg = 0.0;                     // either side of the ground track, ahead and astern
+  double azimuth_deg = 0.0, elevation_deg = 0.0;   // of the gimbal, either side of the nose, up and down
+  std::vector<MapWindow> windows;                  // ascending
+  double power_up_nm = 0.0;                        // window at power-up
+  int looks = 0;                                   // of ML1
+};
+
 class YARS_EXPORT Radar {
  public:
   static Expected<Radar> make(const RadarSettings& settings = {}, const Call& call = {});
@@ -48,6 +61,7 @@ class YARS_EXPORT Radar {
   int samples() const;                // of a sweep
   int map_size() const;               // pixels on an edge of a patch map
   std::string guf() const;            // the whole configuration
+  RadarLimits limits() const;
   Expected<Terrain> terrain() const;  // of its configuration
 
   // One scan of the real beam map. `scene`: on the same terrain; null: the scenes in the terrain's folder, and those of

@@ -9,11 +9,10 @@ import re
 import subprocess
 import tempfile
 
-from .. import programs
+from .. import _compiled, programs
 from . import DatasetError, SpecError
 from .distributions import Choice, Fixed
 
-_NUMBER = r"[-+0-9.eE]+"
 # The nearest target, as a fraction of the window's edge, with or without `force`: kMinDistanceFraction of `yars patch`.
 NEAREST_WINDOWS = 0.75
 # Slots that decide the limits. They are the same for all items of a data set.
@@ -52,20 +51,9 @@ def version():
     return subprocess.run([command(), "--version"], capture_output=True, text=True, check=False).stdout.strip()
 
 
-def parse(text):
-    """Limits of the output of `yars config print`."""
-    def numbers(pattern):
-        match = re.search(pattern, text, re.S)
-        if not match:
-            raise DatasetError(f"expected {pattern} in the output of `yars config print`, found none")
-        return [float(number) for number in match.group(1).split()]
-    table = rf"\( WindowLimits.*?:%s `\(\s*({_NUMBER}(?:\s+{_NUMBER})*)\s*\)"
-    windows, least, greatest = (numbers(table % slot) for slot in ("windows", "least", "greatest"))
-    list_of = rf":%s `\(\s*({_NUMBER}(?:\s+{_NUMBER})*)\s*\)"
-    return Limits(numbers(rf":blindZone ({_NUMBER})")[0], max(map(abs, numbers(list_of % "azimuthLimits"))),
-                  max(map(abs, numbers(list_of % "elevationLimits"))), dict(zip(windows, zip(least, greatest))),
-                  numbers(rf"\( WindowLimits.*?:powerUp ({_NUMBER})")[0],
-                  int(numbers(rf"\( HighResolution\s+:looks `\(\s*({_NUMBER})")[0]))
+def limits_of(text):
+    """Limits of a configuration in GUF text."""
+    return Limits(**_compiled("dataset").make_radar("", b"", text, []).limits)
 
 
 def _run(verb, path):
@@ -132,14 +120,14 @@ def read_limits(plan, lines):
     except DatasetError as error:
         raise SpecError(f"{plan.where('radar.config')}: {error}") from None
     if not lines:
-        return parse(text)
+        return limits_of(text)
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "radar.guf"
         faults = _faults_of(text, lines, plan, path)
         if faults:
             raise SpecError("\n".join(faults))
         try:
-            return parse(printed(path))
+            return limits_of(printed(path))
         except DatasetError as error:
             raise SpecError(f"{plan.where('radar')}: {error}") from None
 
