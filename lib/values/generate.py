@@ -114,7 +114,7 @@ def main(arguments):
             (ROOT / name).write_text(files[name][1], encoding="utf-8")
             print(f"{name}: written")
     elif stale:
-        raise StaleError(f"{', '.join(stale)}: expected what records.idl says, found otherwise; "
+        raise StaleError(f"{', '.join(stale)}: expected what the IDL says, found otherwise; "
                          f"run lib/values/generate.py --write {where}")
     return None
 

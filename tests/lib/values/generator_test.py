@@ -288,6 +288,8 @@ class TheFilesOfTheTree(unittest.TestCase):
         for name in (generate.PYTHON, generate.HEADER, generate.LAYOUT):
             (self.root / name).parent.mkdir(parents=True)
         (self.root / generate.PYTHON).write_text(f"before\n{generate.BEGIN}{generate.END}after\n")
+        (self.root / generate.STUB).write_text("".join(f"        # begin: lib/values/generate.py, {name}\n        # end: {name}\n"
+                                                       for name in ("ScanRequest", "PatchRequest")))
         self.program = self.root / "yars"
         self.tell(layout_of(self.chapters))
         self.tree, generate.ROOT = generate.ROOT, self.root
@@ -307,7 +309,7 @@ class TheFilesOfTheTree(unittest.TestCase):
         self.assertIn(message, str(caught.exception))
 
     def test_are_written_and_then_found_fresh(self):
-        self.refuses(generate.StaleError, "python/yars/session.py: expected what records.idl says, found otherwise; run "
+        self.refuses(generate.StaleError, "python/yars/session.py, python/yars/results.pyi: expected what the IDL says, found otherwise; run "
                                           "lib/values/generate.py --write")
         self.run_with("--write")
         self.run_with("--check")
