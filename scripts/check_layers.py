@@ -153,7 +153,7 @@ SYSTEM_HEADERS = {
     "iostream": ["shells"],
 }
 # Folders that may include all other POSIX and Linux headers (with .h), by which code reaches outside of its process.
-POSIX_FOLDERS = ["lib/file", "shm", "inputmonitor", "gateway/checks", "gateway/dds", "shells"]
+POSIX_FOLDERS = ["lib/file", "shm", "inputmonitor", "gateway/checks", "gateway/dds", "radar/recording", "shells"]
 
 CLOCKS = re.compile(r"\b(std::chrono::\w+_clock|clock_gettime|gettimeofday|clock_nanosleep|nanosleep|usleep|sleep_for"
                     r"|sleep_until|std::time\s*\(|monotonic_ns\s*\()")
@@ -166,7 +166,7 @@ OPENING = re.compile(r"\bstd::[io]?fstream\b|\bfopen\b|(?<![\w>])::(open|openat|
 READERS = [re.compile(pattern) for pattern in (
     r"_(main|shell)\.[ch]pp$", r"^(config/schema/load|databuffer/runtime/processor_load|databuffer/session/session_state|inputmonitor/device_source|lib/imageio/png"
     r"|model/terrain/formats/cell_reading|model/terrain/store/cell_files|shm/segment_file)\.cpp$",
-    r"^(lib/file|tools|tests|examples)/",
+    r"^(lib/file|radar/recording|tools|tests|examples)/",
 )]
 
 # Text that makes files or folders: allowed only in WRITERS. Product code makes them in lib/file and segment_file.cpp.

@@ -35,8 +35,8 @@ class Recording {
   void open(Warnings& warnings, const parallel::GoesOn& goes_on);
 
   std::string path_;
-  // A child of fork() leaves the reader that its parent may have half changed, and opens the file again: the place in it
-  // is shared with the parent.
+  // A child of fork() leaves the reader that its parent may have half changed, and opens the file again: the place in
+  // it is shared with the parent.
   std::unique_ptr<yars::Recording> recording_;
   ObjectLock lock_{[] {}};
   int process_ = 0;  // that has opened the file

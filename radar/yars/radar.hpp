@@ -41,15 +41,15 @@ struct RadarSettings {
 
 // Limits of the radar for patch maps, which PatchRequest::force ignores.
 struct MapWindow {
-  double window_nm = 0.0;                  // side of the map
+  double window_nm = 0.0;                    // side of the map
   double least_nm = 0.0, greatest_nm = 0.0;  // ground range of the map's centre
 };
 struct RadarLimits {
-  double blind_zone_deg = 0.0;                     // either side of the ground track, ahead and astern
-  double azimuth_deg = 0.0, elevation_deg = 0.0;   // of the gimbal, either side of the nose, up and down
-  std::vector<MapWindow> windows;                  // ascending
-  double power_up_nm = 0.0;                        // window at power-up
-  int looks = 0;                                   // of ML1
+  double blind_zone_deg = 0.0;                    // either side of the ground track, ahead and astern
+  double azimuth_deg = 0.0, elevation_deg = 0.0;  // of the gimbal, either side of the nose, up and down
+  std::vector<MapWindow> windows;                 // ascending
+  double power_up_nm = 0.0;                       // window at power-up
+  int looks = 0;                                  // of ML1
 };
 
 class YARS_EXPORT Radar {

@@ -1,9 +1,8 @@
 // A recording: a file of `yars record`, read as records with their fields.
-// Inputs: a path; kinds of records by name; a range of ticks, both ends included. Outputs: bytes of records in the order
-// of recording, with name, type, offset and unit of each field; video of sweeps; pictures of patch maps.
-// Units: as RecordField::unit says; ticks are 5 ms.
-// Errors: ErrorCode::failed for a file that is no recording, ErrorCode::argument for an unknown kind. Damaged parts are
-// left out, with a warning that names the missing ticks.
+// Inputs: a path; kinds of records by name; a range of ticks, both ends included. Outputs: bytes of records in the
+// order of recording, with name, type, offset and unit of each field; video of sweeps; pictures of patch maps. Units:
+// as RecordField::unit says; ticks are 5 ms. Errors: ErrorCode::failed for a file that is no recording,
+// ErrorCode::argument for an unknown kind. Damaged parts are left out, with a warning that names the missing ticks.
 // Threads: one call at a time.
 // Source: docs/recordings.md, docs/shared_memory.md.
 // SPDX-License-Identifier: MIT
@@ -55,9 +54,9 @@ class YARS_EXPORT Recording {
   static std::vector<std::string> all_kinds();
   static Expected<std::vector<RecordedField>> fields_of(const std::string& kind);
 
-  const std::string& configuration() const;  // GUF text of the radar
-  const std::string& terrain() const;        // folder of the elevation
-  std::vector<std::string> kinds() const;    // that the file has, in the order of their numbers
+  const std::string& configuration() const;        // GUF text of the radar
+  const std::string& terrain() const;              // folder of the elevation
+  std::vector<std::string> kinds() const;          // that the file has, in the order of their numbers
   std::optional<std::int64_t> first_tick() const;  // nullopt: no block
   std::optional<std::int64_t> last_tick() const;
   bool cut_short() const;

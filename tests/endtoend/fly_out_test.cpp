@@ -8,10 +8,10 @@
 #include <optional>
 
 #include "lib/geo/geodesy.hpp"
-#include "tests/endtoend/supervised_set.hpp"
-#include "tests/radar/recording/made_recording.hpp"
 #include "radar/recording/branch.hpp"
 #include "radar/recording/recording_reader.hpp"
+#include "tests/endtoend/supervised_set.hpp"
+#include "tests/radar/recording/made_recording.hpp"
 
 namespace yars::endtoend {
 namespace {
@@ -139,8 +139,8 @@ void expect_continuous(const ModelTick& before, const ModelTick& after) {
 void FlyOut::expect_branch(const std::string& name) {
   SCOPED_TRACE(name);
   auto reader = RecordingReader::open(original_);
-  const auto point = recording::find_branch_point(
-      *reader, static_cast<std::int64_t>(kAt_s / radar::kTickSeconds), original_.string());
+  const auto point =
+      recording::find_branch_point(*reader, static_cast<std::int64_t>(kAt_s / radar::kTickSeconds), original_.string());
   ASSERT_TRUE(point);
   const auto items = items_of(branch_of(name));
   std::vector<RecordingItem> expected = items_of(original_);

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "tests/endtoend/lockstep_run.hpp"
 #include "radar/recording/recording_reader.hpp"
+#include "tests/endtoend/lockstep_run.hpp"
 
 namespace yars::endtoend {
 namespace {

@@ -7,8 +7,8 @@
 #include <optional>
 
 #include "databuffer/session/session.hpp"
-#include "tests/endtoend/process_set.hpp"
 #include "radar/recording/recording_reader.hpp"
+#include "tests/endtoend/process_set.hpp"
 
 namespace yars::endtoend {
 namespace {

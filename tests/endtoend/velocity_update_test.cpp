@@ -10,8 +10,8 @@
 #include <set>
 
 #include "lib/geo/quantity.hpp"
-#include "tests/endtoend/lockstep_run.hpp"
 #include "radar/recording/recording_reader.hpp"
+#include "tests/endtoend/lockstep_run.hpp"
 
 namespace yars::endtoend {
 namespace {

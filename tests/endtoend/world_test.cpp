@@ -10,8 +10,8 @@
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/session/session_world.hpp"
 #include "lib/radar/modes.hpp"
-#include "tests/endtoend/process_set.hpp"
 #include "radar/recording/recording_reader.hpp"
+#include "tests/endtoend/process_set.hpp"
 
 namespace yars::endtoend {
 namespace {

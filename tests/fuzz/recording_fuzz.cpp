@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "tests/radar/recording/made_recording.hpp"
 #include "radar/recording/block.hpp"
+#include "tests/radar/recording/made_recording.hpp"
 
 using namespace yars;
 using namespace yars::recording;

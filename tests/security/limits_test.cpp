@@ -20,11 +20,11 @@
 #include "model/terrain/formats/dted.hpp"
 #include "model/terrain/formats/hgt.hpp"
 #include "model/terrain/formats/pack.hpp"
-#include "tests/model/terrain/sampling/rough_cell.hpp"
-#include "tests/security/folder.hpp"
 #include "radar/recording/block.hpp"
 #include "radar/recording/recording_reader.hpp"
 #include "radar/recording/recording_writer.hpp"
+#include "tests/model/terrain/sampling/rough_cell.hpp"
+#include "tests/security/folder.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 
 namespace yars {

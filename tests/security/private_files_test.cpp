@@ -13,18 +13,18 @@
 #include "databuffer/session/session.hpp"
 #include "display/app/frame_output_shell.hpp"
 #include "lib/log/log.hpp"
+#include "radar/recording/recording_writer.hpp"
 #include "tests/security/folder.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/segment_path.hpp"
-#include "radar/recording/recording_writer.hpp"
 
 namespace yars {
 namespace {
 
+using recording::RecordingWriter;
 using shm::testing::ChildProcess;
 using test::refusal_of;
 using ::testing::HasSubstr;
-using recording::RecordingWriter;
 
 class PrivateFiles : public test::SecureFolder {
  protected:

@@ -19,8 +19,8 @@
 #include "model/terrain/formats/pack.hpp"
 #include "model/terrain/gdal/raster.hpp"
 #include "model/terrain/store/cell_files.hpp"
-#include "tests/security/folder.hpp"
 #include "radar/recording/recording_reader.hpp"
+#include "tests/security/folder.hpp"
 #include "worldgen/scene/openflight_writer.hpp"
 
 namespace yars {

@@ -18,8 +18,8 @@
 #include "databuffer/session/session.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/modes.hpp"
-#include "tools/command/json_output.hpp"
 #include "radar/recording/replay.hpp"
+#include "tools/command/json_output.hpp"
 
 namespace yars::tools {
 

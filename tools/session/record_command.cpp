@@ -14,10 +14,10 @@
 #include "lib/file/file_search.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
-#include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
 #include "radar/recording/branch.hpp"
 #include "radar/recording/recording_writer.hpp"
+#include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/session/recorder.hpp"
 
 namespace yars::tools {

@@ -19,11 +19,11 @@
 #include "lib/radar/configuration.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/terrain/store/directory_store.hpp"
-#include "tools/command/command.hpp"
-#include "tools/command/json_output.hpp"
 #include "radar/recording/branch.hpp"
 #include "radar/recording/recording_reader.hpp"
 #include "radar/recording/replay.hpp"
+#include "tools/command/command.hpp"
+#include "tools/command/json_output.hpp"
 #include "tools/session/hand_over.hpp"
 #include "tools/session/play_recording.hpp"
 

@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <set>
 
-#include "tests/shm/child_process.hpp"
 #include "tests/radar/recording/made_recording.hpp"
+#include "tests/shm/child_process.hpp"
 
 namespace yars::recording {
 namespace {

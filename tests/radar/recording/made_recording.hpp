@@ -152,8 +152,8 @@ inline bool same(const RecordingItem& a, const RecordingItem& b) {
 // Bytes of the file of a closed recording.
 inline std::string recorded(const std::vector<RecordingItem>& items) {
   const TemporaryFile file;
-  auto writer = recording::RecordingWriter::create(file.path(), {"made.guf", "hills"},
-                                                          recording::Existing::overwritten);
+  auto writer =
+      recording::RecordingWriter::create(file.path(), {"made.guf", "hills"}, recording::Existing::overwritten);
   for (const auto& item : items) std::visit([&](const auto& record) { (void)writer->append(record); }, item);
   (void)writer->close();
   return file.bytes();

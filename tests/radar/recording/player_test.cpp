@@ -11,9 +11,9 @@
 
 #include "databuffer/messages/world_values.hpp"
 #include "display/symbology/radar_video.hpp"
+#include "radar/recording/replay.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/radar/recording/made_recording.hpp"
-#include "radar/recording/replay.hpp"
 
 namespace yars::recording {
 namespace {

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "databuffer/messages/world_values.hpp"
+#include "radar/recording/recording_reader.hpp"
+#include "radar/recording/recording_writer.hpp"
 #include "tests/databuffer/session/open_session.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
-#include "radar/recording/recording_reader.hpp"
-#include "radar/recording/recording_writer.hpp"
 
 namespace yars::tools {
 namespace {

@@ -6,9 +6,9 @@
 #include <cstdlib>
 
 #include "databuffer/flight/route_flight.hpp"
-#include "tests/radar/recording/made_recording.hpp"
 #include "radar/recording/block.hpp"
 #include "radar/recording/recorded_kinds.hpp"
+#include "tests/radar/recording/made_recording.hpp"
 
 namespace yars::recording {
 namespace {
