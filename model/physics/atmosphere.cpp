@@ -142,14 +142,33 @@ Air reference_air(const radar::AtmosphereConfiguration& atmosphere, double heigh
   return air;
 }
 
+namespace {
+// The tables of a thread's last profile. Objects of the same radar, such as its next scan, take them from here.
+struct LastProfile {
+  radar::AtmosphereConfiguration atmosphere;
+  double frequency_ghz = 0.0;  // 0: none
+  std::vector<double> db_per_m;
+
+  bool is_of(const radar::AtmosphereConfiguration& other, double other_ghz) const {
+    return frequency_ghz == other_ghz && atmosphere.temperature_c == other.temperature_c &&
+           atmosphere.pressure_hpa == other.pressure_hpa && atmosphere.water_g_m3 == other.water_g_m3;
+  }
+};
+}  // namespace
+
 GasProfile::GasProfile(const radar::AtmosphereConfiguration& atmosphere, double frequency_ghz) {
   if (!atmosphere.gases) return;
-  constexpr int kSteps = static_cast<int>((kHighest_m - kLowest_m) / kStep_m);
-  for (int step = 0; step <= kSteps; ++step) {
-    const double height_m = kLowest_m + step * kStep_m;
-    const GasAttenuation found = gas_attenuation(frequency_ghz, reference_air(atmosphere, height_m));
-    db_per_m_.push_back((found.dry + found.water) / 1000.0);
+  thread_local LastProfile last;
+  if (!last.is_of(atmosphere, frequency_ghz)) {
+    constexpr int kSteps = static_cast<int>((kHighest_m - kLowest_m) / kStep_m);
+    last = {atmosphere, frequency_ghz, {}};
+    for (int step = 0; step <= kSteps; ++step) {
+      const double height_m = kLowest_m + step * kStep_m;
+      const GasAttenuation found = gas_attenuation(frequency_ghz, reference_air(atmosphere, height_m));
+      last.db_per_m.push_back((found.dry + found.water) / 1000.0);
+    }
   }
+  db_per_m_ = last.db_per_m;
 }
 
 double GasProfile::db_per_m(double height_m) const {

@@ -1,7 +1,9 @@
 #include "model/physics/clutter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 #include "lib/geo/quantity.hpp"
 #include "lib/random/counter_rng.hpp"
@@ -90,7 +92,8 @@ double incomplete_gamma(double shape, double x) {
   return x < shape + 1.0 ? lower_series(shape, x) : 1.0 - upper_fraction(shape, x);
 }
 
-TextureLevels make_texture_levels(double shape) {
+namespace {
+TextureLevels computed_levels(double shape) {
   TextureLevels levels;
   levels.fill(1.0F);
   if (!(shape > 0.0)) return levels;
@@ -107,6 +110,22 @@ TextureLevels make_texture_levels(double shape) {
     previous_mean = cumulative_mean;
   }
   return levels;
+}
+}  // namespace
+
+TextureLevels make_texture_levels(double shape) {
+  // The levels of a thread's last shapes. Objects of the same radar, such as its next scan, take them from here.
+  struct Known {
+    double shape = std::numeric_limits<double>::quiet_NaN();
+    TextureLevels levels;
+  };
+  thread_local std::array<Known, 8> known;
+  thread_local std::size_t oldest = 0;
+  const auto found = std::ranges::find(known, shape, &Known::shape);
+  if (found != known.end()) return found->levels;
+  Known& replaced = known[oldest++ % known.size()];
+  replaced = {shape, computed_levels(shape)};
+  return replaced.levels;
 }
 
 double texture_cell_m(double pulse_length_m, double spacing_m) {

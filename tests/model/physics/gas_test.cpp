@@ -54,6 +54,17 @@ TEST(Gases, HaveTheReferenceAtmosphere) {
   EXPECT_NEAR(reference_air(atmosphere, 2000.0).water_g_m3, 7.5 / std::exp(1.0), 1e-9);
 }
 
+TEST(Gases, OfTwoAtmospheresInTurnAreThoseOfEach) {
+  radar::AtmosphereConfiguration humid, dry;
+  dry.water_g_m3 = 0.0;
+  const double of_humid = physics::GasProfile(humid, 10.0).db_per_m(500.0);
+  const double of_dry = physics::GasProfile(dry, 10.0).db_per_m(500.0);
+  EXPECT_LT(of_dry, of_humid);
+  EXPECT_EQ(physics::GasProfile(humid, 10.0).db_per_m(500.0), of_humid);
+  EXPECT_LT(physics::GasProfile(humid, 5.0).db_per_m(500.0), of_humid);
+  EXPECT_EQ(physics::GasProfile(dry, 10.0).db_per_m(500.0), of_dry);
+}
+
 TEST(Gases, ThatAreSwitchedOffAttenuateNothing) {
   radar::AtmosphereConfiguration atmosphere;
   atmosphere.gases = false;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "lib/radar/configuration.hpp"
 #include "model/physics/clutter.hpp"
@@ -92,6 +93,19 @@ TEST(Texture, HasMeanOneAndTheVarianceOfItsShape) {
     EXPECT_TRUE(std::is_sorted(levels.begin(), levels.end()));
   }
   for (const float level : make_texture_levels(0.0)) EXPECT_EQ(level, 1.0F);
+}
+
+TEST(Texture, OfManyShapesInTurnIsThatOfEach) {
+  std::vector<TextureLevels> first;
+  for (int turn = 0; turn < 2; ++turn)
+    for (std::size_t i = 0; i < 12; ++i) {
+      const TextureLevels levels = make_texture_levels(0.5 + static_cast<double>(i));
+      if (turn == 0)
+        first.push_back(levels);
+      else
+        EXPECT_EQ(levels, first[i]) << i;
+    }
+  EXPECT_NE(first[0], first[11]);
 }
 
 TEST(Texture, HasCellsAtLeastAsLongAsPulseAndSample) {
