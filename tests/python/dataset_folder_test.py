@@ -22,8 +22,7 @@ class Resume(Case):
         self.assertIn("0 items made, 200 were there", done.stdout)
 
     def test_damaged_files_are_made_again(self):
-        whole = self.reference()
-        self.run_it()
+        whole = self.have_whole()
         (self.out / "chips.zarr/video/2.0.0").unlink()
         with open(self.out / "chips.zarr/object/5.0.0", "r+b") as file:
             file.truncate(10)
@@ -39,8 +38,7 @@ class Resume(Case):
         self.assertEqual(tree(self.out), whole)
 
     def test_verify_finds_changed_bytes(self):
-        whole = self.reference()
-        self.run_it()
+        whole = self.have_whole()
         path = self.out / "chips.zarr/video/3.0.0"
         data = bytearray(path.read_bytes())
         data[-3] ^= 1
@@ -52,7 +50,7 @@ class Resume(Case):
         self.assertEqual(tree(self.out), whole)
 
     def test_another_specification_is_refused(self):
-        self.run_it()
+        self.have_whole()
         before = tree(self.out)
         for changes in ({"count": 201}, {"block": 9}, {"output": ", compression: zstd"}):
             done = self.run_it(plan=self.write_spec("other.yaml", **changes), code=1)
@@ -62,7 +60,7 @@ class Resume(Case):
         self.assertEqual(tree(self.out), before)
 
     def test_comments_may_change(self):
-        self.run_it()
+        self.have_whole()
         self.plan.write_text("# a comment\n" + self.plan.read_text())
         self.run_it()
 
@@ -73,7 +71,7 @@ class Resume(Case):
         self.assertEqual(list(tree(self.out)), ["thesis.tex"])
 
     def test_leftovers_of_dead_writers_go(self):
-        self.run_it()
+        self.have_whole()
         from yars.dataset import files
         (self.out / f".writing-{files._HOST}-999999999-x").write_text("x")
         self.run_it()
@@ -110,9 +108,7 @@ class Made(Case):
         (self.out / "terrain/w001/n01.dt0").write_text("another cell")
 
     def test_they_are_read_before_a_block_is_made_and_by_verify(self):
-        whole = self.reference()
-        self.run_it()
-        self.assertEqual(tree(self.out), whole)
+        whole = self.have_whole()
         self.damage()
         damaged = tree(self.out)
         self.assertEqual(self.run_it().stderr, "")  # nothing is made
@@ -127,15 +123,14 @@ class Made(Case):
         self.assertEqual(tree(self.out), whole)
 
     def test_a_scene_that_was_not_noted_is_made_again(self):
-        whole = self.reference()
-        self.run_it()
+        whole = self.have_whole()
         (self.out / "checks/0_town.flt.json").unlink()
         (self.out / "scenes/0_town.flt").write_text("half")
         self.run_it()
         self.assertEqual(tree(self.out), whole)
 
     def test_another_scene_than_the_items_were_made_with_is_an_error(self):
-        self.run_it()
+        self.have_whole()
         check = self.out / "checks/0_town.flt.json"
         text = check.read_text()
         check.write_text(text.replace(text[-9:-6], "000" if text[-9:-6] != "000" else "111"))
@@ -146,7 +141,7 @@ class Made(Case):
     def test_a_limit_of_a_file_s_size_is_named(self):
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (20000, 20000))
-        self.assertRegex(self.run_it(preexec_fn=limit, code=1).stderr, "(SIGXFSZ|File too large).*ulimit -f")
+        self.assertRegex(self.run_it(prepare=limit, code=1).stderr, "(SIGXFSZ|File too large).*ulimit -f")
         self.run_it()
         self.assertEqual(tree(self.out), self.reference())
 
@@ -161,8 +156,7 @@ class General(Case):
     names = ("objects.json", "manifest.jsonl", "annotations.json", "chips.zarr/.zmetadata", "chips.zarr/video/.zarray")
 
     def test_they_are_made_again(self):
-        whole = self.reference()
-        self.run_it()
+        whole = self.have_whole()
         for change in (lambda path: path.unlink(), lambda path: path.write_bytes(path.read_bytes()[:-3])):
             for name in self.names:
                 with self.subTest(name):
@@ -175,8 +169,7 @@ class General(Case):
         self.assertEqual(tree(self.out), whole)
 
     def test_verify_finds_changed_bytes(self):
-        whole = self.reference()
-        self.run_it()
+        whole = self.have_whole()
         for name in self.names:
             path = self.out / name
             path.write_bytes(path.read_bytes()[:-4] + b"####")
@@ -184,8 +177,7 @@ class General(Case):
         self.assertEqual(tree(self.out), whole)
 
     def test_checks_are_written_again(self):
-        whole = self.reference()
-        self.run_it()
+        whole = self.have_whole()
         for path in (self.out / "checks").iterdir():
             path.write_text("{")
         self.run_it()
@@ -197,7 +189,7 @@ class Specification(Case):
     count, block = 40, 8
 
     def test_the_message_names_the_keys(self):
-        self.run_it()
+        self.have_whole()
         self.plan.write_text(self.plan.read_text().replace("count: 40", "count: 41").replace("uniform: [5, 18]", "uniform: [6, 18]"))
         self.assertIn("different: count, geometry.range_nm.uniform)", self.run_it(code=1).stderr)
         self.plan.write_text(self.plan.read_text().replace("on: land", "on: sea"))
@@ -214,8 +206,7 @@ class Specification(Case):
         self.assertIn("count: 24", (self.out / "specification.yaml").read_text())
 
     def test_a_damaged_copy_of_the_specification_is_made_again(self):
-        whole = self.reference()
-        self.run_it()
+        whole = self.have_whole()
         copy = self.out / "specification.yaml"
         for damaged in (copy.read_bytes()[:40], b"", copy.read_bytes()[:-2] + b"x\n"):
             copy.write_bytes(damaged)
@@ -225,8 +216,7 @@ class Specification(Case):
         self.assertEqual(self.run_it("--verify").stderr, "")
 
     def test_a_lost_or_damaged_description_is_made_again(self):
-        whole = self.reference()
-        self.run_it()
+        whole = self.have_whole()
         about = self.out / "dataset.json"
         other = about.read_text().replace('"size": 16', '"size": 17')
         for change in (about.unlink, lambda: about.write_text("{"), lambda: about.write_bytes(b""), lambda: about.write_text(other)):
@@ -243,7 +233,7 @@ class Specification(Case):
         self.assertEqual(tree(self.out), whole)
 
     def test_another_version_is_a_warning(self):
-        self.run_it()
+        self.have_whole()
         about = self.out / "dataset.json"
         text = about.read_text()
         self.assertIn('"yars": "', text)
@@ -310,7 +300,7 @@ class FullDisk(Case):
     def test_limit_of_a_file_s_size(self):
         def limit():
             resource.setrlimit(resource.RLIMIT_FSIZE, (1500, 1500))
-        self.one_error(self.run_it(preexec_fn=limit, code=1), "File too large", "ulimit -f")
+        self.one_error(self.run_it(prepare=limit, code=1), "File too large", "ulimit -f")
         self.run_it()
         self.assertEqual(tree(self.out), self.reference())
 

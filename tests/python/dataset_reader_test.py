@@ -21,7 +21,7 @@ class Formats(Case):
 
     def test_zarr_is_read_by_zarr(self):
         import zarr
-        self.run_it()
+        self.have_whole()
         group, data = zarr.open_consolidated(str(self.out / "chips.zarr")), Dataset(self.out)
         self.assertEqual(group["video"].shape, (21, 16, 16))
         for item in (0, 20):
@@ -35,7 +35,7 @@ class Formats(Case):
             import xarray
         except ImportError:
             self.skipTest("xarray is not installed")
-        self.run_it()
+        self.have_whole()
         data = Dataset(self.out)
         with xarray.open_zarr(self.out / "chips.zarr") as opened:
             for name in data.arrays:
@@ -45,7 +45,7 @@ class Formats(Case):
                 self.assertIn(0, stored)
 
     def test_npz_is_read_by_numpy(self):
-        self.run_it()
+        self.have_whole()
         for compression in ("none", "lz4"):
             out = self.folder / compression
             self.run_it(out=out, plan=self.write_spec("npz.yaml", output=f", format: npz, compression: {compression}"))
@@ -56,7 +56,7 @@ class Formats(Case):
                 self.assertEqual(Dataset(out)[item]["object"].tolist(), Dataset(self.out)[item]["object"].tolist())
 
     def test_manifest_boxes_and_classes(self):
-        self.run_it()
+        self.have_whole()
         lines = [json.loads(line) for line in (self.out / "manifest.jsonl").read_text().splitlines()]
         self.assertEqual([line["item"] for line in lines], list(range(21)))
         data = Dataset(self.out)
@@ -139,7 +139,7 @@ class Reading(Case):
 
     def setUp(self):
         super().setUp()
-        self.run_it()
+        self.have_whole()
         self.data = Dataset(self.out)
 
     def test_mixed_order_gives_what_the_order_gives(self):

@@ -9,16 +9,19 @@ import signal
 import subprocess
 import sys
 import tempfile
+import threading
 import time
+import traceback
 import unittest
 
 HERE = pathlib.Path(__file__).resolve().parent
+FAKE_MAKER = HERE / "dataset_fake_maker.py"
 sys.path.append(str(HERE.parents[1] / "python"))
 sys.path.append(str(HERE))
 if len(sys.argv) > 1 and os.path.isdir(sys.argv[1]):
     os.environ["YARS_BIN"] = os.path.abspath(sys.argv.pop(1))
 
-from yars.dataset import Dataset  # noqa: E402
+from yars.dataset import Dataset, maker, run  # noqa: E402
 
 SPEC = """count: {count}
 seed: 3
@@ -72,9 +75,54 @@ def wait_for(condition, seconds=60.0):
     return False
 
 
+def call_in_child(function, environment, prepare=None):
+    """Calls a function, which returns an exit code, in a child of fork(): the child need not import what this process has imported.
+    prepare: called in the child first. Returns what subprocess.run does."""
+    pipes = [os.pipe(), os.pipe()]
+    sys.stdout.flush()
+    sys.stderr.flush()
+    child = os.fork()
+    if child == 0:
+        code = 1
+        try:
+            signal.alarm(300)
+            for number, (read, write) in enumerate(pipes, 1):
+                os.dup2(write, number)
+                os.close(read)
+                os.close(write)
+            os.environ.update(environment)
+            if prepare:
+                prepare()
+            code = function()
+        except SystemExit as end:
+            code = end.code
+        except BaseException:  # pylint: disable=broad-except
+            traceback.print_exc()
+        finally:
+            sys.stdout.flush()
+            sys.stderr.flush()
+            os._exit(code)
+    texts = ["", ""]
+
+    def read_all(number):
+        with open(pipes[number][0], encoding="utf-8") as file:
+            texts[number] = file.read()
+    for _, write in pipes:
+        os.close(write)
+    reader = threading.Thread(target=read_all, args=(1,))
+    reader.start()
+    read_all(0)
+    reader.join()
+    return subprocess.CompletedProcess(None, os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), *texts)
+
+
+maker.hasher()  # imported here for all children
+
+
 class Case(unittest.TestCase):
     count, block, output = 200, 8, ""
-    _references = {}  # trees by specification and scene: many tests have the same
+    _kept = tempfile.TemporaryDirectory(prefix="yars-dataset-kept-")
+    _references = {}  # (folder in _kept, its tree) by specification and scene: many tests have the same
 
     def setUp(self):
         self.folder = pathlib.Path(tempfile.mkdtemp(prefix="yars-dataset-"))
@@ -90,26 +138,39 @@ class Case(unittest.TestCase):
         return path
 
     def command(self, *arguments, out=None, plan=None):
-        return [sys.executable, str(HERE / "dataset_fake_maker.py"), str(plan or self.plan), "--out", str(out or self.out), *map(str, arguments)]
+        return [sys.executable, str(FAKE_MAKER), str(plan or self.plan), "--out", str(out or self.out), *map(str, arguments)]
 
     def start(self, *arguments, environment=None, **options):
         return subprocess.Popen(self.command(*arguments), env={**os.environ, **(environment or {})}, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                 text=True, **options)
 
-    def run_it(self, *arguments, code=0, out=None, plan=None, environment=None, **options):
-        done = subprocess.run(self.command(*arguments, out=out, plan=plan), env={**os.environ, **(environment or {})}, capture_output=True, text=True,
-                              check=False, timeout=300, **options)
+    def run_it(self, *arguments, code=0, out=None, plan=None, environment=None, prepare=None):
+        command = self.command(*arguments, out=out, plan=plan)
+        if command[1] == str(FAKE_MAKER) and threading.active_count() == 1:
+            done = call_in_child(lambda: run.main(command[2:], maker="dataset_fake_maker:open_maker"), environment or {}, prepare)
+        else:
+            done = subprocess.run(command, env={**os.environ, **(environment or {})}, capture_output=True, text=True, check=False, timeout=300,
+                                  preexec_fn=prepare)
         self.assertEqual(done.returncode, code, done.stderr + done.stdout)
         return done
 
-    def reference(self):
-        """The files that one worker makes by this test's specification, as tree() gives them."""
+    def _reference(self):
         key = (self.plan.read_text(), (self.folder / "town.flt").read_bytes())
         if key not in self._references:
-            out = self.folder / "reference"
+            out = pathlib.Path(self._kept.name) / str(len(self._references))
             self.run_it("--workers", 1, out=out)
-            self._references[key] = tree(out)
+            self._references[key] = out, tree(out)
         return self._references[key]
+
+    def reference(self):
+        """The files that one worker makes by this test's specification, as tree() gives them."""
+        return self._reference()[1]
+
+    def have_whole(self):
+        """Fills the folder `out` with the files of reference() and returns them."""
+        folder, whole = self._reference()
+        shutil.copytree(folder, self.out)
+        return whole
 
     def blocks_there(self):
         return len(list(self.out.glob("parts/*/*.jsonl")))
