@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The data set maker on Dask distributed: a scheduler and three workers, one of which is killed every two seconds, make the same files as
-one process. usage: dataset_dask_test.py BIN [unittest options]   (BIN: folder of `yars`)"""
+"""The data set maker on Dask distributed: a scheduler and three workers, of which two die after 15 and 30 of 50 blocks, make the same files
+as one process. usage: dataset_dask_test.py BIN [unittest options]   (BIN: folder of `yars`)"""
 import os
 import pathlib
 import shutil
@@ -64,15 +64,11 @@ class Cluster:
         self.workers.append(self._start("dask_worker", self.address, "--nthreads", "1", "--no-dashboard", "--no-nanny", "--memory-limit", "0",
                                         "--local-directory", str(self._folder / f"worker{self._count}")))
 
-    def kill_every(self, seconds):
-        """Kills the oldest worker every few seconds and starts another."""
-        self.kill_when(lambda kills: not self._stop.wait(seconds))
-
     def kill_when(self, due):
         """Kills the oldest worker, and starts another, each time that due(kills up to now) is true."""
         def loop():
             while not self._stop.wait(0.02):
-                if not due(self.kills) or self._stop.is_set():
+                if not due(self.kills):
                     continue
                 oldest = self.workers.pop(0)
                 oldest.kill()
@@ -101,17 +97,17 @@ class Dask(Case):
         self.addCleanup(cluster.close)
         return cluster
 
-    def test_a_worker_is_killed_every_two_seconds(self):
-        cluster = self.cluster(FAKE_MAKER_S="0.4")
-        cluster.kill_every(2.0)
+    def test_workers_are_killed_again_and_again(self):
+        cluster = self.cluster(FAKE_MAKER_S="0.1")
+        cluster.kill_when(lambda kills: kills < 2 and self.blocks_there() >= 15 * (kills + 1))
         done = self.run_it("--dask", cluster.address)
         self.assertIn("800 items made", done.stdout)
-        self.assertGreaterEqual(cluster.kills, 2)
+        self.assertEqual(cluster.kills, 2)
         self.assertEqual(tree(self.out), self.reference())
         self.assertTrue(wait_for(lambda: not hosts_of(self.out)), "a host process is left")
 
-    def test_interrupt(self):
-        cluster = self.cluster(FAKE_MAKER_S="0.2")
+    def test_interrupt_and_death_of_the_scheduler(self):
+        cluster = self.cluster(workers=2, FAKE_MAKER_S="0.2")
         process = self.start("--dask", cluster.address)
         self.assertTrue(wait_for(lambda: self.blocks_there() > 3))
         process.send_signal(signal.SIGTERM)
@@ -124,8 +120,11 @@ class Dask(Case):
         self.run_it()
         self.assertEqual(tree(self.out), self.reference())
 
-    def test_a_scheduler_that_dies_is_one_error(self):
-        cluster = self.cluster(workers=2, FAKE_MAKER_S="0.2")
+        shutil.rmtree(self.out)
+        self.check_death_of_the_scheduler(cluster)
+
+    def check_death_of_the_scheduler(self, cluster):
+        """One error, and no host that is left."""
         process = self.start("--dask", cluster.address)
         self.assertTrue(wait_for(lambda: self.blocks_there() > 3))
         cluster.scheduler.kill()

@@ -146,7 +146,7 @@ class Case(unittest.TestCase):
 
     def run_it(self, *arguments, code=0, out=None, plan=None, environment=None, prepare=None):
         command = self.command(*arguments, out=out, plan=plan)
-        if command[1] == str(FAKE_MAKER) and threading.active_count() == 1:
+        if command[1] == str(FAKE_MAKER) and "--dask" not in command and threading.active_count() == 1:
             done = call_in_child(lambda: run.main(command[2:], maker="dataset_fake_maker:open_maker"), environment or {}, prepare)
         else:
             done = subprocess.run(command, env={**os.environ, **(environment or {})}, capture_output=True, text=True, check=False, timeout=300,
