@@ -148,8 +148,8 @@ folder, terrain = {str(self.folder)!r}, yars.Terrain()
 order = numpy.zeros(1, yars.PATCH_ORDER)
 for field, value in {order_of(PATCH)!r}.items(): order[field] = value
 scan = yars.Radar('reference', samples=2048).scan(terrain, altitude_ft=30000, range_nm=100) if {name!r} == 'shadow' else None
-threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
 try:
+    threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()
     {call}
     print('whole')
 except KeyboardInterrupt:

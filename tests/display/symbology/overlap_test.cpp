@@ -70,7 +70,7 @@ void put_cursor_on_display(DisplayInput& input, Point at) {
 // The pilot moves the cursor over the whole display. Everywhere each readout stays, no text lies over another text or
 // over a symbol, and the cursor can be seen.
 TEST(Overlap, ThereIsNoneWithTheCursorAnywhereAndNoReadoutVanishes) {
-  constexpr int kStep = 14;      // [units]
+  constexpr int kStep = 20;      // [units]
   constexpr float kSeen = 4.0F;  // [units] of the cursor's arms
   int offset = 0;                // [units] differs from mode to mode, so that all modes together have a finer step
   for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::patch, Mode::beacon, Mode::ranging}) {
@@ -81,7 +81,7 @@ TEST(Overlap, ThereIsNoneWithTheCursorAnywhereAndNoReadoutVanishes) {
       input.model_alive = input.ownship_fresh = input.state_machine_alive = true;
       put_cursor_on_display(input, {240.0F, 150.0F});
       const auto before = testing::texts(drawn(input));
-      offset = (offset + 5) % kStep;
+      offset = (offset + 6) % kStep;
       for (int x = offset; x <= 480; x += kStep) {
         for (int y = offset; y <= 480; y += kStep) {
           put_cursor_on_display(input, {static_cast<float>(x), static_cast<float>(y)});

@@ -203,7 +203,7 @@ TEST(Replay, ContinuesWithTheStatusFromWhichARestartedModelResumed) {
 
 // Sweeps with sub-beams use rays of earlier sweeps. These were measured from other positions of the aircraft.
 TEST(Replay, ComputesSweepsWithSubBeamsInFlightWhereverTheRecordingBegins) {
-  for (const int before : {300, 320, 341, 360}) {
+  for (const int before : {300, 341}) {
     SCOPED_TRACE(before);
     radar::RadarConfiguration configuration;
     configuration.fidelity.sub_beams = 13;
@@ -223,7 +223,7 @@ TEST(Replay, ComputesSweepsWithSubBeamsInFlightWhereverTheRecordingBegins) {
 // In a turn against a slow scan the beam hardly moves. Its rays are measured again every 50 ms, in ticks that depend on
 // when the pass began.
 TEST(Replay, ComputesSweepsInATurnAgainstASlowScanWhereverTheRecordingBegins) {
-  for (const int before : {1500, 1503, 1506, 1509}) {
+  for (const int before : {1500, 1506}) {
     SCOPED_TRACE(before);
     radar::RadarConfiguration configuration;
     configuration.antenna.azimuth_rate_dps = 10.0;

@@ -243,8 +243,11 @@ TEST_P(RandomEvents, KeepEveryInvariantAndAllowTheReturnToARunningRbm) {
 }
 
 INSTANTIATE_TEST_SUITE_P(OfEachRadar, RandomEvents,
-                         ::testing::Values(RandomRun{"", 500'000}, RandomRun{"apg68.guf", 200'000}),
-                         [](const auto& run) { return std::string(run.index == 0 ? "Apg70" : "Apg68"); });
+                         ::testing::Values(RandomRun{"", 150'000}, RandomRun{"apg68.guf", 100'000},
+                                           RandomRun{"", 500'000}),
+                         [](const auto& run) {
+                           return std::string(run.index == 0 ? "Apg70" : run.index == 1 ? "Apg68" : "Apg70ForLong");
+                         });
 
 // A cursor at rest may leave the display, because it stays on its ground point. A slewed cursor stays on the display.
 TEST(RandomCursor, ASlewedCursorIsOnTheDisplay) {
