@@ -54,7 +54,7 @@ def count_lines(process, text):
 
 
 def await_status(spread, host, text):
-    lab.wait_until(lambda: text in spread.yars(host, "status", code=None), f"`yars status` on {host} that says {text!r}", WITHIN_S)
+    lab.wait_until(lambda: text in spread.yars(host, "status", code=None), f"`yars status` on {host} that says {text!r}", WITHIN_S, every_s=0.3)
 
 
 # ---- Differences ----

@@ -220,15 +220,15 @@ def status_shows_who_runs_where(programs, _):
         spread.start_roles("c")
         shown = lambda host, name: next((line for line in spread.yars(host, "status", code=None).splitlines()
                                          if line.startswith(f"  {name} ")), "")
-        lab.wait_until(lambda: "flight-model" in shown("b", "a"), "flight-model of a in `yars status` on b", WITHIN_S)
-        lab.wait_until(lambda: "radar-model" in shown("b", "c"), "radar-model of c in `yars status` on b", WITHIN_S)
+        lab.wait_until(lambda: "flight-model" in shown("b", "a"), "flight-model of a in `yars status` on b", WITHIN_S, every_s=0.3)
+        lab.wait_until(lambda: "radar-model" in shown("b", "c"), "radar-model of c in `yars status` on b", WITHIN_S, every_s=0.3)
         spread.gateways["a"].signal(signal.SIGINT)
         spread.gateways["a"].wait(WITHIN_S)
         spread.gateways["b"].wait_for("info: host a has left", WITHIN_S)
         spread.lab.kill_host("c")
         spread.gateways["b"].wait_for("warning: host c is no longer heard", WITHIN_S)
         assert "host a is no longer heard" not in spread.gateways["b"].text(), spread.logs()
-        lab.wait_until(lambda: "left" in shown("b", "a") and "silent" in shown("b", "c"), "hosts that are gone", WITHIN_S)
+        lab.wait_until(lambda: "left" in shown("b", "a") and "silent" in shown("b", "c"), "hosts that are gone", WITHIN_S, every_s=0.3)
         assert "model" not in shown("b", "a") and "model" not in shown("b", "c"), spread.yars("b", "status", code=None)
 
 

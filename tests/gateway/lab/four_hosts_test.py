@@ -68,7 +68,7 @@ class Set:
 
     def await_on(self, hosts, condition, what):
         try:
-            lab.wait_until(lambda: all(condition(self.watch(host)) for host in hosts), what, WITHIN_S)
+            lab.wait_until(lambda: all(condition(self.watch(host)) for host in hosts), what, WITHIN_S, every_s=0.3)
         except lab.LabError as problem:
             said = "\n".join(f"{host}: {process.text()}" for host, process in self.begun.items())
             raise AssertionError(f"{problem}; {[self.watch(host) for host in hosts]}\n{said}") from None

@@ -67,13 +67,15 @@ def child_of(pid):
     return None
 
 
-def wait_until(condition, what, within_s=WITHIN_S):
-    """The first value of condition() that is true; an error when none was."""
-    deadline = time.monotonic() + within_s
+def wait_until(condition, what, within_s=WITHIN_S, every_s=0.05):
+    """The first value of condition() that is true; an error when none was. `every_s`: longest pause between two calls, longer for a
+    condition that starts a program."""
+    deadline, pause_s = time.monotonic() + within_s, 0.002
     while not (value := condition()):
         if time.monotonic() > deadline:
             raise LabError(f"expected {what} within {within_s:g} s, found none")
-        time.sleep(0.002)
+        time.sleep(pause_s)
+        pause_s = min(1.3 * pause_s, every_s)
     return value
 
 
