@@ -36,7 +36,8 @@ install(FILES ${PROJECT_BINARY_DIR}/install/doc/dataset_keys.md DESTINATION ${do
 
 # The start script: installed it finds the programs beside it.
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/start DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-start)
-install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/supervise ${PROJECT_SOURCE_DIR}/scripts/nearest_word.py DESTINATION libexec/yars)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts/starting DESTINATION libexec/yars FILES_MATCHING PATTERN "*.py")
+install(FILES ${PROJECT_SOURCE_DIR}/scripts/nearest_word.py DESTINATION libexec/yars)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/network_identities DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-network-identities)
 
 # Man pages and completions, with the options that --help of the programs prints. Python's page is of another package.
@@ -56,7 +57,7 @@ file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/packaging/man/*.[15])
 add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/install/help.stamp
   COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/packaging/help/write.py ${folder_of_programs} ${help}
   COMMAND ${CMAKE_COMMAND} -E touch ${PROJECT_BINARY_DIR}/install/help.stamp
-  DEPENDS ${programs} ${writers} ${pages} ${PROJECT_SOURCE_DIR}/scripts/start COMMENT "Man pages and completions" VERBATIM)
+  DEPENDS ${programs} ${writers} ${pages} ${PROJECT_SOURCE_DIR}/scripts/starting/options.py COMMENT "Man pages and completions" VERBATIM)
 # Until then, and in a cross build, the pages are without options.
 if(NOT EXISTS ${help})
   execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/packaging/help/write.py - ${help} COMMAND_ERROR_IS_FATAL ANY)

@@ -38,7 +38,9 @@ class BuildProgress(unittest.TestCase):
         self.folder = pathlib.Path(holder.name)
         for name in ("scripts", "tools", "build/release/bin"):
             (self.folder / name).mkdir(parents=True)
-        shutil.copy(HOME / "scripts/start", self.folder / "scripts/start")
+        for name in ("start", "nearest_word.py"):
+            shutil.copy(HOME / "scripts" / name, self.folder / "scripts" / name)
+        shutil.copytree(HOME / "scripts/starting", self.folder / "scripts/starting")
         (self.folder / "CMakeLists.txt").touch()
         self.program("scripts/setup", "#!/bin/sh\n")
         self.program("tools/cmake", CMAKE)

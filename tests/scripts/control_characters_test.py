@@ -79,8 +79,7 @@ def check_session_names(folder):
                 "radar-display", "input-monitor",
                 "flight-model --source fixed:1,1,1,1,1"]
     starts = [[str(BIN / words.split()[0])] + words.split()[1:] for words in programs]
-    starts += [[str(top / "scripts/start")], [str(top / "scripts/supervise"), "--name", "n", "--bin", str(BIN), "--role",
-                                              "a", "true"]]
+    starts += [[str(top / "scripts/start")]]
     for command in starts:
         for name in ("../../x", "a/b", "a\x1b[2J", "x" * 41):
             words = command[:1] + ["--session", name] + command[1:]
@@ -95,12 +94,13 @@ def check_scripts(evil):
     top = pathlib.Path(__file__).resolve().parents[2]
     recording = evil / f"{EVIL}.yars"
     recording.write_text("")
-    start, supervise = str(top / "scripts/start"), str(top / "scripts/supervise")
+    start = str(top / "scripts/start")
     words = [[start, "--record", str(recording)], [start, "--headless", EVIL], [start, "--bin", str(evil)], [start, EVIL],
              [start, "--frames", EVIL, "--bin", "none"],
-             [supervise, "--name", "n", "--bin", str(BIN), "--session", "escapes", "--log-dir", f"{recording}/x", "--role",
-              "a", str(evil / "none")],
-             [supervise, "--name", "n", "--bin", str(BIN), "--session", "escapes", EVIL, "--role", "a", "none"]]
+             [start, "--bin", str(BIN), "--session", "escapes", "--terrain", str(evil), "--config", str(evil / "a.guf"),
+              "--log-dir", f"{recording}/x"],
+             [start, "--bin", str(BIN), "--session", "escapes", "--terrain", str(evil), "--source", EVIL, "--frames",
+              str(evil / "frames"), "--log-dir", f"{recording}/x"]]
     words += [[str(top / "scripts" / script), EVIL] for script in ("test", "setup")]
     words += [[str(top / "scripts/lint"), "-" + EVIL], [str(top / "scripts/check_fresh"), "-" + EVIL],
               [str(top / "scripts/fuzz"), EVIL]]

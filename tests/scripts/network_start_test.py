@@ -2,7 +2,7 @@
 """`--roles` and `--network` of the start script: which programs start, in which order, with which arguments, and how they end.
 
 usage: network_start_test.py
-The script and its supervisor run as they are installed, with programs that stand in for the real ones: each writes down
+The command runs as it is installed, with programs that stand in for the real ones: each writes down
 its arguments when it starts and its name when it ends. `yars status` says that the gateway has joined, of a degraded set, when a file is there.
 """
 import pathlib
@@ -145,7 +145,7 @@ def lockstep_names_the_roles_of_all_computers(place):
 
 def what_is_refused(place):
     for words, part in ((["--roles", "radar"], "--roles: expected some of flight-model, "), (["--roles", ""], "found ''"),
-                        (["--roles", "radar-model,"], "found radar-model\\,"),
+                        (["--roles", "radar-model,"], "found radar-model,"),
                         (["--roles", "radar-model", "--frames", "x"], "--frames: expected radar-display among --roles"),
                         (["--network", "absent"], "--network: expected a file that can be read"),
                         (["--roles", "input-monitor"], "expected --input SOURCE or a terminal")):

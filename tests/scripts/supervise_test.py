@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""scripts/supervise with roles that hang or are stopped, and with standard streams that are closed or full.
+"""A supervised set with roles that hang or are stopped, and with standard streams that are closed or full.
 
 usage: supervise_test.py BIN (folder of the programs)
 """
@@ -41,9 +41,10 @@ class Set:
     def __init__(self, folder, *roles, redirection=""):
         self.session = f"supervise-{os.getpid()}"
         self.log = pathlib.Path(folder, "log")
-        words = [HOME / "scripts/supervise", "--name", "test", "--bin", BIN, "--session", self.session]
-        for name, *command in roles:
-            words += ["--role", name, *command]
+        program = [f"import sys; sys.path.insert(0, {str(HOME / 'scripts')!r})", "from starting import roles as r, supervisor",
+                   f"roles = [r.Role(name, command) for name, *command in {[[str(word) for word in role] for role in roles]}]",
+                   f"sys.exit(supervisor.run_sets([r.Set({str(BIN)!r}, {self.session!r}, roles)]))"]
+        words = [sys.executable, "-B", "-c", "\n".join(program)]
         self.process = subprocess.Popen(["bash", "-c", f"exec {shlex.join(map(str, words))} {redirection or f'2>{self.log}'}"],
                                         stdin=subprocess.DEVNULL, cwd=folder, env={**os.environ, "YARS_USER_CONFIG": ""})
 

@@ -2,9 +2,10 @@
 """The default terrain of scripts/start is whole or made again, whoever starts at once and whoever is stopped.
 
 usage: terrain_cache_test.py
-The script runs as it is installed, with programs that stand in for the real ones: `yars` makes 14 small cells, slowly,
+The command runs as it is installed, with programs that stand in for the real ones: `yars` makes 14 small cells, slowly,
 and scenes.
 """
+import ast
 import os
 import pathlib
 import re
@@ -13,7 +14,7 @@ import signal
 import subprocess
 import time
 
-from tour_start_test import run_each
+from tour_start_test import install_start, run_each
 
 HOME = pathlib.Path(__file__).resolve().parents[2]
 YARS = """#!/bin/bash
@@ -39,12 +40,9 @@ class Place:
         self.folder = pathlib.Path(folder)
         self.terrain = self.folder / "cache/yars/terrain"
         self.count = self.folder / "count"
-        for name, text in (("bin/yars", YARS), ("libexec/yars/supervise", "#!/bin/sh\necho the set runs\n")):
-            path = self.folder / name
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text)
-            path.chmod(0o755)
-        shutil.copy(HOME / "scripts/start", self.folder / "bin/yars-start")
+        install_start(self.folder, 'def run_sets(_):\n    print("the set runs")\n')
+        (self.folder / "bin/yars").write_text(YARS)
+        (self.folder / "bin/yars").chmod(0o755)
         self.scene_list = self.folder / "share/yars/config/coast.scenes"
         self.scene_list.parent.mkdir(parents=True)
         shutil.copy(HOME / "config/coast.scenes", self.scene_list)
@@ -153,7 +151,8 @@ def without_its_scenes_there_is_no_terrain(place):
 
 def sources_of_the_generator_are_there(_):
     """A checkout's start sums the sources of the generator. Each that it names exists."""
-    sources = re.search(r'generator_sources="([^"]+)"', (HOME / "scripts/start").read_text())[1].split()
+    text = (HOME / "scripts/starting/world.py").read_text()
+    sources = ast.literal_eval(re.search(r"^GENERATOR_SOURCES = (\(.*?\))$", text, re.M | re.S)[1])
     assert "worldgen" in sources and "config/coast.scenes" in sources, sources
     for source in sources:
         assert (HOME / source).is_file() or list((HOME / source).rglob("*.cpp")), source

@@ -2,7 +2,7 @@
 """`--tour` of the start script: two sets one after the other, which end with the tour; what goes with it and what not.
 
 usage: tour_start_test.py
-The script and its supervisor run as they are installed, with programs that stand in for the real ones: each writes its
+The command runs as it is installed, with programs that stand in for the real ones: each writes its
 arguments down; input-monitor comes to its end at once, the others wait for a signal.
 """
 import os
@@ -38,6 +38,16 @@ esac
 WATCHDOG_S = 60
 
 
+def install_start(prefix, supervisor=None):
+    """yars-start, as in an installation. `supervisor`: text of a module in place of that which runs the sets."""
+    (prefix / "bin").mkdir(exist_ok=True)
+    shutil.copy(HOME / "scripts/start", prefix / "bin/yars-start")
+    shutil.copytree(HOME / "scripts/starting", prefix / "libexec/yars/starting")
+    shutil.copy(HOME / "scripts/nearest_word.py", prefix / "libexec/yars")
+    if supervisor:
+        (prefix / "libexec/yars/starting/supervisor.py").write_text(supervisor)
+
+
 class Place:
     def __init__(self, folder):
         self.folder = pathlib.Path(folder)
@@ -48,10 +58,7 @@ class Place:
         for name in ("state-machine", "radar-model", "flight-model", "input-monitor", "radar-display"):
             self.write(f"bin/{name}", ROLE)
         self.write("bin/yars", YARS)
-        shutil.copy(HOME / "scripts/start", self.folder / "bin/yars-start")
-        (self.folder / "libexec/yars").mkdir(parents=True)
-        for helper in ("supervise", "nearest_word.py"):
-            shutil.copy(HOME / "scripts" / helper, self.folder / "libexec/yars" / helper)
+        install_start(self.folder)
         shutil.copytree(HOME / "config", self.folder / "share/yars/config")
 
     def write(self, name, text):

@@ -10,8 +10,16 @@ import subprocess
 import sys
 import tempfile
 
+from tour_start_test import install_start
+
 BIN = pathlib.Path(sys.argv[1]).resolve()
-START = pathlib.Path(__file__).resolve().parents[2] / "scripts/start"
+SUPERVISOR = """
+import os
+def run_sets(sets):
+    print(f"file:{os.environ['YARS_USER_CONFIG']}:", "--log-dir", sets[0].log_dir, sep="\\n")
+    for role in sets[0].roles:
+        print(*role.command, sep="\\n")
+"""
 faults = []
 
 
@@ -85,14 +93,8 @@ def bad_lines_are_refused(home):
 def start_follows_it(home):
     """The start script ends where it looks for the terrain's coast: a stand-in prints what the set would get."""
     bin_folder = home.folder / "bin"
-    (home.folder / "libexec/yars").mkdir(parents=True)
-    bin_folder.mkdir()
+    install_start(home.folder, SUPERVISOR)
     (bin_folder / "yars").symlink_to(BIN / "yars")
-    (bin_folder / "yars-start").write_text(START.read_text())
-    supervise = home.folder / "libexec/yars/supervise"
-    supervise.write_text('#!/bin/sh\necho "file:$YARS_USER_CONFIG:"\nprintf "%s\\n" "$@"\n')
-    for path in (bin_folder / "yars-start", supervise):
-        path.chmod(0o755)
     text = "session = mine\nterrain = ~/cells\nlog-level = debug\nlog-dir = ~/logs\nsize = 300\nconfig = apg68.guf\n"
     (home.folder / "apg68.guf").write_text("( Apg70 :name \"MINE\" )\n")  # yars-start checks it
     words = [str(bin_folder / "yars-start"), "--headless", "1"]

@@ -26,7 +26,7 @@ namespace yars::tools {
 // Prefix of the supervisor's notes about a restarted role.
 inline constexpr std::string_view kRestartNote = "started again: ";
 
-// `yars note`: writes a line into the flight recorder of a running session. scripts/supervise uses it.
+// `yars note`: writes a line into the flight recorder of a running session. scripts/start uses it.
 
 namespace {
 

@@ -1,5 +1,5 @@
 // The set under fault injection: six roles with a terrain folder, a scene, a configuration and a script, external
-// programs beside them, and a seeded random generator. mend() restarts dead roles, as scripts/supervise does, and
+// programs beside them, and a seeded random generator. mend() restarts dead roles, as scripts/start does, and
 // counts restarts. A death that no fault has caused is reported as a problem.
 #pragma once
 

@@ -1,0 +1,143 @@
+"""The sets of a command line: one, or the two of a tour. Each role gets its command."""
+import glob
+import os
+import subprocess
+
+from starting.command import HERE, HOME, INSTALLED, NAME, SHARE, as_own, end, private_folder, put, quoted, refuse, run
+from starting.roles import OF_SET, ROLES, Role, Set
+
+TICKS_A_SECOND = 200
+TOURS = (("", "", "radar.tour"), (f"{SHARE}/config/default_apg68.guf", "/apg68", "second_radar.tour"))
+
+
+def given(name, value):
+    """An option of a role, if there is a value. An option without one: True."""
+    return [name] * bool(value) + [str(value)] * (bool(value) and value is not True)
+
+
+def join_network(options):
+    """A form Network in the configuration joins other computers, too, as the gateway reads it there."""
+    if options.config and not (options.network or options.tour or options.fly_out):
+        printed = run(f"{options.bin}/yars", "config", "print", options.config, capture_output=True).stdout
+        if any(line.startswith("( Network") for line in printed.splitlines()):
+            options.network = options.config
+            put(1, "The configuration has a form Network: joining other computers, as with --network")
+    if options.network and not os.access(f"{options.bin}/gateway", os.X_OK):
+        end(1, "--network, or the form Network of the configuration: expected the program gateway beside yars, found none; "
+               "this YARS was built without Cyclone DDS (docs/network.md); in a checkout, --network FILE builds it")
+
+
+def choose_folders(options):
+    """Those of the user, for logs and the station's tokens; without a home there is none."""
+    state = os.environ.get("XDG_STATE_HOME") or os.environ.get("HOME") and os.environ["HOME"] + "/.local/state"
+    if options.log_dir is None:
+        options.log_dir = f"{state}/yars/{options.session}" if state else ""
+    # A station that is started again is to have the same tokens. Without a folder it makes new ones.
+    if options.web and state and not {"--tokens", "--without-tokens"} & options.of_station.keys():
+        try:
+            options.of_station["--tokens"] = private_folder(f"{state}/yars") + "/web-tokens"
+        except OSError as problem:
+            put(2, f"{NAME}: {problem}")
+
+
+def check_configuration(options):
+    """A fault of a configuration is said here, once; each role would say it again."""
+    if options.config and not options.fly_out:
+        done = run(f"{options.bin}/yars", "config", "check", options.config, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        if done.returncode != 0:
+            put(2, f"{NAME}: {as_own(done.stderr)}")
+            end(1, "nothing was started")
+
+
+def lockstep_plan(options, seconds):
+    """Roles of this computer that step together; with a network those of all, so that all name the same."""
+    steps = [name for name in OF_SET if name in options.running or options.network and name not in options.left_out]
+    return f"{','.join(steps + ['recorder'] * bool(options.record))}@{int(seconds * TICKS_A_SECOND)}"
+
+
+def inputs_of(options, tour_file):
+    """Sources of the input monitor. None: it does not run."""
+    keyboard = ["terminal"] if not options.lockstep and not options.headless and os.isatty(0) else []
+    if tour_file:
+        return (options.input or keyboard) + [f"tour:{tour_file}{',pilot' if options.tour == 'pilot' else ''}"]
+    if options.script:
+        return options.input + [f"script:{options.script}"]
+    return options.input or ([f"script:{SHARE}/config/scripts/power_on.script"] if options.lockstep else keyboard)
+
+
+def frames_of(options, folder):
+    """The display's options of its pictures in files."""
+    private_folder(folder)
+    earlier = len(glob.glob(f"{glob.escape(folder)}/frame_*.png"))
+    put(1, f"Frames go to {quoted(folder)}/" + (f"; {earlier} pictures of earlier runs are there, this run writes over those "
+                                                 "of the same number" if earlier else ""))
+    return ["--frames", folder, "--every", options.every, *given("--keep", options.keep_frames)]
+
+
+def set_of(options, config, frames, tour_file):
+    seconds = float(options.headless) if options.headless else None
+    if tour_file and options.headless:  # as long as the tour: the time of its last line
+        seconds = min(seconds, 1 + next(float(words[0]) for line in tour_file.read_text().splitlines()
+                                        if (words := line.split())[1:] == ["end"]))
+    plan = given("--lockstep", options.lockstep and lockstep_plan(options, seconds))
+    session = ["--session", options.session, *given("--config", config)]
+    alone = [*session, *given("--log-level", options.log_level), *given("--realtime", options.realtime),
+             *given("--cpus", options.cpus)]
+    common = alone + plan
+    source, over = given("--source", options.source), given("--terrain", options.terrain)
+    standby = given("--standby", bool(options.network or options.fly_out))  # of another computer, or behind one
+    running, roles = options.running, []
+
+    def add(name, *words):
+        roles.append(Role(name, [f"{options.bin}/{ROLES[name].program}", *words]))
+
+    if options.network:
+        add("gateway", *alone, "--network", options.network, *over)
+    if options.fly_out:
+        awaited = [name for name in ("state-machine", "radar-model", "flight-model") if name in running]
+        add("hand-over", *session, "replay", options.fly_out, "--seek", options.at, "--hand-over", "--await", ",".join(awaited),
+            *over)
+    if "state-machine" in running:
+        add("state-machine", *common, *standby)
+    if "radar-model" in running:
+        add("radar-model", *common, *standby, *over, *given("--fidelity", options.fidelity))
+    if "flight-model" in running:
+        add("flight-model", *common, "--source", options.source or "")
+    if options.record:
+        branch = ["--from", options.fly_out, "--until", options.at] if options.fly_out else []
+        add("recorder", *session, "record", options.record, *over, *(source if "flight-model" in running else []), *branch,
+            *["--sweeps", "--patches"][:2 * options.pictures], *given("--overwrite", options.overwrite),
+            *given("--keep", options.keep_recording), *plan)
+    inputs = inputs_of(options, tour_file) if "input-monitor" in running else []
+    if inputs:
+        add("input-monitor", *common, *(word for one in inputs for word in ("--source", one)))
+    if "radar-display" in running:
+        add("radar-display", *common, *given("--size", options.size), *given("--publish", options.publish),
+            *given("--headless", bool(options.headless)),
+            *(frames_of(options, frames) if options.headless and not options.no_frames else []))
+    if options.web:
+        words = [name if value is True else f"{name}={value}" for name, value in options.of_station.items()]
+        if not INSTALLED:  # programs of another folder (--bin) have neither pages nor a start beside them
+            words += [f"--pages={HOME}/station/web/dist", f"--start-script={HOME}/scripts/start"]
+        add("station", *common, *words, "--terrain", options.terrain or "", "--source", options.source or "",
+            "--recordings", os.path.join(HERE, "recordings"))
+    if not roles:
+        refuse("--roles: expected --input SOURCE or a terminal for input-monitor alone, found none")
+    # A window may be closed, a script comes to its end, Esc leaves the terminal's keys; nothing else ends by itself.
+    may_end = ["radar-display"] * (not options.headless and "radar-display" in running)
+    may_end += ["input-monitor"] * any(one == "terminal" or one.startswith("script:") for one in inputs)
+    # A script, and a tour, decides for itself when power comes on.
+    switches_on = "state-machine" in running and not (options.lockstep or options.script or tour_file)
+    return Set(options.bin, options.session, roles, options.log_dir or "", lockstep=options.lockstep,
+               seconds=None if options.lockstep or options.endless else seconds, network=bool(options.network),
+               inject=("power opr", "elevation -3") if switches_on else (), recording=options.record or "", may_end=may_end,
+               ends_with=["input-monitor"] if tour_file and not options.lockstep else [])
+
+
+def sets_of(options):
+    join_network(options)
+    choose_folders(options)
+    check_configuration(options)
+    if not options.tour:
+        return [set_of(options, options.config, options.frames, None)]
+    return [set_of(options, config or options.config, options.frames + folder, SHARE / "config/tours" / file) for config, folder, file in TOURS]
