@@ -42,33 +42,36 @@ def refuse(text, meant=""):
     end(2, f"{text}; {meant}{'See' if meant else 'see'} {NAME} --help")
 
 
-def as_own(said):
+def catch_signals(handler=lambda *_: sys.exit(130)):
+    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+        if signal.getsignal(number) != signal.SIG_IGN:  # nohup
+            signal.signal(number, handler)
+
+
+def run(*command, **more):
+    """The command's end, with what it wrote as text. A command that cannot be started, or is too slow, has failed."""
+    try:
+        return subprocess.run(command, errors="surrogateescape", stdin=subprocess.DEVNULL, check=False, **more)
+    except (subprocess.TimeoutExpired, OSError) as problem:
+        return subprocess.CompletedProcess(command, 127, "", str(problem))
+
+
+def put_as_own(said):
     """A message of `yars COMMAND` as one of this command."""
-    return re.sub(r"\Ayars.*?: ", "", said.rstrip("\n"), flags=re.S)
+    put(2, f"{NAME}: " + re.sub(r"\Ayars.*?: ", "", said.rstrip("\n"), flags=re.S))
+
+
+def user_folder(variable, below_home):
+    """Of the XDG base directories; empty without a home."""
+    home = os.environ.get("HOME")
+    return os.environ.get(variable) or (f"{home}/{below_home}" if home else "")
 
 
 def private_folder(path):
+    """Made for the user alone."""
     before = os.umask(0o077)
     try:
         os.makedirs(path, exist_ok=True)
     finally:
         os.umask(before)
     return path
-
-
-def catch_signals(handler):
-    for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        if signal.getsignal(number) != signal.SIG_IGN:  # nohup
-            signal.signal(number, handler)
-
-
-def leave(*_):
-    sys.exit(130)
-
-
-def run(*command, **more):
-    """The command's end, with what it wrote as text. A command that cannot be started, or is too slow, has failed."""
-    try:
-        return subprocess.run(command, text=True, errors="surrogateescape", stdin=subprocess.DEVNULL, check=False, **more)
-    except (subprocess.TimeoutExpired, OSError) as problem:
-        return subprocess.CompletedProcess(command, 127, "", str(problem))

@@ -8,11 +8,13 @@ import struct
 from starting.command import run
 from starting.roles import ROLES
 
-EVERY_BYTE = 1 + max(kind.once for kind in ROLES.values())
+ALONE, SHARED = fcntl.LOCK_EX | fcntl.LOCK_NB, fcntl.LOCK_SH | fcntl.LOCK_NB
+FOR_BOTH = os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK  # no link is followed, no pipe waited for
 
 
-def segment_path(session):
-    return f"/dev/shm/yars.{os.geteuid()}.{session}"
+def path_of(kind, session):
+    """`kind`: yars, the segment; yars-set, the lock of its sets."""
+    return f"/dev/shm/{kind}.{os.geteuid()}.{session}"
 
 
 def is_named(path, file):
@@ -22,58 +24,42 @@ def is_named(path, file):
     return False
 
 
-def lock(file, kind, length, start):
-    fcntl.lockf(file, kind | fcntl.LOCK_NB, length, start)
+def take_set_lock(path, names, lockstep):
+    """The right to run a set in a session: locks on bytes of a file, which the kernel releases when this process ends.
+    Byte 0 is of the set: one in lockstep begins only where no other is. Others are of roles that a session has once.
+    None: another set has a role of this one, or is there beside a set in lockstep. OSError: no file of this user."""
+    while True:
+        file = os.open(path, FOR_BOTH | os.O_CREAT, 0o600)
+        try:
+            # Byte 0 first: of a set in lockstep and another one that start at once, one goes on.
+            fcntl.lockf(file, ALONE if lockstep else SHARED, 1, 0)
+            for byte in sorted({ROLES[name].once for name in names if name in ROLES} - {0}):
+                fcntl.lockf(file, ALONE, 1, byte)
+            fcntl.lockf(file, SHARED, 1, 0)
+        except (BlockingIOError, PermissionError):
+            os.close(file)
+            return None
+        if is_named(path, file):
+            return file
+        os.close(file)  # a set that ended meanwhile removed the name
 
 
-class SetLock:
-    """The right to run a set in a session: locks on bytes of /dev/shm/yars-set.UID.SESSION, which the kernel releases
-    when this process ends. A byte for each role that a session has once, behind byte 0: a set in lockstep begins only
-    where no other set is. The last set removes the file."""
-
-    def __init__(self, session, names, lockstep):
-        self.path = f"/dev/shm/yars-set.{os.geteuid()}.{session}"
-        self.bytes = sorted({ROLES[name].once for name in names if name in ROLES} - {0})
-        self.lockstep = lockstep
-        self.file = -1
-
-    def take(self):
-        """False: another set has a role of this one, or is in the session where this one is in lockstep. OSError: no file."""
-        while True:
-            # No link is followed, no pipe waited for; a file of another user is refused.
-            self.file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK, 0o600)
-            try:
-                # Byte 0 first: of a set in lockstep and another one that start at once, one goes on.
-                lock(self.file, fcntl.LOCK_EX if self.lockstep else fcntl.LOCK_SH, 1, 0)
-                for byte in self.bytes:
-                    lock(self.file, fcntl.LOCK_EX, 1, byte)
-                lock(self.file, fcntl.LOCK_SH, 1, 0)
-            except (BlockingIOError, PermissionError):
-                os.close(self.file)
-                return False
-            if is_named(self.path, self.file):
-                return True
-            os.close(self.file)  # a set that ended meanwhile removed the name
-
-    def give_back(self):
-        with contextlib.suppress(OSError):  # others are in the session
-            lock(self.file, fcntl.LOCK_EX, EVERY_BYTE, 0)
-            os.unlink(self.path)
-        os.close(self.file)
+def give_set_lock_back(path, file):
+    """The last set of a session removes the file."""
+    with contextlib.suppress(OSError):  # others are in the session
+        fcntl.lockf(file, ALONE, 1 + max(kind.once for kind in ROLES.values()), 0)
+        os.unlink(path)
+    os.close(file)
 
 
 def remove_leftover(session):
     """Removes the segment of roles that were killed. A segment in use has a read lock on byte 0 by each participant
     (shm/segment.hpp)."""
-    path = segment_path(session)
-    with contextlib.suppress(OSError):
-        file = os.open(path, os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK)
-        try:
-            lock(file, fcntl.LOCK_EX, 1, 0)
-            if is_named(path, file):
-                os.unlink(path)
-        finally:
-            os.close(file)
+    path = path_of("yars", session)
+    with contextlib.suppress(OSError), open(os.open(path, FOR_BOTH), "r+b", buffering=0) as file:
+        fcntl.lockf(file, ALONE, 1, 0)
+        if is_named(path, file.fileno()):
+            os.unlink(path)
 
 
 def run_yars(of, *arguments, codes=(0,)):
@@ -94,12 +80,12 @@ def watch(of):
 
 
 def heartbeats(of, layout):
-    """Times of the last heartbeats in the session's table of processes, [ns] of CLOCK_MONOTONIC, by pid. Where the table
-    is `yars status --layout` says, which `layout` keeps."""
+    """Times of the last heartbeats in the session's table of processes, [ns] of CLOCK_MONOTONIC, by pid. `layout` keeps
+    what `yars status --layout` says of the place of the table."""
     layout |= layout or read_json(of, "status", "--layout")
     try:
         table, at = layout["containers"]["processes"], layout["offsets"]["processes"]
-        with open(segment_path(of.session), "rb", buffering=0) as segment:
+        with open(path_of("yars", of.session), "rb", buffering=0) as segment:
             content = os.pread(segment.fileno(), table["count"] * table["stride"], at)
     except (OSError, KeyError):
         return {}
@@ -120,8 +106,6 @@ def is_there_already(of):
 
 def is_stopped(pid):
     """Whether a signal or a debugger has stopped the process."""
-    try:
-        with open(f"/proc/{pid}/stat", encoding="utf-8", errors="replace") as file:
-            return file.read().rpartition(") ")[2][:1] in ("T", "t")
-    except OSError:
-        return True
+    with contextlib.suppress(OSError), open(f"/proc/{pid}/stat", encoding="utf-8", errors="replace") as file:
+        return file.read().rpartition(") ")[2][:1] in ("T", "t")
+    return True

@@ -1,9 +1,9 @@
 """The sets of a command line: one, or the two of a tour. Each role gets its command."""
 import glob
 import os
-import subprocess
 
-from starting.command import HERE, HOME, INSTALLED, NAME, SHARE, as_own, end, private_folder, put, quoted, refuse, run
+from starting.command import (HERE, HOME, INSTALLED, NAME, SHARE, end, private_folder, put, put_as_own, quoted, refuse,
+                              run, user_folder)
 from starting.roles import OF_SET, ROLES, Role, Set
 
 TICKS_A_SECOND = 200
@@ -23,13 +23,13 @@ def join_network(options):
             options.network = options.config
             put(1, "The configuration has a form Network: joining other computers, as with --network")
     if options.network and not os.access(f"{options.bin}/gateway", os.X_OK):
-        end(1, "--network, or the form Network of the configuration: expected the program gateway beside yars, found none; "
-               "this YARS was built without Cyclone DDS (docs/network.md); in a checkout, --network FILE builds it")
+        end(1, "--network, or the form Network of the configuration: expected the program gateway beside yars, found "
+               "none; this YARS was built without Cyclone DDS (docs/network.md); in a checkout, --network FILE builds it")
 
 
 def choose_folders(options):
     """Those of the user, for logs and the station's tokens; without a home there is none."""
-    state = os.environ.get("XDG_STATE_HOME") or os.environ.get("HOME") and os.environ["HOME"] + "/.local/state"
+    state = user_folder("XDG_STATE_HOME", ".local/state")
     if options.log_dir is None:
         options.log_dir = f"{state}/yars/{options.session}" if state else ""
     # A station that is started again is to have the same tokens. Without a folder it makes new ones.
@@ -40,23 +40,8 @@ def choose_folders(options):
             put(2, f"{NAME}: {problem}")
 
 
-def check_configuration(options):
-    """A fault of a configuration is said here, once; each role would say it again."""
-    if options.config and not options.fly_out:
-        done = run(f"{options.bin}/yars", "config", "check", options.config, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        if done.returncode != 0:
-            put(2, f"{NAME}: {as_own(done.stderr)}")
-            end(1, "nothing was started")
-
-
-def lockstep_plan(options, seconds):
-    """Roles of this computer that step together; with a network those of all, so that all name the same."""
-    steps = [name for name in OF_SET if name in options.running or options.network and name not in options.left_out]
-    return f"{','.join(steps + ['recorder'] * bool(options.record))}@{int(seconds * TICKS_A_SECOND)}"
-
-
 def inputs_of(options, tour_file):
-    """Sources of the input monitor. None: it does not run."""
+    """Sources of the input monitor, which does not run without one."""
     keyboard = ["terminal"] if not options.lockstep and not options.headless and os.isatty(0) else []
     if tour_file:
         return (options.input or keyboard) + [f"tour:{tour_file}{',pilot' if options.tour == 'pilot' else ''}"]
@@ -67,47 +52,47 @@ def inputs_of(options, tour_file):
 
 def frames_of(options, folder):
     """The display's options of its pictures in files."""
-    private_folder(folder)
-    earlier = len(glob.glob(f"{glob.escape(folder)}/frame_*.png"))
-    put(1, f"Frames go to {quoted(folder)}/" + (f"; {earlier} pictures of earlier runs are there, this run writes over those "
-                                                 "of the same number" if earlier else ""))
+    earlier = len(glob.glob(f"{glob.escape(private_folder(folder))}/frame_*.png"))
+    put(1, f"Frames go to {quoted(folder)}/" + (f"; {earlier} pictures of earlier runs are there, this run writes over "
+                                                 "those of the same number" if earlier else ""))
     return ["--frames", folder, "--every", options.every, *given("--keep", options.keep_frames)]
 
 
 def set_of(options, config, frames, tour_file):
     seconds = float(options.headless) if options.headless else None
-    if tour_file and options.headless:  # as long as the tour: the time of its last line
-        seconds = min(seconds, 1 + next(float(words[0]) for line in tour_file.read_text().splitlines()
-                                        if (words := line.split())[1:] == ["end"]))
-    plan = given("--lockstep", options.lockstep and lockstep_plan(options, seconds))
+    if tour_file and seconds is not None:  # as long as the tour: the time of its last line
+        ends = [line.split()[0] for line in tour_file.read_text().splitlines() if line.split()[1:] == ["end"]]
+        seconds = min(seconds, 1 + float(ends[0]))
+    running, roles, flies_out, records = options.running, [], options.fly_out, options.record
+    # Roles of this computer step together; with a network those of all, so that all name the same.
+    steps = [name for name in OF_SET if name in running or options.network and name not in options.left_out]
+    plan = f"{','.join(steps + ['recorder'] * bool(records))}@{int((seconds or 0) * TICKS_A_SECOND)}"
+    lockstep = given("--lockstep", options.lockstep and plan)
     session = ["--session", options.session, *given("--config", config)]
     alone = [*session, *given("--log-level", options.log_level), *given("--realtime", options.realtime),
              *given("--cpus", options.cpus)]
-    common = alone + plan
-    source, over = given("--source", options.source), given("--terrain", options.terrain)
-    standby = given("--standby", bool(options.network or options.fly_out))  # of another computer, or behind one
-    running, roles = options.running, []
+    common, over, source = alone + lockstep, given("--terrain", options.terrain), given("--source", options.source)
+    standby = given("--standby", bool(options.network or flies_out))  # of another computer, or behind one
 
     def add(name, *words):
         roles.append(Role(name, [f"{options.bin}/{ROLES[name].program}", *words]))
 
     if options.network:
         add("gateway", *alone, "--network", options.network, *over)
-    if options.fly_out:
-        awaited = [name for name in ("state-machine", "radar-model", "flight-model") if name in running]
-        add("hand-over", *session, "replay", options.fly_out, "--seek", options.at, "--hand-over", "--await", ",".join(awaited),
-            *over)
+    if flies_out:
+        awaited = ",".join(name for name in ("state-machine", "radar-model", "flight-model") if name in running)
+        add("hand-over", *session, "replay", flies_out, "--seek", options.at, "--hand-over", "--await", awaited, *over)
     if "state-machine" in running:
         add("state-machine", *common, *standby)
     if "radar-model" in running:
         add("radar-model", *common, *standby, *over, *given("--fidelity", options.fidelity))
     if "flight-model" in running:
         add("flight-model", *common, "--source", options.source or "")
-    if options.record:
-        branch = ["--from", options.fly_out, "--until", options.at] if options.fly_out else []
-        add("recorder", *session, "record", options.record, *over, *(source if "flight-model" in running else []), *branch,
-            *["--sweeps", "--patches"][:2 * options.pictures], *given("--overwrite", options.overwrite),
-            *given("--keep", options.keep_recording), *plan)
+    if records:
+        add("recorder", *session, "record", records, *over, *(source if "flight-model" in running else []),
+            *given("--from", flies_out), *given("--until", options.at), *given("--sweeps", options.pictures),
+            *given("--patches", options.pictures), *given("--overwrite", options.overwrite),
+            *given("--keep", options.keep_recording), *lockstep)
     inputs = inputs_of(options, tour_file) if "input-monitor" in running else []
     if inputs:
         add("input-monitor", *common, *(word for one in inputs for word in ("--source", one)))
@@ -128,16 +113,22 @@ def set_of(options, config, frames, tour_file):
     may_end += ["input-monitor"] * any(one == "terminal" or one.startswith("script:") for one in inputs)
     # A script, and a tour, decides for itself when power comes on.
     switches_on = "state-machine" in running and not (options.lockstep or options.script or tour_file)
-    return Set(options.bin, options.session, roles, options.log_dir or "", lockstep=options.lockstep,
+    return Set(options.bin, options.session, roles, options.log_dir, lockstep=options.lockstep,
                seconds=None if options.lockstep or options.endless else seconds, network=bool(options.network),
-               inject=("power opr", "elevation -3") if switches_on else (), recording=options.record or "", may_end=may_end,
+               inject=("power opr", "elevation -3") if switches_on else (), recording=records, may_end=may_end,
                ends_with=["input-monitor"] if tour_file and not options.lockstep else [])
 
 
 def sets_of(options):
     join_network(options)
     choose_folders(options)
-    check_configuration(options)
+    # A fault of a configuration is said here, once; each role would say it again.
+    if options.config and not options.fly_out:
+        done = run(f"{options.bin}/yars", "config", "check", options.config, capture_output=True)
+        if done.returncode != 0:
+            put_as_own(done.stderr)
+            end(1, "nothing was started")
     if not options.tour:
         return [set_of(options, options.config, options.frames, None)]
-    return [set_of(options, config or options.config, options.frames + folder, SHARE / "config/tours" / file) for config, folder, file in TOURS]
+    return [set_of(options, config or options.config, options.frames + folder, SHARE / "config/tours" / file)
+            for config, folder, file in TOURS]
