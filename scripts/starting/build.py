@@ -9,6 +9,8 @@ from starting.command import HOME, INSTALLED, catch_signals, end, put, quoted
 from starting.roles import ROLES
 
 BIN, LOG = "build/release/bin", "build/start.log"
+BUILD = ("cmake --preset release -DYARS_TESTS=OFF && NINJA_STATUS='step %f %t ' "
+         "cmake --build --preset release --target")
 PROGRAMS = sorted({kind.program for name, kind in ROLES.items() if name != "gateway"})
 # Processor time and disk of a step of the build: means of a whole one, see HACKING.md, "What a build takes".
 STEP_CPU_MS, STEP_DISK_KB = 2300, 2600
@@ -53,19 +55,6 @@ def show_progress(lines, log):
         put(1, "")
 
 
-def build(targets, lock):
-    """What the set runs, and no more. False: it failed."""
-    with open(LOG, "wb") as log:
-        for words in (["-DYARS_TESTS=OFF"], ["--build", "--target", *targets]):
-            command = ["cmake", *words[:1], "--preset", "release", *words[1:]]
-            with subprocess.Popen(command, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                  pass_fds=[lock], env={**os.environ, "NINJA_STATUS": "step %f %t "}) as process:
-                show_progress(process.stdout, log)
-            if process.returncode != 0:
-                return False
-    return True
-
-
 def set_up_and_build(network, lock):
     stopped = []
     catch_signals(lambda *_: stopped.append(True))  # the build, which they reach too, ends by itself
@@ -80,7 +69,12 @@ def set_up_and_build(network, lock):
     is_set_up = all(subprocess.call(["scripts/setup", *words], pass_fds=[lock]) == 0 for words in options)
     expect(is_set_up, "setting up", "set-up failed")
     put(1, "Preparing the build ...")
-    is_built = build([*PROGRAMS, "yars_help", *["gateway"] * bool(network)], lock)
+    targets = [*PROGRAMS, "yars_help", *["gateway"] * bool(network)]  # what the set runs, and no more
+    with open(LOG, "wb") as log:
+        process = subprocess.Popen(["sh", "-c", f"{BUILD} {' '.join(targets)}"], stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT, pass_fds=[lock])
+        show_progress(process.stdout, log)
+    is_built = process.wait() == 0
     if not is_built and not stopped:
         with open(LOG, "rb") as log:
             os.write(2, b"".join(log.readlines()[-30:]))

@@ -153,41 +153,39 @@ def parse(arguments):
 
 def check_together(given):
     """Which options go together: what is wrong, and how it is said."""
-    has_display, roles = "radar-display" in given.running, quoted(given.roles)
+    def readable(file):
+        return not file or os.access(file, os.R_OK)
+
+    has_display, config, recording = "radar-display" in given.running, given.config, given.fly_out
     given.publish = given.publish or given.web and has_display
-    own_world = given.terrain or given.config or given.source or given.script or given.record
-    config, recording = given.config or "", given.fly_out or ""
+    own_world = given.terrain or config or given.source or given.script or given.record
     # A configuration is a path, or the name of one that came with YARS.
-    shipped = str(SHARE / "config" / os.path.basename(config))
-    if config and not os.access(config, os.R_OK) and os.path.dirname(config) == HERE and os.access(shipped, os.R_OK):
-        given.config = config = shipped
-    for is_wrong, text in (
+    shipped = SHARE / "config" / os.path.basename(config or "")
+    if not readable(config) and os.path.dirname(config) == HERE and readable(shipped):
+        given.config = config = str(shipped)
+    for is_wrong, option, expected, found in (
             (given.tour and (given.network or given.roles != ",".join(OF_SET)),
-             "--tour: expected neither --roles nor --network with it, found one"),
+             "--tour", "neither --roles nor --network with it", "one"),
             (given.of_display and not has_display,
-             f"{given.of_display}: expected radar-display among --roles, found {roles}"),
+             given.of_display, "radar-display among --roles", quoted(given.roles)),
             (given.fidelity and "radar-model" not in given.running,
-             f"--fidelity: expected radar-model among --roles, found {roles}"),
-            (given.web and given.lockstep,
-             "--web: expected no --lockstep with it, because pages follow the clock, found one"),
+             "--fidelity", "radar-model among --roles", quoted(given.roles)),
+            (given.web and given.lockstep, "--web", "no --lockstep with it, because pages follow the clock", "one"),
             (given.no_frames and has_display and not given.publish,
-             "--no-frames: expected --web or --publish with it, or --roles without radar-display, found none"),
-            (given.network and not os.access(given.network, os.R_OK),
-             f"--network: expected a file that can be read, found {quoted(given.network)}"),
-            (given.tour and (own_world or given.left_out), "--tour: expected none of --terrain, --config, --source, "
-             "--script, --record, --no-flight and --no-input with it, found one"),
-            (recording and not given.at, "--fly-out: expected --at SECONDS with it, found none"),
-            (os.path.isdir(recording),
-             f"--fly-out: expected a recording, found the folder {quoted(recording)}; name a file in it"),
-            (recording and not os.access(recording, os.R_OK),
-             f"--fly-out: expected a recording that can be read, found {quoted(recording)}"),
+             "--no-frames", "--web or --publish with it, or --roles without radar-display", "none"),
+            (not readable(given.network), "--network", "a file that can be read", quoted(given.network)),
+            (given.tour and (own_world or given.left_out), "--tour",
+             "none of --terrain, --config, --source, --script, --record, --no-flight and --no-input with it", "one"),
+            (recording and not given.at, "--fly-out", "--at SECONDS with it", "none"),
+            (os.path.isdir(recording or ""), "--fly-out", "a recording",
+             f"the folder {quoted(recording)}; name a file in it"),
+            (not readable(recording), "--fly-out", "a recording that can be read", quoted(recording)),
             (recording and (given.tour or given.network or given.lockstep),
-             "--fly-out: expected none of --tour, --network and --lockstep with it, found one"),
-            (given.at and not recording, "--at: expected --fly-out FILE with it, found none"),
-            (config and not os.access(config, os.R_OK),
-             f"--config: expected a file that can be read, found {quoted(config)}")):
+             "--fly-out", "none of --tour, --network and --lockstep with it", "one"),
+            (given.at and not recording, "--at", "--fly-out FILE with it", "none"),
+            (not readable(config), "--config", "a file that can be read", quoted(config))):
         if is_wrong:
-            refuse(text)
+            refuse(f"{option}: expected {expected}, found {found}")
 
 
 def choose_display(options):

@@ -7,6 +7,7 @@ import subprocess
 class Kind:
     """What holds for a role in every set."""
     program: str
+    options: str = ""        # those of sets.py that it gets, behind those of all roles
     of_set: bool = False     # --roles names it
     once: int = 0            # a session has it once on a computer: its byte of the set's lock
     needed: bool = False     # without it there is no radar
@@ -14,15 +15,15 @@ class Kind:
 
 
 ROLES = {  # in the order of a lockstep plan
-    "flight-model": Kind("flight-model", of_set=True, awaits="ready"),
-    "input-monitor": Kind("input-monitor", of_set=True, awaits="ready"),
-    "state-machine": Kind("state-machine", of_set=True, once=1, needed=True),
-    "radar-model": Kind("radar-model", of_set=True, once=2, needed=True),
-    "radar-display": Kind("radar-display", of_set=True),
-    "recorder": Kind("yars"),
-    "gateway": Kind("gateway", once=3),
-    "station": Kind("yars-station"),
-    "hand-over": Kind("yars"),  # `yars replay --hand-over`: starts first and is no member of the set
+    "flight-model": Kind("flight-model", "lockstep source", of_set=True, awaits="ready"),
+    "input-monitor": Kind("input-monitor", "lockstep input", of_set=True, awaits="ready"),
+    "state-machine": Kind("state-machine", "lockstep standby", of_set=True, once=1, needed=True),
+    "radar-model": Kind("radar-model", "lockstep standby terrain fidelity", of_set=True, once=2, needed=True),
+    "radar-display": Kind("radar-display", "lockstep size publish headless frames every keep-frames", of_set=True),
+    "recorder": Kind("yars", "terrain flown from until sweeps patches overwrite keep-recording lockstep"),
+    "gateway": Kind("gateway", "network terrain", once=3),
+    "station": Kind("yars-station", "lockstep"),
+    "hand-over": Kind("yars", "seek hand-over await terrain"),  # starts first and is no member of the set
 }
 OF_SET = [name for name, kind in ROLES.items() if kind.of_set]
 

@@ -7,12 +7,10 @@ from starting.command import (HERE, HOME, INSTALLED, NAME, SHARE, end, private_f
 from starting.roles import OF_SET, ROLES, Role, Set
 
 TICKS_A_SECOND = 200
+START = ("gateway", "hand-over", "state-machine", "radar-model", "flight-model", "recorder", "input-monitor",
+         "radar-display")  # in this order
+NAMES = {"input": "source", "flown": "source", "keep-frames": "keep", "keep-recording": "keep"}  # of options of roles
 TOURS = (("", "", "radar.tour"), (f"{SHARE}/config/default_apg68.guf", "/apg68", "second_radar.tour"))
-
-
-def given(name, value):
-    """An option of a role, if there is a value. An option without one: True."""
-    return [name] * bool(value) + [str(value)] * (bool(value) and value is not True)
 
 
 def join_network(options):
@@ -24,7 +22,8 @@ def join_network(options):
             put(1, "The configuration has a form Network: joining other computers, as with --network")
     if options.network and not os.access(f"{options.bin}/gateway", os.X_OK):
         end(1, "--network, or the form Network of the configuration: expected the program gateway beside yars, found "
-               "none; this YARS was built without Cyclone DDS (docs/network.md); in a checkout, --network FILE builds it")
+               "none; this YARS was built without Cyclone DDS (docs/network.md); in a checkout, --network FILE builds "
+               "it")
 
 
 def choose_folders(options):
@@ -50,12 +49,14 @@ def inputs_of(options, tour_file):
     return options.input or ([f"script:{SHARE}/config/scripts/power_on.script"] if options.lockstep else keyboard)
 
 
-def frames_of(options, folder):
-    """The display's options of its pictures in files."""
-    earlier = len(glob.glob(f"{glob.escape(private_folder(folder))}/frame_*.png"))
-    put(1, f"Frames go to {quoted(folder)}/" + (f"; {earlier} pictures of earlier runs are there, this run writes over "
+def folder_for(options, frames):
+    """Of the display's pictures in files, if there are any."""
+    if not options.headless or options.no_frames or "radar-display" not in options.running:
+        return None
+    earlier = len(glob.glob(f"{glob.escape(private_folder(frames))}/frame_*.png"))
+    put(1, f"Frames go to {quoted(frames)}/" + (f"; {earlier} pictures of earlier runs are there, this run writes over "
                                                  "those of the same number" if earlier else ""))
-    return ["--frames", folder, "--every", options.every, *given("--keep", options.keep_frames)]
+    return frames
 
 
 def set_of(options, config, frames, tour_file):
@@ -63,49 +64,38 @@ def set_of(options, config, frames, tour_file):
     if tour_file and seconds is not None:  # as long as the tour: the time of its last line
         ends = [line.split()[0] for line in tour_file.read_text().splitlines() if line.split()[1:] == ["end"]]
         seconds = min(seconds, 1 + float(ends[0]))
-    running, roles, flies_out, records = options.running, [], options.fly_out, options.record
+    running, network, fly_out, record = options.running, options.network, options.fly_out, options.record
     # Roles of this computer step together; with a network those of all, so that all name the same.
-    steps = [name for name in OF_SET if name in running or options.network and name not in options.left_out]
-    plan = f"{','.join(steps + ['recorder'] * bool(records))}@{int((seconds or 0) * TICKS_A_SECOND)}"
-    lockstep = given("--lockstep", options.lockstep and plan)
-    session = ["--session", options.session, *given("--config", config)]
-    alone = [*session, *given("--log-level", options.log_level), *given("--realtime", options.realtime),
-             *given("--cpus", options.cpus)]
-    common, over, source = alone + lockstep, given("--terrain", options.terrain), given("--source", options.source)
-    standby = given("--standby", bool(options.network or flies_out))  # of another computer, or behind one
+    steps = [name for name in OF_SET if name in running or network and name not in options.left_out]
+    plan = f"{','.join(steps + ['recorder'] * bool(record))}@{int((seconds or 0) * TICKS_A_SECOND)}"
+    inputs, frames = inputs_of(options, tour_file) if "input-monitor" in running else [], folder_for(options, frames)
+    awaited = ",".join(name for name in ("state-machine", "radar-model", "flight-model") if name in running)
+    values = {name.replace("_", "-"): value for name, value in vars(options).items()} | {  # of options of the roles
+        "config": config, "lockstep": options.lockstep and plan, "standby": bool(network or fly_out), "input": inputs,
+        "headless": bool(options.headless), "frames": frames, "every": frames and options.every, "from": fly_out,
+        "keep-frames": frames and options.keep_frames, "sweeps": options.pictures, "patches": options.pictures,
+        "flown": options.source if "flight-model" in running else None, "until": options.at, "seek": options.at,
+        "hand-over": True, "await": [awaited]}
 
-    def add(name, *words):
-        roles.append(Role(name, [f"{options.bin}/{ROLES[name].program}", *words]))
+    def given(names):
+        for name in names.split():
+            value = values[name]
+            for one in value if isinstance(value, list) else [value] * bool(value):
+                yield from [f"--{NAMES.get(name, name)}"] + ([] if one is True else [one])
 
-    if options.network:
-        add("gateway", *alone, "--network", options.network, *over)
-    if flies_out:
-        awaited = ",".join(name for name in ("state-machine", "radar-model", "flight-model") if name in running)
-        add("hand-over", *session, "replay", flies_out, "--seek", options.at, "--hand-over", "--await", awaited, *over)
-    if "state-machine" in running:
-        add("state-machine", *common, *standby)
-    if "radar-model" in running:
-        add("radar-model", *common, *standby, *over, *given("--fidelity", options.fidelity))
-    if "flight-model" in running:
-        add("flight-model", *common, "--source", options.source or "")
-    if records:
-        add("recorder", *session, "record", records, *over, *(source if "flight-model" in running else []),
-            *given("--from", flies_out), *given("--until", options.at), *given("--sweeps", options.pictures),
-            *given("--patches", options.pictures), *given("--overwrite", options.overwrite),
-            *given("--keep", options.keep_recording), *lockstep)
-    inputs = inputs_of(options, tour_file) if "input-monitor" in running else []
-    if inputs:
-        add("input-monitor", *common, *(word for one in inputs for word in ("--source", one)))
-    if "radar-display" in running:
-        add("radar-display", *common, *given("--size", options.size), *given("--publish", options.publish),
-            *given("--headless", bool(options.headless)),
-            *(frames_of(options, frames) if options.headless and not options.no_frames else []))
+    def command(name, *verb):
+        kind, common = ROLES[name], () if verb else given("log-level realtime cpus")
+        return [f"{options.bin}/{kind.program}", *given("session config"), *common, *verb, *given(kind.options)]
+
+    verbs = {"hand-over": ("replay", fly_out), "recorder": ("record", record)}
+    wanted = {"gateway": network, "hand-over": fly_out, "recorder": record, "input-monitor": inputs}
+    roles = [Role(name, command(name, *verbs.get(name, ()))) for name in START if wanted.get(name, name in running)]
     if options.web:
         words = [name if value is True else f"{name}={value}" for name, value in options.of_station.items()]
         if not INSTALLED:  # programs of another folder (--bin) have neither pages nor a start beside them
             words += [f"--pages={HOME}/station/web/dist", f"--start-script={HOME}/scripts/start"]
-        add("station", *common, *words, "--terrain", options.terrain or "", "--source", options.source or "",
-            "--recordings", os.path.join(HERE, "recordings"))
+        roles.append(Role("station", [*command("station"), *words, "--terrain", options.terrain or "", "--source",
+                                      options.source or "", "--recordings", f"{HERE}/recordings"]))
     if not roles:
         refuse("--roles: expected --input SOURCE or a terminal for input-monitor alone, found none")
     # A window may be closed, a script comes to its end, Esc leaves the terminal's keys; nothing else ends by itself.
@@ -113,9 +103,9 @@ def set_of(options, config, frames, tour_file):
     may_end += ["input-monitor"] * any(one == "terminal" or one.startswith("script:") for one in inputs)
     # A script, and a tour, decides for itself when power comes on.
     switches_on = "state-machine" in running and not (options.lockstep or options.script or tour_file)
-    return Set(options.bin, options.session, roles, options.log_dir, lockstep=options.lockstep,
-               seconds=None if options.lockstep or options.endless else seconds, network=bool(options.network),
-               inject=("power opr", "elevation -3") if switches_on else (), recording=records, may_end=may_end,
+    return Set(options.bin, options.session, roles, options.log_dir, lockstep=options.lockstep, network=bool(network),
+               seconds=None if options.lockstep or options.endless else seconds, recording=record, may_end=may_end,
+               inject=("power opr", "elevation -3") if switches_on else (),
                ends_with=["input-monitor"] if tour_file and not options.lockstep else [])
 
 

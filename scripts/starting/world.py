@@ -1,17 +1,20 @@
 """Where the set flies: by the user's file of defaults, a recording, or the coast that is made once."""
-import hashlib
 import os
 import pathlib
 import shutil
 import subprocess
 
 from starting.build import one_at_a_time
-from starting.command import HOME, INSTALLED, SHARE, end, put, put_as_own, quoted, refuse, run, user_folder
+from starting.command import INSTALLED, SHARE, end, put, put_as_own, quoted, refuse, run, user_folder
 from starting.options import session
 
 SCENES = SHARE / "config/coast.scenes"
 GENERATOR_SOURCES = ("worldgen", "lib/random", "model/terrain/formats", "tools/terrain/generate_command.cpp",
                      "tools/scene/scene_command.cpp", "config/coast.scenes")
+SUM_OF_SOURCES = (r"""find "$@" \( -name '*.[ch]pp' -o -name '*.scenes' \) -print0 | LC_ALL=C sort -z | xargs -0 cat """
+                  "| sha256sum")
+# What the coast has to be: its generator, and every file with its sum. `complete` in it says the same.
+SUMS = "find . -type f ! -name complete -print0 | LC_ALL=C sort -z | xargs -0r sha256sum"
 
 
 def take(options, lines, names):
@@ -53,30 +56,17 @@ def use_recording(options):
         put(1, f"The aircraft flies on straight and level: {said['reason']}; --source SOURCE chooses another flight")
 
 
-def digest(paths):
-    """Of regular files, one behind the other in the order of their names."""
-    total = hashlib.sha256()
-    for path in sorted(paths, key=os.fsencode):
-        total.update(path.read_bytes())
-    return total.hexdigest()
+def shell(script, *words, folder=None):
+    return run("bash", "-o", "pipefail", "-c", script, "bash", *words, capture_output=True, cwd=folder)
 
 
 def generator_of(options):
     """What makes the coast, as a sum: the program, of a checkout its sources; and the list of scenes."""
     if INSTALLED:
-        return digest([pathlib.Path(options.bin, "yars"), SCENES])
-    tops = [HOME / source for source in GENERATOR_SOURCES]
-    if not all(top.exists() for top in tops):
-        end(1, f"expected the sources of the default terrain in {' '.join(GENERATOR_SOURCES)}")
-    return digest(path for top in tops for path in (top.rglob("*") if top.is_dir() else [top])
-                  if path.suffix in (".cpp", ".hpp", ".scenes"))
-
-
-def contents(folder, generator):
-    """What the coast has to be: its generator, and every file with its sum. `complete` in it says the same."""
-    files = [path for path in folder.rglob("*") if path.is_file() and path.name != "complete"]
-    lines = [f"{digest([path])}  ./{path.relative_to(folder)}\n" for path in sorted(files, key=os.fsencode)]
-    return f"{generator}  -\n" + "".join(lines)
+        return shell('cat "$@" | sha256sum', f"{options.bin}/yars", SCENES).stdout
+    done = shell(SUM_OF_SOURCES, *GENERATOR_SOURCES)
+    return done.stdout if done.returncode == 0 else end(
+        1, f"expected the sources of the default terrain in {' '.join(GENERATOR_SOURCES)}")
 
 
 def make_coast(folder, generator, yars, lock):
@@ -100,7 +90,7 @@ def make_coast(folder, generator, yars, lock):
             file, kind, triangles, origin = line.split()
             make("scene", "generate", "--kind", kind, "--triangles", triangles, "--origin", origin, "--out",
                  making / "scenes" / file, stderr=subprocess.STDOUT)
-        (making / "complete").write_text(contents(making, generator))
+        (making / "complete").write_text(generator + shell(SUMS, folder=making).stdout)
         shutil.rmtree(folder, ignore_errors=True)
         making.rename(folder)
     finally:
@@ -120,7 +110,7 @@ def use_coast(options):
     with one_at_a_time("terrain", f"{folder}.lock") as lock:
         complete = folder / "complete"
         said = complete.read_text(errors="replace") if complete.is_file() else ""
-        if not said.startswith(generator) or said != contents(folder, generator):
+        if not said.startswith(generator) or said != generator + shell(SUMS, folder=folder).stdout:
             make_coast(folder, generator, f"{options.bin}/yars", lock)
     options.terrain = str(folder)
     options.source = options.source or f"route:{SHARE}/config/routes/default.route"
