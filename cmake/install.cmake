@@ -52,12 +52,12 @@ set(folder_of_programs ${PROJECT_BINARY_DIR}/bin)
 if(CMAKE_CROSSCOMPILING)
   set(folder_of_programs -)
 endif()
-file(GLOB writers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/packaging/help/*.py)
+file(GLOB writers CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/packaging/help/*.py ${PROJECT_SOURCE_DIR}/scripts/starting/*.py)
 file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/packaging/man/*.[15])
 add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/install/help.stamp
   COMMAND Python3::Interpreter ${PROJECT_SOURCE_DIR}/packaging/help/write.py ${folder_of_programs} ${help}
   COMMAND ${CMAKE_COMMAND} -E touch ${PROJECT_BINARY_DIR}/install/help.stamp
-  DEPENDS ${programs} ${writers} ${pages} ${PROJECT_SOURCE_DIR}/scripts/starting/options.py COMMENT "Man pages and completions" VERBATIM)
+  DEPENDS ${programs} ${writers} ${pages} COMMENT "Man pages and completions" VERBATIM)
 # Until then, and in a cross build, the pages are without options.
 if(NOT EXISTS ${help})
   execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/packaging/help/write.py - ${help} COMMAND_ERROR_IS_FATAL ANY)
