@@ -33,11 +33,8 @@ LOG_BYTES = 1 << 20
 
 
 def how_it_ended(code):
-    if code >= 0:
-        return f"ended with code {code}"
-    with contextlib.suppress(ValueError):
-        return f"was killed by {signal.Signals(-code).name}"
-    return f"was killed by signal {-code}"
+    names = {-number: number.name for number in signal.Signals}
+    return f"ended with code {code}" if code >= 0 else f"was killed by {names.get(code, f'signal {-code}')}"
 
 
 def usable(folder):
@@ -194,7 +191,7 @@ class Supervisor:
         self.notes.append(("--restarted", role.name, f"{how} ({count} of {LIMIT} {within})"))
         self.hand_in_notes()
         if role.name == "recorder" and self.of.recording:
-            self.keep_recording(self.of.recording)
+            self.keep(self.of.recording)
         # A terminal's source that was killed leaves the terminal as it had set it.
         if role.name == "input-monitor":
             self.restore_terminal()
@@ -204,7 +201,7 @@ class Supervisor:
         while self.notes and session.run_yars(self.of, "note", *self.notes[0]) is not None:
             self.notes.pop(0)
 
-    def keep_recording(self, file):
+    def keep(self, file):
         """What the recorder wrote before it died plays; the next one would write over it."""
         number = 1
         while os.path.lexists(f"{file}.{number}"):
