@@ -12,7 +12,7 @@ interface Field { name: string; label: string; min?: number; max?: number; patte
 const FIELDS: Record<string, Field[]> = {
   rain: [{ name: "radius_nm", label: "Radius [NM]", min: 0.1, max: 100 }, { name: "rate_mmh", label: "Rain [mm/h]", min: 0.1, max: 300 },
     { name: "top_ft", label: "Top [ft]", min: 500, max: 60000 }],
-  jammers: [{ name: "power_w", label: "Power [W]", min: 0.001, max: 1e6 }],
+  jammers: [{ name: "power_w", label: "Power [W]", min: 0, max: 1e9 }],
   movers: [{ name: "speed_kt", label: "Speed [kt]", min: 0, max: 1000 }, { name: "heading_deg", label: "Heading [deg true]", min: 0, max: 360 }],
   points: [{ name: "name", label: "Name", pattern: "[1-9][0-9]{0,2}([.][0-9]{0,2})?", hint: "7 is a steer point, 7. a target, 7.1 an offset, 7.01 an offset of a target. The radar draws the five nearest and the selected one" },
     { name: "elevation_ft", label: "Elevation [ft]", min: -1500, max: 30000, optional: true, hint: "above mean sea level; empty: unknown" }],
