@@ -19,6 +19,7 @@
 
 #include "databuffer/runtime/program.hpp"
 #include "lib/imageio/png.hpp"
+#include "lib/radar/configuration.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/terrain/gdal/map_writer.hpp"
 #include "model/terrain/gdal/raster.hpp"
