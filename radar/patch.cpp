@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lib/radar/mapping.hpp"
+#include "lib/text/plain_text.hpp"
 #include "model/physics/environment.hpp"
 #include "radar/failure.hpp"
 #include "radar/limits.hpp"
@@ -57,9 +58,10 @@ void check_order(const hrm::PatchOrder& order, const radar::RadarConfiguration& 
     if (auto problem = radar::beyond_limits(order, configuration)) radar::fail(std::move(*problem));
   const double distance_nm = geo::geodesic_inverse(order.apex, order.centre).distance.nautical_miles();
   if (distance_nm < kMinDistanceFraction * order.window.nautical_miles())
-    radar::fail({"target_latitude_deg, target_longitude_deg",
-                 "a target at a distance of at least 0.75 of the window's side", std::to_string(distance_nm) + " NM",
-                 "", ErrorCode::argument});
+    radar::fail(
+        {"target_latitude_deg, target_longitude_deg",
+         "a target at a distance of at least " + text::text_of_number(kMinDistanceFraction) + " of the window's side",
+         std::to_string(distance_nm) + " NM", "", ErrorCode::argument});
 }
 
 // Checks that the aircraft is above the ground, and that the antenna can look down at the target.

@@ -138,6 +138,7 @@ const std::vector<std::string>& Scan::left_out() const {
 }
 
 ScanFacts Scan::facts() const {
+  if (work_->headers().empty()) work_->ready();
   const model::kernel::SweepHeader& header = work_->headers().front();
   ScanFacts facts;
   facts.latitude_deg = header.apex.latitude_deg;
@@ -227,6 +228,7 @@ void label_samples(ScanLabels& to, std::size_t first, std::span<const radar::Ray
 Expected<const ScanLabels*> Scan::labels(const Call& call) {
   return radar::guarded([&]() -> const ScanLabels* {
     if (work_->labels) return &*work_->labels;
+    if (work_->headers().empty()) work_->ready();
     const std::vector<radar::RaySample> samples = work_->ray_samples(call.goes_on);
     ScanLabels labels = empty_labels(samples.size());
     const auto headers = work_->headers();

@@ -71,10 +71,10 @@ class YARS_EXPORT Scan {
   std::span<const float> power() const;      // of all samples
   ScanSweep sweep(std::size_t index) const;  // requires index < sweeps()
   std::uint64_t hash() const;                // of the hashes of all sweeps, as `yars scan` prints it
-  ScanFacts facts() const;
+  ScanFacts facts() const;                   // also before run()
   // Files and parts of files that are missing from the terrain and the scenes of this scan: one sentence each.
   const std::vector<std::string>& left_out() const;
-  // Computed at the first call.
+  // Computed at the first call, also before run().
   Expected<const ScanLabels*> labels(const Call& call = {});
 
   struct Work;  // used by the library

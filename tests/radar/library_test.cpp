@@ -159,6 +159,25 @@ TEST(Library, ResultsStayAfterTheThreadsHaveEnded) {
   EXPECT_EQ(scan->hash(), hash);
 }
 
+TEST(Library, ResultsThatAreAskedForTooEarlyAreEmptyOrFromTheRequest) {
+  const Radar radar = radar_of("draft");
+  auto scan = Scan::prepare(radar, hills(), near_scan());
+  EXPECT_EQ(scan->sweeps(), 0U);
+  EXPECT_EQ(scan->samples(), 0U);
+  const ScanFacts facts = scan->facts();
+  EXPECT_EQ(facts.latitude_deg, near_scan().latitude_deg);
+  auto labelled = Scan::prepare(radar, hills(), near_scan());
+  const auto labels = labelled->labels();
+  ASSERT_TRUE(labels);
+  EXPECT_FALSE((*labels)->shadow.empty());
+  ASSERT_TRUE(scan->run());
+  EXPECT_EQ(scan->facts().range_m, facts.range_m);
+  const auto patch = Patch::prepare(radar, hills(), small_map());
+  EXPECT_EQ(patch->facts().looks, radar.patch(hills(), small_map())->facts().looks);
+  EXPECT_TRUE(patch->positions().latitude_deg.empty());
+  patch->hash();
+}
+
 TEST(Library, ElevationsAreCheckedAndMeasured) {
   const std::array<double, 2> latitude{37.5, 37.6}, longitude{-122.5, -122.5};
   std::array<double, 2> height{};
