@@ -25,7 +25,7 @@ KERNEL = PHYSICS + ["databuffer/messages", "model/antenna", "model/rbm", "model/
 WORLD = ["model/terrain/gdal", "model/terrain/store", "model/scene/index"]
 LIBRARY = KERNEL + WORLD + ["lib/values", "radar/recording", "radar"]
 # What the program of every role, and most tools, may include: records, files, log, configuration and the session.
-SHELL = RECORDS + ["lib/file", "lib/imageio", "lib/log", "config/schema", "databuffer/session", "databuffer/runtime"]
+SHELL = RECORDS + ["lib/file", "lib/imageio", "lib/log", "config/schema", "databuffer/session", "runtime"]
 
 # Folder -> folders whose headers the folder may include in addition to its own. Lower layers stand first: a row names
 # only rows above itself, so that no cycle of folders can be allowed. model, statemachine, inputmonitor and display
@@ -48,12 +48,13 @@ LAYERS = {
     "databuffer/client": [],
     "config/guf": BASE,
     "config/schema": RECORDS + ["lib/file", "lib/log", "config/guf"],
-    "databuffer/flight": RECORDS + ["lib/file"],
-    "databuffer/bridges": RECORDS + ["lib/memory", "databuffer/flight"],
     "databuffer/session": RECORDS + ["lib/file", "lib/log", "shm"],
-    "databuffer/runtime": RECORDS + ["lib/file", "lib/log", "databuffer/session"],
-    "databuffer/json": RECORDS + ["databuffer/session", "databuffer/runtime"],
-    "databuffer/app": SHELL + ["databuffer/flight", "databuffer/bridges"],
+    "databuffer/json": RECORDS + ["databuffer/session"],
+    "world": RECORDS,
+    "runtime": RECORDS + ["lib/file", "lib/log", "databuffer/session"],
+    "flightmodel": RECORDS + ["lib/file"],
+    "flightmodel/bridges": RECORDS + ["lib/memory", "flightmodel"],
+    "flightmodel/app": SHELL + ["flightmodel", "flightmodel/bridges"],
     "model/terrain/gdal": BASE + ["lib/file"],
     "model/terrain/formats": RADAR + ["lib/memory", "lib/file", "lib/imageio"],
     "model/terrain/sampling": RADAR + ["lib/simd", "lib/memory", "model/terrain/formats"],
@@ -67,13 +68,13 @@ LAYERS = {
     "model/rbm": PHYSICS,
     "model/hrm": PHYSICS,
     "model/kernel": KERNEL,
-    "model/app": SHELL + KERNEL + WORLD,
-    "radar/recording": KERNEL + WORLD,
+    "model/app": SHELL + KERNEL + WORLD + ["world"],
+    "radar/recording": KERNEL + WORLD + ["world"],
     "radar": KERNEL + WORLD + ["config/schema", "lib/values", "radar/recording"],
     "worldgen/scene": SCENE,
     "worldgen/terrain": TERRAIN + ["model/physics", "lib/parallel"],
     "statemachine": RECORDS + ["lib/random"],
-    "statemachine/app": SHELL + ["statemachine"],
+    "statemachine/app": SHELL + ["world", "statemachine"],
     "inputmonitor": RECORDS + ["lib/file", "config/schema"],
     "inputmonitor/app": SHELL + ["inputmonitor"],
     "display/symbology": RECORDS + ["lib/imageio"],
@@ -84,10 +85,10 @@ LAYERS = {
     "gateway": RECORDS,
     "gateway/checks": RADAR + ["lib/file"],
     "gateway/dds": RECORDS + ["lib/file", "gateway"],
-    "gateway/exchange": RECORDS + ["lib/log", "databuffer/session", "databuffer/runtime", "gateway", "gateway/dds"],
+    "gateway/exchange": RECORDS + ["lib/log", "databuffer/session", "runtime", "gateway", "gateway/dds"],
     "gateway/app": SHELL + ["gateway", "gateway/checks", "gateway/dds", "gateway/exchange"],
-    "station": TERRAIN + ["databuffer/messages", "model/terrain/picture"],
-    "station/app": SHELL + TERRAIN + ["model/terrain/picture", "databuffer/flight", "databuffer/json", "display/symbology", "station"] + SCENE + WORLD,
+    "station": TERRAIN + ["databuffer/messages", "world", "model/terrain/picture"],
+    "station/app": SHELL + TERRAIN + ["model/terrain/picture", "flightmodel", "databuffer/json", "world", "display/symbology", "station"] + SCENE + WORLD,
     "tools/command": SHELL + LIBRARY,
     "tools/trade": SHELL + LIBRARY + ["tools/command"],
     "tools/scan": SHELL + LIBRARY + ["tools/command"],
@@ -95,7 +96,7 @@ LAYERS = {
     "tools/terrain": SHELL + TERRAIN + WORLD + ["model/terrain/picture", "worldgen/terrain", "tools/command", "lib/parallel"],
     "tools/scene": SHELL + SCENE + WORLD + ["worldgen/scene", "tools/command", "lib/parallel"],
     "tools/dataset": SHELL + ["tools/command"],
-    "tools/session": SHELL + LIBRARY + ["databuffer/json", "statemachine", "tools/command"],
+    "tools/session": SHELL + LIBRARY + ["databuffer/json", "world", "statemachine", "tools/command"],
     "tools": SHELL + ["gateway/checks", "tools/command", "radar"],
     "python/core": SHELL + LIBRARY + ["tools/command", "tools/trade", "tools/scene", "tools/terrain"],
     "examples": ["databuffer/client"],
@@ -103,7 +104,7 @@ LAYERS = {
 }
 
 # Shells: folders that may use the segment, the log and clocks. They have the programs, and code that programs share.
-SHELLS = ["lib/log", "databuffer/session", "databuffer/runtime", "databuffer/app", "databuffer/client", "model/app", "statemachine/app",
+SHELLS = ["lib/log", "databuffer/session", "runtime", "flightmodel/app", "databuffer/client", "model/app", "statemachine/app",
           "inputmonitor/app", "display/host", "display/library", "display/app", "gateway/exchange", "gateway/app", "station/app", "databuffer/json", "tools", "python/core", "tests", "examples"]
 
 # Third-party and system headers: a header, or a folder of headers with "/" at the end -> who may include it: folders,
@@ -116,15 +117,15 @@ SYSTEM_HEADERS = {
     "zip.h": ["model/terrain/formats", "tests"],
     "zlib.h": ["model/terrain/formats", "radar/recording", "tests"],
     "zstd.h": ["radar/recording"],
-    "arpa/": ["databuffer/app", "gateway/checks", "gateway/dds", "tests"],
-    "netinet/": ["databuffer/app", "gateway/checks", "gateway/dds", "tests"],
+    "arpa/": ["flightmodel/app", "gateway/checks", "gateway/dds", "tests"],
+    "netinet/": ["flightmodel/app", "gateway/checks", "gateway/dds", "tests"],
     "openssl/": ["gateway/checks", "gateway/dds"],
-    "net/": ["databuffer/app", "gateway/checks"],
+    "net/": ["flightmodel/app", "gateway/checks"],
     "sys/mman.h": ["lib/memory", "shells", "shm"],
     "gdal.h": ["model/terrain/gdal", "tests"],
     "gdal_utils.h": ["tests"],
     "proj.h": ["model/terrain/gdal", "tests"],
-    "ext/": ["databuffer/runtime"],
+    "ext/": ["runtime"],
     "dds/": ["gateway/dds", "tests"],
     "cpl_vsi.h": ["model/terrain/gdal"],
     "cpl_conv.h": ["model/terrain/gdal", "tests"],
@@ -141,8 +142,8 @@ SYSTEM_HEADERS = {
     "embree3/": ["tests"],
     "GLFW/": ["display/gl", "inputmonitor/keyboard_source.cpp", "databuffer/messages/key_map.cpp"],
     "spdlog/": ["shells"],
-    "CLI/": ["databuffer/runtime"],
-    "nlohmann/": ["databuffer/json", "station", "tools", "tests"],
+    "CLI/": ["runtime"],
+    "nlohmann/": ["databuffer/json", "world", "station", "tools", "tests"],
     "pybind11/": ["python/core"],
     "gtest/": ["tests"],
     "gmock/": ["tests"],
@@ -164,7 +165,7 @@ CLOCK_FOLDERS = ["shm", "shells", "lib/parallel/thread_pool.cpp"]
 OPENING = re.compile(r"\bstd::[io]?fstream\b|\bfopen\b|(?<![\w>])::(open|openat|mmap)\b"
                      r"|\bstd::filesystem::(recursive_)?directory_iterator\b")
 READERS = [re.compile(pattern) for pattern in (
-    r"_(main|shell)\.[ch]pp$", r"^(config/schema/load|databuffer/runtime/processor_load|databuffer/session/session_state|inputmonitor/device_source|lib/imageio/png"
+    r"_(main|shell)\.[ch]pp$", r"^(config/schema/load|runtime/processor_load|databuffer/session/session_state|inputmonitor/device_source|lib/imageio/png"
     r"|model/terrain/formats/cell_reading|model/terrain/store/cell_files|shm/segment_file)\.cpp$",
     r"^(lib/file|radar/recording|tools|tests|examples)/",
 )]

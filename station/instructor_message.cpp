@@ -48,7 +48,7 @@ class Arguments {
     refuse(name, "a text of 1 to " + std::to_string(letters) + " bytes", found);
     return {};
   }
-  databuffer::WorldList list(const char* name) {
+  world::WorldList list(const char* name) {
     if (const auto list = world_list(object_, name)) return *list;
     refuse(name, kWorldLists, object_.find(name));
     return {};
@@ -98,7 +98,7 @@ constexpr std::array<std::pair<std::string_view, Make>, 16> kCommands{{
      }},
     {"restore",
      [](Arguments& of) -> InstructorCommand {
-       const databuffer::WorldList list = of.list("list");
+       const world::WorldList list = of.list("list");
        return RestoreEntry{list, static_cast<std::uint32_t>(of.whole_number("item", {1.0, 4294967295.0}))};
      }},
     {"reset world", [](Arguments&) -> InstructorCommand { return ResetWorld{}; }},

@@ -12,10 +12,10 @@
 #include <string>
 #include <variant>
 
-#include "databuffer/messages/world_edit.hpp"
 #include "lib/error/error.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "station/world_message.hpp"
+#include "world/world_edit.hpp"
 
 namespace yars::station {
 
@@ -59,7 +59,7 @@ struct EditWorld {
   WorldEdit edit;
 };
 struct RestoreEntry {  // that a page removed
-  databuffer::WorldList list;
+  world::WorldList list;
   std::uint32_t item;
 };
 struct ResetWorld {};  // to that of the configuration

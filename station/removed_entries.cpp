@@ -36,11 +36,11 @@ void RemovedEntries::note(const WorldState& before, const WorldState& after) {
                    databuffer::used(after.points, after.point_count), remember);
 }
 
-error::Expected<void> RemovedEntries::restore(WorldState& world, databuffer::WorldList list, std::uint32_t id) const {
+error::Expected<void> RemovedEntries::restore(WorldState& world, world::WorldList list, std::uint32_t id) const {
   for (const Entry& entry : entries_) {
     if (entry.index() != static_cast<std::size_t>(list)) continue;
     if (std::visit([](const auto& removed) { return removed.id; }, entry) != id) continue;
-    return std::visit([&world](const auto& removed) { return databuffer::restore(world, removed); }, entry);
+    return std::visit([&world](const auto& removed) { return world::restore(world, removed); }, entry);
   }
   return error::fail("restore", "an entry that a page has removed", "id " + std::to_string(id), "add a new one");
 }

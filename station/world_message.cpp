@@ -7,17 +7,17 @@
 #include <utility>
 
 #include "databuffer/messages/inspection.hpp"
-#include "databuffer/messages/world_edit.hpp"
 #include "lib/geo/quantity.hpp"
+#include "world/world_edit.hpp"
 
 namespace yars::station {
 
 namespace {
 
-using databuffer::WorldList;
 using databuffer::WorldState;
 using error::Expected;
 using nlohmann::json;
+using world::WorldList;
 
 constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
 
@@ -56,18 +56,19 @@ Expected<WorldEdit> add_edit(WorldList list, geo::GeoPoint position) {
   switch (list) {
     case WorldList::rain:
       return edit_by(
-          [=](WorldState& world, std::int64_t) { return add(world, databuffer::default_rain_cell(position)); });
+          [=](WorldState& world, std::int64_t) { return world::add(world, world::default_rain_cell(position)); });
     case WorldList::jammers:
-      return edit_by([=](WorldState& world, std::int64_t) { return add(world, databuffer::default_jammer(position)); });
+      return edit_by(
+          [=](WorldState& world, std::int64_t) { return world::add(world, world::default_jammer(position)); });
     case WorldList::movers:
       return edit_by([=](WorldState& world, std::int64_t sim_time_ns) {
-        return add(world, databuffer::default_mover(position, sim_time_ns));
+        return world::add(world, world::default_mover(position, sim_time_ns));
       });
     case WorldList::points:
       return edit_by([=](WorldState& world, std::int64_t) -> Expected<std::uint32_t> {
-        const auto point = databuffer::default_point(world, position);
+        const auto point = world::default_point(world, position);
         if (!point) return tl::unexpected(point.error());
-        return add(world, *point);
+        return world::add(world, *point);
       });
   }
   return refused("list", kWorldLists);
@@ -91,7 +92,7 @@ Expected<WorldEdit> change_edit(WorldList list, std::uint32_t id, const json& ob
         cell.radius_m = radius_nm * geo::kMetresPerNauticalMile;
         cell.rate_mmh = rate_mmh;
         cell.top_m = top_ft * geo::kMetresPerFoot;
-        return replace(world, cell);
+        return world::replace(world, cell);
       });
     }
     case WorldList::jammers: {
@@ -99,13 +100,13 @@ Expected<WorldEdit> change_edit(WorldList list, std::uint32_t id, const json& ob
       return edit_by([=](WorldState& world, std::int64_t) {
         auto jammer = changed(databuffer::used(std::as_const(world.jammers), world.jammer_count), id);
         jammer.power_w = power_w;
-        return replace(world, jammer);
+        return world::replace(world, jammer);
       });
     }
     case WorldList::movers: {
       const double speed_kt = number(object, "speed_kt"), heading_deg = number(object, "heading_deg");
       return edit_by([=](WorldState& world, std::int64_t sim_time_ns) {
-        return steer(world, id, speed_kt * kMetresPerSecondPerKnot, heading_deg, sim_time_ns);
+        return world::steer(world, id, speed_kt * kMetresPerSecondPerKnot, heading_deg, sim_time_ns);
       });
     }
     case WorldList::points: {
@@ -116,9 +117,9 @@ Expected<WorldEdit> change_edit(WorldList list, std::uint32_t id, const json& ob
       if (!is_unknown && !std::isfinite(elevation_ft)) return refused("elevation_ft", "a number, or null: unknown");
       return edit_by([=](WorldState& world, std::int64_t) -> Expected<void> {
         auto point = changed(databuffer::used(std::as_const(world.points), world.point_count), id);
-        if (auto named = databuffer::set_name(point, name); !named) return named;
+        if (auto named = world::set_name(point, name); !named) return named;
         point.elevation_m = elevation_ft * geo::kMetresPerFoot;
-        return replace(world, point);
+        return world::replace(world, point);
       });
     }
   }
@@ -136,9 +137,9 @@ Expected<WorldEdit> entry_edit(std::string_view command, const json& object) {
   if (command == "change") return change_edit(*list, id, object);
   if (command == "move")
     return edit_by([=, list = *list](WorldState& world, std::int64_t sim_time_ns) {
-      return move(world, list, id, position, sim_time_ns);
+      return world::move(world, list, id, position, sim_time_ns);
     });
-  return edit_by([=, list = *list](WorldState& world, std::int64_t) { return remove(world, list, id); });
+  return edit_by([=, list = *list](WorldState& world, std::int64_t) { return world::remove(world, list, id); });
 }
 
 }  // namespace
@@ -164,17 +165,17 @@ std::optional<Expected<WorldEdit>> world_edit(std::string_view command, const js
     const bool by_wind = state != object.end() && state->is_null();
     const double value = number(object, "state");
     if (!by_wind && !std::isfinite(value)) return refused("state", "a number, or null: from the wind");
-    return edit_by([=](WorldState& world, std::int64_t) { return set_sea_state(world, value); });
+    return edit_by([=](WorldState& world, std::int64_t) { return world::set_sea_state(world, value); });
   }
   if (command == "wind") {
     const double speed_mps = number(object, "speed_kt") * kMetresPerSecondPerKnot, from_deg = number(object, "from");
-    return edit_by([=](WorldState& world, std::int64_t) { return set_wind(world, speed_mps, from_deg); });
+    return edit_by([=](WorldState& world, std::int64_t) { return world::set_wind(world, speed_mps, from_deg); });
   }
   if (command == "fidelity") {
     const auto given = object.find("preset");
     if (given == object.end() || !given->is_string()) return refused("preset", "a text; empty: the configured one");
     const std::string preset = text(object, "preset");
-    return edit_by([=](WorldState& world, std::int64_t) { return set_fidelity(world, preset); });
+    return edit_by([=](WorldState& world, std::int64_t) { return world::set_fidelity(world, preset); });
   }
   return std::nullopt;
 }

@@ -4,7 +4,7 @@
 // Errors: an argument that is absent or no number of the right kind, when the command is read; a value out of range or
 //   an unknown id, when the change is made. Each says what was expected.
 // Threads: any; functions without state.
-// Source: docs/station.md#commands; limits: databuffer/messages/world_edit.hpp.
+// Source: docs/station.md#commands; limits: world/world_edit.hpp.
 #pragma once
 
 #include <cstdint>
@@ -13,9 +13,9 @@
 #include <optional>
 #include <string_view>
 
-#include "databuffer/messages/world_edit.hpp"
 #include "databuffer/messages/world_state.hpp"
 #include "lib/error/error.hpp"
+#include "world/world_edit.hpp"
 
 namespace yars::station {
 
@@ -27,7 +27,7 @@ using WorldEdit =
 std::optional<error::Expected<WorldEdit>> world_edit(std::string_view command, const nlohmann::json& object);
 
 // List that an object names; nullopt: none of kWorldLists.
-std::optional<databuffer::WorldList> world_list(const nlohmann::json& object, const char* name);
+std::optional<world::WorldList> world_list(const nlohmann::json& object, const char* name);
 inline constexpr const char* kWorldLists = "rain, jammers, movers or points";
 
 // Names of the commands, for messages.

@@ -11,8 +11,8 @@
 
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
-#include "databuffer/runtime/program.hpp"
-#include "databuffer/runtime/user_defaults.hpp"
+#include "runtime/program.hpp"
+#include "runtime/user_defaults.hpp"
 #ifdef YARS_HAS_GATEWAY
 #include "gateway/checks/computer_check.hpp"
 #include "gateway/checks/identity_check.hpp"
@@ -121,11 +121,11 @@ void convert(const ConfigOptions& options, const CommonOptions& common) {
 // Prints the user's defaults in the form of their file, which scripts/start reads. A fault of the file has ended the
 // program before (CommandLine::parse).
 void print_user_defaults(const ConfigOptions& options) {
-  const auto defaults = databuffer::read_user_defaults();
+  const auto defaults = runtime::read_user_defaults();
   if (!defaults) throw_failure(defaults.error());
   nlohmann::ordered_json values = nlohmann::ordered_json::object();
   for (const auto& [name, value] : defaults->values) values[name] = value.value;
-  const std::string path = databuffer::user_defaults_path();
+  const std::string path = runtime::user_defaults_path();
   if (options.json) return print_json({{"file", path}, {"exists", !defaults->file.empty()}, {"values", values}});
   std::printf("# %s\n",
               path.empty() ? "no file" : (path + (defaults->file.empty() ? " (does not exist)" : "")).c_str());
@@ -134,15 +134,14 @@ void print_user_defaults(const ConfigOptions& options) {
 
 }  // namespace
 
-void add_config_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command command =
-      app.subcommand("config", "check, print and convert configurations; print user defaults");
+void add_config_command(runtime::Command app, const CommonOptions& common) {
+  runtime::Command command = app.subcommand("config", "check, print and convert configurations; print user defaults");
   command.require_subcommand();
   const auto options = std::make_shared<ConfigOptions>();
   // Resolves names of installed files in the same way as --config does.
   const auto installed = [](const std::string& name) { return file::installed_file(name); };
 
-  databuffer::Command check_command = command.subcommand(
+  runtime::Command check_command = command.subcommand(
       "check", "check whether a file is valid, with its form Network and identity, and print its warnings");
   check_command.option("FILE", options->file, "GUF file")
       .value_name("FILE")
@@ -151,18 +150,18 @@ void add_config_command(databuffer::Command app, const CommonOptions& common) {
   add_json_flag(check_command, options->json);
   check_command.callback([options, &common] { check(*options, common); });
 
-  databuffer::Command print_command =
+  runtime::Command print_command =
       command.subcommand("print", "print the configuration that results from a file, as GUF");
-  databuffer::Option file = print_command.option("FILE", options->file, "GUF file");
+  runtime::Option file = print_command.option("FILE", options->file, "GUF file");
   file.value_name("FILE").otherwise("the file of --config, else the defaults").transform(installed);
-  databuffer::Option defaults =
+  runtime::Option defaults =
       print_command.flag("--defaults", options->defaults, "explain every slot: position, kind, range, default");
-  databuffer::Option markdown =
+  runtime::Option markdown =
       print_command.option("--markdown", options->markdown, "group of forms: prints their slots as tables");
   markdown.one_of(config::form_groups()).excludes(file).excludes(defaults).otherwise("a configuration");
   print_command.callback([options, &common] { print(*options, common); });
 
-  databuffer::Command convert_command =
+  runtime::Command convert_command =
       command.subcommand("convert", "convert a file of 1996 (message syntax, old spellings) to present GUF");
   convert_command.option("FILE", options->file, "file of 1996")
       .value_name("FILE")
@@ -171,7 +170,7 @@ void add_config_command(databuffer::Command app, const CommonOptions& common) {
   convert_command.option("--out", options->out, "GUF file to write").value_name("FILE").otherwise("standard output");
   convert_command.callback([options, &common] { convert(*options, common); });
 
-  databuffer::Command user_command =
+  runtime::Command user_command =
       command.subcommand("user", "print the path of the user's file of defaults, and its values");
   add_json_flag(user_command, options->json);
   user_command.callback([options] { print_user_defaults(*options); });

@@ -1,16 +1,16 @@
 // Main program of the `yars` command. The callback of the selected subcommand runs during app.parse().
 // Exit codes: docs/commands.md#exit-codes.
 
-#include "databuffer/runtime/process.hpp"
-#include "databuffer/runtime/program.hpp"
 #include "radar/failure.hpp"
+#include "runtime/process.hpp"
+#include "runtime/program.hpp"
 #include "tools/command/command.hpp"
 
 namespace {
 
 using namespace yars;
 
-void add_commands(databuffer::Command app, const tools::CommonOptions& common) {
+void add_commands(runtime::Command app, const tools::CommonOptions& common) {
   tools::add_scan_command(app, common);
   tools::add_patch_command(app, common);
   tools::add_trade_command(app, common);
@@ -30,22 +30,22 @@ void add_commands(databuffer::Command app, const tools::CommonOptions& common) {
 }
 
 int end_with(const tools::CommandFailed& failed) {
-  if (!failed.message.empty()) databuffer::print_failure("yars", failed.message);
+  if (!failed.message.empty()) runtime::print_failure("yars", failed.message);
   return failed.code;
 }
 
 int run(int argc, char** argv) {
-  databuffer::CommandLine app("YARS: an open air-to-ground radar simulation", "yars");
+  runtime::CommandLine app("YARS: an open air-to-ground radar simulation", "yars");
   app.require_subcommand();
   app.accept_options_after_subcommands();
-  databuffer::ProgramOptions options;
-  databuffer::add_common_options(app, options, databuffer::ProgramKind::command);
+  runtime::ProgramOptions options;
+  runtime::add_common_options(app, options, runtime::ProgramKind::command);
   tools::CommonOptions common;
   app.before_callbacks([&] {
-    if (auto error = databuffer::begin_program("yars", options)) tools::throw_failure(*error);
+    if (auto error = runtime::begin_program("yars", options)) tools::throw_failure(*error);
     // These subcommands do not poll the stop flag that the signal handler sets. The default signal action ends them.
     for (const auto* command : {"scan", "patch", "trade", "terrain", "scene", "dataset", "config", "recordings"})
-      if (app.has_subcommand(command)) databuffer::restore_default_signal_actions();
+      if (app.has_subcommand(command)) runtime::restore_default_signal_actions();
     common.session = options.session;
     common.config = options.config;
   });
@@ -58,14 +58,14 @@ int run(int argc, char** argv) {
   } catch (const tools::CommandFailed& failed) {
     return end_with(failed);
   } catch (const std::exception& problem) {
-    databuffer::print_failure("yars", databuffer::message_of(problem));
-    return databuffer::kExitFailure;
+    runtime::print_failure("yars", runtime::message_of(problem));
+    return runtime::kExitFailure;
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::sanitize_terminal_output();
-  return databuffer::exit_code_after_output("yars", run(argc, argv));
+  runtime::sanitize_terminal_output();
+  return runtime::exit_code_after_output("yars", run(argc, argv));
 }

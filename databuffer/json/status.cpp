@@ -6,9 +6,8 @@
 
 #include "databuffer/messages/derived_values.hpp"
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/runtime/receivers.hpp"
-#include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "databuffer/messages/derived_values.hpp"
-#include "databuffer/runtime/receivers.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"

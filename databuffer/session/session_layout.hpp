@@ -78,7 +78,15 @@ struct ProcessEntry {
 };
 
 // Plan and progress of a lockstep run. Each role waits until the preceding role of the run has done the tick. The order
-// of the roles is that of kLockstepRoleNames.
+// of the roles is that of LockstepRole and kLockstepRoleNames.
+enum class LockstepRole : std::uint8_t {
+  flight_model,
+  input_monitor,
+  state_machine,
+  radar_model,
+  radar_display,
+  recorder
+};
 inline constexpr std::size_t kLockstepRoles = 6;
 inline constexpr std::array<std::string_view, kLockstepRoles> kLockstepRoleNames{
     "flight-model", "input-monitor", "state-machine", "radar-model", "radar-display", "recorder"};

@@ -9,9 +9,6 @@
 #include <utility>
 
 #include "config/schema/load.hpp"
-#include "databuffer/runtime/process.hpp"
-#include "databuffer/runtime/program.hpp"
-#include "databuffer/runtime/tick_loop.hpp"
 #include "display/app/frame_output_shell.hpp"
 #include "display/app/window_display_shell.hpp"
 #include "display/gl/context.hpp"
@@ -19,6 +16,9 @@
 #include "display/host/session_link_shell.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/modes.hpp"
+#include "runtime/process.hpp"
+#include "runtime/program.hpp"
+#include "runtime/tick_loop.hpp"
 
 namespace {
 
@@ -157,14 +157,14 @@ void timed(databuffer::Session& session, std::int64_t max_ns, const Function& st
 }
 
 error::Expected<void> run_headless_live(databuffer::Session& session, HeadlessDisplay& headless) {
-  while (!databuffer::stop_requested()) {
+  while (!runtime::stop_requested()) {
     timed(session, headless.max_step_ns(), [&] { headless.step(session.sim_time_ns()); });
     std::this_thread::sleep_for(kHeadlessInterval);
   }
   return headless.end(session.sim_time_ns());
 }
 
-error::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, HeadlessDisplay& headless) {
+error::Expected<void> run_headless_lockstep(runtime::TickLoop& loop, HeadlessDisplay& headless) {
   std::int64_t last_ns = 0;
   while (const auto due = loop.wait()) {
     last_ns = due->sim_time_ns;
@@ -176,7 +176,7 @@ error::Expected<void> run_headless_lockstep(databuffer::TickLoop& loop, Headless
 }
 
 error::Expected<void> run_headless(databuffer::Session& session, const radar::RadarConfiguration& configuration,
-                                   const databuffer::ProgramOptions& options, const DisplayOptions& display_options,
+                                   const runtime::ProgramOptions& options, const DisplayOptions& display_options,
                                    int size, std::optional<display::FramePublisher> publisher) {
   std::optional<display::FrameWriter> frames;
   if (!display_options.frames.empty()) {
@@ -192,7 +192,7 @@ error::Expected<void> run_headless(databuffer::Session& session, const radar::Ra
   Display mpd(session, configuration, !options.lockstep.empty());
   HeadlessDisplay headless(session, mpd, size, display_options, std::move(frames), std::move(publisher));
   if (options.lockstep.empty()) return run_headless_live(session, headless);
-  auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::radar_display, options.lockstep);
+  auto loop = runtime::TickLoop::create(session, databuffer::LockstepRole::radar_display, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   return run_headless_lockstep(*loop, headless);
 }
@@ -205,7 +205,7 @@ struct WindowSize {
 };
 
 error::Expected<void> run_window(databuffer::Session& session, const radar::RadarConfiguration& configuration,
-                                 const databuffer::ProgramOptions& options, const WindowSize& size,
+                                 const runtime::ProgramOptions& options, const WindowSize& size,
                                  std::optional<display::FramePublisher> publisher) {
   std::optional<int> edge;
   if (size.picture) edge = display::panel_edge(*size.picture, size.bezel);
@@ -220,14 +220,14 @@ error::Expected<void> run_window(databuffer::Session& session, const radar::Rada
   Display mpd(session, configuration, !options.lockstep.empty());
   display::WindowDisplay shown(**window, mpd, *pilot, std::move(publisher), size.bezel);
   if (options.lockstep.empty()) {
-    while (!databuffer::stop_requested()) {
+    while (!runtime::stop_requested()) {
       shown.take_input(display::kRedrawInterval_ns);
       timed(session, kMaxStep_ns, [&] { shown.step(session.sim_time_ns()); });
     }
     pilot->release_all();
     return {};
   }
-  auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::radar_display, options.lockstep);
+  auto loop = runtime::TickLoop::create(session, databuffer::LockstepRole::radar_display, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   while (const auto due = loop->wait()) {
     shown.take_input(0);
@@ -237,7 +237,7 @@ error::Expected<void> run_window(databuffer::Session& session, const radar::Rada
   return loop->outcome();
 }
 
-error::Expected<void> run(const databuffer::ProgramOptions& options, const DisplayOptions& display_options) {
+error::Expected<void> run(const runtime::ProgramOptions& options, const DisplayOptions& display_options) {
   if (display_options.headless && display_options.frames.empty() && !display_options.publish)
     return tl::unexpected(error::usage_error("--headless", "--frames DIR or --publish with it", "neither"));
   auto configuration = config::load_program_configuration(options.config);
@@ -260,11 +260,11 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Displ
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::CommandLine app("YARS radar display", "radar-display");
-  databuffer::ProgramOptions options;
-  databuffer::add_common_options(app, options, databuffer::ProgramKind::role);
+  runtime::CommandLine app("YARS radar display", "radar-display");
+  runtime::ProgramOptions options;
+  runtime::add_common_options(app, options, runtime::ProgramKind::role);
   DisplayOptions display_options;
-  const databuffer::Option headless =
+  const runtime::Option headless =
       app.flag("--headless", display_options.headless, "no window; pictures go to a folder or the session");
   app.option("--frames", display_options.frames, "folder for frame_NNNNNN.png")
       .value_name("DIR")
@@ -289,5 +289,5 @@ int main(int argc, char** argv) {
       .range(120, kMaxPicture)
       .otherwise("the configuration's; a window opens at two thirds of the screen's height")
       .in_user_file();
-  return databuffer::run_program(argc, argv, app, options, [&] { return run(options, display_options); });
+  return runtime::run_program(argc, argv, app, options, [&] { return run(options, display_options); });
 }

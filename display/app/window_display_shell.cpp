@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "databuffer/runtime/process.hpp"
 #include "display/symbology/symbology.hpp"
+#include "runtime/process.hpp"
 
 namespace yars::display {
 
@@ -42,7 +42,7 @@ void WindowDisplay::take_input(std::int64_t max_wait_ns) {
     pilot_.release_all();
   }
   stale_ = stale_ || input.redraw_needed;
-  if (window_.should_close()) databuffer::request_stop();
+  if (window_.should_close()) runtime::request_stop();
 }
 
 void WindowDisplay::take_key(const gl::KeyEdge& edge) {

@@ -6,11 +6,11 @@
 
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "display/symbology/readouts.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
+#include "runtime/tick_loop.hpp"
 
 namespace yars::display {
 
@@ -54,8 +54,8 @@ void SessionFeed::take_health() {
   if (now_ns < next_health_ns_) return;
   next_health_ns_ = now_ns + kHealthInterval_ns;
   const auto processes = session_->processes();
-  input_.state_machine_alive = databuffer::is_alive(processes, databuffer::Role::state_machine, now_ns);
-  input_.model_alive = databuffer::is_alive(processes, databuffer::Role::radar_model, now_ns);
+  input_.state_machine_alive = runtime::is_alive(processes, databuffer::Role::state_machine, now_ns);
+  input_.model_alive = runtime::is_alive(processes, databuffer::Role::radar_model, now_ns);
   tour_runs_ = session_->role_is_held(databuffer::Role::tour);
 }
 
@@ -131,7 +131,7 @@ void SessionFeed::take_sweeps() {
 }
 
 error::Expected<PilotInput> PilotInput::create(databuffer::Session& session, std::string_view source) {
-  auto lane = databuffer::InputLane::claim(session, source);
+  auto lane = runtime::InputLane::claim(session, source);
   if (!lane) return tl::unexpected(lane.error());
   return PilotInput(std::move(*lane));
 }

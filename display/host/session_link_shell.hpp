@@ -14,12 +14,12 @@
 #include <vector>
 
 #include "databuffer/messages/key_map.hpp"
-#include "databuffer/runtime/pilot_link.hpp"
-#include "databuffer/runtime/receivers.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "display/gl/context.hpp"
 #include "display/symbology/plan_view.hpp"
+#include "runtime/pilot_link.hpp"
 
 namespace yars::display {
 
@@ -84,9 +84,9 @@ class PilotInput {
   void release_all();  // releases all held keys; called when the window loses focus or closes
 
  private:
-  explicit PilotInput(databuffer::InputLane lane) : lane_(std::move(lane)) {}
+  explicit PilotInput(runtime::InputLane lane) : lane_(std::move(lane)) {}
 
-  databuffer::InputLane lane_;
+  runtime::InputLane lane_;
   databuffer::KeyboardState keyboard_;
 };
 

@@ -9,12 +9,12 @@
 
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
-#include "databuffer/runtime/process.hpp"
-#include "databuffer/runtime/program.hpp"
 #include "gateway/app/gateway_shell.hpp"
 #include "gateway/checks/computer_check.hpp"
 #include "gateway/checks/identity_check.hpp"
 #include "lib/log/log.hpp"
+#include "runtime/process.hpp"
+#include "runtime/program.hpp"
 
 namespace {
 
@@ -84,7 +84,7 @@ struct Joining {
 };
 
 // Joins the session, until the program is to end. Output: true: join again, because a handshake was lost.
-error::Expected<bool> join(const databuffer::ProgramOptions& options, Joining& joining) {
+error::Expected<bool> join(const runtime::ProgramOptions& options, Joining& joining) {
   auto session = databuffer::Session::open(options.session, "gateway");
   if (!session) return tl::unexpected(session.error());
   const auto role = session->claim(databuffer::Role::gateway);
@@ -98,7 +98,7 @@ error::Expected<bool> join(const databuffer::ProgramOptions& options, Joining& j
             std::to_string(joining.settings.domain) + (joining.settings.security.empty() ? "" : ", encrypted"));
   gateway::GatewayShell shell(*session, options.session, std::move(*link), joining.settings, std::move(identity));
   shell.set_asked(joining.peers);
-  while (!databuffer::stop_requested()) {
+  while (!runtime::stop_requested()) {
     shell.step();
     if (shell.lost_handshake().empty() || !joining.rejoins.take(databuffer::monotonic_ns())) continue;
     log::warning("the handshake with the gateway of " + shell.lost_handshake() +
@@ -106,12 +106,12 @@ error::Expected<bool> join(const databuffer::ProgramOptions& options, Joining& j
     shell.finish();
     return true;
   }
-  databuffer::end_in_order();
+  runtime::end_in_order();
   shell.finish();
   return false;
 }
 
-error::Expected<void> run(const databuffer::ProgramOptions& options, const GatewayOptions& gateway_options) {
+error::Expected<void> run(const runtime::ProgramOptions& options, const GatewayOptions& gateway_options) {
   auto loaded = config::load_network(gateway_options.network, options.config);
   if (!loaded) return tl::unexpected(loaded.error());
   radar::NetworkSettings& settings = loaded->network;
@@ -138,10 +138,9 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Gatew
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::CommandLine app("YARS gateway: joins the session of this computer to those of other computers",
-                              "gateway");
-  databuffer::ProgramOptions options;
-  databuffer::add_common_options(app, options, databuffer::ProgramKind::service);
+  runtime::CommandLine app("YARS gateway: joins the session of this computer to those of other computers", "gateway");
+  runtime::ProgramOptions options;
+  runtime::add_common_options(app, options, runtime::ProgramKind::service);
   GatewayOptions gateway_options;
   app.option("--network", gateway_options.network, "GUF file with the form Network: peers, interfaces, domain")
       .value_name("FILE")
@@ -149,5 +148,5 @@ int main(int argc, char** argv) {
   app.option("--terrain", gateway_options.terrain, "folder of elevation cells, compared with that of other computers")
       .value_name("DIR")
       .otherwise("the configuration's");
-  return databuffer::run_program(argc, argv, app, options, [&] { return run(options, gateway_options); });
+  return runtime::run_program(argc, argv, app, options, [&] { return run(options, gateway_options); });
 }

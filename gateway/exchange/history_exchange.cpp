@@ -7,8 +7,8 @@
 
 #include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/validated.hpp"
+#include "runtime/tick_loop.hpp"
 
 namespace yars::gateway {
 
@@ -100,7 +100,7 @@ void HistoryExchange::receive(Context& context) {
 bool HistoryExchange::is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch, std::int64_t tick) {
   if (context.roles.source(Role::radar_model) != host) return false;
   if (static_cast<std::int32_t>(epoch - context.session.clock().epoch) < 0) return false;
-  const bool goes_back = last_tick_.epoch == epoch && tick < last_tick_.tick - databuffer::kMaxTicksBehind;
+  const bool goes_back = last_tick_.epoch == epoch && tick < last_tick_.tick - runtime::kMaxTicksBehind;
   return host == last_host_ || !goes_back;
 }
 

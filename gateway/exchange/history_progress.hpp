@@ -8,10 +8,10 @@
 #include <optional>
 #include <utility>
 
-#include "databuffer/runtime/tick_loop.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/progress.hpp"
 #include "lib/radar/modes.hpp"
+#include "runtime/tick_loop.hpp"
 
 namespace yars::gateway {
 
@@ -73,7 +73,7 @@ class TickOrder {
   // before, the last one is taken for the error. Else one forged tick of the far future would stop the history.
   bool follows(std::uint64_t host, std::uint32_t epoch, std::int64_t tick) {
     const bool is_known = host == host_ && epoch == epoch_;
-    const bool goes_back = is_known && tick < tick_ - databuffer::kMaxTicksBehind;
+    const bool goes_back = is_known && tick < tick_ - runtime::kMaxTicksBehind;
     if (goes_back) {
       run_ = run_ > 0 && tick > run_tick_ ? run_ + 1 : 1;
       run_tick_ = tick;

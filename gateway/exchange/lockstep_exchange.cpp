@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
+#include "runtime/tick_loop.hpp"
 
 namespace yars::gateway {
 
@@ -149,7 +149,7 @@ void LockstepExchange::complete_ticks(Context& context) {
       if (!others_are_done(lockstep, role, sample.done_tick)) return false;
       known_[role] = sample.done_tick;
       if (performers_[role].host != sample.host) performers_[role] = {.host = sample.host};
-      databuffer::complete_tick(lockstep, role, sample.done_tick);
+      runtime::complete_tick(lockstep, role, sample.done_tick);
       return true;
     });
 }

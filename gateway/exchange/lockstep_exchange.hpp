@@ -4,7 +4,7 @@
 //   published in the tick. Network::lost_role: a role whose host has been gone for 10 s before the end of the run.
 // Errors: a done tick that goes back, or is out of range, is refused. A host whose run has another end is named once.
 // Threads: one. Wakes the roles that wait on the futexes of the segment.
-// Source: docs/architecture.md#time; TickLoop (databuffer/runtime/tick_loop.hpp).
+// Source: docs/architecture.md#time; TickLoop (runtime/tick_loop.hpp).
 #pragma once
 
 #include <array>

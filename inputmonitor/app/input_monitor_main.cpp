@@ -2,11 +2,11 @@
 
 #include "config/schema/devices.hpp"
 #include "config/schema/load.hpp"
-#include "databuffer/runtime/program.hpp"
 #include "inputmonitor/app/input_monitor_shell.hpp"
 #include "inputmonitor/app/learning_shell.hpp"
 #include "inputmonitor/source_choice.hpp"
 #include "lib/log/log.hpp"
+#include "runtime/program.hpp"
 
 namespace {
 
@@ -15,7 +15,7 @@ using error::Expected;
 
 // Device maps, which assign events to the controls of devices: the built-in maps, then those of the configuration. The
 // last map that fits a device applies.
-Expected<inputmonitor::DeviceMaps> device_maps(const databuffer::ProgramOptions& options) {
+Expected<inputmonitor::DeviceMaps> device_maps(const runtime::ProgramOptions& options) {
   auto built_in = config::load_configuration_text(config::shipped_devices_text(), "config/devices.guf");
   if (!built_in) return tl::unexpected(built_in.error());
   const auto configured = config::load_program_configuration(options.config);
@@ -25,7 +25,7 @@ Expected<inputmonitor::DeviceMaps> device_maps(const databuffer::ProgramOptions&
   return std::make_shared<const std::vector<radar::Device>>(std::move(maps));
 }
 
-Expected<std::unique_ptr<inputmonitor::EventSource>> open_sources(const databuffer::ProgramOptions& options,
+Expected<std::unique_ptr<inputmonitor::EventSource>> open_sources(const runtime::ProgramOptions& options,
                                                                   const std::vector<std::string>& texts) {
   std::vector<inputmonitor::SourceChoice> choices;
   for (const std::string& text : texts) {
@@ -41,7 +41,7 @@ Expected<std::unique_ptr<inputmonitor::EventSource>> open_sources(const databuff
   return inputmonitor::open_sources(choices, context);
 }
 
-Expected<void> run(const databuffer::ProgramOptions& options, const std::vector<std::string>& source_texts) {
+Expected<void> run(const runtime::ProgramOptions& options, const std::vector<std::string>& source_texts) {
   auto source = open_sources(options, source_texts);
   if (!source) return tl::unexpected(source.error());
   auto session = databuffer::Session::open(options.session, "input-monitor");
@@ -54,7 +54,7 @@ Expected<void> run(const databuffer::ProgramOptions& options, const std::vector<
     if (!claim) return tl::unexpected(error::usage_error(claim.error()));
     tour = std::move(*claim);
   }
-  auto loop = databuffer::TickLoop::create(*session, databuffer::LockstepRole::input_monitor, options.lockstep);
+  auto loop = runtime::TickLoop::create(*session, databuffer::LockstepRole::input_monitor, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   log::info("reads " + (*source)->description());
   inputmonitor::InputMonitorShell shell(*session, std::move(*source), lane->lane());
@@ -65,18 +65,18 @@ Expected<void> run(const databuffer::ProgramOptions& options, const std::vector<
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::CommandLine app("YARS input monitor: keys, scripts and cockpit hardware become events", "input-monitor");
-  databuffer::ProgramOptions options;
+  runtime::CommandLine app("YARS input monitor: keys, scripts and cockpit hardware become events", "input-monitor");
+  runtime::ProgramOptions options;
   std::vector<std::string> sources{"auto"};
   std::string learn_path;
   std::string map_file;
-  databuffer::add_common_options(app, options, databuffer::ProgramKind::role);
+  runtime::add_common_options(app, options, runtime::ProgramKind::role);
   app.option("--source", sources,
              "window, terminal, script:FILE, tour:FILE[,pilot], evdev:PATH[,MAP] or auto; repeatable")
       .value_name("SOURCE")
       .repeatable()
       .otherwise("auto");
-  databuffer::Option learn =
+  runtime::Option learn =
       app.option("--learn", learn_path,
                  "path of a device: asks for one control after the other and makes a device map; needs no session");
   learn.value_name("FILE").otherwise("events are sent");
@@ -84,7 +84,7 @@ int main(int argc, char** argv) {
       .value_name("FILE")
       .needs(learn)
       .otherwise("standard output");
-  return databuffer::run_program(argc, argv, app, options, [&] {
+  return runtime::run_program(argc, argv, app, options, [&] {
     return learn_path.empty() ? run(options, sources)
                               : inputmonitor::learn_device(learn_path, map_file, options.session);
   });

@@ -6,9 +6,9 @@
 
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/runtime/process.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
+#include "runtime/process.hpp"
 
 namespace yars::inputmonitor {
 
@@ -27,7 +27,7 @@ InputMonitorShell::InputMonitorShell(databuffer::Session& session, std::unique_p
   idle_count_ = advice_.value().idle_count;
 }
 
-void InputMonitorShell::run(databuffer::TickLoop& loop) {
+void InputMonitorShell::run(runtime::TickLoop& loop) {
   if (loop.lockstep() || source_->follows_sim_time())
     run_by_ticks(loop);
   else
@@ -36,7 +36,7 @@ void InputMonitorShell::run(databuffer::TickLoop& loop) {
   if (caption_shown_) session_->layout().caption.clear();
 }
 
-void InputMonitorShell::run_by_ticks(databuffer::TickLoop& loop) {
+void InputMonitorShell::run_by_ticks(runtime::TickLoop& loop) {
   while (const auto due = loop.wait()) {
     const Moment moment{databuffer::monotonic_ns(), due->sim_time_ns};
     if (source_->has_captions()) observe();
@@ -50,7 +50,7 @@ void InputMonitorShell::run_by_ticks(databuffer::TickLoop& loop) {
 
 void InputMonitorShell::run_by_input() {
   const auto now = [this] { return Moment{databuffer::monotonic_ns(), session_->sim_time_ns()}; };
-  while (!databuffer::stop_requested() && !source_->ended()) {
+  while (!runtime::stop_requested() && !source_->ended()) {
     session_->heartbeat();
     source_->wait(now(), kMaxWait_ms);
     const Moment moment = now();

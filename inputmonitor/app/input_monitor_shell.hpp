@@ -13,10 +13,10 @@
 #include <optional>
 #include <vector>
 
-#include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "inputmonitor/event_source.hpp"
+#include "runtime/tick_loop.hpp"
 
 namespace yars::inputmonitor {
 
@@ -28,10 +28,10 @@ class InputMonitorShell {
 
   // Runs until the source ends or the program is stopped. In lockstep the shell steps on after the source has ended,
   // because the other programs wait for it.
-  void run(databuffer::TickLoop& loop);
+  void run(runtime::TickLoop& loop);
 
  private:
-  void run_by_ticks(databuffer::TickLoop& loop);
+  void run_by_ticks(runtime::TickLoop& loop);
   void run_by_input();
   void report_notices();
   // Hands the source what the state machine has applied, and publishes the source's caption. Only for a source with

@@ -14,7 +14,6 @@
 #include <system_error>
 
 #include "config/schema/slot_text.hpp"
-#include "databuffer/runtime/process.hpp"
 #include "databuffer/session/session_state.hpp"
 #include "inputmonitor/device_decoder.hpp"
 #include "inputmonitor/device_source.hpp"
@@ -22,6 +21,7 @@
 #include "inputmonitor/terminal.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/text/plain_text.hpp"
+#include "runtime/process.hpp"
 
 namespace yars::inputmonitor {
 
@@ -80,7 +80,7 @@ class LearningDialogue {
     // A FIFO is silent until a program writes into it; a device is silent until somebody moves it.
     if (!info_.known && !reader_->plays_once())
       say("      " + path_ + " is a FIFO: it waits for what another program writes into it\n");
-    while (!learning_.finished() && !is_gone_ && !databuffer::stop_requested()) {
+    while (!learning_.finished() && !is_gone_ && !runtime::stop_requested()) {
       std::array<pollfd, 2> wanted{
           {{reader_ ? reader_->descriptor() : -1, POLLIN, 0}, {typist_.descriptor(), POLLIN, 0}}};
       poll(wanted.data(), wanted.size(), kPoll_ms);

@@ -2,12 +2,12 @@
 // workers and runs the tick loop.
 
 #include "config/schema/load.hpp"
-#include "databuffer/runtime/program.hpp"
-#include "databuffer/runtime/role.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/app/radar_model_shell.hpp"
 #include "model/terrain/store/directory_store.hpp"
+#include "runtime/program.hpp"
+#include "runtime/role.hpp"
 
 namespace {
 
@@ -20,7 +20,7 @@ struct ModelOptions {
   bool standby = false;
 };
 
-error::Expected<radar::RadarConfiguration> configure(const databuffer::ProgramOptions& options,
+error::Expected<radar::RadarConfiguration> configure(const runtime::ProgramOptions& options,
                                                      const ModelOptions& model_options) {
   auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return configuration;
@@ -74,9 +74,9 @@ struct Loaders {
 };
 
 // Runs the ticks of the role until a stop is requested. True: the role went to another host instead.
-error::Expected<bool> run_as_holder(databuffer::Session& session, const databuffer::ProgramOptions& options,
+error::Expected<bool> run_as_holder(databuffer::Session& session, const runtime::ProgramOptions& options,
                                     const radar::RadarConfiguration& configuration, Loaders& loaders) {
-  auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::radar_model, options.lockstep);
+  auto loop = runtime::TickLoop::create(session, databuffer::LockstepRole::radar_model, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   model::RadarModelShell shell(session, configuration, {loaders.terrain, loaders.scenes, loaders.patches});
   log::info("runs in session " + options.session + ", terrain " +
@@ -92,7 +92,7 @@ error::Expected<bool> run_as_holder(databuffer::Session& session, const databuff
   return false;
 }
 
-error::Expected<void> run(const databuffer::ProgramOptions& options, const ModelOptions& model_options) {
+error::Expected<void> run(const runtime::ProgramOptions& options, const ModelOptions& model_options) {
   auto configuration = configure(options, model_options);
   if (!configuration) return tl::unexpected(configuration.error());
   while (true) {
@@ -107,24 +107,24 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Model
       if (!kernel) kernel.emplace(*configuration);
       model::load_ahead(session, *kernel, loaders.terrain, loaders.scenes);
     };
-    auto held = databuffer::take_role(options.session, databuffer::Role::radar_model, "radar-model",
-                                      model_options.standby, load_ahead);
+    auto held = runtime::take_role(options.session, databuffer::Role::radar_model, "radar-model", model_options.standby,
+                                   load_ahead);
     if (!held) return tl::unexpected(held.error());
     if (!*held) return {};
     const auto yielded = run_as_holder((*held)->session, options, *configuration, loaders);
     if (!yielded) return tl::unexpected(yielded.error());
     if (!*yielded) return {};
     (*held)->session.note(databuffer::NoteKind::restart, "radar-model yields to another host");
-    if (!model_options.standby) return databuffer::fail_yielded(databuffer::Role::radar_model);
+    if (!model_options.standby) return runtime::fail_yielded(databuffer::Role::radar_model);
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::CommandLine app("YARS radar model: antenna, real beam map and patch maps", "radar-model");
-  databuffer::ProgramOptions options;
-  databuffer::add_common_options(app, options, databuffer::ProgramKind::role);
+  runtime::CommandLine app("YARS radar model: antenna, real beam map and patch maps", "radar-model");
+  runtime::ProgramOptions options;
+  runtime::add_common_options(app, options, runtime::ProgramKind::role);
   ModelOptions model_options;
   app.option("--terrain", model_options.terrain, "folder of elevation cells: DTED, HGT, DED, packs, rasters")
       .value_name("DIR")
@@ -136,6 +136,6 @@ int main(int argc, char** argv) {
   app.option("--samples", model_options.samples, "samples of a sweep")
       .range(1, radar::kMaxSamples)
       .otherwise("the configuration's");
-  databuffer::add_standby_option(app, model_options.standby);
-  return databuffer::run_program(argc, argv, app, options, [&] { return run(options, model_options); });
+  runtime::add_standby_option(app, model_options.standby);
+  return runtime::run_program(argc, argv, app, options, [&] { return run(options, model_options); });
 }

@@ -10,7 +10,6 @@
 #include "databuffer/messages/derived_values.hpp"
 #include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/messages/world_values.hpp"
 #include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "lib/log/log.hpp"
@@ -19,6 +18,7 @@
 #include "lib/text/plain_text.hpp"
 #include "model/kernel/map_schedule.hpp"
 #include "model/kernel/tick_inputs.hpp"
+#include "world/world_values.hpp"
 
 namespace yars::model {
 
@@ -66,7 +66,7 @@ RadarModelShell::RadarModelShell(databuffer::Session& session, const radar::Rada
       kernel_(configuration),
       governor_(configuration.fidelity.core_share),
       fidelity_(configuration.fidelity) {
-  session.layout().world_configured.publish(databuffer::world_state_from(configuration.world, configuration.route));
+  session.layout().world_configured.publish(world::world_state_from(configuration.world, configuration.route));
   resume();
 }
 
@@ -88,7 +88,7 @@ void RadarModelShell::resume() {
   log::info("resumes at scan " + std::to_string(previous.scan));
 }
 
-void RadarModelShell::step(const databuffer::TickLoop::Due& due, std::uint64_t late_ticks) {
+void RadarModelShell::step(const runtime::TickLoop::Due& due, std::uint64_t late_ticks) {
   const double begin_s = thread_time_s();
   latch(due);
   // While the clock is frozen nobody waits for this tick.
@@ -100,7 +100,7 @@ void RadarModelShell::step(const databuffer::TickLoop::Due& due, std::uint64_t l
   first_tick_ = false;
 }
 
-void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
+void RadarModelShell::latch(const runtime::TickLoop::Due& due) {
   const databuffer::Ownship before = tick_.ownship;
   const databuffer::RadarCommand command_before = tick_.command;
   const auto& selected = ownship_.refresh(session_->layout(), due.sim_time_ns, due.clock.epoch);
@@ -131,14 +131,14 @@ void RadarModelShell::latch(const databuffer::TickLoop::Due& due) {
 
 // True until a source is selected, while the ownship of the previous process is fresh. Without it the beam would stand
 // still until the source delivers its next record.
-bool RadarModelShell::inherits_ownship(const databuffer::TickLoop::Due& due) const {
+bool RadarModelShell::inherits_ownship(const runtime::TickLoop::Due& due) const {
   const std::int64_t age_ns = due.sim_time_ns - status_.ownship_received_ns;
   return tick_.resumed_tick >= 0 && resumed_epoch_ == due.clock.epoch && age_ns >= 0 &&
          age_ns <= databuffer::kStaleAfter_ns;
 }
 
 // Starts a new epoch at the position to which the ownship source has jumped. In a new epoch JumpGuard
-// (databuffer/runtime/receivers.hpp) accepts the jump.
+// (databuffer/session/receivers.hpp) accepts the jump.
 void RadarModelShell::announce_jump(const databuffer::Ownship& ownship, std::uint32_t lane) {
   const auto changed = session_->change_clock(
       [&ownship](const databuffer::ClockState& clock) {
@@ -208,10 +208,10 @@ void RadarModelShell::latch_world() {
   if (is_new || first_tick_) {
     radar::WorldConfiguration world = configuration_->world;
     const databuffer::WorldState& wanted = wanted_world_.value();
-    databuffer::WorldState latched = databuffer::world_state_from(world, configuration_->route);
+    databuffer::WorldState latched = world::world_state_from(world, configuration_->route);
     if (wanted_world_.has_value() && (wanted.flags & databuffer::kWorldConfigured) == 0U) {
       latched = wanted;
-      databuffer::apply(wanted, world);
+      world::apply(wanted, world);
     }
     latched.edit = wanted.edit;
     latched.source_time_ns = wanted.source_time_ns;

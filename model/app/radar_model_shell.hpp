@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/runtime/receivers.hpp"
-#include "databuffer/runtime/tick_loop.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/radar/fidelity.hpp"
@@ -21,6 +20,7 @@
 #include "model/app/background_shell.hpp"
 #include "model/kernel/radar_kernel.hpp"
 #include "model/kernel/tick_inputs.hpp"
+#include "runtime/tick_loop.hpp"
 
 namespace yars::radar {
 struct RadarConfiguration;
@@ -44,11 +44,11 @@ class RadarModelShell {
   };
   RadarModelShell(databuffer::Session& session, const radar::RadarConfiguration& configuration, const Workers& workers);
   // Runs one tick. `late_ticks`: ticks that this process has skipped.
-  void step(const databuffer::TickLoop::Due& due, std::uint64_t late_ticks);
+  void step(const runtime::TickLoop::Due& due, std::uint64_t late_ticks);
 
  private:
   void resume();
-  void latch(const databuffer::TickLoop::Due& due);
+  void latch(const runtime::TickLoop::Due& due);
   void latch_command();
   void latch_traffic();
   void latch_world();
@@ -56,7 +56,7 @@ class RadarModelShell {
   void announce_jump(const databuffer::Ownship& ownship, std::uint32_t lane);
   void latch_fidelity();
   void govern(double elapsed_s, double rate);
-  bool inherits_ownship(const databuffer::TickLoop::Due& due) const;
+  bool inherits_ownship(const runtime::TickLoop::Due& due) const;
   void await_ground(const terrain::TerrainRegion& region);
   void run_kernel(bool may_wait);
   void note_problems(const std::vector<std::string>& problems);

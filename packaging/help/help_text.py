@@ -1,6 +1,6 @@
 """The command lines of the programs, read out of what they say with --help.
 
-packaging/help/write.py and tests use it. The form of the text is that of databuffer/runtime/option_text.hpp:
+packaging/help/write.py and tests use it. The form of the text is that of runtime/option_text.hpp:
 an entry's head, at least two blanks, and what it does; more lines of it stand under the first.
 
     yars = read(["build/release/bin/yars"])

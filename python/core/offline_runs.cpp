@@ -21,7 +21,7 @@ template <class Options, class AddOptions>
 std::string measured(const AddOptions& add_options, const std::shared_ptr<Terrain>& terrain, const Radar& radar,
                      const std::vector<std::string>& words) {
   Options options;
-  read_options("yars.trade", words, [&](databuffer::Command line) { add_options(line, options); });
+  read_options("yars.trade", words, [&](runtime::Command line) { add_options(line, options); });
   tools::check_trade_output(options);
   radar::RadarConfiguration configuration = radar.radar().configuration();
   tools::apply_options(options.configuration, configuration);
@@ -60,14 +60,14 @@ void check_other_cells(const tools::TerrainGenerateOptions& options) {
 void generate_scene(const std::vector<std::string>& words) {
   tools::SceneGenerateOptions options;
   read_options("yars.Scene.generate", words,
-               [&](databuffer::Command line) { tools::add_scene_generate_options(line, options); });
+               [&](runtime::Command line) { tools::add_scene_generate_options(line, options); });
   without_interpreter([&](const parallel::GoesOn& goes_on) { tools::generate_scene_file(options, goes_on); });
 }
 
 void generate_terrain(const std::vector<std::string>& words) {
   tools::TerrainGenerateOptions options;
   read_options("yars.Terrain.generate", words,
-               [&](databuffer::Command line) { tools::add_terrain_generate_options(line, options); });
+               [&](runtime::Command line) { tools::add_terrain_generate_options(line, options); });
   without_interpreter([&](const parallel::GoesOn& goes_on) {
     check_other_cells(options);
     tools::generate_terrain_files(options, goes_on);

@@ -71,7 +71,7 @@ void register_exceptions(py::module_& /*module*/) {
         } catch (const radar::Failure& failure) {
           set_error(failure.error);
         } catch (const tools::CommandFailed& failed) {
-          const py::object type = failed.code == databuffer::kExitUsage ? value_error() : error_class();
+          const py::object type = failed.code == runtime::kExitUsage ? value_error() : error_class();
           PyErr_SetObject(type.ptr(), text_of(failed.message).ptr());
         }
       });
@@ -82,13 +82,13 @@ void raise(const Error& error) {
   radar::fail(error);
 }
 void raise_value_error(const std::string& message) {
-  throw tools::CommandFailed{message, databuffer::kExitUsage};
+  throw tools::CommandFailed{message, runtime::kExitUsage};
 }
 
 void read_options(const std::string& name, const std::vector<std::string>& words,
-                  const std::function<void(databuffer::Command)>& add_options) {
+                  const std::function<void(runtime::Command)>& add_options) {
   const text::DecimalPoint numbers;
-  databuffer::CommandLine line("", name);
+  runtime::CommandLine line("", name);
   add_options(line);
   if (const auto fault = line.read(words)) raise_value_error(*fault);
 }

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/runtime/command_line.hpp"
 #include "lib/error/error.hpp"
 #include "lib/parallel/thread_pool.hpp"
 #include "radar/theatre.hpp"
+#include "runtime/command_line.hpp"
 #include "tools/command/command.hpp"
 
 namespace yars::python {
@@ -46,7 +46,7 @@ inline void check_done(const Expected<void>& done) {
 // Reads words of a command line, which arguments.py makes, by a table of options. `name`: of the function, for
 // messages. Throws ValueError.
 void read_options(const std::string& name, const std::vector<std::string>& words,
-                  const std::function<void(databuffer::Command)>& add_options);
+                  const std::function<void(runtime::Command)>& add_options);
 
 // Collects warnings while the interpreter's lock is released, and hands them to Python's module warnings afterwards.
 class Warnings {

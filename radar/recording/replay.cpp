@@ -4,9 +4,9 @@
 #include <cmath>
 #include <utility>
 
-#include "databuffer/messages/world_values.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/rbm/beam.hpp"
+#include "world/world_values.hpp"
 
 namespace yars::recording {
 
@@ -69,7 +69,7 @@ void Replay::begin_kernel(const databuffer::ModelStatus& status) {
 
 void Replay::world(const databuffer::WorldState& world) {
   world_ = configuration_->world;
-  if ((world.flags & databuffer::kWorldConfigured) == 0U) databuffer::apply(world, world_);
+  if ((world.flags & databuffer::kWorldConfigured) == 0U) world::apply(world, world_);
   kernel_.use_world(world_);
 }
 

@@ -1,10 +1,10 @@
 // Program state-machine: turns input events into the radar state.
 
 #include "config/schema/load.hpp"
-#include "databuffer/runtime/program.hpp"
-#include "databuffer/runtime/role.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
+#include "runtime/program.hpp"
+#include "runtime/role.hpp"
 #include "statemachine/app/state_machine_shell.hpp"
 
 namespace {
@@ -12,9 +12,9 @@ namespace {
 using namespace yars;
 
 // Runs the ticks of the role until a stop is requested. True: the role went to another host instead.
-error::Expected<bool> run_as_holder(databuffer::Session& session, const databuffer::ProgramOptions& options,
+error::Expected<bool> run_as_holder(databuffer::Session& session, const runtime::ProgramOptions& options,
                                     const radar::RadarConfiguration& configuration) {
-  auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::state_machine, options.lockstep);
+  auto loop = runtime::TickLoop::create(session, databuffer::LockstepRole::state_machine, options.lockstep);
   if (!loop) return tl::unexpected(loop.error());
   statemachine::StateMachineShell shell(session, configuration, loop->lockstep());
   log::info("runs in session " + options.session);
@@ -29,28 +29,28 @@ error::Expected<bool> run_as_holder(databuffer::Session& session, const databuff
   return false;
 }
 
-error::Expected<void> run(const databuffer::ProgramOptions& options, bool standby) {
+error::Expected<void> run(const runtime::ProgramOptions& options, bool standby) {
   auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return tl::unexpected(configuration.error());
   while (true) {
-    auto held = databuffer::take_role(options.session, databuffer::Role::state_machine, "state-machine", standby);
+    auto held = runtime::take_role(options.session, databuffer::Role::state_machine, "state-machine", standby);
     if (!held) return tl::unexpected(held.error());
     if (!*held) return {};
     const auto yielded = run_as_holder((*held)->session, options, *configuration);
     if (!yielded) return tl::unexpected(yielded.error());
     if (!*yielded) return {};
     (*held)->session.note(databuffer::NoteKind::restart, "state-machine yields to another host");
-    if (!standby) return databuffer::fail_yielded(databuffer::Role::state_machine);
+    if (!standby) return runtime::fail_yielded(databuffer::Role::state_machine);
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::CommandLine app("YARS state machine: turns input events into the radar state", "state-machine");
-  databuffer::ProgramOptions options;
-  databuffer::add_common_options(app, options, databuffer::ProgramKind::role);
+  runtime::CommandLine app("YARS state machine: turns input events into the radar state", "state-machine");
+  runtime::ProgramOptions options;
+  runtime::add_common_options(app, options, runtime::ProgramKind::role);
   bool standby = false;
-  databuffer::add_standby_option(app, standby);
-  return databuffer::run_program(argc, argv, app, options, [&] { return run(options, standby); });
+  runtime::add_standby_option(app, standby);
+  return runtime::run_program(argc, argv, app, options, [&] { return run(options, standby); });
 }

@@ -9,7 +9,6 @@
 
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/messages/world_values.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session_world.hpp"
 #include "lib/log/log.hpp"
@@ -17,6 +16,7 @@
 #include "statemachine/advice.hpp"
 #include "statemachine/designation.hpp"
 #include "statemachine/machine.hpp"
+#include "world/world_values.hpp"
 
 namespace yars::statemachine {
 
@@ -48,7 +48,7 @@ StateMachineShell::StateMachineShell(databuffer::Session& session, const Paramet
   log::info("resumes from the radar state in the segment");
 }
 
-void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
+void StateMachineShell::step(const runtime::TickLoop::Due& due) {
   session_->restore_clock();
   latch(due);
   take_events(due.tick);
@@ -59,7 +59,7 @@ void StateMachineShell::step(const databuffer::TickLoop::Due& due) {
   drop_old_events_ = false;
 }
 
-void StateMachineShell::latch(const databuffer::TickLoop::Due& due) {
+void StateMachineShell::latch(const runtime::TickLoop::Due& due) {
   const auto& selected = ownship_.refresh(session_->layout(), due.sim_time_ns, due.clock.epoch);
   inputs_.tick = due.tick;
   inputs_.sim_time_ns = due.sim_time_ns;
@@ -119,7 +119,7 @@ void StateMachineShell::latch_maps() {
 
 void StateMachineShell::use_route(const std::optional<databuffer::WorldState>& world) {
   const bool is_changed = world && (world->flags & databuffer::kWorldPointsChanged) != 0U;
-  changed_route_ = is_changed ? databuffer::route_of(*world) : std::vector<radar::RoutePoint>();
+  changed_route_ = is_changed ? world::route_of(*world) : std::vector<radar::RoutePoint>();
   parameters_.route = is_changed ? changed_route_ : configured_route_;
 }
 

@@ -11,12 +11,12 @@
 #include <span>
 #include <vector>
 
-#include "databuffer/runtime/receivers.hpp"
-#include "databuffer/runtime/tick_loop.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/mission.hpp"
+#include "runtime/tick_loop.hpp"
 #include "statemachine/machine.hpp"
 
 namespace yars::statemachine {
@@ -25,7 +25,7 @@ class StateMachineShell {
  public:
   // Continues from the radar state that a predecessor left in the segment. Without one, starts with power off.
   StateMachineShell(databuffer::Session& session, const Parameters& parameters, bool lockstep);
-  void step(const databuffer::TickLoop::Due& due);
+  void step(const runtime::TickLoop::Due& due);
 
  private:
   bool latch_model();
@@ -34,7 +34,7 @@ class StateMachineShell {
   void latch_variation();
   void latch_route();
   void use_route(const std::optional<databuffer::WorldState>& world);
-  void latch(const databuffer::TickLoop::Due& due);
+  void latch(const runtime::TickLoop::Due& due);
   void take_events(std::int64_t tick);
   void take(const databuffer::InputEvent& event, std::size_t lane, std::int64_t tick);
   void publish_if_changed(std::int64_t tick);

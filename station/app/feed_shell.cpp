@@ -6,8 +6,8 @@
 #include "databuffer/json/status_json.hpp"
 #include "databuffer/messages/input_event.hpp"
 #include "databuffer/messages/key_map.hpp"
-#include "databuffer/runtime/receivers.hpp"
 #include "databuffer/session/picture_pool.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "display/symbology/help.hpp"
 #include "lib/radar/modes.hpp"
 
@@ -22,7 +22,7 @@ constexpr std::int64_t kStateInterval_ns = 250 * kNsPerMs;  // of states without
 }  // namespace
 
 error::Expected<StationFeed> StationFeed::create(databuffer::Session& session) {
-  auto lane = databuffer::InputLane::claim(session, "station");
+  auto lane = runtime::InputLane::claim(session, "station");
   if (!lane) return tl::unexpected(lane.error());
   return StationFeed(session, std::move(*lane));
 }
@@ -60,8 +60,8 @@ bool StationFeed::refresh_state(std::int64_t now_ns) {
   input_.model = model_.value();
   input_.advice = advice_.value();
   const auto processes = session_->processes();
-  input_.state_machine_alive = databuffer::is_alive(processes, databuffer::Role::state_machine, now_ns);
-  input_.model_alive = databuffer::is_alive(processes, databuffer::Role::radar_model, now_ns);
+  input_.state_machine_alive = runtime::is_alive(processes, databuffer::Role::state_machine, now_ns);
+  input_.model_alive = runtime::is_alive(processes, databuffer::Role::radar_model, now_ns);
   state_text_ = std::make_shared<const std::string>(state_message());
   ++state_number_;
   return true;

@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include "databuffer/runtime/pilot_link.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "display/symbology/plan_view.hpp"
+#include "runtime/pilot_link.hpp"
 #include "station/frame_stream.hpp"
 
 namespace yars::station {
@@ -38,13 +38,13 @@ class StationFeed {
   void send(const databuffer::InputEvent& event) { lane_.send(event); }
 
  private:
-  StationFeed(databuffer::Session& session, databuffer::InputLane lane) : session_(&session), lane_(std::move(lane)) {}
+  StationFeed(databuffer::Session& session, runtime::InputLane lane) : session_(&session), lane_(std::move(lane)) {}
   bool refresh_frame(std::int64_t now_ns);
   bool refresh_state(std::int64_t now_ns);
   std::string state_message() const;
 
   databuffer::Session* session_;
-  databuffer::InputLane lane_;
+  runtime::InputLane lane_;
   FrameStream frames_;
   std::uint64_t frame_id_ = 0;  // of the last frame that was read, valid or not
   std::vector<std::uint8_t> pixels_;

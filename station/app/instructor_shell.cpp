@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "databuffer/json/status_json.hpp"
-#include "databuffer/json/world_json.hpp"
 #include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/validated.hpp"
@@ -19,6 +18,7 @@
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "station/theatre_json.hpp"
+#include "world/world_json.hpp"
 
 namespace yars::station {
 
@@ -125,7 +125,7 @@ std::string InstructorShell::state_message() const {
       {"forming", forming_json(model)},
       {"navigators", radar ? navigators_json(*radar) : ordered_json(nullptr)},
       {"sequence_point", radar ? std::string(text::text_of(radar->sequence_point)) : std::string()},
-      {"world", world ? databuffer::world_json(*world, session_->reached_sim_time_ns()) : ordered_json(nullptr)},
+      {"world", world ? world::world_json(*world, session_->reached_sim_time_ns()) : ordered_json(nullptr)},
       {"fidelity",
        {{"wanted", world ? std::string(text::text_of(world->fidelity)) : std::string()},
         {"used", std::string(text::text_of(model.fidelity))}}},

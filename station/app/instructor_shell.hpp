@@ -15,10 +15,10 @@
 #include <optional>
 #include <string>
 
-#include "databuffer/runtime/processor_load.hpp"
 #include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/session_world.hpp"
+#include "runtime/processor_load.hpp"
 #include "station/instructor_message.hpp"
 #include "station/removed_entries.hpp"
 
@@ -64,7 +64,7 @@ class InstructorShell {
 
   databuffer::Session* session_;
   std::string name_;
-  databuffer::LoadMeter meter_;
+  runtime::LoadMeter meter_;
   nlohmann::ordered_json status_;  // roles with their loads, health, recorder, newest notes
   Text text_;
   std::uint64_t number_ = 0;

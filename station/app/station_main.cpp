@@ -10,9 +10,7 @@
 #include <vector>
 
 #include "config/schema/load.hpp"
-#include "databuffer/flight/route_flight.hpp"
-#include "databuffer/runtime/process.hpp"
-#include "databuffer/runtime/program.hpp"
+#include "flightmodel/route_flight.hpp"
 #include "lib/file/file_search.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/file/text_file.hpp"
@@ -21,6 +19,8 @@
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/store/directory_store.hpp"
+#include "runtime/process.hpp"
+#include "runtime/program.hpp"
 #include "station/app/server_shell.hpp"
 #include "station/theatre_json.hpp"
 
@@ -121,9 +121,9 @@ error::Expected<std::vector<geo::GeoPoint>> waypoints_of(const std::string& sour
   const std::string file = source.substr(kBegin.size());
   const auto text = file::read_text_file(file);
   if (!text) return tl::unexpected(text.error());
-  const auto route = databuffer::flight::parse_route(*text, file);
+  const auto route = flightmodel::parse_route(*text, file);
   if (!route) return tl::unexpected(route.error());
-  for (const databuffer::flight::Waypoint& waypoint : route->waypoints) points.push_back(waypoint.point);
+  for (const flightmodel::Waypoint& waypoint : route->waypoints) points.push_back(waypoint.point);
   if (route->loop) points.push_back(points.front());
   return points;
 }
@@ -144,7 +144,7 @@ error::Expected<std::vector<station::Place>> places_of(const radar::RadarConfigu
   return places;
 }
 
-error::Expected<station::ServerSettings> settings_of(const databuffer::ProgramOptions& options,
+error::Expected<station::ServerSettings> settings_of(const runtime::ProgramOptions& options,
                                                      const StationOptions& station_options,
                                                      const radar::RadarConfiguration& configuration) {
   station::ServerSettings settings;
@@ -193,7 +193,7 @@ void print_addresses(const station::ServerSettings& settings, std::uint16_t port
   std::fflush(stdout);
 }
 
-error::Expected<void> run(const databuffer::ProgramOptions& options, const StationOptions& station_options) {
+error::Expected<void> run(const runtime::ProgramOptions& options, const StationOptions& station_options) {
   if (auto good = check_access(station_options); !good) return good;
   auto configuration = config::load_program_configuration(options.config);
   if (!configuration) return tl::unexpected(configuration.error());
@@ -205,17 +205,17 @@ error::Expected<void> run(const databuffer::ProgramOptions& options, const Stati
   auto server = station::Server::listen(*settings, std::move(*terrain));
   if (!server) return tl::unexpected(server.error());
   print_addresses(*settings, server->port());
-  while (!databuffer::stop_requested()) server->step();
-  databuffer::end_in_order();
+  while (!runtime::stop_requested()) server->step();
+  runtime::end_in_order();
   return {};
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  databuffer::CommandLine app("YARS station: serves the display and the instructor's page to browsers", "yars-station");
-  databuffer::ProgramOptions options;
-  databuffer::add_common_options(app, options, databuffer::ProgramKind::service);
+  runtime::CommandLine app("YARS station: serves the display and the instructor's page to browsers", "yars-station");
+  runtime::ProgramOptions options;
+  runtime::add_common_options(app, options, runtime::ProgramKind::service);
   StationOptions station_options;
   app.option("--port", station_options.port, "port to listen at; 0: any free one").range(0, 65535);
   app.option("--listen", station_options.listen, "address to listen at; 0.0.0.0: all").value_name("ADDRESS");
@@ -250,5 +250,5 @@ int main(int argc, char** argv) {
       .value_name("SOURCE")
       .otherwise("no waypoints");
   app.option("--recordings", station_options.recordings, "folder of recordings").value_name("DIR");
-  return databuffer::run_program(argc, argv, app, options, [&] { return run(options, station_options); });
+  return runtime::run_program(argc, argv, app, options, [&] { return run(options, station_options); });
 }

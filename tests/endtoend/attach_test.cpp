@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "databuffer/runtime/receivers.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "databuffer/session/session.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "tests/endtoend/process_set.hpp"

@@ -16,8 +16,8 @@
 #include <random>
 #include <thread>
 
-#include "databuffer/flight/source_reader.hpp"
 #include "databuffer/session/session.hpp"
+#include "flightmodel/source_reader.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/modes.hpp"
 #include "tests/endtoend/process_set.hpp"
@@ -79,7 +79,7 @@ Resources resources_of(pid_t pid) {
 // The flight that the set's flight-model flies, computed here tick by tick.
 class ExpectedFlight {
  public:
-  explicit ExpectedFlight(const std::string& source) : source_(databuffer::flight::open_source(source)) {}
+  explicit ExpectedFlight(const std::string& source) : source_(flightmodel::open_source(source)) {}
   // Distance [m] of `seen` from the expected position at `tick`. `tick` must not decrease from call to call.
   double distance_m(std::int64_t tick, const databuffer::Ownship& seen) {
     const auto one_tick = geo::Duration::seconds(radar::kTickSeconds);
@@ -90,7 +90,7 @@ class ExpectedFlight {
   }
 
  private:
-  error::Expected<databuffer::flight::FlightSource> source_;
+  error::Expected<flightmodel::FlightSource> source_;
   std::int64_t tick_ = 0;
 };
 

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/runtime/receivers.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "tests/extremes/islands.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 

@@ -9,10 +9,10 @@
 #include <memory>
 #include <vector>
 
-#include "databuffer/flight/route_flight.hpp"
-#include "databuffer/flight/source_reader.hpp"
-#include "databuffer/flight/track_flight.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "flightmodel/route_flight.hpp"
+#include "flightmodel/source_reader.hpp"
+#include "flightmodel/track_flight.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/antenna/antenna.hpp"
 #include "tests/model/kernel/cockpit.hpp"
@@ -20,8 +20,8 @@
 namespace yars {
 namespace {
 
-using databuffer::flight::FlightModel;
-using databuffer::flight::FlightSample;
+using flightmodel::FlightModel;
+using flightmodel::FlightSample;
 
 constexpr double kTimeNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kTimeInfinity = std::numeric_limits<double>::infinity();
@@ -29,7 +29,7 @@ constexpr std::int64_t kThirtyDaysOfTicks = std::int64_t{30} * 24 * 3600 * 200; 
 
 // Calls `body` with two new, equal flight models of each kind. They fly at about 240 m/s to the north-east.
 void for_each_flight(const std::function<void(FlightModel&, FlightModel&)>& body) {
-  using namespace databuffer::flight;
+  using namespace flightmodel;
   const auto each = [&body](const char* name, const auto& make) {
     SCOPED_TRACE(name);
     const auto first = make();

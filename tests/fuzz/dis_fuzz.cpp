@@ -1,12 +1,12 @@
 // Any bytes as DIS packets: the input as one datagram, then as a sequence of datagrams. The aircraft's samples and the
 // surface traffic pass validation.
-#include "databuffer/bridges/bridge_source.hpp"
-#include "databuffer/bridges/dis.hpp"
+#include "flightmodel/bridges/bridge_source.hpp"
+#include "flightmodel/bridges/dis.hpp"
 #include "tests/fuzz/flown_on.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace yars::databuffer;
-  using namespace yars::databuffer::bridges;
+  using namespace yars::flightmodel::bridges;
   const auto bytes = std::as_bytes(std::span(data, size));
   DisBridge bridge(std::nullopt, std::nullopt, yars::geo::Geoid("/nowhere"));
   const auto take = [&bridge](std::span<const std::byte> datagram) {

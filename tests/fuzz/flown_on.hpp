@@ -5,13 +5,13 @@
 #include <cstdint>
 #include <span>
 
-#include "databuffer/bridges/external_flight.hpp"
 #include "databuffer/messages/validation.hpp"
+#include "flightmodel/bridges/external_flight.hpp"
 #include "lib/error/error.hpp"
 
-namespace yars::databuffer::bridges {
+namespace yars::flightmodel::bridges {
 
-inline void require_valid(const Ownship& ownship) {
+inline void require_valid(const databuffer::Ownship& ownship) {
   YARS_REQUIRE(validate(ownship).value_or(""), ==, "");
 }
 
@@ -43,4 +43,4 @@ void each_datagram(std::span<const std::byte> bytes, Take take) {
   }
 }
 
-}  // namespace yars::databuffer::bridges
+}  // namespace yars::flightmodel::bridges

@@ -22,7 +22,7 @@ void require_same(const Cell& cell, const std::vector<std::byte>& file) {
     const auto height_m = static_cast<std::int16_t>(high << 8U | low);
     const bool possible = height_m >= -12'000 && height_m <= 10'000 && height_m != -9'999;
     const auto row = static_cast<int>(kSide - 1 - post / kSide), column = static_cast<int>(post % kSide);
-    YARS_REQUIRE(cell.post(row, column), ==, possible ? height_m : kVoid);
+    YARS_REQUIRE(cell.post(row, column), ==, possible ? height_m : kVoidPost);
   }
 }
 

@@ -1,11 +1,11 @@
 // Any text as JSBSim's output, one datagram per line, with labels and numbers in any order. Samples pass validation.
 #include <string_view>
 
-#include "databuffer/bridges/flight_simulators.hpp"
+#include "flightmodel/bridges/flight_simulators.hpp"
 #include "tests/fuzz/flown_on.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace yars::databuffer::bridges;
+  using namespace yars::flightmodel::bridges;
   JsbsimBridge bridge;
   std::string_view text(reinterpret_cast<const char*>(data), size);
   // 20 lines at most: each costs a flight, and more lines find no further errors.

@@ -6,9 +6,9 @@
 
 #include "config/schema/load.hpp"
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/messages/world_values.hpp"
 #include "lib/error/error.hpp"
 #include "statemachine/machine.hpp"
+#include "world/world_values.hpp"
 
 namespace yars::fuzz {
 
@@ -72,7 +72,7 @@ WorldState good_world() {
   world.rain.cells = {{.position = {36.5, -122.0}}};
   world.jamming.jammers = {{.name = "jammer", .position = {36.5, -122.0}}};
   world.movers = {{.name = "ship", .position = {36.5, -122.0}}};
-  WorldState state = world_state_from(world);
+  WorldState state = world::world_state_from(world);
   state.flags = {};
   state.edit = 1;
   return state;
@@ -253,17 +253,17 @@ void OverlaidSession::put_back() {
     remember(patches + slot * sizeof(PatchSlot), offsetof(PatchSlot, pixels));
   for (std::size_t slot = 0; slot < kFrameSlots; ++slot)
     remember(offsetof(SessionLayout, frames) + slot * sizeof(FrameSlot), offsetof(FrameSlot, pixels));
-  const auto ring = [this](std::size_t at, const auto& ring, std::uint64_t began) {
+  const auto remember_ring = [this](std::size_t at, const auto& ring, std::uint64_t began) {
     using Ring = std::remove_cvref_t<decltype(ring)>;
     const std::size_t stride = Ring::slot_stride();
     remember(at, Ring::slots_offset());
     for (std::uint64_t n = 0; n < kMaxPublished; ++n)
       remember(at + Ring::slots_offset() + (began + n) % Ring::kDepth * stride, stride);
   };
-  ring(rings, whole.model_ticks, next_[0]);
-  ring(offsetof(SessionLayout, applied_events), whole.applied_events, next_[1]);
-  ring(offsetof(SessionLayout, sweeps), whole.sweeps, next_[2]);
-  ring(latched, whole.traffic_latched, next_[3]);
+  remember_ring(rings, whole.model_ticks, next_[0]);
+  remember_ring(offsetof(SessionLayout, applied_events), whole.applied_events, next_[1]);
+  remember_ring(offsetof(SessionLayout, sweeps), whole.sweeps, next_[2]);
+  remember_ring(latched, whole.traffic_latched, next_[3]);
   for (const Part& part : touched_) std::memcpy(memory() + part.offset, before_.data() + part.offset, part.size);
   touched_.clear();
 }

@@ -7,14 +7,14 @@
 #include <variant>
 
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/messages/world_edit.hpp"
-#include "databuffer/messages/world_values.hpp"
 #include "lib/error/error.hpp"
 #include "lib/radar/world.hpp"
 #include "station/access.hpp"
 #include "station/instructor_message.hpp"
 #include "station/map_tile.hpp"
 #include "station/page_message.hpp"
+#include "world/world_edit.hpp"
+#include "world/world_values.hpp"
 
 using namespace yars;
 
@@ -23,7 +23,6 @@ namespace {
 station::AccessRules rules() {
   station::AccessRules rules;
   rules.port = 8096;
-  rules.loopback = false;
   rules.names = {"radar.example"};
   rules.instructor_token = "an instructor's token";
   rules.viewer_token = "the token of a viewer";
@@ -32,10 +31,10 @@ station::AccessRules rules() {
 
 // A world with an entry in each list, so that a message can find one.
 databuffer::WorldState small_world() {
-  databuffer::WorldState world = databuffer::world_state_from(radar::WorldConfiguration());
-  YARS_REQUIRE(databuffer::add(world, databuffer::default_rain_cell({37.0, -122.0})).has_value(), ==, true);
-  YARS_REQUIRE(databuffer::add(world, databuffer::default_jammer({37.0, -122.0})).has_value(), ==, true);
-  YARS_REQUIRE(databuffer::add(world, databuffer::default_mover({37.0, -122.0}, 0)).has_value(), ==, true);
+  databuffer::WorldState world = world::world_state_from(radar::WorldConfiguration());
+  YARS_REQUIRE(world::add(world, world::default_rain_cell({37.0, -122.0})).has_value(), ==, true);
+  YARS_REQUIRE(world::add(world, world::default_jammer({37.0, -122.0})).has_value(), ==, true);
+  YARS_REQUIRE(world::add(world, world::default_mover({37.0, -122.0}, 0)).has_value(), ==, true);
   return world;
 }
 

@@ -7,15 +7,15 @@
 #include <nlohmann/json.hpp>
 
 #include "config/schema/load.hpp"
-#include "databuffer/app/flight_shell.hpp"
-#include "databuffer/flight/source_reader.hpp"
 #include "databuffer/json/status_json.hpp"
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/runtime/receivers.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "display/host/session_link_shell.hpp"
 #include "display/symbology/plan_view.hpp"
 #include "display/symbology/radar_video.hpp"
 #include "display/symbology/symbology.hpp"
+#include "flightmodel/app/flight_shell.hpp"
+#include "flightmodel/source_reader.hpp"
 #include "lib/error/error.hpp"
 #include "statemachine/app/state_machine_shell.hpp"
 #include "tests/fuzz/overlaid_session.hpp"
@@ -51,9 +51,9 @@ class Readers {
               require_good(validate(map));
               YARS_REQUIRE(pixels.size(), ==, patch_bytes(map));
             }),
-        flight_(session_, *flight::open_source("fixed:36.6,-121.9,20000,0,400"), kFlightLane, false),
+        flight_(session_, *flightmodel::open_source("fixed:36.6,-121.9,20000,0,400"), kFlightLane, false),
         writer_(*recording::RecordingWriter::create("/dev/null", {})),
-        recorder_(session_, writer_, {true, true}, true) {}
+        recorder_(session_, writer_, {.sweeps = true, .patches = true, .flight_source = {}}, true) {}
 
   void step() {
     const ClockState clock = session_.clock();
@@ -61,7 +61,7 @@ class Readers {
     const std::int64_t sim_time_ns = session_.sim_time_ns();
     YARS_REQUIRE(sim_time_ns, >=, 0);
     const std::int64_t tick = sim_time_ns / radar::kTickNanoseconds;
-    const TickLoop::Due due{tick, tick * radar::kTickNanoseconds, clock, 0, epoch_ != clock.epoch};
+    const runtime::TickLoop::Due due{tick, tick * radar::kTickNanoseconds, clock, 0, epoch_ != clock.epoch};
     epoch_ = clock.epoch;
     receive(due);
     flight_.step(due);
@@ -74,14 +74,14 @@ class Readers {
  private:
   const SessionLayout& layout() const { return session_.layout(); }
 
-  void step_machine(const TickLoop::Due& due) {
+  void step_machine(const runtime::TickLoop::Due& due) {
     const std::uint64_t before = layout().radar_state.version();
     machine_.step(due);
     RadarState state{};
     if (layout().radar_state.version() != before && layout().radar_state.read(state)) require_good(validate(state));
   }
 
-  void receive(const TickLoop::Due& due) {
+  void receive(const runtime::TickLoop::Due& due) {
     const auto& selected = ownship_.refresh(layout(), due.sim_time_ns, due.clock.epoch);
     if (selected.valid && selected.lane != kNoLane) {
       require_good(validate(selected.ownship));
@@ -111,9 +111,9 @@ class Readers {
   void read_status_and_frame() const {
     const auto session = Session::open_read_only(name_);
     if (!session) return;
-    const auto object = databuffer::status_json(databuffer::status_of(*session, "fuzz"));
-    (void)object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
-    tools::print_status(object, {});
+    const databuffer::Status status = databuffer::status_of(*session, "fuzz");
+    (void)databuffer::status_json(status).dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+    tools::print_status(status, {});
     GlassFrame frame{};
     std::vector<std::uint8_t> pixels;
     if (read_newest_frame(session->layout(), 0, frame, pixels)) YARS_REQUIRE(pixels.size(), ==, frame_bytes(frame));
@@ -128,7 +128,7 @@ class Readers {
   display::SessionFeed feed_;
   display::LabelMemory labels_;
   display::DrawList list_;
-  FlightShell flight_;
+  flightmodel::FlightShell flight_;
   recording::RecordingWriter writer_;
   tools::Recorder recorder_;
   std::uint32_t epoch_ = 0;

@@ -3,21 +3,20 @@
 #include <cstdint>
 #include <string>
 
-#include "databuffer/runtime/user_defaults.hpp"
 #include "lib/error/error.hpp"
+#include "runtime/user_defaults.hpp"
 
 using namespace yars;
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto defaults =
-      databuffer::parse_user_defaults({reinterpret_cast<const char*>(data), size}, "fuzz", "/users/x");
+  const auto defaults = runtime::parse_user_defaults({reinterpret_cast<const char*>(data), size}, "fuzz", "/users/x");
   if (!defaults) {
     YARS_REQUIRE(defaults.error().message().find("fuzz:"), ==, 0U);
     return 0;
   }
   std::string text;
   for (const auto& [name, value] : defaults->values) text += name + " = " + value.value + "\n";
-  const auto again = databuffer::parse_user_defaults(text, "again", "/users/x");
+  const auto again = runtime::parse_user_defaults(text, "again", "/users/x");
   YARS_REQUIRE(again.has_value(), ==, true);
   YARS_REQUIRE(again->values.size(), ==, defaults->values.size());
   for (const auto& [name, value] : defaults->values) YARS_REQUIRE(again->values.at(name).value, ==, value.value);

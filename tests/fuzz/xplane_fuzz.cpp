@@ -1,9 +1,9 @@
 // Any bytes as X-Plane's replies: the input as one datagram, then as a sequence of datagrams. Samples pass validation.
-#include "databuffer/bridges/flight_simulators.hpp"
+#include "flightmodel/bridges/flight_simulators.hpp"
 #include "tests/fuzz/flown_on.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace yars::databuffer::bridges;
+  using namespace yars::flightmodel::bridges;
   const auto bytes = std::as_bytes(std::span(data, size));
   XplaneBridge bridge;
   const auto take = [&bridge](std::span<const std::byte> datagram) {

@@ -17,11 +17,11 @@
 #include <vector>
 
 #include "databuffer/messages/record_hashes.hpp"
-#include "databuffer/runtime/process.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/session_world.hpp"
 #include "databuffer/session/validated.hpp"
+#include "runtime/process.hpp"
 #include "tests/endtoend/fault_injection/watch.hpp"
 
 namespace {

@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
+#include "runtime/tick_loop.hpp"
 #include "tests/databuffer/session/session_name.hpp"
 #include "tests/databuffer/session/set_clock.hpp"
 #include "tests/shm/child_process.hpp"
@@ -259,7 +259,7 @@ TEST_F(HostileSegment, AHeartbeatInTheFutureIsReadAsNotLaterThanNow) {
 TEST_F(HostileSegment, ALockstepSetDoesNotContinueFromAnInvalidTick) {
   for (const std::int64_t tick : {kLowest, std::int64_t{-2}, kHighest}) {
     layout().lockstep.done_tick[0] = tick;
-    const auto loop = TickLoop::create(owner_, LockstepRole::flight_model, "flight-model@10");
+    const auto loop = runtime::TickLoop::create(owner_, LockstepRole::flight_model, "flight-model@10");
     ASSERT_FALSE(loop) << tick;
     EXPECT_NE(loop.error().message().find("the session is damaged"), std::string::npos) << loop.error().message();
   }

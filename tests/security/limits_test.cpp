@@ -10,8 +10,8 @@
 
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
-#include "databuffer/bridges/bridge_source.hpp"
-#include "databuffer/bridges/flight_simulators.hpp"
+#include "flightmodel/bridges/bridge_source.hpp"
+#include "flightmodel/bridges/flight_simulators.hpp"
 #include "lib/file/text_file.hpp"
 #include "lib/imageio/png.hpp"
 #include "model/scene/openflight/reader.hpp"
@@ -259,8 +259,8 @@ TEST_F(Limits, ABlockOfARecordingIsAtMostEightMebibytesAnd16384Items) {
 
 TEST_F(Limits, DatagramsLongerThan16384BytesAreRefused) {
   const std::vector<std::byte> longest(16'385);
-  EXPECT_FALSE(databuffer::bridges::decode_flightgear(longest));
-  databuffer::bridges::JsbsimBridge jsbsim;
+  EXPECT_FALSE(flightmodel::bridges::decode_flightgear(longest));
+  flightmodel::bridges::JsbsimBridge jsbsim;
   EXPECT_FALSE(jsbsim.receive(longest, {}));
 }
 

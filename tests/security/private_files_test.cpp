@@ -7,13 +7,13 @@
 
 #include <random>
 
-#include "databuffer/app/udp_socket_shell.hpp"
-#include "databuffer/bridges/bridge_source.hpp"
-#include "databuffer/runtime/process.hpp"
 #include "databuffer/session/session.hpp"
 #include "display/app/frame_output_shell.hpp"
+#include "flightmodel/app/udp_socket_shell.hpp"
+#include "flightmodel/bridges/bridge_source.hpp"
 #include "lib/log/log.hpp"
 #include "radar/recording/recording_writer.hpp"
+#include "runtime/process.hpp"
 #include "tests/security/folder.hpp"
 #include "tests/shm/child_process.hpp"
 #include "tests/shm/segment_path.hpp"
@@ -72,7 +72,7 @@ TEST_F(PrivateFiles, ADeviceUnderARecordingsNameKeepsItsMode) {
 }
 
 TEST_F(PrivateFiles, FramesAndTheirFolderAreAccessibleToTheUserOnly) {
-  databuffer::set_private_umask();
+  runtime::set_private_umask();
   const auto folder = folder_ / "frames";
   auto writer = display::FrameWriter::create(folder);
   ASSERT_TRUE(writer) << writer.error().message();
@@ -217,9 +217,9 @@ TEST_F(PrivateFiles, APipeAtTheNameOfASegmentDoesNotHangAReader) {
 
 TEST(PrivateSockets, ABridgeListensOnTheLoopbackAddressOnly) {
   for (const char* text : {"flightgear:0", "jsbsim:0", "dis:0"}) {
-    const auto source = databuffer::bridges::open_bridge(text);
+    const auto source = flightmodel::bridges::open_bridge(text);
     ASSERT_TRUE(source) << source.error().message();
-    const auto socket = databuffer::UdpSocket::listen(source->host, source->port);
+    const auto socket = flightmodel::UdpSocket::listen(source->host, source->port);
     ASSERT_TRUE(socket) << socket.error().message();
     EXPECT_EQ(socket->endpoint().address, "127.0.0.1") << text;
   }

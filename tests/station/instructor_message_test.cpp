@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "databuffer/messages/world_edit.hpp"
-#include "databuffer/messages/world_values.hpp"
 #include "lib/radar/world.hpp"
+#include "world/world_edit.hpp"
+#include "world/world_values.hpp"
 
 namespace yars::station {
 namespace {
@@ -40,7 +40,7 @@ databuffer::WorldState after(databuffer::WorldState world, const char* text, std
   return changed.value_or(world);
 }
 databuffer::WorldState configured() {
-  return databuffer::world_state_from(radar::WorldConfiguration());
+  return world::world_state_from(radar::WorldConfiguration());
 }
 
 TEST(InstructorMessage, CommandsOfTheClockHaveTheirNumbers) {
@@ -132,7 +132,7 @@ TEST(InstructorMessage, EntriesOfTheWorldAreAddedMovedChangedAndRemoved) {
 
 TEST(InstructorMessage, AnEntryThatIsRestoredIsNamedByListAndId) {
   const auto restored = taken<RestoreEntry>(R"({"do": "restore", "id": 1, "list": "movers", "item": 7})");
-  EXPECT_EQ(restored.list, databuffer::WorldList::movers);
+  EXPECT_EQ(restored.list, world::WorldList::movers);
   EXPECT_EQ(restored.item, 7U);
   EXPECT_THAT(refusal(R"({"do": "restore", "id": 1, "list": "trees", "item": 7})"),
               HasSubstr("restore: list: expected rain, jammers, movers or points, found \"trees\""));

@@ -44,9 +44,9 @@ class Presets(unittest.TestCase):
 
 def checked():
     """Limits in world_edit.cpp: entry -> {(quantity, unit): (least, greatest)}."""
-    text = (TOP / "databuffer/messages/world_edit.cpp").read_text(encoding="utf-8")
-    checks = re.findall(r"^Expected<void> check\(const World(\w+)&.*?^}", text, re.M | re.S)
-    bodies = re.split(r"^Expected<void> check\(const World\w+&.*$", text, flags=re.M)[1:]
+    text = (TOP / "world/world_edit.cpp").read_text(encoding="utf-8")
+    checks = re.findall(r"^Expected<void> check\(const databuffer::World(\w+)&.*?^}", text, re.M | re.S)
+    bodies = re.split(r"^Expected<void> check\(const databuffer::World\w+&.*$", text, flags=re.M)[1:]
     quantity = re.compile(r'\{"([\w ]+)", [^{}"]*, ([-\d.e\']+), ([-\d.e\']+),\s+"([^"]*)"')
     return {entry: {(name, unit): (float(least.replace("'", "")), float(most.replace("'", "")))
                     for name, least, most, unit in quantity.findall(body.split("\n}\n")[0])} for entry, body in zip(checks, bodies)}

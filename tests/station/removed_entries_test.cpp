@@ -6,30 +6,30 @@
 
 #include <utility>
 
-#include "databuffer/messages/world_values.hpp"
 #include "lib/radar/world.hpp"
+#include "world/world_values.hpp"
 
 namespace yars::station {
 namespace {
 
-using databuffer::WorldList;
 using databuffer::WorldState;
 using ::testing::HasSubstr;
+using world::WorldList;
 
 // A world with a rain cell, a jammer, a mover and a sequence point, with the ids 1, 2, 3 and 4.
 WorldState a_world() {
-  WorldState world = databuffer::world_state_from(radar::WorldConfiguration());
-  EXPECT_TRUE(add(world, databuffer::default_rain_cell({37.0, -122.0})));
-  EXPECT_TRUE(add(world, databuffer::default_jammer({36.0, -122.0})));
-  EXPECT_TRUE(add(world, databuffer::default_mover({35.0, -122.0}, 5)));
-  EXPECT_TRUE(add(world, databuffer::default_point(world, {34.0, -122.0}).value()));
+  WorldState world = world::world_state_from(radar::WorldConfiguration());
+  EXPECT_TRUE(world::add(world, world::default_rain_cell({37.0, -122.0})));
+  EXPECT_TRUE(world::add(world, world::default_jammer({36.0, -122.0})));
+  EXPECT_TRUE(world::add(world, world::default_mover({35.0, -122.0}, 5)));
+  EXPECT_TRUE(world::add(world, world::default_point(world, {34.0, -122.0}).value()));
   return world;
 }
 
 // The world without an entry, which `removed` then remembers.
 WorldState without(RemovedEntries& removed, const WorldState& world, WorldList list, std::uint32_t id) {
   WorldState after = world;
-  EXPECT_TRUE(databuffer::remove(after, list, id));
+  EXPECT_TRUE(world::remove(after, list, id));
   removed.note(world, after);
   return after;
 }
@@ -56,7 +56,7 @@ TEST(RemovedEntries, WhatWasChangedBetweenTwoRemovalsComesBackChanged) {
   RemovedEntries removed;
   WorldState world = without(removed, a_world(), WorldList::jammers, 2);
   ASSERT_TRUE(removed.restore(world, WorldList::jammers, 2));
-  ASSERT_TRUE(databuffer::move(world, WorldList::jammers, 2, {10.0, 20.0}, 0));
+  ASSERT_TRUE(world::move(world, WorldList::jammers, 2, {10.0, 20.0}, 0));
   world = without(removed, world, WorldList::jammers, 2);
   ASSERT_TRUE(removed.restore(world, WorldList::jammers, 2));
   EXPECT_EQ(world.jammers[0].latitude_deg, 10.0);
@@ -78,7 +78,7 @@ TEST(RemovedEntries, TheOldestAreForgotten) {
   RemovedEntries removed;
   WorldState world = without(removed, a_world(), WorldList::rain, 1);
   for (std::size_t i = 0; i < RemovedEntries::kMaxEntries; ++i) {
-    const auto id = databuffer::add(world, databuffer::default_rain_cell({37.0, -122.0}));
+    const auto id = world::add(world, world::default_rain_cell({37.0, -122.0}));
     ASSERT_TRUE(id);
     world = without(removed, world, WorldList::rain, *id);
   }

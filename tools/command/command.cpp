@@ -16,13 +16,13 @@
 
 namespace yars::tools {
 
-databuffer::Option add_terrain_option(databuffer::Command command, std::string& directory) {
-  databuffer::Option option =
+runtime::Option add_terrain_option(runtime::Command command, std::string& directory) {
+  runtime::Option option =
       command.option("--terrain", directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters");
   return option.value_name("DIR").in_user_file();
 }
 
-void add_scene_options(databuffer::Command command, ConfigurationOptions& options) {
+void add_scene_options(runtime::Command command, ConfigurationOptions& options) {
   command.option("--scene", options.scenes, "OpenFlight file, as FILE or FILE@LAT,LON,HDG; repeatable")
       .value_name("FILE")
       .otherwise("the configuration's alone");
@@ -34,7 +34,7 @@ void add_scene_options(databuffer::Command command, ConfigurationOptions& option
       .otherwise("none");
 }
 
-void add_without(databuffer::Command command, std::vector<std::string>& names) {
+void add_without(runtime::Command command, std::vector<std::string>& names) {
   command.option("--without", names, "name of objects or groups to leave out, with the wildcards * and ?; repeatable")
       .value_name("NAME")
       .repeatable()
@@ -47,9 +47,9 @@ model::scene::NameFilter name_filter(const std::vector<std::string>& names) {
   return model::scene::NameFilter(all);
 }
 
-databuffer::Option add_preset_option(databuffer::Command command, const std::string& name, std::string& preset,
-                                     const std::string& help) {
-  databuffer::Option option = command.option(name, preset, help);
+runtime::Option add_preset_option(runtime::Command command, const std::string& name, std::string& preset,
+                                  const std::string& help) {
+  runtime::Option option = command.option(name, preset, help);
   return option.one_of({radar::fidelity_names().begin(), radar::fidelity_names().end()});
 }
 
@@ -79,7 +79,7 @@ Number number_in(const Number&);
 
 // Adds the option of one field.
 template <class Value>
-void add_field(databuffer::Command command, const values::Field& field, Value& value) {
+void add_field(runtime::Command command, const values::Field& field, Value& value) {
   const std::string name = "--" + std::string(field.option);
   const std::string help =
       (field.unit.empty() ? "" : '[' + std::string(field.unit) + "] ") + std::string(field.purpose);
@@ -97,23 +97,23 @@ void add_field(databuffer::Command command, const values::Field& field, Value& v
     });
   } else {
     using Number = std::remove_cvref_t<decltype(number_in(value))>;
-    databuffer::Option option = command.option(name, value, help);
+    runtime::Option option = command.option(name, value, help);
     if (field.high < values::kAny) option.range(static_cast<Number>(field.low), static_cast<Number>(field.high));
     if (!field.otherwise.empty()) option.otherwise(std::string(field.otherwise));
   }
 }
 
 template <class Request>
-void add_all(databuffer::Command command, Request& request) {
+void add_all(runtime::Command command, Request& request) {
   values::visit_fields(request, [&](const values::Field& field, auto& value) { add_field(command, field, value); });
 }
 
 }  // namespace
 
-void add_request_options(databuffer::Command command, ScanRequest& request) {
+void add_request_options(runtime::Command command, ScanRequest& request) {
   add_all(command, request);
 }
-void add_request_options(databuffer::Command command, PatchRequest& request) {
+void add_request_options(runtime::Command command, PatchRequest& request) {
   add_all(command, request);
 }
 
@@ -127,7 +127,7 @@ CommandFailed failure_of(const error::Error& error) {
   for (const std::span<const values::Field> fields : {std::span<const values::Field>(values::kScanRequestFields),
                                                       std::span<const values::Field>(values::kPatchRequestFields)})
     in_options = radar::spelled(std::move(in_options), fields, spell);
-  return {in_options.message(), error.bad_usage() ? databuffer::kExitUsage : databuffer::kExitFailure};
+  return {in_options.message(), error.bad_usage() ? runtime::kExitUsage : runtime::kExitFailure};
 }
 
 void throw_failure(const error::Error& error) {

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/runtime/command_line.hpp"
 #include "lib/error/error.hpp"
 #include "radar/theatre.hpp"
+#include "runtime/command_line.hpp"
 #include "yars/requests.hpp"
 
 namespace yars::model::scene {
@@ -46,16 +46,16 @@ struct ConfigurationOptions {
 };
 
 // Adds --terrain, a folder of elevation cells. The user's file may set its default.
-databuffer::Option add_terrain_option(databuffer::Command command, std::string& directory);
+runtime::Option add_terrain_option(runtime::Command command, std::string& directory);
 // Adds --scene and --scene-without.
-void add_scene_options(databuffer::Command command, ConfigurationOptions& options);
+void add_scene_options(runtime::Command command, ConfigurationOptions& options);
 // Adds --without: names of objects or groups to leave out.
-void add_without(databuffer::Command command, std::vector<std::string>& names);
+void add_without(runtime::Command command, std::vector<std::string>& names);
 // Filter that leaves out these names; `*` and `?` are wildcards.
 model::scene::NameFilter name_filter(const std::vector<std::string>& names);
 // Adds an option `name` that takes the name of a fidelity preset.
-databuffer::Option add_preset_option(databuffer::Command command, const std::string& name, std::string& preset,
-                                     const std::string& help);
+runtime::Option add_preset_option(runtime::Command command, const std::string& name, std::string& preset,
+                                  const std::string& help);
 // The radar's configuration in `file` (empty: built-in defaults), changed by `options`. Prints the warnings about the
 // file on standard error. Throws CommandFailed for a file that cannot be loaded, or a scene option that is not valid.
 // Callers must include lib/radar/configuration.hpp, because RadarConfiguration is only declared here.
@@ -64,8 +64,8 @@ radar::RadarConfiguration read_configuration(const std::string& file, const Conf
 void apply_options(const ConfigurationOptions& options, radar::RadarConfiguration& configuration);
 
 // Adds an option for each field of a request (lib/values/requests.idl).
-void add_request_options(databuffer::Command command, ScanRequest& request);
-void add_request_options(databuffer::Command command, PatchRequest& request);
+void add_request_options(runtime::Command command, ScanRequest& request);
+void add_request_options(runtime::Command command, PatchRequest& request);
 
 using radar::LeftOut;
 using radar::Warn;
@@ -74,36 +74,36 @@ Warn warn_as(const char* command);
 // Throws CommandFailed with code 1 if something was left out (LeftOut). Call after the results are written.
 void fail_if_left_out(const std::vector<std::string>& left_out);
 
-void add_scan_command(databuffer::Command app, const CommonOptions& common);
-void add_patch_command(databuffer::Command app, const CommonOptions& common);
-void add_trade_command(databuffer::Command app, const CommonOptions& common);
-void add_terrain_command(databuffer::Command app, const CommonOptions& common);
-void add_scene_command(databuffer::Command app, const CommonOptions& common);
-void add_dataset_command(databuffer::Command app);
-void add_config_command(databuffer::Command app, const CommonOptions& common);
-void add_sim_command(databuffer::Command app, const CommonOptions& common);
-void add_world_command(databuffer::Command app, const CommonOptions& common);
-void add_inject_command(databuffer::Command app, const CommonOptions& common);
-void add_note_command(databuffer::Command app, const CommonOptions& common);
-void add_status_command(databuffer::Command app, const CommonOptions& common);
-void add_watch_command(databuffer::Command app, const CommonOptions& common);
-void add_record_command(databuffer::Command app, const CommonOptions& common);
-void add_recordings_command(databuffer::Command app);
-void add_replay_command(databuffer::Command app, const CommonOptions& common);
+void add_scan_command(runtime::Command app, const CommonOptions& common);
+void add_patch_command(runtime::Command app, const CommonOptions& common);
+void add_trade_command(runtime::Command app, const CommonOptions& common);
+void add_terrain_command(runtime::Command app, const CommonOptions& common);
+void add_scene_command(runtime::Command app, const CommonOptions& common);
+void add_dataset_command(runtime::Command app);
+void add_config_command(runtime::Command app, const CommonOptions& common);
+void add_sim_command(runtime::Command app, const CommonOptions& common);
+void add_world_command(runtime::Command app, const CommonOptions& common);
+void add_inject_command(runtime::Command app, const CommonOptions& common);
+void add_note_command(runtime::Command app, const CommonOptions& common);
+void add_status_command(runtime::Command app, const CommonOptions& common);
+void add_watch_command(runtime::Command app, const CommonOptions& common);
+void add_record_command(runtime::Command app, const CommonOptions& common);
+void add_recordings_command(runtime::Command app);
+void add_replay_command(runtime::Command app, const CommonOptions& common);
 
 // Subcommands of `yars terrain`.
-void add_terrain_generate(databuffer::Command terrain);
-void add_terrain_info(databuffer::Command terrain);
-void add_terrain_image(databuffer::Command terrain);
-void add_terrain_profile(databuffer::Command terrain);
-void add_terrain_dump(databuffer::Command terrain);
-void add_terrain_reduce(databuffer::Command terrain);
-void add_terrain_convert(databuffer::Command terrain);
-void add_terrain_pack(databuffer::Command terrain);
+void add_terrain_generate(runtime::Command terrain);
+void add_terrain_info(runtime::Command terrain);
+void add_terrain_image(runtime::Command terrain);
+void add_terrain_profile(runtime::Command terrain);
+void add_terrain_dump(runtime::Command terrain);
+void add_terrain_reduce(runtime::Command terrain);
+void add_terrain_convert(runtime::Command terrain);
+void add_terrain_pack(runtime::Command terrain);
 
 // Subcommands of `yars scene`.
-void add_scene_generate(databuffer::Command scene);
-void add_scene_info(databuffer::Command scene);
-void add_scene_image(databuffer::Command scene);
+void add_scene_generate(runtime::Command scene);
+void add_scene_info(runtime::Command scene);
+void add_scene_image(runtime::Command scene);
 
 }  // namespace yars::tools

@@ -5,7 +5,7 @@
 
 namespace yars::tools {
 
-databuffer::Option add_json_flag(databuffer::Command command, bool& json, const std::string& help) {
+runtime::Option add_json_flag(runtime::Command command, bool& json, const std::string& help) {
   return command.flag("--json", json, help);
 }
 

@@ -7,15 +7,15 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "databuffer/runtime/command_line.hpp"
+#include "runtime/command_line.hpp"
 
 namespace yars::tools {
 
 enum class JsonLines { one, many };
 
 // Adds --json: prints one JSON object in place of text.
-databuffer::Option add_json_flag(databuffer::Command command, bool& json,
-                                 const std::string& help = "print one JSON object in place of text");
+runtime::Option add_json_flag(runtime::Command command, bool& json,
+                              const std::string& help = "print one JSON object in place of text");
 
 // Prints the object and a line feed. JsonLines::many: indented, for people.
 void print_json(const nlohmann::ordered_json& object, JsonLines lines = JsonLines::one);

@@ -74,9 +74,9 @@ std::vector<std::string> words_of(const DatasetOptions& options) {
 
 }  // namespace
 
-void add_dataset_command(databuffer::Command app) {
+void add_dataset_command(runtime::Command app) {
   auto options = std::make_shared<DatasetOptions>();
-  databuffer::Command command =
+  runtime::Command command =
       app.subcommand("dataset", "make training data: patch maps with labels, by a specification");
   command.option("SPECIFICATION", options->specification, "what to make (YAML)")
       .value_name("FILE")

@@ -17,12 +17,12 @@
 #include <string_view>
 #include <vector>
 
-#include "databuffer/runtime/program.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/terrain/gdal/map_writer.hpp"
 #include "model/terrain/gdal/raster.hpp"
+#include "runtime/program.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
@@ -201,9 +201,9 @@ void patch(const CommonOptions& common, const PatchCommandOptions& options) {
 
 }  // namespace
 
-void add_patch_command(databuffer::Command app, const CommonOptions& common) {
+void add_patch_command(runtime::Command app, const CommonOptions& common) {
   auto options = std::make_shared<PatchCommandOptions>();
-  databuffer::Command command = app.subcommand("patch", "compute one patch map, without a session");
+  runtime::Command command = app.subcommand("patch", "compute one patch map, without a session");
   add_terrain_option(command, options->configuration.terrain).otherwise("the configuration's");
   add_scene_options(command, options->configuration);
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset").otherwise("the configuration's");

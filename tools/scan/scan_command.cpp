@@ -18,13 +18,13 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/runtime/program.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/imageio/png.hpp"
 #include "lib/text/plain_text.hpp"
 #include "model/kernel/sweep_chain.hpp"
 #include "radar/scan_work.hpp"
+#include "runtime/program.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
@@ -284,9 +284,9 @@ void scan(const CommonOptions& common, const ScanCommandOptions& options) {
 
 }  // namespace
 
-void add_scan_command(databuffer::Command app, const CommonOptions& common) {
+void add_scan_command(runtime::Command app, const CommonOptions& common) {
   auto options = std::make_shared<ScanCommandOptions>();
-  databuffer::Command command = app.subcommand("scan", "compute one scan of the real beam map, without a session");
+  runtime::Command command = app.subcommand("scan", "compute one scan of the real beam map, without a session");
   add_terrain_option(command, options->configuration.terrain).otherwise("the configuration's");
   add_scene_options(command, options->configuration);
   add_preset_option(command, "--fidelity", options->configuration.fidelity, "preset").otherwise("the configuration's");

@@ -42,7 +42,7 @@ SceneFile generate_scene_file(const SceneGenerateOptions& options, const paralle
   return {made.triangles, made.file.size()};
 }
 
-void add_scene_generate_options(databuffer::Command command, SceneGenerateOptions& options) {
+void add_scene_generate_options(runtime::Command command, SceneGenerateOptions& options) {
   command.option("--kind", options.kind, "kind of scene").one_of({"airfield", "harbour", "bridge", "town"});
   command.option("--triangles", options.triangles, "approximate number; an instance counts at each use")
       .range(std::uint64_t{1}, worldgen::kMaxGenerated);
@@ -56,9 +56,9 @@ void add_scene_generate_options(databuffer::Command command, SceneGenerateOption
   add_json_flag(command, options.json);
 }
 
-void add_scene_generate(databuffer::Command scene) {
+void add_scene_generate(runtime::Command scene) {
   const auto options = std::make_shared<SceneGenerateOptions>();
-  databuffer::Command command = scene.subcommand("generate", "write a made-up scene as an OpenFlight file");
+  runtime::Command command = scene.subcommand("generate", "write a made-up scene as an OpenFlight file");
   add_scene_generate_options(command, *options);
   command.callback([options] {
     const SceneFile made = generate_scene_file(*options);

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string>
 
-#include "databuffer/runtime/command_line.hpp"
 #include "lib/parallel/thread_pool.hpp"
+#include "runtime/command_line.hpp"
 
 namespace yars::tools {
 
@@ -26,7 +26,7 @@ struct SceneFile {
   std::size_t bytes = 0;
 };
 
-void add_scene_generate_options(databuffer::Command command, SceneGenerateOptions& options);
+void add_scene_generate_options(runtime::Command command, SceneGenerateOptions& options);
 
 // Generates the scene and writes the file, with the folders that it needs. Progress goes to standard error if that is a
 // terminal.

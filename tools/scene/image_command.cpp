@@ -233,9 +233,9 @@ void draw(const SceneImageOptions& options) {
 
 }  // namespace
 
-void add_scene_image(databuffer::Command scene) {
+void add_scene_image(runtime::Command scene) {
   const auto options = std::make_shared<SceneImageOptions>();
-  databuffer::Command command = scene.subcommand("image", "draw a plan view as PNG, north up, shaded by normals");
+  runtime::Command command = scene.subcommand("image", "draw a plan view as PNG, north up, shaded by normals");
   command.option("--scene,FILE", options->file, "OpenFlight file").value_name("FILE").required();
   command.option("--out", options->out, "PNG file").value_name("FILE").required();
   command.option("--width", options->width, "[pixels] of the longer side").range(16, 8192);

@@ -21,8 +21,8 @@
 
 namespace yars::tools {
 
-void add_scene_command(databuffer::Command app, const CommonOptions& /*common*/) {
-  databuffer::Command scene = app.subcommand("scene", "polygonal scenes (OpenFlight): generate, info, image");
+void add_scene_command(runtime::Command app, const CommonOptions& /*common*/) {
+  runtime::Command scene = app.subcommand("scene", "polygonal scenes (OpenFlight): generate, info, image");
   scene.require_subcommand();
   add_scene_generate(scene);
   add_scene_info(scene);
@@ -173,9 +173,9 @@ void report_files(const InfoOptions& options) {
 
 }  // namespace
 
-void add_scene_info(databuffer::Command scene) {
+void add_scene_info(runtime::Command scene) {
   const auto options = std::make_shared<InfoOptions>();
-  databuffer::Command command =
+  runtime::Command command =
       scene.subcommand("info", "print contents of OpenFlight files: counts, materials, extent, origin");
   command.option("--scene,FILE", options->files, "OpenFlight file; several may be given").value_name("FILE").required();
   add_without(command, options->without);

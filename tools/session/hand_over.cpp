@@ -7,11 +7,11 @@
 #include <span>
 #include <utility>
 
-#include "databuffer/runtime/process.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/log/log.hpp"
+#include "runtime/process.hpp"
 #include "tools/session/play_recording.hpp"
 
 namespace yars::tools {
@@ -91,7 +91,7 @@ class Joining {
 error::Expected<void> await(ReplaySession& session, const HandOverOptions& options, std::int64_t deadline_ns,
                             const std::function<std::string()>& missing) {
   for (std::string role = missing(); !role.empty(); role = missing()) {
-    if (databuffer::stop_requested())
+    if (runtime::stop_requested())
       return error::fail("hand-over", "the live roles to join session " + options.session, "a request to stop");
     if (databuffer::monotonic_ns() > deadline_ns)
       return error::fail("hand-over", options.roles + " in session " + options.session + " within 30 s", "no " + role,

@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "databuffer/messages/input_event.hpp"
-#include "databuffer/runtime/process.hpp"
-#include "databuffer/runtime/program.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/text/nearest_word.hpp"
 #include "lib/text/plain_text.hpp"
+#include "runtime/process.hpp"
+#include "runtime/program.hpp"
 #include "statemachine/reasons.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
@@ -49,8 +49,8 @@ void note(const CommonOptions& common, const NoteOptions& options) {
 
 }  // namespace
 
-void add_note_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command command = app.subcommand("note", "write a note into the session's flight recorder");
+void add_note_command(runtime::Command app, const CommonOptions& common) {
+  runtime::Command command = app.subcommand("note", "write a note into the session's flight recorder");
   auto options = std::make_shared<NoteOptions>();
   command.option("TEXT", options->text, "what happened; at most 87 bytes are kept, 72 with --restarted").required();
   command.option("--restarted", options->restarted, "role that was restarted; TEXT is the reason")
@@ -112,7 +112,7 @@ Outcome wait_until_applied(Session& session, std::uint32_t lane, std::uint64_t c
     const auto outputs = databuffer::read_valid(session.layout().outputs);
     return outcome.size() >= count && outputs && outputs->tick >= tick;
   };
-  while (!is_published() && databuffer::monotonic_ns() < deadline_ns && !databuffer::stop_requested()) {
+  while (!is_published() && databuffer::monotonic_ns() < deadline_ns && !runtime::stop_requested()) {
     while (session.layout().applied_events.read(cursor, applied).delivered) {
       if (applied.lane != lane) continue;
       outcome.push_back(applied.effective);
@@ -229,7 +229,7 @@ void inject(const CommonOptions& common, const InjectOptions& options) {
     const auto push = [&] { return session->layout().input.push(static_cast<std::size_t>(lane->lane()), event); };
     const std::int64_t deadline_ns = event.monotonic_ns + kTimeout_ns;
     bool sent = push();
-    while (!sent && databuffer::monotonic_ns() < deadline_ns && !databuffer::stop_requested()) {
+    while (!sent && databuffer::monotonic_ns() < deadline_ns && !runtime::stop_requested()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(5));
       sent = push();
     }
@@ -252,8 +252,8 @@ void inject(const CommonOptions& common, const InjectOptions& options) {
 
 }  // namespace
 
-void add_inject_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command command =
+void add_inject_command(runtime::Command app, const CommonOptions& common) {
+  runtime::Command command =
       app.subcommand("inject", "send events, e.g. yars inject 'power opr' 'pb 13' 'elevation -5'");
   auto options = std::make_shared<InjectOptions>();
   command.option("EVENT", options->events, "event, in upper or lower case:\n" + databuffer::event_forms())

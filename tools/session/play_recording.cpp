@@ -12,13 +12,13 @@
 #include <utility>
 
 #include "databuffer/messages/derived_values.hpp"
-#include "databuffer/runtime/process.hpp"
 #include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/modes.hpp"
 #include "radar/recording/replay.hpp"
+#include "runtime/process.hpp"
 #include "tools/command/json_output.hpp"
 
 namespace yars::tools {
@@ -268,7 +268,7 @@ error::Expected<void> play_recording(recording::RecordingReader& reader, std::op
   if (auto started = session->start(*begin, options.rate); !started) return started;
   session->publish_key_frame(key_frame);
   log::info("plays " + options.file + " in session " + options.session + " from " + text_of_seconds(*begin) + " s");
-  while (!databuffer::stop_requested()) {
+  while (!runtime::stop_requested()) {
     const auto more = poll(*session, player, reader.blocks().front().first_tick);
     if (!more) return tl::unexpected(more.error());
     if (!*more) break;

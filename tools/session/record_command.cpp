@@ -7,15 +7,15 @@
 #include <string>
 #include <utility>
 
-#include "databuffer/runtime/process.hpp"
-#include "databuffer/runtime/program.hpp"
-#include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/session.hpp"
 #include "lib/file/file_search.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "radar/recording/branch.hpp"
 #include "radar/recording/recording_writer.hpp"
+#include "runtime/process.hpp"
+#include "runtime/program.hpp"
+#include "runtime/tick_loop.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/session/recorder.hpp"
@@ -24,8 +24,8 @@ namespace yars::tools {
 
 namespace {
 
-using databuffer::Option;
 using databuffer::Session;
+using runtime::Option;
 
 constexpr std::int64_t kRecordInterval_ns = 50'000'000;  // [ns] 50 ms; the ring of ticks holds 5 s of sim time
 // After this number of polls (2 s) without a written block, the incomplete block is written. With a frozen clock a
@@ -66,7 +66,7 @@ void record_live(Session& session, const std::string& name, Recorder& recorder,
                  const recording::RecordingWriter& writer) {
   int quiet_polls = 0;
   bool warned = false;
-  while (!databuffer::stop_requested()) {
+  while (!runtime::stop_requested()) {
     const std::uint64_t bytes_before = writer.bytes();
     recorder.drain(tick_of(session));
     quiet_polls = writer.bytes() == bytes_before ? quiet_polls + 1 : 0;
@@ -85,7 +85,7 @@ void record_live(Session& session, const std::string& name, Recorder& recorder,
 
 // In lockstep the other roles wait for the recorder at the end of each tick. So the recorder loses no record.
 void record_in_lockstep(Session& session, Recorder& recorder, const std::string& lockstep) {
-  auto loop = databuffer::TickLoop::create(session, databuffer::LockstepRole::recorder, lockstep);
+  auto loop = runtime::TickLoop::create(session, databuffer::LockstepRole::recorder, lockstep);
   if (!loop) throw_failure(loop.error());
   while (const auto due = loop->wait()) {
     recorder.drain(due->tick);
@@ -155,7 +155,7 @@ bool begin_branch(const Session& session, Trunk& trunk, recording::RecordingWrit
 }
 
 void record(const CommonOptions& common, const RecordOptions& options) {
-  databuffer::set_private_umask();
+  runtime::set_private_umask();
   if (!options.log_dir.empty()) log::start_file("recorder", options.log_dir);
   auto session = Session::open(common.session, "recorder");
   if (!session) throw_failure(session.error());
@@ -192,8 +192,8 @@ void record(const CommonOptions& common, const RecordOptions& options) {
 
 }  // namespace
 
-void add_record_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command command = app.subcommand("record", "record the session's ticks and events until Ctrl-C");
+void add_record_command(runtime::Command app, const CommonOptions& common) {
+  runtime::Command command = app.subcommand("record", "record the session's ticks and events until Ctrl-C");
   auto options = std::make_shared<RecordOptions>();
   command.option("FILE", options->file, "recording to write").value_name("FILE").required();
   command.flag("--overwrite", options->overwrite, "replace an existing FILE (else an existing FILE is refused)");

@@ -13,13 +13,13 @@
 #include <utility>
 #include <vector>
 
-#include "databuffer/runtime/program.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 #include "radar/recording/branch.hpp"
 #include "radar/recording/recording_reader.hpp"
 #include "radar/recording/recording_writer.hpp"
+#include "runtime/program.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 
@@ -245,18 +245,18 @@ void list(const RecordingsOptions& options) {
     listing.add(path);
   listing.print();
   std::fflush(stdout);
-  if (listing.has_failed()) throw CommandFailed{{}, databuffer::kExitFailure};
+  if (listing.has_failed()) throw CommandFailed{{}, runtime::kExitFailure};
 }
 
 }  // namespace
 
-void add_recordings_command(databuffer::Command app) {
-  databuffer::Command command = app.subcommand("recordings", "list recordings: time, size, terrain, what they hold");
+void add_recordings_command(runtime::Command app) {
+  runtime::Command command = app.subcommand("recordings", "list recordings: time, size, terrain, what they hold");
   auto options = std::make_shared<RecordingsOptions>();
   command.option("FILE", options->paths, "recordings, or folders with recordings")
       .value_name("FILE")
       .otherwise("the current folder");
-  databuffer::Option at = command.option(
+  runtime::Option at = command.option(
       "--at", options->at_s,
       "[s] sim time: say where a live set goes on from there, and by which flight (--fly-out of the start script)");
   at.range(0.0, databuffer::kLatestSimTime_s).otherwise("none");

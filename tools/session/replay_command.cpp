@@ -11,10 +11,7 @@
 #include <vector>
 
 #include "databuffer/json/status_json.hpp"
-#include "databuffer/json/world_json.hpp"
 #include "databuffer/messages/input_event.hpp"
-#include "databuffer/runtime/process.hpp"
-#include "databuffer/runtime/program.hpp"
 #include "lib/log/log.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/text/plain_text.hpp"
@@ -22,10 +19,13 @@
 #include "radar/recording/branch.hpp"
 #include "radar/recording/recording_reader.hpp"
 #include "radar/recording/replay.hpp"
+#include "runtime/process.hpp"
+#include "runtime/program.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/session/hand_over.hpp"
 #include "tools/session/play_recording.hpp"
+#include "world/world_json.hpp"
 
 namespace yars::tools {
 
@@ -105,7 +105,7 @@ void report_missing(const recording::RecordingReader& reader, const std::string&
 
 void print_entries(recording::RecordingReader& reader) {
   while (const auto entry = reader.next()) {
-    if (databuffer::stop_requested()) return;
+    if (runtime::stop_requested()) return;
     nlohmann::ordered_json object;
     if (const auto* event = std::get_if<databuffer::AppliedEvent>(&*entry)) {
       object["tick"] = event->tick;
@@ -119,7 +119,7 @@ void print_entries(recording::RecordingReader& reader) {
       object["patch"] = {{"id", patch->map.id}, {"size", patch->map.size}, {"hash", patch->map.hash}};
     } else if (const auto* world = std::get_if<databuffer::WorldState>(&*entry)) {
       object["tick"] = world->tick;
-      object["world"] = databuffer::world_json(*world, world->tick * radar::kTickNanoseconds);
+      object["world"] = world::world_json(*world, world->tick * radar::kTickNanoseconds);
     } else {
       continue;
     }
@@ -274,7 +274,7 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
   World world = open_world(common, reader.header(), options);
   KernelRerun run(world);
   while (auto entry = reader.next()) {
-    if (databuffer::stop_requested())
+    if (runtime::stop_requested())
       throw_failure({options.file, "the whole recording to be read", "a request to stop", ""});
     if (reader.take_damage_flag()) run.pass_over_damage();
     run.take(*entry);
@@ -301,29 +301,28 @@ void compare(const CommonOptions& common, recording::RecordingReader& reader, co
 
 }  // namespace
 
-void add_replay_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command command = app.subcommand(
+void add_replay_command(runtime::Command app, const CommonOptions& common) {
+  runtime::Command command = app.subcommand(
       "replay",
       "play a recording into its own session (--session, else 'replay'), for a radar-display in that session");
   auto options = std::make_shared<ReplayOptions>();
   command.option("FILE", options->file, "recording made by yars record").value_name("FILE").required();
-  databuffer::Option events =
+  runtime::Option events =
       command.flag("--events", options->events,
                    "compute the sweeps from the recorded ticks, offline, and compare them with the recorded sweeps");
-  databuffer::Option print = command.flag(
-      "--print", options->print, "print events, radar states, worlds and patch maps, one JSON object per line");
+  runtime::Option print = command.flag("--print", options->print,
+                                       "print events, radar states, worlds and patch maps, one JSON object per line");
   events.excludes(print);
-  databuffer::Option rate =
-      command.option("--rate", options->rate, "rate relative to real time; 0 freezes the picture");
+  runtime::Option rate = command.option("--rate", options->rate, "rate relative to real time; 0 freezes the picture");
   rate.range(0.0, 10.0).excludes(events).excludes(print);
-  databuffer::Option seek = command.option("--seek", options->seek_s, "[s] sim time at which to begin");
+  runtime::Option seek = command.option("--seek", options->seek_s, "[s] sim time at which to begin");
   seek.range(0.0, databuffer::kLatestSimTime_s)
       .excludes(events)
       .excludes(print)
       .otherwise("the begin of the recording");
-  databuffer::Option hand_over = command.flag("--hand-over", options->hand_over,
-                                              "hand the second of --seek over to a live set, which goes on from there; "
-                                              "--fly-out of the start script does it all");
+  runtime::Option hand_over = command.flag("--hand-over", options->hand_over,
+                                           "hand the second of --seek over to a live set, which goes on from there; "
+                                           "--fly-out of the start script does it all");
   hand_over.needs(seek).excludes(events).excludes(print);
   command.option("--await", options->awaited, "roles that --hand-over awaits before it runs the clock")
       .value_name("ROLES")
@@ -333,7 +332,7 @@ void add_replay_command(databuffer::Command app, const CommonOptions& common) {
       .value_name("DIR")
       .otherwise("the recording's");
   add_json_flag(command, options->json);
-  const databuffer::Option session = app.find("--session"), config = app.find("--config");
+  const runtime::Option session = app.find("--session"), config = app.find("--config");
   command.callback([&common, options, session, config] {
     options->has_own_file = config.is_given();
     const bool named = session.is_given();

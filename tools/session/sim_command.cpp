@@ -9,13 +9,13 @@
 #include <thread>
 #include <utility>
 
-#include "databuffer/runtime/process.hpp"
-#include "databuffer/runtime/program.hpp"
 #include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/session.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"
+#include "runtime/process.hpp"
+#include "runtime/program.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 
@@ -98,7 +98,7 @@ class PauseForRoles {
   void operator()(const Session& session) {
     int waited_ms = databuffer::kPortionTime_ms;
     std::this_thread::sleep_for(std::chrono::milliseconds(waited_ms));
-    while (!have_run_due_ticks(session) && waited_ms < most_ms_ && !databuffer::stop_requested()) {
+    while (!have_run_due_ticks(session) && waited_ms < most_ms_ && !runtime::stop_requested()) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
       ++waited_ms;
     }
@@ -114,7 +114,7 @@ void step(const SimOptions& options, std::int64_t ticks) {
   auto session = open_live_session(options.common);
   const std::uint32_t epoch = session.clock().epoch;
   PauseForRoles pause;
-  while (ticks > 0 && !databuffer::stop_requested()) {
+  while (ticks > 0 && !runtime::stop_requested()) {
     change_clock(session,
                  [&](const ClockState& clock) { return databuffer::stepped(clock, clock.epoch == epoch ? ticks : 0); });
     if (session.clock().epoch != epoch)
@@ -153,12 +153,12 @@ databuffer::Repositioning repositioning_of(const Position& position) {
 
 }  // namespace
 
-void add_sim_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command sim = app.subcommand("sim", "the session's clock and the aircraft's position");
+void add_sim_command(runtime::Command app, const CommonOptions& common) {
+  runtime::Command sim = app.subcommand("sim", "the session's clock and the aircraft's position");
   sim.require_subcommand();
   const auto options = std::make_shared<SimOptions>(SimOptions{common});
   const auto add = [&sim, &options](const char* name, const char* help, const std::function<void()>& call) {
-    databuffer::Command command = sim.subcommand(name, help);
+    runtime::Command command = sim.subcommand(name, help);
     add_json_flag(command, options->json);
     command.callback(call);
     return command;
@@ -190,7 +190,7 @@ void add_sim_command(databuffer::Command app, const CommonOptions& common) {
       .option("TIME_S", *time_s, "[s] sim time")
       .range(0.0, databuffer::kLatestSimTime_s);
   const auto position = std::make_shared<Position>();
-  databuffer::Command move =
+  runtime::Command move =
       add("reposition", "move the aircraft to a position and begin a new epoch", [options, position] {
         const databuffer::Repositioning to = repositioning_of(*position);
         begin_epoch(*options, [&](const ClockState& clock) { return databuffer::repositioned(clock, to); });

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "databuffer/messages/derived_values.hpp"
-#include "databuffer/runtime/receivers.hpp"
+#include "databuffer/session/receivers.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/text/plain_text.hpp"

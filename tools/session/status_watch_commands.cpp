@@ -11,12 +11,12 @@
 #include <vector>
 
 #include "databuffer/json/status_json.hpp"
-#include "databuffer/runtime/process.hpp"
-#include "databuffer/runtime/processor_load.hpp"
-#include "databuffer/runtime/program.hpp"
 #include "databuffer/session/layout_json.hpp"
 #include "databuffer/session/session.hpp"
 #include "lib/log/log.hpp"
+#include "runtime/process.hpp"
+#include "runtime/processor_load.hpp"
+#include "runtime/program.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/session/status_text.hpp"
@@ -63,7 +63,7 @@ void status(const CommonOptions& common, const StatusOptions& options) {
   }
   std::vector<int> pids;
   for (const auto& process : session->processes()) pids.push_back(process.pid);
-  databuffer::LoadMeter meter;
+  runtime::LoadMeter meter;
   meter.loads(pids);
   std::this_thread::sleep_for(kLoadWindow);
   print_status(found, meter.loads(pids));
@@ -72,8 +72,8 @@ void status(const CommonOptions& common, const StatusOptions& options) {
 
 }  // namespace
 
-void add_status_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command command = app.subcommand("status", "health of a session and of the hosts that share it");
+void add_status_command(runtime::Command app, const CommonOptions& common) {
+  runtime::Command command = app.subcommand("status", "health of a session and of the hosts that share it");
   auto options = std::make_shared<StatusOptions>();
   add_json_flag(command, options->json);
   command.flag("--layout", options->layout, "offsets of every record in the segment, as JSON; needs no session");
@@ -107,7 +107,7 @@ void watch(const CommonOptions& common, const WatchOptions& options) {
   if (!session) throw_failure(session.error());
   std::uint64_t printed_version = ~0ULL;
   std::int64_t printed_ns = 0;
-  while (!databuffer::stop_requested()) {
+  while (!runtime::stop_requested()) {
     const std::uint64_t version = session->layout().radar_state.version();
     const std::int64_t now_ns = databuffer::monotonic_ns();
     if (version != printed_version || now_ns - printed_ns >= kMaxInterval_ns) {
@@ -127,8 +127,8 @@ void watch(const CommonOptions& common, const WatchOptions& options) {
 
 }  // namespace
 
-void add_watch_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command command =
+void add_watch_command(runtime::Command app, const CommonOptions& common) {
+  runtime::Command command =
       app.subcommand("watch", "print the session's state: one line per change, at least one per second");
   auto options = std::make_shared<WatchOptions>();
   add_json_flag(command, options->json, "print one JSON object a line in place of text");

@@ -15,24 +15,24 @@
 #include <thread>
 #include <utility>
 
-#include "databuffer/json/world_json.hpp"
 #include "databuffer/messages/inspection.hpp"
-#include "databuffer/messages/world_edit.hpp"
 #include "databuffer/session/session_world.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/text/plain_text.hpp"
 #include "lib/values/request_fields.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
+#include "world/world_edit.hpp"
+#include "world/world_json.hpp"
 
 namespace yars::tools {
 
 namespace {
 
 using databuffer::Session;
-using databuffer::WorldList;
 using databuffer::WorldState;
 using error::Expected;
+using world::WorldList;
 
 struct WorldOptions {
   const CommonOptions& common;
@@ -76,9 +76,9 @@ void print_entries(const WorldState& world, std::int64_t sim_time_ns) {
                 position_text(jammer.latitude_deg, jammer.longitude_deg).c_str(),
                 std::isnan(jammer.altitude_m) ? "10 m above ground"
                                               : rounded(jammer.altitude_m / geo::kMetresPerFoot, "ft").c_str(),
-                databuffer::band_name(jammer.band), rounded(jammer.power_w, "W").c_str());
+                world::band_name(jammer.band), rounded(jammer.power_w, "W").c_str());
   for (const auto& mover : databuffer::used(world.movers, world.mover_count)) {
-    const auto now = databuffer::at_sim_time(mover, sim_time_ns);
+    const auto now = world::at_sim_time(mover, sim_time_ns);
     std::printf("mover %s: %s, %s, heading %s, %s\n", named(now.id, now.name).c_str(),
                 position_text(now.latitude_deg, now.longitude_deg).c_str(),
                 rounded(geo::Speed::metres_per_second(now.speed_mps).knots(), "kt").c_str(),
@@ -89,7 +89,7 @@ void print_entries(const WorldState& world, std::int64_t sim_time_ns) {
                 position_text(point.latitude_deg, point.longitude_deg).c_str(),
                 std::isnan(point.elevation_m) ? "elevation unknown"
                                               : rounded(point.elevation_m / geo::kMetresPerFoot, "ft").c_str(),
-                std::string(databuffer::kind_name(point)).c_str());
+                std::string(world::kind_name(point)).c_str());
 }
 
 bool is_in_effect(const Session& session, const WorldState& world) {
@@ -102,7 +102,7 @@ void report(const Session& session, const WorldState& world, const std::string& 
   const std::int64_t now_ns = session.reached_sim_time_ns();
   const bool in_effect = is_in_effect(session, world);
   if (json) {
-    auto object = databuffer::world_json(world, now_ns);
+    auto object = world::world_json(world, now_ns);
     object["in_effect"] = in_effect;
     return print_json(object);
   }
@@ -177,7 +177,7 @@ Expected<std::string> text_if_done(Expected<void> outcome, std::string done) {
 
 template <class Entry>
 Expected<std::string> added(WorldState& world, const Entry& entry, const std::string& what) {
-  const auto id = databuffer::add(world, entry);
+  const auto id = world::add(world, entry);
   if (!id) return tl::unexpected(id.error());
   return what + " " + std::to_string(*id) + " added";
 }
@@ -191,7 +191,7 @@ void set_sea(const WorldOptions& options, const std::string& word) {
       throw_failure(error::usage_error("STATE", "a sea state from 0 to 6, or auto", '\'' + word + '\''));
   }
   change(options, [state, &word](WorldState& world, std::int64_t) {
-    return text_if_done(databuffer::set_sea_state(world, state),
+    return text_if_done(world::set_sea_state(world, state),
                         word == "auto" ? "sea state from the wind" : "sea state " + word);
   });
 }
@@ -202,13 +202,13 @@ struct Place {
   geo::GeoPoint point() const { return {latitude_deg, longitude_deg}; }
 };
 
-void add_id(databuffer::Command command, Place& place) {
+void add_id(runtime::Command command, Place& place) {
   command.option("ID", place.id, "number of the entry, as `yars world` prints it")
       .range(std::uint64_t{1}, std::uint64_t{std::numeric_limits<std::uint32_t>::max()})
       .required();
 }
 
-void add_position(databuffer::Command command, Place& place) {
+void add_position(runtime::Command command, Place& place) {
   const auto& [latitude, longitude] = values::kPosition;
   command.option("LAT", place.latitude_deg, "[deg] north positive").range(latitude.low, latitude.high).required();
   command.option("LON", place.longitude_deg, "[deg] east positive").range(longitude.low, longitude.high).required();
@@ -216,49 +216,49 @@ void add_position(databuffer::Command command, Place& place) {
 
 using Shared = std::shared_ptr<WorldOptions>;
 
-databuffer::Command add_action(databuffer::Command parent, const char* name, const char* help, const Shared& options,
-                               const std::function<void()>& call) {
-  databuffer::Command command = parent.subcommand(name, help);
+runtime::Command add_action(runtime::Command parent, const char* name, const char* help, const Shared& options,
+                            const std::function<void()>& call) {
+  runtime::Command command = parent.subcommand(name, help);
   add_json_flag(command, options->json);
   command.callback(call);
   return command;
 }
 
 // `move` and `remove` of one list.
-void add_move_and_remove(databuffer::Command list_command, WorldList list, const std::string& what,
+void add_move_and_remove(runtime::Command list_command, WorldList list, const std::string& what,
                          const Shared& options) {
   const auto place = std::make_shared<Place>();
-  databuffer::Command moving =
+  runtime::Command moving =
       add_action(list_command, "move", "move an entry to a position", options, [options, place, list, what] {
         change(*options, [&](WorldState& world, std::int64_t now_ns) {
           const auto id = static_cast<std::uint32_t>(place->id);
-          return text_if_done(databuffer::move(world, list, id, place->point(), now_ns),
+          return text_if_done(world::move(world, list, id, place->point(), now_ns),
                               what + " " + std::to_string(id) + " moved");
         });
       });
   add_id(moving, *place);
   add_position(moving, *place);
-  databuffer::Command removing =
+  runtime::Command removing =
       add_action(list_command, "remove", "remove an entry", options, [options, place, list, what] {
         change(*options, [&](WorldState& world, std::int64_t) {
           const auto id = static_cast<std::uint32_t>(place->id);
-          return text_if_done(databuffer::remove(world, list, id), what + " " + std::to_string(id) + " removed");
+          return text_if_done(world::remove(world, list, id), what + " " + std::to_string(id) + " removed");
         });
       });
   add_id(removing, *place);
 }
 
-void add_rain(databuffer::Command parent, const Shared& options) {
+void add_rain(runtime::Command parent, const Shared& options) {
   struct Values {
     Place place;
     double radius_nm = 5.0, rate_mmh = 10.0, top_ft = 15'000.0;
   };
-  databuffer::Command rain = parent.subcommand("rain", "rain cells");
+  runtime::Command rain = parent.subcommand("rain", "rain cells");
   rain.require_subcommand();
   const auto values = std::make_shared<Values>();
-  databuffer::Command command = add_action(rain, "add", "add a rain cell", options, [options, values] {
+  runtime::Command command = add_action(rain, "add", "add a rain cell", options, [options, values] {
     change(*options, [&](WorldState& world, std::int64_t) {
-      auto cell = databuffer::default_rain_cell(values->place.point());
+      auto cell = world::default_rain_cell(values->place.point());
       cell.radius_m = values->radius_nm * geo::kMetresPerNauticalMile;
       cell.rate_mmh = values->rate_mmh;
       cell.top_m = values->top_ft * geo::kMetresPerFoot;
@@ -272,7 +272,7 @@ void add_rain(databuffer::Command parent, const Shared& options) {
   add_move_and_remove(rain, WorldList::rain, "rain cell", options);
 }
 
-void add_jammer(databuffer::Command parent, const Shared& options) {
+void add_jammer(runtime::Command parent, const Shared& options) {
   struct Values {
     Place place;
     std::string name, band = "all";
@@ -280,13 +280,13 @@ void add_jammer(databuffer::Command parent, const Shared& options) {
     double power_w = 10.0;
     std::vector<double> channels;
   };
-  databuffer::Command jammer = parent.subcommand("jammer", "noise jammers");
+  runtime::Command jammer = parent.subcommand("jammer", "noise jammers");
   jammer.require_subcommand();
   const auto values = std::make_shared<Values>();
-  databuffer::Command command = add_action(jammer, "add", "add a jammer", options, [options, values] {
+  runtime::Command command = add_action(jammer, "add", "add a jammer", options, [options, values] {
     change(*options, [&](WorldState& world, std::int64_t) -> Expected<std::string> {
-      auto entry = databuffer::default_jammer(values->place.point());
-      if (auto named_entry = databuffer::set_name(entry, values->name); !named_entry)
+      auto entry = world::default_jammer(values->place.point());
+      if (auto named_entry = world::set_name(entry, values->name); !named_entry)
         return tl::unexpected(named_entry.error());
       if (values->altitude_ft) entry.altitude_m = *values->altitude_ft * geo::kMetresPerFoot;
       entry.power_w = values->power_w;
@@ -311,18 +311,18 @@ void add_jammer(databuffer::Command parent, const Shared& options) {
   add_move_and_remove(jammer, WorldList::jammers, "jammer", options);
 }
 
-void add_steer(databuffer::Command mover, const Shared& options) {
+void add_steer(runtime::Command mover, const Shared& options) {
   struct Values {
     Place place;
     double speed_kt = 0.0, heading_deg = 0.0;
   };
   const auto values = std::make_shared<Values>();
-  databuffer::Command command =
+  runtime::Command command =
       add_action(mover, "steer", "change speed and heading where the mover is", options, [options, values] {
         change(*options, [&](WorldState& world, std::int64_t now_ns) {
           const auto id = static_cast<std::uint32_t>(values->place.id);
           const double speed_mps = geo::Speed::knots(values->speed_kt).metres_per_second();
-          return text_if_done(databuffer::steer(world, id, speed_mps, values->heading_deg, now_ns),
+          return text_if_done(world::steer(world, id, speed_mps, values->heading_deg, now_ns),
                               "mover " + std::to_string(id) + " steered");
         });
       });
@@ -331,19 +331,19 @@ void add_steer(databuffer::Command mover, const Shared& options) {
   command.option("HDG", values->heading_deg, "[deg] true").range(0.0, 360.0).required();
 }
 
-void add_mover(databuffer::Command parent, const Shared& options) {
+void add_mover(runtime::Command parent, const Shared& options) {
   struct Values {
     Place place;
     std::string name;
     double speed_kt = 0.0, heading_deg = 0.0, cross_section_m2 = 1000.0, height_ft = 20.0;
   };
-  databuffer::Command mover = parent.subcommand("mover", "moving targets: ships and vehicles");
+  runtime::Command mover = parent.subcommand("mover", "moving targets: ships and vehicles");
   mover.require_subcommand();
   const auto values = std::make_shared<Values>();
-  databuffer::Command command = add_action(mover, "add", "add a moving target", options, [options, values] {
+  runtime::Command command = add_action(mover, "add", "add a moving target", options, [options, values] {
     change(*options, [&](WorldState& world, std::int64_t now_ns) -> Expected<std::string> {
-      auto entry = databuffer::default_mover(values->place.point(), now_ns);
-      if (auto named_entry = databuffer::set_name(entry, values->name); !named_entry)
+      auto entry = world::default_mover(values->place.point(), now_ns);
+      if (auto named_entry = world::set_name(entry, values->name); !named_entry)
         return tl::unexpected(named_entry.error());
       entry.speed_mps = geo::Speed::knots(values->speed_kt).metres_per_second();
       entry.heading_deg = values->heading_deg;
@@ -370,11 +370,11 @@ struct PointValues {
   Expected<void> write(databuffer::WorldPoint& point) const {
     if (elevation_ft) point.elevation_m = *elevation_ft * geo::kMetresPerFoot;
     if (name.empty()) return {};
-    return databuffer::set_name(point, name);
+    return world::set_name(point, name);
   }
 };
 
-void add_point_options(databuffer::Command command, PointValues& values, const char* name_otherwise,
+void add_point_options(runtime::Command command, PointValues& values, const char* name_otherwise,
                        const char* elevation_otherwise) {
   command.option("--name", values.name, "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\"")
       .otherwise(name_otherwise);
@@ -383,13 +383,13 @@ void add_point_options(databuffer::Command command, PointValues& values, const c
       .otherwise(elevation_otherwise);
 }
 
-void add_point(databuffer::Command parent, const Shared& options) {
-  databuffer::Command point = parent.subcommand("point", "sequence points");
+void add_point(runtime::Command parent, const Shared& options) {
+  runtime::Command point = parent.subcommand("point", "sequence points");
   point.require_subcommand();
   const auto values = std::make_shared<PointValues>();
-  databuffer::Command adding = add_action(point, "add", "add a sequence point", options, [options, values] {
+  runtime::Command adding = add_action(point, "add", "add a sequence point", options, [options, values] {
     change(*options, [&](WorldState& world, std::int64_t) -> Expected<std::string> {
-      auto entry = databuffer::default_point(world, values->place.point());
+      auto entry = world::default_point(world, values->place.point());
       if (!entry) return tl::unexpected(entry.error());
       if (auto written = values->write(*entry); !written) return tl::unexpected(written.error());
       return added(world, *entry, std::string("sequence point ") + entry->name + ", id");
@@ -398,14 +398,14 @@ void add_point(databuffer::Command parent, const Shared& options) {
   add_position(adding, values->place);
   add_point_options(adding, *values, "a steer point with the next number", "unknown");
   const auto changes = std::make_shared<PointValues>();
-  databuffer::Command changing =
+  runtime::Command changing =
       add_action(point, "change", "change the name or the elevation of a point", options, [options, changes] {
         change(*options, [&](WorldState& world, std::int64_t) -> Expected<std::string> {
           const auto id = static_cast<std::uint32_t>(changes->place.id);
-          auto entry = databuffer::point_with(world, id);
+          auto entry = world::point_with(world, id);
           if (!entry) return tl::unexpected(entry.error());
           if (auto written = changes->write(*entry); !written) return tl::unexpected(written.error());
-          return text_if_done(databuffer::replace(world, *entry), "point " + std::to_string(id) + " changed");
+          return text_if_done(world::replace(world, *entry), "point " + std::to_string(id) + " changed");
         });
       });
   add_id(changing, changes->place);
@@ -413,15 +413,15 @@ void add_point(databuffer::Command parent, const Shared& options) {
   add_move_and_remove(point, WorldList::points, "point", options);
 }
 
-void add_wind(databuffer::Command parent, const Shared& options) {
+void add_wind(runtime::Command parent, const Shared& options) {
   struct Values {
     double speed_kt = 0.0, from_deg = 0.0;
   };
   const auto values = std::make_shared<Values>();
-  databuffer::Command command = add_action(parent, "wind", "set the wind over the sea", options, [options, values] {
+  runtime::Command command = add_action(parent, "wind", "set the wind over the sea", options, [options, values] {
     change(*options, [&](WorldState& world, std::int64_t) {
       const double speed_mps = geo::Speed::knots(values->speed_kt).metres_per_second();
-      return text_if_done(databuffer::set_wind(world, speed_mps, values->from_deg),
+      return text_if_done(world::set_wind(world, speed_mps, values->from_deg),
                           "wind " + number(values->speed_kt) + " kt from " + number(values->from_deg) + " deg");
     });
   });
@@ -431,8 +431,8 @@ void add_wind(databuffer::Command parent, const Shared& options) {
 
 }  // namespace
 
-void add_world_command(databuffer::Command app, const CommonOptions& common) {
-  databuffer::Command world =
+void add_world_command(runtime::Command app, const CommonOptions& common) {
+  runtime::Command world =
       app.subcommand("world", "print or change sea, wind, rain, jammers, movers and sequence points");
   const auto options = std::make_shared<WorldOptions>(WorldOptions{common});
   add_json_flag(world, options->json);

@@ -304,7 +304,7 @@ struct BatchOptions {
   std::string in, out;
   bool json = false;
 };
-void add_batch_options(databuffer::Command command, BatchOptions& options) {
+void add_batch_options(runtime::Command command, BatchOptions& options) {
   command.option("--in", options.in, "folder of cells, or one file of any name (also a raster)")
       .value_name("FILE")
       .required();
@@ -328,9 +328,9 @@ void convert(const ConvertOptions& options) {
 
 }  // namespace
 
-void add_terrain_convert(databuffer::Command terrain) {
+void add_terrain_convert(runtime::Command terrain) {
   const auto options = std::make_shared<ConvertOptions>();
-  databuffer::Command command =
+  runtime::Command command =
       terrain.subcommand("convert", "convert elevation files of any readable format to DTED, HGT or packed cells");
   add_batch_options(command, *options);
   command.option("--to", options->output.format, "format").one_of({"dted", "hgt", "jp2"});
@@ -370,9 +370,9 @@ void reduce_all(const ReduceOptions& options) {
 
 }  // namespace
 
-void add_terrain_reduce(databuffer::Command terrain) {
+void add_terrain_reduce(runtime::Command terrain) {
   const auto options = std::make_shared<ReduceOptions>();
-  databuffer::Command command =
+  runtime::Command command =
       terrain.subcommand("reduce", "write a coarser database; each post is averaged over the posts around it");
   add_batch_options(command, *options);
   command.option("--reduction", options->reduction, "keep every 2^N-th post; written as packed cells")
@@ -385,9 +385,9 @@ void add_terrain_reduce(databuffer::Command terrain) {
 // `yars terrain pack`: writes cells as lossless JPEG 2000. Readers decode only the wavelet levels that the
 // requested grid needs.
 
-void add_terrain_pack(databuffer::Command terrain) {
+void add_terrain_pack(runtime::Command terrain) {
   const auto options = std::make_shared<BatchOptions>();
-  databuffer::Command command = terrain.subcommand("pack", "cells as lossless JPEG 2000 with coarser grids inside");
+  runtime::Command command = terrain.subcommand("pack", "cells as lossless JPEG 2000 with coarser grids inside");
   add_batch_options(command, *options);
   command.callback([options] {
     run_terrain_batch({"pack", options->in, options->out, options->json, 0,

@@ -137,10 +137,9 @@ void profile(const ProfileOptions& options) {
 
 }  // namespace
 
-void add_terrain_profile(databuffer::Command terrain) {
+void add_terrain_profile(runtime::Command terrain) {
   const auto options = std::make_shared<ProfileOptions>();
-  databuffer::Command command =
-      terrain.subcommand("profile", "elevation along the geodesic between two points, as CSV");
+  runtime::Command command = terrain.subcommand("profile", "elevation along the geodesic between two points, as CSV");
   add_terrain_option(command, options->terrain.directory).otherwise("the built-in hills");
   command.option("--from", options->from_deg, "[deg] latitude and longitude").values(2).required();
   command.option("--to", options->to_deg, "[deg] latitude and longitude").values(2).required();
@@ -193,9 +192,9 @@ void dump(const DumpOptions& options) {
 
 }  // namespace
 
-void add_terrain_dump(databuffer::Command terrain) {
+void add_terrain_dump(runtime::Command terrain) {
   const auto options = std::make_shared<DumpOptions>();
-  databuffer::Command command =
+  runtime::Command command =
       terrain.subcommand("dump", "posts of one cell as CSV, row by row from the south-west corner");
   add_terrain_option(command, options->directory).required();
   command.option("--south", options->south_deg, "[deg] the cell's south edge").range(-90, 89).required();

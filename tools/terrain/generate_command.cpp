@@ -159,7 +159,7 @@ class Generation {
   std::optional<error::Error> failed_;
 };
 
-void add_area(databuffer::Command command, TerrainGenerateOptions& options) {
+void add_area(runtime::Command command, TerrainGenerateOptions& options) {
   command.option("--south", options.south_deg, "[deg] south edge").range(-90, 89);
   command.option("--west", options.west_deg, "[deg] west edge").range(-180, 179);
   command.option("--cells-lat", options.cells_latitude, "cells northward").range(1, 180);
@@ -168,7 +168,7 @@ void add_area(databuffer::Command command, TerrainGenerateOptions& options) {
 
 }  // namespace
 
-void add_terrain_generate_options(databuffer::Command command, TerrainGenerateOptions& options) {
+void add_terrain_generate_options(runtime::Command command, TerrainGenerateOptions& options) {
   command.option("--out", options.out, "folder for the cells").value_name("DIR").required();
   add_area(command, options);
   command.option("--level", options.level, "DTED level").range(0, 2);
@@ -199,10 +199,9 @@ GeneratedCells generate_terrain_files(const TerrainGenerateOptions& options, con
   return Generation(options, goes_on).run();
 }
 
-void add_terrain_generate(databuffer::Command terrain) {
+void add_terrain_generate(runtime::Command terrain) {
   const auto options = std::make_shared<TerrainGenerateOptions>();
-  databuffer::Command command =
-      terrain.subcommand("generate", "a made-up landscape with rivers and towns, as DTED cells");
+  runtime::Command command = terrain.subcommand("generate", "a made-up landscape with rivers and towns, as DTED cells");
   add_terrain_generate_options(command, *options);
   command.callback([options] {
     const GeneratedCells cells = generate_terrain_files(*options);

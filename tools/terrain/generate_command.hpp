@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <string>
 
-#include "databuffer/runtime/command_line.hpp"
 #include "lib/parallel/thread_pool.hpp"
+#include "runtime/command_line.hpp"
 #include "worldgen/terrain/landscape.hpp"
 
 namespace yars::tools {
@@ -34,7 +34,7 @@ struct GeneratedCells {
   std::size_t land = 0, sea = 0;  // cells with land, cells with only sea
 };
 
-void add_terrain_generate_options(databuffer::Command command, TerrainGenerateOptions& options);
+void add_terrain_generate_options(runtime::Command command, TerrainGenerateOptions& options);
 
 // Generates the landscape and writes its cells. Progress goes to standard error if that is a terminal. `goes_on` is
 // asked between rows of posts; throws parallel::Stopped, and leaves whole cells.

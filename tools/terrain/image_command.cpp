@@ -104,10 +104,10 @@ void draw(const TerrainImageOptions& options) {
 
 }  // namespace
 
-void add_terrain_image(databuffer::Command terrain) {
+void add_terrain_image(runtime::Command terrain) {
   constexpr const char* kEdge = "the edge of the cells";
   const auto options = std::make_shared<TerrainImageOptions>();
-  databuffer::Command command = terrain.subcommand("image", "hill-shaded map as PNG; sea blue, voids magenta");
+  runtime::Command command = terrain.subcommand("image", "hill-shaded map as PNG; sea blue, voids magenta");
   add_terrain_option(command, options->directory).required();
   command.option("--out", options->out, "PNG file").value_name("FILE").required();
   command.option("--south", options->south_deg, "[deg] south edge of the map").range(-90.0, 90.0).otherwise(kEdge);

@@ -24,8 +24,8 @@
 
 namespace yars::tools {
 
-void add_terrain_command(databuffer::Command app, const CommonOptions& /*common*/) {
-  databuffer::Command terrain =
+void add_terrain_command(runtime::Command app, const CommonOptions& /*common*/) {
+  runtime::Command terrain =
       app.subcommand("terrain", "elevation databases: generate, info, image, profile, dump, reduce, convert, pack");
   terrain.require_subcommand();
   add_terrain_generate(terrain);
@@ -268,13 +268,13 @@ class Inspection {
 
 }  // namespace
 
-void add_terrain_info(databuffer::Command terrain) {
+void add_terrain_info(runtime::Command terrain) {
   struct InfoOptions {
     std::string directory;
     bool json = false;
   };
   const auto options = std::make_shared<InfoOptions>();
-  databuffer::Command command = terrain.subcommand("info", "cells of a directory: posts, heights, voids, problems");
+  runtime::Command command = terrain.subcommand("info", "cells of a directory: posts, heights, voids, problems");
   command.option("--terrain,DIR", options->directory, "folder of elevation cells: DTED, HGT, DED, packs, rasters")
       .value_name("DIR")
       .required()

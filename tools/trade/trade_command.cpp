@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
-#include "databuffer/runtime/program.hpp"
 #include "lib/file/output_file.hpp"
 #include "lib/radar/configuration.hpp"
 #include "lib/radar/modes.hpp"
 #include "model/kernel/tick_inputs.hpp"
 #include "model/terrain/store/cell_files.hpp"
 #include "model/terrain/store/directory_store.hpp"
+#include "runtime/program.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "tools/command/output.hpp"
@@ -53,7 +53,7 @@ nlohmann::ordered_json json_of(const trade::TradeTable& table, const trade::Plot
 
 }  // namespace
 
-void add_trade_options(databuffer::Command command, TradeOptions& options) {
+void add_trade_options(runtime::Command command, TradeOptions& options) {
   command.option("--presets", options.presets, "preset names separated by commas, or all, or none").value_name("NAMES");
   command.option("--knob", options.knobs, "KNOB=VALUE,VALUE,...: values of one setting of --base; repeatable")
       .value_name("VALUES")
@@ -284,7 +284,7 @@ TradeResult measure_trade(const ScanTradeOptions& options, const radar::RadarCon
           left_out.sentences()};
 }
 
-void add_scan_trade_options(databuffer::Command command, ScanTradeOptions& options) {
+void add_scan_trade_options(runtime::Command command, ScanTradeOptions& options) {
   add_trade_options(command, options);
   command.option("--scene", options.scenes, "place and range of a scan: LAT,LON,ALT_FT,HDG,RANGE_NM; repeatable")
       .value_name("SCENE")
@@ -295,9 +295,9 @@ void add_scan_trade_options(databuffer::Command command, ScanTradeOptions& optio
       .range(1, radar::kMaxSamples);
 }
 
-void add_trade_command(databuffer::Command app, const CommonOptions& common) {
+void add_trade_command(runtime::Command app, const CommonOptions& common) {
   auto options = std::make_shared<ScanTradeOptions>();
-  databuffer::Command command =
+  runtime::Command command =
       app.subcommand("trade", "speed against accuracy of the real beam map; `trade maps`: of patch maps");
   add_scan_trade_options(command, *options);
   add_trade_maps(command, common);

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "databuffer/runtime/command_line.hpp"
 #include "lib/geo/geodesy.hpp"
 #include "lib/parallel/thread_pool.hpp"
+#include "runtime/command_line.hpp"
 #include "tools/command/command.hpp"
 #include "tools/trade/candidate.hpp"
 #include "tools/trade/trade_table.hpp"
@@ -37,9 +37,9 @@ struct MapTradeOptions : TradeOptions {
   int ruler_size = 480;
 };
 
-void add_trade_options(databuffer::Command command, TradeOptions& options);  // those that both have
-void add_scan_trade_options(databuffer::Command command, ScanTradeOptions& options);
-void add_map_trade_options(databuffer::Command command, MapTradeOptions& options);
+void add_trade_options(runtime::Command command, TradeOptions& options);  // those that both have
+void add_scan_trade_options(runtime::Command command, ScanTradeOptions& options);
+void add_map_trade_options(runtime::Command command, MapTradeOptions& options);
 
 // What a trade found, and the axes of its plots.
 struct TradeResult {
@@ -76,6 +76,6 @@ geo::GeoPoint default_position(const std::string& directory);
 double thread_ms();  // [ms] CPU time of the calling thread
 
 // `yars trade maps`.
-void add_trade_maps(databuffer::Command trade, const CommonOptions& common);
+void add_trade_maps(runtime::Command trade, const CommonOptions& common);
 
 }  // namespace yars::tools

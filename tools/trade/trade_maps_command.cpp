@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "databuffer/runtime/program.hpp"
 #include "lib/radar/configuration.hpp"
 #include "model/scene/index/scene_store.hpp"
 #include "model/terrain/store/directory_store.hpp"
+#include "runtime/program.hpp"
 #include "tools/command/output.hpp"
 #include "tools/trade/map_errors.hpp"
 #include "tools/trade/scenes.hpp"
@@ -178,7 +178,7 @@ TradeResult measure_trade(const MapTradeOptions& options, const radar::RadarConf
           left_out.sentences()};
 }
 
-void add_map_trade_options(databuffer::Command command, MapTradeOptions& options) {
+void add_map_trade_options(runtime::Command command, MapTradeOptions& options) {
   add_trade_options(command, options);
   add_scene_options(command, options.configuration);
   command
@@ -190,9 +190,9 @@ void add_map_trade_options(databuffer::Command command, MapTradeOptions& options
   command.option("--ruler-size", options.ruler_size, "[pixels] edge of the map of --ruler reference").range(16, 1024);
 }
 
-void add_trade_maps(databuffer::Command trade, const CommonOptions& common) {
+void add_trade_maps(runtime::Command trade, const CommonOptions& common) {
   auto options = std::make_shared<MapTradeOptions>();
-  databuffer::Command command = trade.subcommand("maps", "speed against accuracy of patch maps");
+  runtime::Command command = trade.subcommand("maps", "speed against accuracy of patch maps");
   add_map_trade_options(command, *options);
   command.callback([options, &common] {
     check_trade_output(*options);

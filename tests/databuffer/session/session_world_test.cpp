@@ -9,9 +9,9 @@
 #include <vector>
 
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/messages/world_edit.hpp"
-#include "databuffer/messages/world_values.hpp"
 #include "tests/databuffer/session/open_session.hpp"
+#include "world/world_edit.hpp"
+#include "world/world_values.hpp"
 
 namespace yars::databuffer {
 namespace {
@@ -25,7 +25,7 @@ class SessionWorldTest : public testing::OpenSessionTest {
     role_ = std::move(*claim);
     radar::WorldConfiguration world;
     world.sea.state = 2.0;
-    const WorldState configured = world_state_from(world);
+    const WorldState configured = world::world_state_from(world);
     model_.layout().world_configured.publish(configured);
     model_.layout().world_latched.publish(configured);
   }
@@ -37,14 +37,14 @@ class SessionWorldTest : public testing::OpenSessionTest {
   static error::Expected<WorldState> set_sea(Session& session, double state) {
     return change_world(session, [state](const WorldState& before) -> error::Expected<WorldState> {
       WorldState next = before;
-      if (auto done = set_sea_state(next, state); !done) return tl::unexpected(done.error());
+      if (auto done = world::set_sea_state(next, state); !done) return tl::unexpected(done.error());
       return next;
     });
   }
   static error::Expected<WorldState> add_rain(Session& session) {
     return change_world(session, [](const WorldState& before) -> error::Expected<WorldState> {
       WorldState next = before;
-      if (auto id = add(next, default_rain_cell({0.0, 0.0})); !id) return tl::unexpected(id.error());
+      if (auto id = world::add(next, world::default_rain_cell({0.0, 0.0})); !id) return tl::unexpected(id.error());
       return next;
     });
   }

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "databuffer/messages/validation.hpp"
-#include "databuffer/runtime/tick_loop.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/session.hpp"
 #include "display/gl/context.hpp"
@@ -17,6 +16,7 @@
 #include "display/host/display.hpp"
 #include "display/host/session_link_shell.hpp"
 #include "lib/radar/configuration.hpp"
+#include "runtime/tick_loop.hpp"
 #include "tests/databuffer/session/session_name.hpp"
 #include "tests/display/gl/made_up_map.hpp"
 #include "tests/display/gl/made_up_sweeps.hpp"

@@ -8,31 +8,31 @@
 #include <limits>
 #include <span>
 
-#include "tests/databuffer/bridges/live/udp_peer.hpp"
-#include "tests/databuffer/bridges/packets.hpp"
 #include "tests/endtoend/fault_injection/fault_set.hpp"
 #include "tests/endtoend/fault_injection/faults.hpp"
+#include "tests/flightmodel/bridges/live/udp_peer.hpp"
+#include "tests/flightmodel/bridges/packets.hpp"
 
 namespace yars::endtoend::fault_injection {
 
 namespace {
 
-using databuffer::bridges::bytes_of;
-using databuffer::bridges::packet_of;
-using databuffer::bridges::PacketBytes;
-using databuffer::bridges::put;
+using flightmodel::bridges::bytes_of;
+using flightmodel::bridges::packet_of;
+using flightmodel::bridges::PacketBytes;
+using flightmodel::bridges::put;
 
 constexpr int kPackets = 400;
 
 std::vector<PacketBytes> packets_of(const std::string& kind) {
   std::vector<PacketBytes> packets;
   const std::filesystem::path folder =
-      std::filesystem::path(YARS_SOURCE_DIR) / "tests/databuffer/bridges/packets" / kind;
+      std::filesystem::path(YARS_SOURCE_DIR) / "tests/flightmodel/bridges/packets" / kind;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.file_size() < 2000) packets.push_back(packet_of(kind + "/" + entry.path().filename().string()));
   if (kind == "jsbsim") {
     // Each line of the text is one packet: the labels, and each row of numbers.
-    const auto text = databuffer::bridges::text_of_packet("jsbsim/turn.txt");
+    const auto text = flightmodel::bridges::text_of_packet("jsbsim/turn.txt");
     for (std::size_t begin = 0, end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1)
       packets.push_back(bytes_of(text.substr(begin, end + 1 - begin)));
   }

@@ -291,7 +291,7 @@ TEST_F(HistoryExchangeTest, TicksThatGoBackInOneEpochAreRefused) {
   EXPECT_EQ(refusals(), 2u);
   EXPECT_EQ(ticks(), 1u);
   EXPECT_EQ(sweeps(), 1u);
-  receive(tick(1000 - databuffer::kMaxTicksBehind));
+  receive(tick(1000 - runtime::kMaxTicksBehind));
   EXPECT_EQ(ticks(), 2u) << "a new process of the model";
   ASSERT_TRUE(session_.change_clock([](auto clock) {
     ++clock.epoch;

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "databuffer/runtime/tick_loop.hpp"
+#include "runtime/tick_loop.hpp"
 #include "tests/gateway/exchange/two_hosts.hpp"
 
 namespace yars::gateway {
@@ -132,7 +132,7 @@ TEST_F(LockstepExchangeTest, ADoneTickWaitsForTheRolesBefore) {
   exchange_.receive(context_, done("gamma", 2, 0));
   exchange_.apply(context_, true);
   EXPECT_EQ(tick_of(2), -1) << "the flight model comes first";
-  databuffer::complete_tick(session_.layout().lockstep, 0, 0);
+  runtime::complete_tick(session_.layout().lockstep, 0, 0);
   exchange_.apply(context_, true);
   EXPECT_EQ(tick_of(2), 0);
   EXPECT_EQ(tick_of(3), 0) << "in the same pass";

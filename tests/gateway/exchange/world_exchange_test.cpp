@@ -6,11 +6,11 @@
 #include <limits>
 #include <string>
 
-#include "databuffer/messages/world_edit.hpp"
-#include "databuffer/messages/world_values.hpp"
 #include "databuffer/session/session_world.hpp"
 #include "gateway/exchange/progress.hpp"
 #include "tests/gateway/exchange/two_hosts.hpp"
+#include "world/world_edit.hpp"
+#include "world/world_values.hpp"
 
 namespace yars::gateway {
 namespace {
@@ -21,7 +21,7 @@ using databuffer::WorldState;
 using testing::bit;
 
 WorldState world_with(std::uint64_t edit, double sea_state) {
-  WorldState world = databuffer::world_state_from(radar::WorldConfiguration{});
+  WorldState world = world::world_state_from(radar::WorldConfiguration{});
   world.flags = {};
   world.edit = edit;
   world.sea_state = sea_state;

@@ -9,11 +9,11 @@
 #include <sstream>
 #include <utility>
 
-#include "databuffer/messages/world_values.hpp"
 #include "display/symbology/radar_video.hpp"
 #include "radar/recording/replay.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/radar/recording/made_recording.hpp"
+#include "world/world_values.hpp"
 
 namespace yars::recording {
 namespace {
@@ -67,7 +67,7 @@ class Session {
   }
   void change_world(const databuffer::WorldState& world) {
     radar::WorldConfiguration next = configuration_.world;
-    databuffer::apply(world, next);
+    world::apply(world, next);
     cockpit_.kernel.use_world(next);
     put(world);
   }
@@ -238,7 +238,7 @@ TEST_P(RecordingPlayed, AtThreeTicksTheDisplayShowsWhatItShowedInTheSession) {
 databuffer::WorldState rain_of(std::uint64_t edit, double rate_mmh) {
   radar::WorldConfiguration world;
   world.rain.cells = {{{37.25, -121.7}, 30'000.0, rate_mmh, 6000.0}};
-  databuffer::WorldState state = databuffer::world_state_from(world);
+  databuffer::WorldState state = world::world_state_from(world);
   state.flags = {};
   state.edit = edit;
   return state;

@@ -8,12 +8,12 @@
 #include <variant>
 #include <vector>
 
-#include "databuffer/messages/world_values.hpp"
 #include "radar/recording/recording_reader.hpp"
 #include "radar/recording/recording_writer.hpp"
 #include "tests/databuffer/session/open_session.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/terrain/formats/dted_builder.hpp"
+#include "world/world_values.hpp"
 
 namespace yars::tools {
 namespace {
@@ -79,7 +79,7 @@ std::vector<std::int64_t> edits_and_ticks(const std::filesystem::path& path) {
 TEST_F(RecorderTest, WritesTheWorldInEffectBeforeTheFirstTickAndEachLaterOneBeforeItsTick) {
   auto session = open();
   const auto latch = [&](std::uint64_t edit) {
-    databuffer::WorldState world = databuffer::world_state_from({});
+    databuffer::WorldState world = world::world_state_from({});
     world.edit = edit;
     session.layout().world_latched.publish(world);
     cockpit_.tick.world = session.layout().world_latched.next();

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "databuffer/flight/route_flight.hpp"
+#include "flightmodel/route_flight.hpp"
 #include "radar/recording/block.hpp"
 #include "radar/recording/recorded_kinds.hpp"
 #include "tests/radar/recording/made_recording.hpp"
@@ -256,9 +256,9 @@ TEST(Recording, OfIncompressibleSweepsIsSmallerThanTheSweepRecords) {
 
 // Extrapolated from one minute of flight, with a cursor whose bearing and range change each tick.
 TEST(Recording, OfAnHourTakesAtMost50Megabytes) {
-  const auto route = databuffer::flight::parse_route(
+  const auto route = flightmodel::parse_route(
       "37.5 -122 15000 420\n37.6 -122 18000 480\n37.6 -121.9 16000 450\n37.5 -121.9 15000 480\nloop\n", "made");
-  databuffer::flight::RouteFlight flight(*route);
+  flightmodel::RouteFlight flight(*route);
   std::vector<RecordingItem> items;
   StatePace pace;
   databuffer::RadarState state{};

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "databuffer/messages/world_values.hpp"
 #include "tests/model/kernel/cockpit.hpp"
 #include "tests/model/made_up_objects.hpp"
+#include "world/world_values.hpp"
 
 namespace yars::recording {
 namespace {
@@ -75,7 +75,7 @@ class Recorded {
   // Another world from the next tick on.
   void change_world(const databuffer::WorldState& world) {
     world_ = configuration_.world;
-    databuffer::apply(world, world_);
+    world::apply(world, world_);
     cockpit_.kernel.use_world(world_);
     replay_.world(world);
   }
@@ -108,7 +108,7 @@ class Recorded {
 databuffer::WorldState rainy_world() {
   radar::WorldConfiguration world;
   world.rain.cells = {{{37.25, -121.7}, 30'000.0, 60.0, 6000.0}};
-  databuffer::WorldState state = databuffer::world_state_from(world);
+  databuffer::WorldState state = world::world_state_from(world);
   state.flags = {};
   state.edit = 1;
   return state;
@@ -138,7 +138,7 @@ TEST(Replay, OfTheConfiguredWorldUsesItsOwnConfiguration) {
   radar::RadarConfiguration configuration;
   configuration.world.rain.cells = {{{37.25, -121.7}, 30'000.0, 60.0, 6000.0}};
   Recorded recorded(nullptr, nullptr, configuration);
-  databuffer::WorldState world = databuffer::world_state_from({});
+  databuffer::WorldState world = world::world_state_from({});
   recorded.tell_replay(world);  // the values are another configuration's
   recorded.run(300);
   EXPECT_EQ(recorded.comparison().different(), 0U);

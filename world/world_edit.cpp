@@ -1,0 +1,455 @@
+#include "world/world_edit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "databuffer/messages/inspection.hpp"
+#include "lib/radar/fidelity.hpp"
+#include "lib/radar/route.hpp"
+#include "lib/text/plain_text.hpp"
+#include "world/world_values.hpp"
+
+namespace yars::world {
+
+using error::Expected;
+using error::fail;
+
+namespace {
+
+constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
+
+// A value with its limits in the unit of the configuration's forms. `factor`: that unit in the unit of the record.
+struct Quantity {
+  std::string_view name;
+  double value;
+  double min, max;
+  std::string_view unit;
+  double factor = 1.0;
+};
+
+std::string number_with_unit(double value, std::string_view unit) {
+  return text::text_of_number(value) + (unit.empty() ? "" : " ") + std::string(unit);
+}
+
+Expected<void> check_all(std::string_view subject, std::initializer_list<Quantity> quantities) {
+  constexpr double kRounding = 1e-9;  // relative; the conversion of a limit to another unit rounds it
+  for (const Quantity& quantity : quantities) {
+    const double value = quantity.value / quantity.factor;
+    const double slack = kRounding * std::max(std::abs(quantity.min), std::abs(quantity.max));
+    if (value >= quantity.min - slack && value <= quantity.max + slack) continue;  // NaN is out of range
+    return fail(std::string(subject) + ": " + std::string(quantity.name),
+                text::text_of_number(quantity.min) + " to " + number_with_unit(quantity.max, quantity.unit),
+                number_with_unit(value, quantity.unit), "give a value within these limits");
+  }
+  return {};
+}
+
+Expected<void> check(const databuffer::WorldRainCell& cell) {
+  return check_all("rain cell", {{"latitude", cell.latitude_deg, -90.0, 90.0, "deg"},
+                                 {"longitude", cell.longitude_deg, -180.0, 180.0, "deg"},
+                                 {"radius", cell.radius_m, 0.1, 100.0, "NM", geo::kMetresPerNauticalMile},
+                                 {"rate", cell.rate_mmh, 0.1, 300.0, "mm/h"},
+                                 {"top", cell.top_m, 500.0, 60'000.0, "ft", geo::kMetresPerFoot}});
+}
+
+Expected<void> check(const databuffer::WorldJammer& jammer) {
+  const double altitude_m = std::isnan(jammer.altitude_m) ? 0.0 : jammer.altitude_m;
+  return check_all("jammer", {{"latitude", jammer.latitude_deg, -90.0, 90.0, "deg"},
+                              {"longitude", jammer.longitude_deg, -180.0, 180.0, "deg"},
+                              {"altitude", altitude_m, -1500.0, 100'000.0, "ft", geo::kMetresPerFoot},
+                              {"band", static_cast<double>(jammer.band), -1.0, 4.0, ""},
+                              {"channels (bits)", static_cast<double>(jammer.channels), 1.0, 255.0, ""},
+                              {"power", jammer.power_w, 0.0, 1e9, "W"}});
+}
+
+Expected<void> check(const databuffer::WorldMover& mover) {
+  return check_all("mover", {{"latitude", mover.latitude_deg, -90.0, 90.0, "deg"},
+                             {"longitude", mover.longitude_deg, -180.0, 180.0, "deg"},
+                             {"speed", mover.speed_mps, 0.0, 1000.0, "kt", kMetresPerSecondPerKnot},
+                             {"heading", mover.heading_deg, 0.0, 360.0, "deg"},
+                             {"cross section", mover.cross_section_m2, 0.0, 1e7, "m2"},
+                             {"height", mover.height_m, 0.0, 1000.0, "ft", geo::kMetresPerFoot},
+                             {"sim time", static_cast<double>(mover.since_ns), 0.0,
+                              static_cast<double>(databuffer::kLatestSimTime_ns), "ns"}});
+}
+
+Expected<void> check(const databuffer::WorldPoint& point) {
+  const double elevation_m = std::isnan(point.elevation_m) ? 0.0 : point.elevation_m;
+  return check_all("point", {{"latitude", point.latitude_deg, -90.0, 90.0, "deg"},
+                             {"longitude", point.longitude_deg, -180.0, 180.0, "deg"},
+                             {"elevation", elevation_m, -1500.0, 30'000.0, "ft", geo::kMetresPerFoot}});
+}
+
+template <std::size_t size>
+Expected<void> store_name(char (&into)[size], std::string_view subject, std::string_view name) {
+  const auto printable = [](char letter) { return letter >= ' ' && letter <= '~'; };
+  if (name.size() >= size || !std::ranges::all_of(name, printable))
+    return fail(std::string(subject) + ": name",
+                "at most " + std::to_string(size - 1) + " characters of printable ASCII",
+                '"' + text::printable(std::string(name)) + '"', "choose a shorter or plainer name");
+  std::ranges::fill(into, '\0');
+  std::ranges::copy(name, into);
+  return {};
+}
+
+// One list of a world: its entries, the number in use, and a word for messages.
+template <class Entry>
+struct List {
+  std::span<Entry> entries;
+  std::uint32_t& count;
+  std::string_view subject;
+  std::span<Entry> in_use() const { return entries.first(std::min<std::size_t>(count, entries.size())); }
+};
+
+List<databuffer::WorldRainCell> list_of(databuffer::WorldState& world, const databuffer::WorldRainCell* /*kind*/) {
+  return {world.rain, world.rain_count, "rain cell"};
+}
+List<databuffer::WorldJammer> list_of(databuffer::WorldState& world, const databuffer::WorldJammer* /*kind*/) {
+  return {world.jammers, world.jammer_count, "jammer"};
+}
+List<databuffer::WorldMover> list_of(databuffer::WorldState& world, const databuffer::WorldMover* /*kind*/) {
+  return {world.movers, world.mover_count, "mover"};
+}
+List<databuffer::WorldPoint> list_of(databuffer::WorldState& world, const databuffer::WorldPoint* /*kind*/) {
+  return {world.points, world.point_count, "point"};
+}
+template <class Entry>
+List<Entry> list_in(databuffer::WorldState& world) {
+  return list_of(world, static_cast<const Entry*>(nullptr));
+}
+
+void mark_changed(databuffer::WorldState& world) {
+  world.flags &= ~databuffer::kWorldConfigured;
+}
+template <class Entry>
+void mark_list_changed(databuffer::WorldState& world) {
+  mark_changed(world);
+  if constexpr (std::is_same_v<Entry, databuffer::WorldPoint>) world.flags |= databuffer::kWorldPointsChanged;
+}
+
+// ---- Rules of sequence points among each other
+std::vector<radar::NamedPoint> named_points(const databuffer::WorldState& world, std::uint32_t without_id = 0) {
+  std::vector<radar::NamedPoint> points;
+  for (const databuffer::WorldPoint& point : databuffer::used(world.points, world.point_count)) {
+    const auto name = radar::point_name(text::text_of(point.name));
+    if (name && point.id != without_id) points.push_back({*name, static_cast<radar::PointKind>(point.kind)});
+  }
+  return points;
+}
+
+// Entries of other kinds go together with all others.
+template <class Entry>
+Expected<void> check_beside_others(const databuffer::WorldState& /*world*/, const Entry& /*entry*/) {
+  return {};
+}
+Expected<void> check_beside_others(const databuffer::WorldState& world, const databuffer::WorldPoint& point) {
+  const std::string text(text::text_of(point.name));
+  const auto name = radar::point_name(text);
+  if (!name || !radar::is_kind_of(static_cast<radar::PointKind>(point.kind), *name))
+    return fail("point: name", "a name such as 2, 2., 2.1 or 2.01 with a kind that fits it", text);
+  const auto others = named_points(world, point.id);
+  const radar::NamedPoint* const other = radar::conflict(*name, others);
+  if (other == nullptr) return {};
+  return fail("point: name", "a name that no other point has, and a number that no other steer point or target has",
+              text + " beside " + radar::text_of(other->name),
+              "choose another number, or give an offset such as " + radar::text_of({name->number, 1, name->target}));
+}
+
+// The last steer point before a target becomes an initial point. Other points change nothing.
+void make_initial_point(databuffer::WorldState& world, const databuffer::WorldPoint& target) {
+  const auto name = radar::point_name(text::text_of(target.name));
+  if (!name || target.kind != static_cast<std::uint8_t>(radar::PointKind::target)) return;
+  const auto index = radar::initial_point_before(name->number, named_points(world));
+  if (index) world.points[*index].kind = static_cast<std::uint8_t>(radar::PointKind::initial);
+}
+
+template <class Entry>
+std::string ids_of(std::span<Entry> entries) {
+  std::string ids;
+  for (const Entry& entry : entries) ids += (ids.empty() ? "" : ", ") + std::to_string(entry.id);
+  return ids.empty() ? "no entry in the world" : "one of the ids " + ids;
+}
+
+template <class Entry>
+tl::unexpected<error::Error> fail_unknown(std::string_view subject, std::span<Entry> in_use, std::uint32_t id) {
+  return fail(std::string(subject), ids_of(in_use), "id " + std::to_string(id), "see `yars world`");
+}
+
+template <class Entry>
+Expected<Entry*> find(const List<Entry>& list, std::uint32_t id) {
+  const auto in_use = list.in_use();
+  const auto found = std::ranges::find(in_use, id, &Entry::id);
+  if (found == in_use.end()) return fail_unknown(list.subject, in_use, id);
+  return &*found;
+}
+
+// An id that no entry of the list has. It was not given before, unless all numbers have been.
+template <class Entry>
+std::uint32_t new_id(databuffer::WorldState& world, std::span<Entry> in_use) {
+  do {
+    world.last_id = std::max(world.last_id + 1, 1U);
+  } while (std::ranges::find(in_use, world.last_id, &Entry::id) != in_use.end());
+  return world.last_id;
+}
+
+template <class Entry>
+Expected<void> append_entry(databuffer::WorldState& world, const Entry& entry) {
+  const List<Entry> list = list_in<Entry>(world);
+  if (list.count >= list.entries.size())
+    return fail(std::string(list.subject), "at most " + std::to_string(list.entries.size()) + " in the world",
+                "one more", "remove another one first");
+  if (auto fitting = check_beside_others(world, entry); !fitting) return fitting;
+  list.entries[list.count++] = entry;
+  mark_list_changed<Entry>(world);
+  return {};
+}
+
+template <class Entry>
+Expected<std::uint32_t> add_entry(databuffer::WorldState& world, Entry entry) {
+  if (auto valid = check(entry); !valid) return tl::unexpected(valid.error());
+  const std::uint32_t last_id = world.last_id;
+  entry.id = new_id(world, list_in<Entry>(world).in_use());
+  if (auto added = append_entry(world, entry); !added) {
+    world.last_id = last_id;
+    return tl::unexpected(added.error());
+  }
+  return entry.id;
+}
+
+template <class Entry>
+Expected<void> restore_entry(databuffer::WorldState& world, const Entry& entry) {
+  if (auto valid = check(entry); !valid) return valid;
+  const List<Entry> list = list_in<Entry>(world);
+  if (std::ranges::find(list.in_use(), entry.id, &Entry::id) != list.in_use().end())
+    return fail(std::string(list.subject), "one that was removed", "id " + std::to_string(entry.id) + " in the world");
+  return append_entry(world, entry);
+}
+
+template <class Entry>
+Expected<void> replace_entry(databuffer::WorldState& world, const Entry& entry) {
+  if (auto valid = check(entry); !valid) return valid;
+  const auto found = find(list_in<Entry>(world), entry.id);
+  if (!found) return tl::unexpected(found.error());
+  if (auto fitting = check_beside_others(world, entry); !fitting) return fitting;
+  **found = entry;
+  mark_list_changed<Entry>(world);
+  return {};
+}
+
+template <class Entry>
+Expected<void> move_entry(databuffer::WorldState& world, std::uint32_t id, geo::GeoPoint position,
+                          std::int64_t sim_time_ns) {
+  const auto found = find(list_in<Entry>(world), id);
+  if (!found) return tl::unexpected(found.error());
+  Entry moved = **found;
+  if constexpr (std::is_same_v<Entry, databuffer::WorldMover>) moved = at_sim_time(moved, sim_time_ns);
+  moved.latitude_deg = position.latitude_deg;
+  moved.longitude_deg = position.longitude_deg;
+  return replace_entry(world, moved);
+}
+
+// The entries behind the removed one keep their order.
+template <class Entry>
+Expected<void> remove_entry(databuffer::WorldState& world, std::uint32_t id) {
+  const List<Entry> list = list_in<Entry>(world);
+  const auto found = find(list, id);
+  if (!found) return tl::unexpected(found.error());
+  const auto in_use = list.in_use();
+  std::copy(in_use.begin() + (*found - in_use.data()) + 1, in_use.end(), *found);
+  in_use.back() = {};
+  --list.count;
+  mark_list_changed<Entry>(world);
+  return {};
+}
+
+}  // namespace
+
+databuffer::WorldRainCell default_rain_cell(geo::GeoPoint position) {
+  radar::WorldConfiguration world;
+  world.rain.cells = {{.position = position}};
+  return world_state_from(world).rain[0];
+}
+
+databuffer::WorldJammer default_jammer(geo::GeoPoint position) {
+  radar::WorldConfiguration world;
+  world.jamming.jammers = {{.name = {}, .position = position}};
+  return world_state_from(world).jammers[0];
+}
+
+databuffer::WorldMover default_mover(geo::GeoPoint position, std::int64_t sim_time_ns) {
+  radar::WorldConfiguration world;
+  world.movers = {{.name = {}, .position = position}};
+  databuffer::WorldMover mover = world_state_from(world).movers[0];
+  mover.since_ns = sim_time_ns;
+  return mover;
+}
+
+Expected<databuffer::WorldPoint> default_point(const databuffer::WorldState& world, geo::GeoPoint position) {
+  const auto others = named_points(world);
+  const auto is_free = [&others](int number) { return radar::conflict({number, 0, false}, others) == nullptr; };
+  int last = 0;
+  for (const radar::NamedPoint& other : others) last = std::max(last, other.name.number);
+  int number = last + 1;
+  if (number > radar::kMaxPointNumber)
+    for (number = 1; number <= radar::kMaxPointNumber && !is_free(number);) ++number;
+  if (number > radar::kMaxPointNumber)
+    return fail("point", "a free number from 1 to 100", "none", "remove another point first, or add an offset");
+  radar::RoutePoint point{.name = std::to_string(number), .position = position, .elevation_m = std::nan("")};
+  return world_state_from({}, std::span(&point, 1)).points[0];
+}
+
+Expected<void> set_name(databuffer::WorldJammer& jammer, std::string_view name) {
+  return store_name(jammer.name, "jammer", name);
+}
+Expected<void> set_name(databuffer::WorldMover& mover, std::string_view name) {
+  return store_name(mover.name, "mover", name);
+}
+Expected<void> set_name(databuffer::WorldPoint& point, std::string_view name) {
+  const auto parts = radar::point_name(name);
+  if (!parts)
+    return fail("point: name", "2, target 2., offset 2.1 or target offset 2.01, with a number from 1 to 100",
+                '"' + text::printable(std::string(name.substr(0, 40))) + '"');
+  if (!radar::is_kind_of(static_cast<radar::PointKind>(point.kind), *parts))
+    point.kind = static_cast<std::uint8_t>(radar::kind_by_name(*parts));
+  return store_name(point.name, "point", name);
+}
+
+Expected<std::uint32_t> add(databuffer::WorldState& world, databuffer::WorldRainCell cell) {
+  return add_entry(world, cell);
+}
+Expected<std::uint32_t> add(databuffer::WorldState& world, databuffer::WorldJammer jammer) {
+  return add_entry(world, jammer);
+}
+Expected<std::uint32_t> add(databuffer::WorldState& world, databuffer::WorldMover mover) {
+  return add_entry(world, mover);
+}
+Expected<std::uint32_t> add(databuffer::WorldState& world, databuffer::WorldPoint point) {
+  auto id = add_entry(world, point);
+  if (id) make_initial_point(world, point);
+  return id;
+}
+
+Expected<void> replace(databuffer::WorldState& world, const databuffer::WorldRainCell& cell) {
+  return replace_entry(world, cell);
+}
+Expected<void> replace(databuffer::WorldState& world, const databuffer::WorldJammer& jammer) {
+  return replace_entry(world, jammer);
+}
+Expected<void> replace(databuffer::WorldState& world, const databuffer::WorldMover& mover) {
+  return replace_entry(world, mover);
+}
+Expected<void> replace(databuffer::WorldState& world, const databuffer::WorldPoint& point) {
+  const auto before = find(list_in<databuffer::WorldPoint>(world), point.id);
+  const bool is_renamed = before && text::text_of((*before)->name) != text::text_of(point.name);
+  auto done = replace_entry(world, point);
+  if (done && is_renamed) make_initial_point(world, point);
+  return done;
+}
+
+Expected<void> move(databuffer::WorldState& world, WorldList list, std::uint32_t id, geo::GeoPoint position,
+                    std::int64_t sim_time_ns) {
+  switch (list) {
+    case WorldList::rain:
+      return move_entry<databuffer::WorldRainCell>(world, id, position, sim_time_ns);
+    case WorldList::jammers:
+      return move_entry<databuffer::WorldJammer>(world, id, position, sim_time_ns);
+    case WorldList::movers:
+      return move_entry<databuffer::WorldMover>(world, id, position, sim_time_ns);
+    case WorldList::points:
+      break;
+  }
+  return move_entry<databuffer::WorldPoint>(world, id, position, sim_time_ns);
+}
+
+Expected<void> steer(databuffer::WorldState& world, std::uint32_t id, double speed_mps, double heading_deg,
+                     std::int64_t sim_time_ns) {
+  const auto found = find(list_in<databuffer::WorldMover>(world), id);
+  if (!found) return tl::unexpected(found.error());
+  databuffer::WorldMover steered = at_sim_time(**found, sim_time_ns);
+  steered.speed_mps = speed_mps;
+  steered.heading_deg = heading_deg;
+  return replace_entry(world, steered);
+}
+
+Expected<databuffer::WorldPoint> point_with(const databuffer::WorldState& world, std::uint32_t id) {
+  const auto in_use = databuffer::used(world.points, world.point_count);
+  const auto found = std::ranges::find(in_use, id, &databuffer::WorldPoint::id);
+  if (found == in_use.end()) return fail_unknown("point", in_use, id);
+  return *found;
+}
+
+Expected<void> remove(databuffer::WorldState& world, WorldList list, std::uint32_t id) {
+  switch (list) {
+    case WorldList::rain:
+      return remove_entry<databuffer::WorldRainCell>(world, id);
+    case WorldList::jammers:
+      return remove_entry<databuffer::WorldJammer>(world, id);
+    case WorldList::movers:
+      return remove_entry<databuffer::WorldMover>(world, id);
+    case WorldList::points:
+      break;
+  }
+  return remove_entry<databuffer::WorldPoint>(world, id);
+}
+
+Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldRainCell& cell) {
+  return restore_entry(world, cell);
+}
+Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldJammer& jammer) {
+  return restore_entry(world, jammer);
+}
+Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldMover& mover) {
+  return restore_entry(world, mover);
+}
+Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldPoint& point) {
+  return restore_entry(world, point);
+}
+
+Expected<void> set_sea_state(databuffer::WorldState& world, double state) {
+  if (auto valid = check_all("sea", {{"state", std::isnan(state) ? 0.0 : state, 0.0, 6.0, ""}}); !valid) return valid;
+  world.sea_state = state;
+  mark_changed(world);
+  return {};
+}
+
+Expected<void> set_wind(databuffer::WorldState& world, double speed_mps, double from_deg) {
+  if (auto valid = check_all("wind", {{"speed", speed_mps, 0.0, 120.0, "kt", kMetresPerSecondPerKnot},
+                                      {"from", from_deg, 0.0, 360.0, "deg"}});
+      !valid)
+    return valid;
+  world.wind_speed_mps = speed_mps;
+  world.wind_from_deg = from_deg;
+  mark_changed(world);
+  return {};
+}
+
+Expected<void> set_fidelity(databuffer::WorldState& world, std::string_view preset) {
+  if (!preset.empty() && !radar::fidelity_preset(preset)) {
+    std::string names;
+    for (const std::string_view name : radar::fidelity_names()) names += std::string(name) + ", ";
+    return fail("fidelity", names + "or an empty text for the configured one", std::string(preset.substr(0, 40)));
+  }
+  std::fill(std::begin(world.fidelity), std::end(world.fidelity), '\0');
+  preset.copy(world.fidelity, sizeof world.fidelity - 1);
+  mark_changed(world);
+  return {};
+}
+
+databuffer::WorldMover at_sim_time(const databuffer::WorldMover& mover, std::int64_t sim_time_ns) {
+  const geo::GeodesicRay way({mover.latitude_deg, mover.longitude_deg}, geo::Bearing::degrees(mover.heading_deg));
+  const double elapsed_s = static_cast<double>(sim_time_ns - mover.since_ns) * 1e-9;
+  const auto there = way.position_and_azimuth(geo::Length::metres(mover.speed_mps * elapsed_s));
+  databuffer::WorldMover now = mover;
+  now.latitude_deg = there.point.latitude_deg;
+  now.longitude_deg = there.point.longitude_deg;
+  now.heading_deg = there.azimuth.degrees();
+  now.since_ns = sim_time_ns;
+  return now;
+}
+
+}  // namespace yars::world
