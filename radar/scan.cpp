@@ -118,15 +118,22 @@ std::span<const float> Scan::power() const {
   return work_->power();
 }
 
-ScanSweep Scan::sweep(std::size_t index) const {
-  YARS_REQUIRE(index, <, sweeps());
+Expected<ScanSweep> Scan::sweep(std::size_t index) const {
+  if (index >= work_->sweeps().size())
+    return tl::unexpected(Error{"index of a sweep",
+                                "less than " + std::to_string(work_->sweeps().size()),
+                                std::to_string(index),
+                                "",
+                                ErrorCode::argument,
+                                {},
+                                {}});
   const databuffer::Sweep& record = work_->sweeps()[index];
-  return {record.azimuth_left_deg,
-          record.azimuth_right_deg,
-          model::kernel::geometry_of(work_->headers()[index]).azimuth.degrees(),
-          record.hash,
-          {&record.video[0], record.samples},
-          work_->power().subspan(index * samples(), samples())};
+  return ScanSweep{record.azimuth_left_deg,
+                   record.azimuth_right_deg,
+                   model::kernel::geometry_of(work_->headers()[index]).azimuth.degrees(),
+                   record.hash,
+                   {&record.video[0], record.samples},
+                   work_->power().subspan(index * samples(), samples())};
 }
 
 std::uint64_t Scan::hash() const {

@@ -30,15 +30,15 @@ py::array ScanResult::array(const std::string& name) {
   if (name == "power") return array_of<float>(self, scan_.power().data(), shape);
   if (name == "video") {
     // The video of each sweep lies in its record.
-    const std::uint8_t* const first = scan_.sweep(0).video.data();
-    const py::ssize_t stride = scan_.sweeps() > 1 ? scan_.sweep(1).video.data() - first : shape[1];
+    const std::uint8_t* const first = scan_.sweep(0)->video.data();
+    const py::ssize_t stride = scan_.sweeps() > 1 ? scan_.sweep(1)->video.data() - first : shape[1];
     auto* const kept = new std::shared_ptr<const void>(self);
     const py::capsule keeper(kept, [](void* pointer) { delete static_cast<std::shared_ptr<const void>*>(pointer); });
     return read_only(py::array_t<std::uint8_t>(shape, std::vector<py::ssize_t>{stride, 1}, first, keeper));
   }
   if (name == "azimuth") {
     std::vector<double> azimuths;
-    for (std::size_t i = 0; i < scan_.sweeps(); ++i) azimuths.push_back(scan_.sweep(i).azimuth_deg);
+    for (std::size_t i = 0; i < scan_.sweeps(); ++i) azimuths.push_back(scan_.sweep(i)->azimuth_deg);
     make_continuous(azimuths);
     return array_from(std::move(azimuths), {shape[0]});
   }

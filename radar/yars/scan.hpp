@@ -67,11 +67,12 @@ class YARS_EXPORT Scan {
   void finish();
 
   std::size_t sweeps() const;
-  std::size_t samples() const;               // of a sweep
-  std::span<const float> power() const;      // of all samples
-  ScanSweep sweep(std::size_t index) const;  // requires index < sweeps()
-  std::uint64_t hash() const;                // of the hashes of all sweeps, as `yars scan` prints it
-  ScanFacts facts() const;                   // also before run()
+  std::size_t samples() const;           // of a sweep
+  std::span<const float> power() const;  // of all samples
+  // Error: there is no sweep of this index, [0, sweeps()).
+  Expected<ScanSweep> sweep(std::size_t index) const;
+  std::uint64_t hash() const;  // of the hashes of all sweeps, as `yars scan` prints it
+  ScanFacts facts() const;     // also before run()
   // Files and parts of files that are missing from the terrain and the scenes of this scan: one sentence each.
   const std::vector<std::string>& left_out() const;
   // Computed at the first call, also before run().

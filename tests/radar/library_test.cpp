@@ -151,7 +151,10 @@ TEST(Library, ResultsStayAfterTheThreadsHaveEnded) {
   scan->finish();
   EXPECT_EQ(scan->hash(), hash);
   EXPECT_EQ(scan->power()[7], power);
-  EXPECT_EQ(scan->sweep(0).video.size(), scan->samples());
+  EXPECT_EQ(scan->sweep(0)->video.size(), scan->samples());
+  const auto beyond = scan->sweep(scan->sweeps());
+  ASSERT_FALSE(beyond);
+  EXPECT_EQ(beyond.error().code, ErrorCode::argument);
   const auto labels = scan->labels();
   ASSERT_TRUE(labels);
   EXPECT_EQ((*labels)->shadow.size(), scan->power().size());

@@ -63,7 +63,7 @@ imageio::Image scan_picture(const Scan& scan, const radar::ViewConfiguration& vi
   imageio::Image image{size, size, 3, std::vector<std::uint8_t>(static_cast<std::size_t>(size) * size * 3, 0)};
   const std::array<double, 3>& tint = color == ScanColor::green ? kGreen : kGray;
   const double track_deg = scan.facts().ground_track_deg;
-  const ScanSweep first = scan.sweep(0);
+  const ScanSweep first = *scan.sweep(0);
   for (int row = 0; row < size; ++row) {
     const double up = view.height_max - (row + 0.5) / size * (view.height_max - view.height_min);
     for (int column = 0; column < size; ++column) {
@@ -73,7 +73,7 @@ imageio::Image scan_picture(const Scan& scan, const radar::ViewConfiguration& vi
       const auto index = sweep_at(first, scan.sweeps(), track_deg + std::atan2(right, up) / geo::kRadiansPerDegree);
       if (!index) continue;
       const auto sample = static_cast<std::size_t>(range * static_cast<double>(scan.samples()));
-      const double level = scan.sweep(*index).video[sample];
+      const double level = scan.sweep(*index)->video[sample];
       std::uint8_t* pixel = &image.pixels[(static_cast<std::size_t>(row) * size + column) * 3];
       for (std::size_t channel = 0; channel < 3; ++channel) {
         pixel[channel] = static_cast<std::uint8_t>(std::lround(level * tint[channel]));
@@ -144,7 +144,7 @@ void write_csv(std::ostream& file, const Scan& scan) {
   file.precision(12);
   const double range_m = scan.facts().range_m;
   for (std::size_t number = 0; number < scan.sweeps(); ++number) {
-    const ScanSweep sweep = scan.sweep(number);
+    const ScanSweep sweep = *scan.sweep(number);
     file << number << ',' << sweep.azimuth_left_deg << ',' << sweep.azimuth_right_deg << ',' << range_m << ','
          << sweep.hash;
     for (const std::uint8_t level : sweep.video) file << ',' << static_cast<int>(level);
