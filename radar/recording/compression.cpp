@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 
 namespace yars::recording {
 
@@ -33,7 +34,13 @@ bool Compressor::compress(std::span<const std::byte> bytes, std::vector<std::byt
 }
 
 bool decompress(std::span<const std::byte> compressed, std::span<std::byte> bytes) {
-  return ZSTD_decompress(bytes.data(), bytes.size(), compressed.data(), compressed.size()) == bytes.size();
+  struct Release {
+    void operator()(ZSTD_DCtx* tables) const { ZSTD_freeDCtx(tables); }
+  };
+  // To make the tables for each piece would take longer than to decompress a piece.
+  thread_local const std::unique_ptr<ZSTD_DCtx, Release> tables(ZSTD_createDCtx());
+  return tables && ZSTD_decompressDCtx(tables.get(), bytes.data(), bytes.size(), compressed.data(),
+                                       compressed.size()) == bytes.size();
 }
 
 std::uint32_t checksum_of(std::span<const std::byte> bytes) {

@@ -23,12 +23,12 @@ using nlohmann::json;
 constexpr geo::GeoPoint kApron{38.10558, -121.31794};        // point 4. of config/coast.guf
 constexpr geo::GeoPoint kTransport{38.105022, -121.317160};  // the easternmost transport on the apron
 
-// The terrain of scripts/start with its scenes, made once for all tests of this file.
+// The terrain of scripts/start, with fewer posts, and its scenes; made once for all tests of this file.
 class Coast : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder_ = std::filesystem::temp_directory_path() / ("yars_tour_" + std::to_string(getpid()));
-    make({"yars", "terrain", "generate", "--out", terrain(), "--airfields", "soil"});
+    make({"yars", "terrain", "generate", "--out", terrain(), "--airfields", "soil", "--level", "0"});
     std::filesystem::create_directories(terrain() + "/scenes");
     std::ifstream list(YARS_SOURCE_DIR "/config/coast.scenes");
     for (std::string line; std::getline(list, line);) {

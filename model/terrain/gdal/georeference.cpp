@@ -1,10 +1,14 @@
 #include "model/terrain/gdal/georeference.hpp"
 
+#include <sys/types.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 
@@ -85,29 +89,40 @@ Axes axes_of(PJ_CONTEXT* context, PJ* system) {
 
 error::Expected<Georeference> Georeference::of(GDALDatasetH dataset, const std::string& subject) {
   Georeference georeference;
-  if (GDALGetGeoTransform(dataset, georeference.data_from_pixel_.data()) != CE_None ||
-      GDALGetSpatialRef(dataset) == nullptr)
+  const OGRSpatialReferenceH reference = GDALGetSpatialRef(dataset);
+  if (GDALGetGeoTransform(dataset, georeference.data_from_pixel_.data()) != CE_None || reference == nullptr)
     return error::fail(subject, "a coordinate system and a geotransform", "none",
                        "add them with gdal_translate -a_srs -a_ullr");
   if (GDALInvGeoTransform(georeference.data_from_pixel_.data(), georeference.pixel_from_data_.data()) == 0)
     return error::fail(subject, "an invertible geotransform", "a singular one", kWarpIt);
   georeference.width_ = GDALGetRasterXSize(dataset);
   georeference.height_ = GDALGetRasterYSize(dataset);
-  georeference.context_.reset(proj_context_create());
-  proj_context_set_enable_network(georeference.context_.get(), 0);
-  proj_log_func(georeference.context_.get(), nullptr, [](void*, int, const char*) {});
-  if (const auto read = georeference.read_system(dataset, subject); !read) return tl::unexpected(read.error());
-  return georeference;
-}
-
-error::Expected<void> Georeference::read_system(GDALDatasetH dataset, const std::string& subject) {
-  const OGRSpatialReferenceH reference = GDALGetSpatialRef(dataset);
   int count = 0;
   const int* const mapping = OSRGetDataAxisToSRSAxisMapping(reference, &count);
   if (mapping != nullptr && count >= 2 && std::abs(mapping[0]) + std::abs(mapping[1]) == 3)
-    axis_ = {mapping[0], mapping[1]};
+    georeference.axis_ = {mapping[0], mapping[1]};
+
+  // A raster is opened for each of its cells, and PROJ takes most of that time. So each thread keeps its last result.
+  // A child of fork() makes its own, because a grid file of PROJ has one position for both processes.
+  struct Last {
+    std::tuple<pid_t, std::string, std::array<double, 6>, std::array<int, 2>, int, int> key;
+    Georeference georeference;
+  };
+  thread_local std::optional<Last> last;
+  auto key = std::tuple(::getpid(), well_known_text(reference), georeference.data_from_pixel_, georeference.axis_,
+                        georeference.width_, georeference.height_);
+  if (last && last->key == key) return last->georeference;
+  georeference.context_ = ProjContext(proj_context_create());
+  proj_context_set_enable_network(georeference.context_.get(), 0);
+  proj_log_func(georeference.context_.get(), nullptr, [](void*, int, const char*) {});
+  if (const auto read = georeference.read_system(std::get<1>(key), subject); !read) return tl::unexpected(read.error());
+  last = Last{std::move(key), georeference};
+  return georeference;
+}
+
+error::Expected<void> Georeference::read_system(const std::string& wkt, const std::string& subject) {
   PJ_CONTEXT* const context = context_.get();
-  const Projection whole(proj_create(context, well_known_text(reference).c_str()));
+  const Projection whole(proj_create(context, wkt.c_str()));
   if (!whole) return error::fail(subject, "a coordinate system that PROJ knows", "an unknown one", kWarpIt);
   Projection horizontal, vertical;
   if (proj_get_type(whole.get()) == PJ_TYPE_COMPOUND_CRS) {

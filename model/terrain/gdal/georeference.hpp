@@ -7,10 +7,11 @@
 // Frame: pixel positions count from the outer corner of the first pixel. The centre of this pixel is (0.5, 0.5).
 // Errors: no geotransform or a singular one, no coordinate system that PROJ knows, no PROJ operation to WGS84,
 //   ellipsoidal heights for which PROJ has no geoid.
-// Threads: one thread per object.
+// Threads: one thread per object and its copies.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -59,7 +60,7 @@ class Georeference {
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:
-  error::Expected<void> read_system(GDALDatasetH dataset, const std::string& subject);
+  error::Expected<void> read_system(const std::string& wkt, const std::string& subject);
   error::Expected<void> read_vertical(PJ* vertical, PJ* horizontal, const std::string& subject);
   error::Expected<void> find_geoid(PJ* horizontal, const std::string& subject);
   error::Expected<void> find_operation(PJ* horizontal, const std::string& subject);
@@ -70,9 +71,10 @@ class Georeference {
   void from_system(std::span<double> x, std::span<double> y, double near_x) const;
   double near_middle(double x) const;
 
-  ProjContext context_;  // declared first, because it must outlive the PROJ objects below
-  Projection to_wgs84_;  // null: coordinates count as degrees of WGS84
-  Projection geoid_;     // null: heights are above mean sea level
+  // Copies share these. The context is declared first, because it must outlive the PROJ objects.
+  std::shared_ptr<PJ_CONTEXT> context_;
+  std::shared_ptr<PJ> to_wgs84_;  // null: coordinates count as degrees of WGS84
+  std::shared_ptr<PJ> geoid_;     // null: heights are above mean sea level
   // Geotransform and its inverse. "Data" are coordinates of the system in GDAL's axis order: x, y.
   std::array<double, 6> data_from_pixel_{}, pixel_from_data_{};
   std::array<int, 2> axis_{1, 2};  // axis of the system, 1 or 2, for x and for y of the data; negative: reversed

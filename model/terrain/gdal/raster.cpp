@@ -366,8 +366,11 @@ error::Expected<RasterPosts> read_raster(const std::vector<std::filesystem::path
   const Grid grid{south_deg, west_deg, posts_per_degree_north + 1, posts_per_degree_east + 1};
   std::optional<CellPosts> posts;
   RasterPosts read;
+  std::filesystem::path open_path;  // one at a time, because a cell may have thousands of rasters
+  error::Expected<Raster> opened{Raster{}};
   const auto fill = [&](const std::filesystem::path& path, Reach reach) -> error::Expected<void> {
-    const auto raster = open_raster(path);
+    if (open_path.empty() || path != open_path) opened = open_raster(open_path = path);
+    const auto& raster = opened;
     if (!raster) return tl::unexpected(raster.error());
     const bool whole = raster->whole_metres && posts_are_pixels(*raster, grid.rows - 1, grid.columns - 1);
     if (!posts)

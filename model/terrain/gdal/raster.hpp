@@ -9,7 +9,8 @@
 //   nearest to a summit has the height of the summit's pixel, or of its block if pixels are averaged in blocks.
 // Errors: GDAL cannot open or read the file, the raster is not as above, the system lacks the library of GDAL or PROJ,
 //   or the build has no GDAL (gdal_absent.cpp).
-// Threads: the functions are thread-safe. Each call opens the file.
+// Threads: the functions are thread-safe. Each call opens the file; a thread keeps the coordinate transformation of the
+//   last one.
 #pragma once
 
 #include <cstdint>

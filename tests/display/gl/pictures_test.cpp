@@ -233,7 +233,9 @@ TEST(Pictures, EveryFormatIsDrawn) {
   const char* folder = std::getenv("YARS_PICTURES");
   const auto ground = testing::made_up_ground(480);
   for (const int size : {480, 1024}) {
+    int number = 0;
     for (const Picture& picture : pictures()) {
+      if (size != 480 && folder == nullptr && number++ % 4 != 0) continue;
       const DisplayInput input = picture.input();
       Display radar_display(radar::RadarConfiguration(), size);
       radar_display.keep_video(false);  // as in files

@@ -174,7 +174,9 @@ TEST(ShadowBound, HoldsOverTheMadeUpCoast) {
   test::TemporaryFolder folder;
   const worldgen::Landscape landscape(worldgen::DefaultLandscape::kSeed);
   ASSERT_TRUE(terrain::write_dted(folder.path(), landscape.cell({37, -123}, kPosts, kPosts), 1));
-  EXPECT_GT(expect_within_bounds("made-up coast", {{37.1, -122.95}, 4000.0, 10.0, 80.0, 10.0}, folder.path()), 0.02);
+  constexpr double kSome_nm[] = {4.7, 40.0, 160.0};
+  const Scan scan{{37.1, -122.95}, 4000.0, 10.0, 80.0, 10.0};
+  EXPECT_GT(expect_within_bounds("made-up coast", scan, folder.path(), kSome_nm), 0.02);
 }
 
 // Mountains like mountains(), with posts of 1 arcsecond and gullies and crags of that size.

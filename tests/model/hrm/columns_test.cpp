@@ -154,7 +154,7 @@ TEST(ColumnsBetween, AreSampledForClosePostsNearestInterpolationAndGroundDetail)
   };
   radar::RadarConfiguration configuration = bare_map(240);
   EXPECT_TRUE(equal_maps(configuration, 3601)) << "pixels of 5 m, posts of 24 m";
-  configuration = bare_map(1024);
+  configuration = bare_map(512);
   configuration.fidelity.interpolation = radar::Interpolation::nearest;
   EXPECT_TRUE(equal_maps(configuration, 1201));
   configuration.fidelity.interpolation = radar::Interpolation::bilinear;
@@ -173,7 +173,7 @@ std::uint8_t field_at(geo::GeoPoint position) {
 }
 
 TEST(ColumnsBetween, HaveTheMaterialsOfTheirOwnPositions) {
-  radar::RadarConfiguration configuration = bare_map(1024);
+  radar::RadarConfiguration configuration = bare_map(512);
   const auto level = [](geo::GeoPoint) { return kGround_m; };
   const auto fields = std::make_shared<terrain::AnalyticTerrain>(level, 1, field_at);
   const auto map = make_patch(configuration, order_from({}), std::make_shared<Reported>(fields, 92.7, true));

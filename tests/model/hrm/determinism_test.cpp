@@ -51,9 +51,9 @@ void expect_equal(const hrm::PixelLabels& found, const hrm::PixelLabels& expecte
 constexpr std::size_t kFewPoints = 24'000, kFewestPoints = 1;
 
 TEST(Patch, IsTheSameForAnyNumberOfThreads) {
-  const auto one = busy_map(1, 240);
+  const auto one = busy_map(1, 160);
   for (const std::size_t threads : {2U, 3U, 4U}) {
-    const auto many = busy_map(threads, 240);
+    const auto many = busy_map(threads, 160);
     EXPECT_EQ(many.image().power, one.image().power) << threads;
     EXPECT_EQ(many.picture(), one.picture()) << threads;
     EXPECT_EQ(many.triangles(), one.triangles()) << threads;
@@ -64,9 +64,9 @@ TEST(Patch, IsTheSameInSectors) {
   for (const radar::Algorithm algorithm : {radar::Algorithm::standard, radar::Algorithm::report_1996}) {
     radar::RadarConfiguration configuration;
     configuration.fidelity.algorithm = algorithm;
-    const auto whole = busy_map(1, 240, hrm::kMaxSectorPoints, configuration);
+    const auto whole = busy_map(1, 160, hrm::kMaxSectorPoints, configuration);
     for (const auto& [points, threads] : {std::pair{kFewPoints, 3U}, std::pair{kFewestPoints, 1U}}) {
-      const auto sectors = busy_map(threads, 240, points, configuration);
+      const auto sectors = busy_map(threads, 160, points, configuration);
       EXPECT_EQ(sectors.image().power, whole.image().power) << points << ", threads " << threads;
       EXPECT_EQ(sectors.picture(), whole.picture()) << points << ", threads " << threads;
     }
@@ -98,9 +98,9 @@ TEST(PatchLabels, AreTheSameForAnyThreadsSectorsAndVectorTargetAndChangeNoPictur
 }
 
 TEST(Patch, IsTheSameInSectorsOnEveryVectorTarget) {
-  const auto whole = busy_map(1, 240);
+  const auto whole = busy_map(1, 160);
   for_each_vector_target(
-      [&](const char* name) { EXPECT_EQ(busy_map(1, 240, kFewPoints).image().power, whole.image().power) << name; });
+      [&](const char* name) { EXPECT_EQ(busy_map(1, 160, kFewPoints).image().power, whole.image().power) << name; });
 }
 
 TEST(Patch, SectorsCoverTheGridInOrderAndHoldNoMorePoints) {

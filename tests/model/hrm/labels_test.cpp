@@ -121,7 +121,7 @@ TEST(LabelsOverHills, AreThoseOfAPlainSearch) {
   const int size = process.image().size;
   const double pixel_m = process.geometry().window_m() / size;
   int differ = 0, checked = 0, dark = 0, folded = 0;
-  for (int line = -5; line <= 5; ++line) {
+  for (int line = -5; line <= 5; line += 2) {
     const double tangent = 0.1 * line * process.geometry().window_m() / view.distance_m;
     const Profile profile = search(process, order, *ground, std::atan(tangent));
     for (int row = 0; row < size; ++row) {
@@ -140,9 +140,9 @@ TEST(LabelsOverHills, AreThoseOfAPlainSearch) {
       ++checked;
     }
   }
-  EXPECT_GT(checked, 1500);
-  EXPECT_GT(dark, 50);
-  EXPECT_GT(folded, 100);
+  EXPECT_GT(checked, 750);
+  EXPECT_GT(dark, 25);
+  EXPECT_GT(folded, 50);
   EXPECT_LE(differ, checked / 200) << "of " << checked;
 }
 

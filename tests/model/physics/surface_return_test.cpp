@@ -97,14 +97,13 @@ Moments k_clutter(double shape, int looks) {
 }
 
 TEST(SurfaceReturn, WithTextureIsKDistributed) {
-  for (const double shape : {0.0, 2.0, 4.0}) {
-    for (const int looks : {1, 4}) {
-      const Moments found = k_clutter(shape, looks);
-      const double texture = shape > 0.0 ? 1.0 + 1.0 / shape : 1.0;
-      EXPECT_NEAR(found.mean, 1.0, 0.02) << shape << ", " << looks;
-      EXPECT_NEAR(found.variance / (found.mean * found.mean) / (texture * (1.0 + 1.0 / looks) - 1.0), 1.0, 0.03)
-          << shape << ", " << looks;
-    }
+  using Case = std::pair<double, int>;
+  for (const auto& [shape, looks] : {Case{0.0, 1}, Case{2.0, 4}, Case{4.0, 1}}) {
+    const Moments found = k_clutter(shape, looks);
+    const double texture = shape > 0.0 ? 1.0 + 1.0 / shape : 1.0;
+    EXPECT_NEAR(found.mean, 1.0, 0.02) << shape << ", " << looks;
+    EXPECT_NEAR(found.variance / (found.mean * found.mean) / (texture * (1.0 + 1.0 / looks) - 1.0), 1.0, 0.03)
+        << shape << ", " << looks;
   }
 }
 

@@ -228,7 +228,7 @@ TEST(Replay, ComputesSweepsInATurnAgainstASlowScanWhereverTheRecordingBegins) {
     radar::RadarConfiguration configuration;
     configuration.antenna.azimuth_rate_dps = 10.0;
     configuration.fidelity.sub_beams = 13;
-    configuration.fidelity.samples = 1024;
+    configuration.fidelity.samples = 256;
     Recorded recorded(nullptr, nullptr, configuration);
     recorded.fly();
     recorded.turn(-8.0);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <future>
 #include <random>
 #include <string>
 
@@ -189,6 +190,32 @@ INSTANTIATE_TEST_SUITE_P(
                       Projected{"Antimeridian", "EPSG:32660", 600'000, 7'300'000, 300, 500, {65, 179}},
                       Projected{"AzimuthalEqualArea", "EPSG:3035", 4'000'000, 2'900'000, 400, 500, {48, 8}}),
     [](const auto& each) { return std::string(each.param.name); });
+
+// A thread keeps what PROJ has found for the raster that it opened last.
+TEST(ProjectedRasters, HaveEqualHeightsWhateverTheirThreadHasReadBefore) {
+  const test::TemporaryFolder folder;
+  RasterFields first{100, 100, {260'000, 500, 0, 4'060'000, 0, -500}};
+  first.system = "EPSG:32611";
+  RasterFields moved = first, other_datum = first;
+  moved.geotransform[0] += 200;
+  other_datum.system = "EPSG:26711";
+  std::vector<std::filesystem::path> paths;
+  for (const RasterFields& fields : {first, moved, other_datum}) {
+    paths.push_back(folder.path() / (std::to_string(paths.size()) + ".tif"));
+    write_raster(paths.back(), fields, [](int row, int column) { return 100 + 7 * row + 3 * column; });
+  }
+  const auto posts_of = [](const std::filesystem::path& path) {
+    const auto reading = read_cell({path, CellFormat::raster}, {36, -120});
+    return reading ? std::vector(reading->cell.posts().begin(), reading->cell.posts().end())
+                   : std::vector<std::int16_t>{};
+  };
+  std::vector<std::vector<std::int16_t>> alone;
+  for (const auto& path : paths)
+    alone.push_back(std::async(std::launch::async, [&] { return posts_of(path); }).get());
+  EXPECT_NE(alone[0], alone[1]);
+  EXPECT_NE(alone[0], alone[2]);
+  for (const std::size_t raster : {0, 1, 0, 2, 2, 0}) EXPECT_EQ(posts_of(paths[raster]), alone[raster]) << raster;
+}
 
 TEST(DegreeRaster, WithPixelCentresBesideThePostsKeepsItsRelief) {
   const test::TemporaryFolder folder;
