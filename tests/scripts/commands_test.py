@@ -4,7 +4,7 @@
 usage: commands_test.py BIN
 Walks the programs, their commands and options by --help (packaging/help/help_text.py). Each wrong command line ends with exit
 code 2 and one line in the form "PROGRAM COMMAND: OPTION: expected ..., found ...; see PROGRAM COMMAND --help".
-YARS_TEST_FULL: each option is misspelled; without, every fourth.
+YARS_TEST_FULL: each option is misspelled, without a value, and before --help; without, every fourth.
 """
 import concurrent.futures
 import os
@@ -72,8 +72,8 @@ def limits(entry):
     return None
 
 
-def cases_of_values(command, entry, first):
-    """Wrong values of an option or an argument: (words, parts of the message). `first`: of those of the command."""
+def cases_of_values(command, entry, number):
+    """Wrong values of an option or an argument: (words, parts of the message). `number`: of those of the command."""
     name = entry.names[-1]
     is_option = name.startswith("-")
 
@@ -83,10 +83,11 @@ def cases_of_values(command, entry, first):
         before = command.arguments.index(entry)
         return [*command.words, *["1"] * before, value]
     start = command.words[0] == "yars-start"
-    if is_option:
+    some = ALL or number % 4 == 0
+    if is_option and some:
         yield [*command.words, name], [f"{name}: expected ", "found nothing" if entry.count == 1 else "found 0"]
     if entry.is_number:
-        if ALL or first:
+        if ALL or number == 0:
             yield with_value("forty"), [f"{name}: expected a ", "number", "forty"]
         yield with_value("2x"), [f"{name}: expected a ", "number", "2x"]
     if found := limits(entry):
@@ -97,7 +98,7 @@ def cases_of_values(command, entry, first):
         yield with_value("nonsense"), [f"{name}: expected ", *entry.values, "'nonsense'"]
         if len(entry.values[0]) >= 4:
             yield with_value(misspelled(entry.values[0])), [f"did you mean '{entry.values[0]}'?"]
-    if is_option and not entry.is_number and not entry.values and entry.count == 1 and not start:
+    if is_option and some and not entry.is_number and not entry.values and entry.count == 1 and not start:
         yield [*command.words, name, "--help"], [f"{name}: expected ", "found the option '--help'"]
 
 
@@ -106,14 +107,14 @@ def cases_of(program, command):
     for number, entry in enumerate(command.options + inherited):
         name = entry.names[-1]
         if entry.count:
-            yield from cases_of_values(command, entry, number == 0)
+            yield from cases_of_values(command, entry, number)
         elif "--help" not in entry.names and "--version" not in entry.names and command.words[0] != "yars-start":
             yield [*command.words, f"{name}=maybe"], [f"{name}: expected no value", "'maybe'"]
         if name.startswith("--") and (ALL or number % 4 == 0):
             yield [*command.words, misspelled(name)], ["expected an option", misspelled(name), "did you mean '--"]
     for entry in command.arguments:
         if command.words[-1] != "help":
-            yield from cases_of_values(command, entry, True)
+            yield from cases_of_values(command, entry, 0)
     yield [*command.words, "--xyzzyx"], ["expected an option", "--xyzzyx"]
     if command.words[0] == "yars-start":
         return

@@ -134,8 +134,8 @@ TEST(Designations, WithoutAKnownVariationTheHeadingIsLabelledTrue) {
 TEST(Designations, ADesignatedTargetHasItsTriangleAndNameAnywhereOnTheDisplay) {
   int headings = 0;
   for (const Mode mode : {Mode::rbm, Mode::hrm, Mode::beacon}) {
-    for (float x = 0.0F; x <= 480.0F; x += 12.0F) {
-      for (float y = 0.0F; y <= 480.0F; y += 12.0F) {
+    for (float x = 0.0F; x <= 480.0F; x += 20.0F) {
+      for (float y = 0.0F; y <= 480.0F; y += 20.0F) {
         DisplayInput input = testing::operating(mode, 40.0);
         input.state.flags |= databuffer::kFreeze;
         testing::set_text(input.state.message, "BLIND ZONE");
@@ -155,7 +155,7 @@ TEST(Designations, ADesignatedTargetHasItsTriangleAndNameAnywhereOnTheDisplay) {
       }
     }
   }
-  EXPECT_GT(headings, 3 * 41 * 41 * 95 / 100) << "the heading has a place, too";
+  EXPECT_GT(headings, 3 * 25 * 25 * 95 / 100) << "the heading has a place, too";
 }
 
 TEST(Designations, TheMagneticHeadingStandsBesideALineThatComesFromBeneath) {

@@ -174,7 +174,7 @@ int jumps_while_turning(DisplayInput input, bool with_memory) {
 TEST(LabelLayout, NoLabelJumpsWhileThePictureJitters) {
   testing::RandomDisplayInput states(20261124);
   int jumps = 0, without_memory = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const DisplayInput input = states.next();
     jumps += jumps_while_turning(input, true);
     without_memory += jumps_while_turning(input, false);

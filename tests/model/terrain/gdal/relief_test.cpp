@@ -206,8 +206,7 @@ TEST(ProjectedRasters, HaveEqualHeightsWhateverTheirThreadHasReadBefore) {
   }
   const auto posts_of = [](const std::filesystem::path& path) {
     const auto reading = read_cell({path, CellFormat::raster}, {36, -120});
-    return reading ? std::vector(reading->cell.posts().begin(), reading->cell.posts().end())
-                   : std::vector<std::int16_t>{};
+    return reading ? reading->cell.posts() : std::vector<std::int16_t>{};
   };
   std::vector<std::vector<std::int16_t>> alone;
   for (const auto& path : paths)
