@@ -76,7 +76,8 @@ Viewpoint view_from(double from_deg, double distance_m, double above_m, double w
 }
 
 TEST(Standard, EqualsTheReferenceOverLevelGround) {
-  const Difference found = measure("level", {view_from(200.0, 37040.0, 4572.0, 1241.0), terrain::flat(kGround_m), {}});
+  const Setting setting{view_from(200.0, 37040.0, 4572.0, 1241.0), terrain::flat(kGround_m), {}};
+  const Difference found = measure("level", setting, 96);
   EXPECT_NEAR(found.power, 0.0, 0.001);
   EXPECT_EQ(found.shadow, 0.0);
   EXPECT_LT(found.rms_db, 0.02);
@@ -84,7 +85,7 @@ TEST(Standard, EqualsTheReferenceOverLevelGround) {
 
 TEST(Standard, EqualsTheReferenceOverASlope) {
   const auto slope = terrain::plane({kTarget, geo::Bearing::degrees(60.0)}, kGround_m, 0.1);
-  const Difference found = measure("slope", {view_from(200.0, 37040.0, 4572.0, 1241.0), slope, {}});
+  const Difference found = measure("slope", {view_from(200.0, 37040.0, 4572.0, 1241.0), slope, {}}, 96);
   EXPECT_NEAR(found.power, 0.0, 0.003);
   EXPECT_LT(found.rms_db, 0.1);
 }
@@ -142,7 +143,7 @@ TEST_P(AirfieldFrom, IsCloseToTheReference) {
   const auto scene = std::make_shared<PlacedView>(1, std::vector<std::shared_ptr<const PlacedScene>>{placed},
                                                   kinds.kinds(), std::vector<SceneObject>(placed->objects));
   const Difference found =
-      measure("airfield", {view_from(GetParam(), 18520.0, 3000.0, 827.0), terrain::flat(kGround_m), scene}, 320);
+      measure("airfield", {view_from(GetParam(), 18520.0, 3000.0, 1241.0), terrain::flat(kGround_m), scene}, 480);
   // A wall perpendicular to the line of sight returns tens of times as much as other walls. Its return depends on
   // the number of grid points that it crosses.
   EXPECT_NEAR(found.power, 0.0, 0.04);
