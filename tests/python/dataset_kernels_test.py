@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Data sets by the kernels of YARS: 160 chips of a town have the same bytes from one worker, two workers and three shards; the video's hash is
+"""Data sets by the kernels of YARS: 96 chips of a town have the same bytes from one worker, two workers and three shards; the video's hash is
 that of `yars patch`. Needs yars._core. YARS_TEST_FULL, by scripts/test --full: 2,000 chips, seven shards, and three Dask workers, one of which
 is killed after each fifth of the blocks.
 usage: dataset_kernels_test.py BIN [unittest options]   (BIN: folder of `yars`; PYTHONPATH: folder of the built package)"""
@@ -41,7 +41,7 @@ FULL = "YARS_TEST_FULL" in os.environ
 
 
 class Kernels(Case):
-    count, size, triangles, more = 2000 if FULL else 160, 128, 10000, MORE
+    count, size, triangles, more = 2000 if FULL else 96, 128, 10000, MORE
 
     def write_spec(self, name="specification.yaml", **changes):
         path = self.folder / name

@@ -1,8 +1,5 @@
 #include "model/terrain/gdal/georeference.hpp"
 
-#include <sys/types.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -102,21 +99,24 @@ error::Expected<Georeference> Georeference::of(GDALDatasetH dataset, const std::
   if (mapping != nullptr && count >= 2 && std::abs(mapping[0]) + std::abs(mapping[1]) == 3)
     georeference.axis_ = {mapping[0], mapping[1]};
 
-  // A raster is opened for each of its cells, and PROJ takes most of that time. So each thread keeps its last result.
-  // A child of fork() makes its own, because a grid file of PROJ has one position for both processes.
+  // A raster is opened for each of its cells, and PROJ takes most of that time. So each thread keeps its last result,
+  // but none that reads a grid file: the file's position would be common to all children of fork().
   struct Last {
-    std::tuple<pid_t, std::string, std::array<double, 6>, std::array<int, 2>, int, int> key;
+    std::tuple<std::string, std::array<double, 6>, std::array<int, 2>, int, int> key;
     Georeference georeference;
   };
   thread_local std::optional<Last> last;
-  auto key = std::tuple(::getpid(), well_known_text(reference), georeference.data_from_pixel_, georeference.axis_,
+  auto key = std::tuple(well_known_text(reference), georeference.data_from_pixel_, georeference.axis_,
                         georeference.width_, georeference.height_);
   if (last && last->key == key) return last->georeference;
   georeference.context_ = ProjContext(proj_context_create());
   proj_context_set_enable_network(georeference.context_.get(), 0);
   proj_log_func(georeference.context_.get(), nullptr, [](void*, int, const char*) {});
-  if (const auto read = georeference.read_system(std::get<1>(key), subject); !read) return tl::unexpected(read.error());
-  last = Last{std::move(key), georeference};
+  if (const auto read = georeference.read_system(std::get<0>(key), subject); !read) return tl::unexpected(read.error());
+  const bool has_grid = georeference.geoid_ ||
+                        (georeference.to_wgs84_ && proj_coordoperation_get_grid_used_count(
+                                                       georeference.context_.get(), georeference.to_wgs84_.get()) > 0);
+  if (!has_grid) last = Last{std::move(key), georeference};
   return georeference;
 }
 

@@ -257,8 +257,7 @@ TEST_F(KeptPicture, OfAStraightFlightShowsEachPixelWithinAPixelOfItsPlace) {
 
 TEST_F(KeptPicture, OfATurningFlightShowsEachPixelWithinAPixelOfItsPlace) {
   using Turn = std::pair<double, double>;  // deg/s, range [NM]
-  for (const auto& [turn_dps, range_nm] :
-       {Turn{0.2, 10.0}, Turn{3.0, 40.0}, Turn{-8.0, 10.0}, Turn{-8.0, 160.0}}) {
+  for (const auto& [turn_dps, range_nm] : {Turn{0.2, 10.0}, Turn{3.0, 40.0}, Turn{-8.0, 10.0}, Turn{-8.0, 160.0}}) {
     flight_.turn_dps = turn_dps;
     flight_.range_nm = range_nm;
     fly(250, 1000);

@@ -113,7 +113,8 @@ TEST(PatchLimits, TheDefaultMapIsWithinTheLimits) {
   EXPECT_THAT(run.output, HasSubstr(" on " + std::to_string(processors) + " thread"));
 }
 
-// A large map is made in sectors; one of 4096 pixels takes 5 s. `reference` holds the whole grid, so it makes smaller maps only.
+// A large map is made in sectors; one of 4096 pixels takes 5 s. `reference` holds the whole grid, so it makes smaller
+// maps only.
 TEST(PatchLimits, MapsHaveUpTo4096Pixels) {
   const auto map = [](const std::string& size, const std::string& preset) {
     return endtoend::run_program({"yars", "patch", "--size", size, "--fidelity", preset});

@@ -209,8 +209,7 @@ TEST(ProjectedRasters, HaveEqualHeightsWhateverTheirThreadHasReadBefore) {
     return reading ? reading->cell.posts() : std::vector<std::int16_t>{};
   };
   std::vector<std::vector<std::int16_t>> alone;
-  for (const auto& path : paths)
-    alone.push_back(std::async(std::launch::async, [&] { return posts_of(path); }).get());
+  for (const auto& path : paths) alone.push_back(std::async(std::launch::async, [&] { return posts_of(path); }).get());
   EXPECT_NE(alone[0], alone[1]);
   EXPECT_NE(alone[0], alone[2]);
   for (const std::size_t raster : {0, 1, 0, 2, 2, 0}) EXPECT_EQ(posts_of(paths[raster]), alone[raster]) << raster;
