@@ -1,18 +1,24 @@
-# What programs of others build with, below the prefix: headers, libyars-display, libyars-radar, find_package(yars), pkg-config.
+# What programs of others build with, below the prefix: headers, the libraries libyars-client, libyars-display and libyars-radar,
+# find_package(yars), pkg-config.
 # All of it may be moved with the prefix. docs/attach.md shows the use.
 include(CMakePackageConfigHelpers)
 set(packages ${CMAKE_INSTALL_LIBDIR}/cmake/yars)
 set(made ${PROJECT_BINARY_DIR}/install)
 set(headers ${CMAKE_INSTALL_INCLUDEDIR}/yars)
 
-# The client is headers alone, and is there without a build. The display is a component of its own: it must be built.
+# yars.h is headers alone, and is there without a build. Each library is a component of its own: it must be built.
 install(TARGETS yars_client EXPORT yars-client)
-install(DIRECTORY ${PROJECT_SOURCE_DIR}/databuffer/client/ DESTINATION ${headers} FILES_MATCHING PATTERN "*.h")
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/databuffer/client/ DESTINATION ${headers} FILES_MATCHING PATTERN "*.h"
+  PATTERN yars_client.h EXCLUDE)
 install(EXPORT yars-client NAMESPACE yars:: DESTINATION ${packages})
+install(TARGETS yars_client_library EXPORT yars-client-library COMPONENT client LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/databuffer/client/yars_client.h DESTINATION ${headers} COMPONENT client)
+install(EXPORT yars-client-library NAMESPACE yars:: DESTINATION ${packages} COMPONENT client)
 install(TARGETS yars_display_library EXPORT yars-display COMPONENT display LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(FILES ${PROJECT_SOURCE_DIR}/display/library/yars_display.h DESTINATION ${headers} COMPONENT display)
 install(EXPORT yars-display NAMESPACE yars:: DESTINATION ${packages} COMPONENT display)
 target_include_directories(yars_client INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
+target_include_directories(yars_client_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_include_directories(yars_display_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 
 # The radar: libyars-radar with the headers that it came with; requests.hpp is made by the build.

@@ -45,7 +45,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
 # Each package has the components of a group.
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
-set(CPACK_COMPONENTS_ALL programs display radar idl Unspecified python)
+set(CPACK_COMPONENTS_ALL programs client display radar idl Unspecified python)
 get_property(has_python GLOBAL PROPERTY YARS_HAS_PYTHON)
 if(has_python)
   list(APPEND CPACK_COMPONENTS_ALL python_core)
@@ -66,14 +66,15 @@ set(CPACK_DEBIAN_YARS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_YARS_PACKAGE_DEPENDS "libegl1, libgl1, python3:any")
 set(CPACK_DEBIAN_YARS_PACKAGE_RECOMMENDS "libgl1-mesa-dri${also_rasters}")
 set(CPACK_DEBIAN_YARS_PACKAGE_SUGGESTS "python3-yars")
-# For libyars-display and libyars-radar: what a package that is linked with them depends on, and a run of ldconfig by dpkg's trigger.
+# For the libraries: what a package that is linked with them depends on, and a run of ldconfig by dpkg's trigger.
 file(WRITE ${PROJECT_BINARY_DIR}/install/shlibs
+  "libyars-client ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} yars (>= ${PROJECT_VERSION})\n"
   "libyars-display ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} yars (>= ${PROJECT_VERSION})\n"
   "libyars-radar ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} yars (>= ${PROJECT_VERSION})\n")
 file(WRITE ${PROJECT_BINARY_DIR}/install/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_YARS_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/install/shlibs ${PROJECT_BINARY_DIR}/install/triggers)
 
-# The session client needs Python alone. The compiled part needs the Python that it is built for, and NumPy.
+# The session client needs libyars-client, which is in the package yars. The compiled part needs the Python that it is built for, and NumPy.
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_NAME python3-yars)
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON3-YARS_DESCRIPTION "air-to-ground radar simulation after the APG-70 (Python 3)
@@ -82,7 +83,7 @@ from digital terrain and scenes as NumPy arrays, with labels for training data.
 yars.plot draws them by matplotlib. yars.session is the client of a running
 session: ownship and events in, sweeps and pictures out.")
 set(recommended "python3-matplotlib, python3-xarray, python3-zarr, python3-numcodecs, python3-yaml, python3-dask, python3-distributed")
-set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_RECOMMENDS "yars (= ${full_version}), ${recommended}${also_rasters}")
+set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_RECOMMENDS "${recommended}${also_rasters}")
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_SUGGESTS "python3-rasterio, python3-pil")
 # Compiles the module's sources when it is installed, as Debian's own packages do.
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_CONTROL_EXTRA
@@ -92,17 +93,17 @@ if(has_python)
   math(EXPR next_minor "${minor} + 1")
   set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_SHLIBDEPS ON)
   set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_DEPENDS
-    "python3 (>= 3.${minor}), python3 (<< 3.${next_minor}), python3-numpy")
+    "yars (= ${full_version}), python3 (>= 3.${minor}), python3 (<< 3.${next_minor}), python3-numpy")
 else()
   set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_ARCHITECTURE all)
-  set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_DEPENDS "python3:any")
+  set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_DEPENDS "yars (= ${full_version}), python3:any")
   string(APPEND CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_RECOMMENDS ", python3-numpy")
 endif()
 set(CPACK_POST_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/packaging/debian/repack.cmake)
 include(CPack)
 cpack_add_component_group(yars)
 cpack_add_component_group(python3-yars)
-foreach(component programs display radar idl Unspecified)
+foreach(component programs client display radar idl Unspecified)
   cpack_add_component(${component} GROUP yars)
 endforeach()
 foreach(component python python_core)

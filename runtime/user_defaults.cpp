@@ -14,6 +14,11 @@ namespace yars::runtime {
 
 namespace {
 
+std::string quoted(std::string_view text) {
+  std::string result = "'";
+  return result.append(text).append("'");
+}
+
 enum class Value {
   text,
   path,          // of a file or folder
@@ -39,7 +44,7 @@ error::Error unknown_name(const std::string& location, std::string_view name) {
     known.emplace_back(each.name);
     list += (list.empty() ? "" : ", ") + std::string(each.name);
   }
-  return {location, "one of " + list, "'" + std::string(name) + "'", text::did_you_mean(name, known)};
+  return {location, "one of " + list, quoted(name), text::did_you_mean(name, known)};
 }
 
 // The value as programs use it, or what was expected in its place.
@@ -51,8 +56,8 @@ error::Expected<std::string> usable_value(const std::string& location, const Nam
   if (value.starts_with("~/") && !home.empty()) return home + std::string(value.substr(1));
   if (value.starts_with('/')) return std::string(value);
   if (name.value == Value::path_or_name && value.find('/') == std::string_view::npos) return std::string(value);
-  return error::fail(location, "for " + std::string(name.name) + " a path that begins with / or ~/",
-                     "'" + std::string(value) + "'", "programs are called from any folder");
+  return error::fail(location, "for " + std::string(name.name) + " a path that begins with / or ~/", quoted(value),
+                     "programs are called from any folder");
 }
 
 std::string environment(const char* name) {
@@ -73,7 +78,7 @@ error::Expected<UserDefaults> parse_user_defaults(std::string_view text, const s
     const auto name = std::ranges::find(kNames, key, &Name::name);
     if (name == kNames.end()) return tl::unexpected(unknown_name(location, key));
     if (equals == std::string_view::npos)
-      return error::fail(location, std::string(key) + " = VALUE", "'" + std::string(line.text) + "'");
+      return error::fail(location, std::string(key) + " = VALUE", quoted(line.text));
     const auto value = usable_value(location, *name, text::trimmed(line.text.substr(equals + 1)), home);
     if (!value) return tl::unexpected(value.error());
     if (!defaults.values.emplace(key, UserDefault{*value, line.number}).second)

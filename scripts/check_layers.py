@@ -45,10 +45,10 @@ LAYERS = {
     "lib/imageio": BASE + ["lib/file"],
     "shm": BASE + ["lib/file"],
     "databuffer/messages": RADAR,
-    "databuffer/client": [],
     "config/guf": BASE,
     "config/schema": RECORDS + ["lib/file", "lib/log", "config/guf"],
     "databuffer/session": RECORDS + ["lib/file", "lib/log", "shm"],
+    "databuffer/client": RECORDS + ["shm", "databuffer/session"],
     "databuffer/json": RECORDS + ["databuffer/session"],
     "world": RECORDS,
     "runtime": RECORDS + ["lib/file", "lib/log", "databuffer/session"],
@@ -165,7 +165,7 @@ CLOCK_FOLDERS = ["shm", "shells", "lib/parallel/thread_pool.cpp"]
 OPENING = re.compile(r"\bstd::[io]?fstream\b|\bfopen\b|(?<![\w>])::(open|openat|mmap)\b"
                      r"|\bstd::filesystem::(recursive_)?directory_iterator\b")
 READERS = [re.compile(pattern) for pattern in (
-    r"_(main|shell)\.[ch]pp$", r"^(config/schema/load|runtime/processor_load|databuffer/session/session_state|inputmonitor/device_source|lib/imageio/png"
+    r"_(main|shell)\.[ch]pp$", r"^(config/schema/load|runtime/processor_load|databuffer/session/participant|inputmonitor/device_source|lib/imageio/png"
     r"|model/terrain/formats/cell_reading|model/terrain/store/cell_files|shm/segment_file)\.cpp$",
     r"^(lib/file|radar/recording|tools|tests|examples)/",
 )]

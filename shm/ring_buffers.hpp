@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 
 #include "shm/words.hpp"
 
@@ -12,8 +13,9 @@ namespace yars::shm {
 
 // Result of BroadcastRing::read().
 struct RingRead {
-  bool delivered;      // a record was copied to `out`
-  std::uint64_t lost;  // records that this call skipped because the producer overtook the reader
+  bool delivered;         // a record was copied to `out`
+  std::uint64_t lost;     // records that this call skipped because the producer overtook the reader
+  std::size_t words = 0;  // length of the delivered record
 };
 
 // History of one producer. Of its N slots, N - 1 hold the readable records, which are the last published. Each reader
@@ -53,7 +55,7 @@ class BroadcastRing {
   };
 
   static constexpr std::uint64_t oldest_before(std::uint64_t next) { return next < N ? 0 : next - N + 1; }
-  bool copy_out(std::uint64_t number, T& out) const;
+  std::optional<std::size_t> copy_out(std::uint64_t number, T& out) const;  // words copied
 
   alignas(kCacheLine) AtomicWord next_;
   std::array<Slot, N> slots_;
@@ -73,14 +75,15 @@ std::uint64_t BroadcastRing<T, N, Access>::publish(const T& record) {
 }
 
 template <Record T, std::size_t N, class Access>
-bool BroadcastRing<T, N, Access>::copy_out(std::uint64_t number, T& out) const {
+std::optional<std::size_t> BroadcastRing<T, N, Access>::copy_out(std::uint64_t number, T& out) const {
   const Slot& slot = slots_[number % N];
   const Word complete = 2 * number + 2;
-  if (Access::load(slot.sequence, std::memory_order_acquire) != complete) return false;
+  if (Access::load(slot.sequence, std::memory_order_acquire) != complete) return std::nullopt;
   const Word used = Access::load(slot.used, std::memory_order_acquire);
-  if (used > kWordsOf<T>) return false;
+  if (used > kWordsOf<T>) return std::nullopt;
   load_words<Access>(slot.words.data(), &out, used);
-  return Access::load(slot.sequence, std::memory_order_relaxed) == complete;
+  if (Access::load(slot.sequence, std::memory_order_relaxed) != complete) return std::nullopt;
+  return used;
 }
 
 template <Record T, std::size_t N, class Access>
@@ -95,10 +98,9 @@ RingRead BroadcastRing<T, N, Access>::read(std::uint64_t& cursor, T& out) const 
       cursor = begin;
     }
     if (cursor == end) return result;
-    result.delivered = copy_out(cursor, out);
-    if (result.delivered) {
+    if (const auto words = copy_out(cursor, out)) {
       ++cursor;
-      return result;
+      return {true, result.lost, *words};
     }
   }
   return result;

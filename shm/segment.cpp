@@ -154,8 +154,9 @@ tl::unexpected<error::Error> describe_open_error(const std::string& file_name, i
       (there.st_uid == geteuid() ? "remove it" : "ask " + owner + " to remove it") + ", or choose another --session");
 }
 
-// Describes why there is no session of this name. Other users' files can be seen in /dev/shm, but not be opened.
-tl::unexpected<error::Error> describe_absence(const std::string& name) {
+// Why there is no session of this name: another user's has it, which can be seen in /dev/shm, but not be opened; else
+// `otherwise`.
+tl::unexpected<error::Error> describe_absence(const std::string& name, tl::unexpected<error::Error> otherwise) {
   DIR* folder = opendir(kSegmentFolder);
   std::optional<std::string> other;
   while (const dirent* entry = folder != nullptr ? readdir(folder) : nullptr) {
@@ -169,11 +170,26 @@ tl::unexpected<error::Error> describe_absence(const std::string& name) {
     return fail("session " + name, "a running session of user " + std::to_string(geteuid()),
                 "none of that user, but one of user " + *other,
                 "run the command as user " + *other + ", or name another session with --session");
-  return fail("session " + name, "a running session", "none of that name",
-              "start it (scripts/start --session " + name + "), or name another with --session");
+  return otherwise;
+}
+
+// No set runs in the session; for a program that has no option --session of its own.
+tl::unexpected<error::Error> describe_no_set(const std::string& name, std::string found) {
+  return fail("session " + name, "a running session", std::move(found),
+              "start the set with --session " + name +
+                  ", or give the name of a session that runs (`yars --session NAME status`)");
 }
 
 using Attempt = Expected<std::optional<SegmentFile>>;  // nullopt: try again
+
+// Maps a file in which this process takes part, and checks its layout. On an error it no longer takes part.
+Attempt map_checked(SegmentFile file, const std::string& file_name, const LayoutIdentity& layout) {
+  const auto usable = file.map() ? check_layout(file, file_name, layout)
+                                 : Expected<void>(system_failure(file_name, "a segment that can be mapped", errno));
+  if (usable) return file;
+  leave(file, file_name);
+  return tl::unexpected(usable.error());
+}
 
 // Attaches to the file with this name. A leftover (a file without any lock) is unlinked.
 Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
@@ -195,11 +211,7 @@ Attempt attach(const std::string& file_name, const LayoutIdentity& layout) {
     sleep_ns(1'000'000);
     return std::nullopt;
   }
-  const auto usable = file->map() ? check_layout(*file, file_name, layout)
-                                  : Expected<void>(system_failure(file_name, "a segment that can be mapped", errno));
-  if (usable) return file;
-  leave(*file, file_name);
-  return tl::unexpected(usable.error());
+  return map_checked(std::move(*file), file_name, layout);
 }
 
 // Attaches to a segment that has participants but no name. nullopt: no such segment was found.
@@ -296,6 +308,26 @@ Expected<Segment> Segment::open(const std::string& name, const LayoutIdentity& l
               "end the programs that use this session, or choose another --session");
 }
 
+Expected<Segment> Segment::join(const std::string& name, const LayoutIdentity& layout) {
+  const std::string file_name = file_name_of(name);
+  Attempt joined = std::nullopt;
+  if (auto file = SegmentFile::open(file_name, SegmentFile::Access::read_write)) {
+    if (const auto owned = check_owner(*file, file_name); !owned) return tl::unexpected(owned.error());
+    // Before the read lock is taken: that lock would keep a set that just starts from replacing a leftover.
+    if (file->could_write_lock(kParticipation)) return describe_no_set(name, "a leftover: its programs have died");
+    if (!file->lock(kParticipation, LockKind::read) || !file->is_at(path_of(file_name)))
+      return fail("session " + name, "a running session", "one that is just ending", "try again");
+    joined = map_checked(std::move(*file), file_name, layout);
+  } else if (errno == ENOENT) {
+    joined = rejoin(file_name, layout);
+  } else {
+    return describe_open_error(file_name, errno);
+  }
+  if (!joined) return tl::unexpected(joined.error());
+  if (*joined) return Segment(std::unique_ptr<Core>(new Core{file_name, std::move(**joined), true, false}));
+  return describe_absence(name, describe_no_set(name, "none: no such session runs"));
+}
+
 Expected<Segment> Segment::open_read_only(const std::string& name, const LayoutIdentity& layout) {
   const std::string file_name = file_name_of(name);
   auto file = SegmentFile::open(file_name, SegmentFile::Access::read_only);
@@ -305,7 +337,10 @@ Expected<Segment> Segment::open_read_only(const std::string& name, const LayoutI
     if (file && !file->could_write_lock(kParticipation)) break;
     file.reset();
   }
-  if (!file) return describe_absence(name);
+  if (!file)
+    return describe_absence(name,
+                            fail("session " + name, "a running session", "none of that name",
+                                 "start it (scripts/start --session " + name + "), or name another with --session"));
   if (const auto owned = check_owner(*file, file_name); !owned) return tl::unexpected(owned.error());
   if (file->could_write_lock(kParticipation))
     return fail("session " + name, "a running session", "a leftover: all its programs have died",

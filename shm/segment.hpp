@@ -89,6 +89,9 @@ class Segment {
 
   // Joins the segment, or creates it. `name`: letters, digits, '-' and '_'.
   static error::Expected<Segment> open(const std::string& name, const LayoutIdentity& layout, Initialize initialize);
+  // Joins the segment that programs have made; creates, removes and waits for nothing. Errors: no segment; a leftover
+  // without participants; a segment that is just ending, of another user, or with another layout.
+  static error::Expected<Segment> join(const std::string& name, const LayoutIdentity& layout);
   // Maps the segment read-only, without participating. Errors: no segment; a leftover without participants; a segment
   // of another user or with another layout.
   static error::Expected<Segment> open_read_only(const std::string& name, const LayoutIdentity& layout);

@@ -19,16 +19,6 @@ namespace {
 using error::Expected;
 using error::fail;
 
-constexpr std::size_t kMaxNameLength = 40;
-bool name_is_valid(std::string_view name) {
-  const auto allowed = [](char letter) {
-    return (letter >= 'A' && letter <= 'Z') || (letter >= 'a' && letter <= 'z') || (letter >= '0' && letter <= '9') ||
-           letter == '_' || letter == '-';
-  };
-  return !name.empty() && !name.starts_with('-') && name.size() <= kMaxNameLength &&
-         std::all_of(name.begin(), name.end(), allowed);
-}
-
 void initialize(void* memory) {
   auto& layout = *static_cast<SessionLayout*>(memory);
   layout.lockstep.end_tick = -1;
@@ -41,12 +31,6 @@ tl::unexpected<error::Error> fail_read_only(std::string_view subject) {
 }
 
 }  // namespace
-
-Expected<void> check_session_name(const std::string& name) {
-  if (name_is_valid(name)) return {};
-  return tl::unexpected(error::Error{"session name", "1 to 40 letters, digits, '-' or '_', and no '-' at the front",
-                                     "\"" + name + "\"", "choose another --session", error::ErrorCode::argument});
-}
 
 std::optional<std::size_t> counted_role(std::string_view name) {
   if (name == name_of(Role::gateway)) return kLockstepRoles;
@@ -91,83 +75,32 @@ bool Session::has_name() const {
   return state_->segment->has_name();
 }
 
-// True if the gateway holds a role of which each host may have a holder.
-bool Session::is_lent_to_gateway(Role role) const {
-  const bool is_shared = role == Role::traffic || role == Role::recorder || role == Role::tour;
-  return is_shared && role_holder(role) != 0 && role_holder(role) == role_holder(Role::gateway);
-}
-
-// Asks the gateway for a role that it holds for another host.
-std::optional<Claim> Session::take_back(Role role) {
-  constexpr int kAttempts = 200;  // 1 ms apart; the gateway looks every 5 ms
-  const auto byte = static_cast<std::size_t>(role);
-  for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    layout().network.wanted_roles.fetch_or(1U << static_cast<unsigned>(role));
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    if (auto claim = state_->take(byte, -1)) return claim;
-  }
-  return std::nullopt;
-}
-
 Expected<Claim> Session::claim(Role role) {
   if (!state_->segment->writable()) return fail_read_only(name_of(role));
-  const auto byte = static_cast<std::size_t>(role);
-  const std::int32_t previous = state_->segment->holder_pid(byte);
-  auto claim = state_->take(byte, -1);
-  if (!claim && is_lent_to_gateway(role)) claim = take_back(role);
-  if (!claim) {
-    const bool is_elsewhere =
-        role != Role::gateway && role_holder(role) != 0 && role_holder(role) == role_holder(Role::gateway);
-    return fail(
-        "role " + std::string(name_of(role)), "one process of this role in a session",
-        "held by " + state_->describe_holder(byte),
-        is_elsewhere ? "end it there, or wait for it with --standby" : "end that process, or choose another --session");
-  }
+  const std::int32_t previous = state_->segment->holder_pid(static_cast<std::size_t>(role));
+  auto claim = state_->claim(role);
   // A holder that releases its claim resets the pid to 0. Any other value means that the previous holder died.
-  if (previous != 0)
+  if (claim && previous != 0)
     note(NoteKind::restart, std::string(name_of(role)) + " pid " + std::to_string(previous) + " died; taken over");
-  return std::move(*claim);
+  return claim;
 }
 
 Expected<Claim> Session::claim_ownship_lane(std::uint32_t priority) {
   if (!state_->segment->writable()) return fail_read_only("ownship lane");
-  for (std::size_t lane = 0; lane < kOwnshipLanes; ++lane) {
-    auto claim = state_->take(kFirstOwnshipByte + lane, static_cast<int>(lane));
-    if (!claim) continue;
-    clear_ownship_lane(layout(), lane);
-    layout().ownship_priority[lane].store(priority, std::memory_order_release);
-    return std::move(*claim);
-  }
-  std::string holders;
-  for (std::size_t lane = 0; lane < kOwnshipLanes; ++lane)
-    holders += (lane == 0 ? "" : "; ") + state_->describe_holder(kFirstOwnshipByte + lane);
-  return fail("ownship lane", "a free one of " + std::to_string(kOwnshipLanes), "all taken: " + holders,
-              "end one of these processes");
+  return state_->claim_ownship_lane(priority);
 }
 
 Expected<Claim> Session::claim_input_lane(std::string_view source) {
   if (!state_->segment->writable()) return fail_read_only("input lane");
-  std::string found;
-  for (std::size_t lane = 0; lane < kInputLanes; ++lane) {
-    auto claim = state_->take(kFirstInputByte + lane, static_cast<int>(lane));
-    // The lane becomes free when the consumer has read the remaining events of the previous source.
-    if (claim && layout().input.empty(lane)) {
-      layout().input.set_source(lane, source);
-      claim->hold_->feeds_input = state_->mark_input_source(lane);
-      return std::move(*claim);
-    }
-    found += (found.empty() ? "" : ", ") + layout().input.source(lane) + (claim ? " (gone, unread events)" : "");
-  }
-  return fail("input lane", "a free one of " + std::to_string(kInputLanes), "all taken: " + found,
-              "end one of these sources, or start the state-machine, which empties the lanes");
+  return state_->claim_input_lane(source);
 }
 
 bool Session::role_is_held(Role role) const {
-  return state_->segment->is_locked(static_cast<std::size_t>(role));
+  return state_->is_held(role);
 }
 
 std::int32_t Session::role_holder(Role role) const {
-  return role_is_held(role) ? state_->segment->holder_pid(static_cast<std::size_t>(role)) : 0;
+  return state_->holder_of(role);
 }
 bool Session::must_yield(Role role) const {
   const std::uint32_t yielding = layout().network.yielding_roles.load(std::memory_order_acquire);
@@ -200,8 +133,7 @@ std::vector<ProcessInfo> Session::processes() const {
 void Session::heartbeat() {
   if (state_->table_byte == 0) return;
   const std::int64_t now_ns = monotonic_ns();
-  state_->write().processes[state_->table_byte - kFirstProcessByte].heartbeat_ns.store(now_ns,
-                                                                                       std::memory_order_relaxed);
+  state_->beat(now_ns);
   if (now_ns < state_->next_upkeep_ns) return;
   state_->next_upkeep_ns = now_ns + kUpkeepInterval_ns;
   state_->restore_entry();

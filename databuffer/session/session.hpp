@@ -99,14 +99,9 @@ class Session {
 
  private:
   explicit Session(std::unique_ptr<SessionState> state);
-  bool is_lent_to_gateway(Role role) const;
-  std::optional<Claim> take_back(Role role);
   std::unique_ptr<SessionState> state_;
 };
 
-// Checks a session name, which is part of a path: 1 to 40 letters, digits, `-` or `_`, no `-` at the front. An error is
-// a usage error.
-error::Expected<void> check_session_name(const std::string& name);
 // Index of a role in Counters::restarts, by its name in the process table; nullopt for other names.
 std::optional<std::size_t> counted_role(std::string_view name);
 

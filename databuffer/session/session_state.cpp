@@ -1,12 +1,9 @@
 #include "databuffer/session/session_state.hpp"
 
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
-#include <fstream>
 #include <limits>
 #include <thread>
 
@@ -17,68 +14,12 @@ namespace yars::databuffer {
 
 namespace {
 
-// Program name of a process, read from /proc.
-std::string program_of(std::int32_t pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/comm");
-  std::string name;
-  std::getline(file, name);
-  return name.empty() ? "unknown program" : name;
-}
-
 template <std::size_t N>
 void copy_text(char (&into)[N], std::string_view text) {
   into[text.copy(into, N - 1)] = '\0';
 }
 
 }  // namespace
-
-std::string_view name_of(Role role) {
-  switch (role) {
-    case Role::radar_model:
-      return "radar-model";
-    case Role::state_machine:
-      return "state-machine";
-    case Role::recorder:
-      return "recorder";
-    case Role::clock:
-      return "clock";
-    case Role::traffic:
-      return "traffic";
-    case Role::glass_frames:
-      return "glass frames";
-    case Role::tour:
-      return "tour";
-    case Role::gateway:
-      return "gateway";
-    case Role::instructor:
-      return "instructor";
-  }
-  return "unknown role";
-}
-
-std::int64_t monotonic_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
-
-std::int64_t sim_time_at(const ClockState& clock, std::int64_t monotonic_ns) {
-  if (clock.running == 0) return clock.base_sim_ns;
-  // A time before the base counts as the base.
-  const std::int64_t elapsed = std::max<std::int64_t>(monotonic_ns - clock.base_monotonic_ns, 0);
-  // Rate 1 needs no double. After 104 days, the nanoseconds exceed the 53 significant bits of a double.
-  if (clock.rate == 1.0) return clock.base_sim_ns + elapsed;
-  return clock.base_sim_ns + static_cast<std::int64_t>(std::llround(clock.rate * static_cast<double>(elapsed)));
-}
-
-Claim::Claim() = default;
-Claim::Claim(Claim&& other) noexcept : hold_(std::move(other.hold_)), lane_(std::exchange(other.lane_, -1)) {}
-Claim& Claim::operator=(Claim&& other) noexcept {
-  hold_ = std::move(other.hold_);
-  lane_ = std::exchange(other.lane_, -1);
-  return *this;
-}
-Claim::~Claim() = default;
 
 ClockState first_clock() {
   ClockState clock{};
@@ -152,56 +93,6 @@ bool SessionState::has_foreign_clock() const {
   return false;
 }
 
-// Locks a free entry of the process table and fills it in. A full table is no error: the process then runs without an
-// entry and a heartbeat.
-void SessionState::enter_table() {
-  for (std::size_t i = 0; i < kProcesses; ++i) {
-    if (!segment->try_lock(kFirstProcessByte + i)) continue;
-    table_byte = kFirstProcessByte + i;
-    ProcessEntry& entry = write().processes[i];
-    entry.heartbeat_ns = monotonic_ns();
-    entry.progress = 0;
-    restore_entry();
-    return;
-  }
-}
-
-// Rewrites name and process id in this process's table entry, because another process may have overwritten them.
-// Session::processes() leaves out an entry with process id 0.
-void SessionState::restore_entry() {
-  ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
-  shm::store_text(entry.name.data(), entry.name.size(), process_name);
-  entry.pid.store(getpid(), std::memory_order_release);
-}
-
-void SessionState::leave_table() {
-  if (table_byte == 0) return;
-  write().processes[table_byte - kFirstProcessByte].pid = 0;
-  segment->unlock(table_byte);
-}
-
-// Text such as "state-machine, pid 1234". The name is read from the process table, else from /proc.
-std::string SessionState::describe_holder(std::size_t byte) const {
-  const std::int32_t pid = segment->holder_pid(byte);
-  if (pid == 0) return "a process that is just starting or ending";
-  // A gateway has an entry for each role that it keeps for other hosts, too. Locks decide who is the gateway.
-  constexpr auto kGateway = static_cast<std::size_t>(Role::gateway);
-  if (segment->is_locked(kGateway) && segment->holder_pid(kGateway) == pid)
-    return "gateway, pid " + std::to_string(pid) + (byte == kGateway ? "" : ", for another host");
-  std::string program = program_of(pid);
-  for (const ProcessEntry& entry : read().processes)
-    if (entry.pid == pid) program = shm::load_text(entry.name.data(), entry.name.size());
-  return program + ", pid " + std::to_string(pid);
-}
-
-std::optional<Claim> SessionState::take(std::size_t byte, int lane) {
-  if (!segment->try_lock(byte)) return std::nullopt;
-  Claim claim;
-  claim.hold_ = std::make_unique<Claim::Hold>(segment, byte);
-  claim.lane_ = lane;
-  return claim;
-}
-
 // Latest valid clock. An invalid clock is refused and noted; the last valid one stays in use.
 ClockState SessionState::clock_now() {
   std::unique_lock guard(clock_mutex);
@@ -261,20 +152,6 @@ void SessionState::report_folded_notes(std::int64_t now_ns, bool all) {
     for (const auto& lines : suppressed)
       write_note(static_cast<NoteKind>(kind), std::to_string(lines.count) + " more: " + lines.line, process_name);
   }
-}
-
-// Sets the bit of a lane that this process has locked, and clears the bits of sources that have died. On an orderly
-// release, ~Hold clears the bit. Commands such as `yars inject` do not count as sources.
-bool SessionState::mark_input_source(std::size_t lane) {
-  if (process_name.starts_with("yars ")) return false;
-  auto& sources = write().counters.input_sources;
-  sources.fetch_or(input_source_bit(lane));
-  for (std::size_t other = 0; other < kInputLanes; ++other) {
-    if ((sources.load() & input_source_bit(other)) == 0 || !segment->try_lock(kFirstInputByte + other)) continue;
-    sources.fetch_and(~input_source_bit(other));
-    segment->unlock(kFirstInputByte + other);
-  }
-  return true;
 }
 
 void SessionState::check_name() {
