@@ -86,7 +86,7 @@ def tree_files(chapters, layout, root):
     """{path of a generated file: (its present text, its generated text)}"""
     made = {LAYOUT: stability.text(chapters, layout), HEADER: clients.c_header(chapters, layout)}
     python = text_of(root / PYTHON)
-    made[PYTHON] = with_part(PYTHON, python, clients.python_records(chapters, layout))
+    made[PYTHON] = with_part(PYTHON, python, clients.python_records(chapters))
     stub = text_of(root / STUB)
     for name, part in requests.stubs(idl.read(HERE, "requests.idl")[-1]).items():
         stub = with_part(STUB, stub, part, f"        # begin: lib/values/generate.py, {name}\n", f"        # end: {name}\n")

@@ -114,10 +114,13 @@ def build(settings):
     return folder
 
 
-def compiled_part(folder, stage):
-    """The compiled part as CMake installs it, without symbols, below the folder `stage`."""
-    done = run("cmake", "--install", folder, "--component", "python_core", "--strip", "--prefix", stage, capture_output=True)
-    found = list(pathlib.Path(stage).rglob(f"_core{SUFFIX}"))
-    if done.returncode != 0 or len(found) != 1:
-        give_up(f"cmake --install {folder}: expected one _core{SUFFIX}, found {len(found)}: {done.stderr.strip()}")
-    return found[0]
+def compiled_parts(folder, stage, library):
+    """The compiled part and the library of this name as CMake installs them, without symbols, below the folder `stage`."""
+    found = []
+    for component, name in (("python_core", f"_core{SUFFIX}"), ("client", library)):
+        done = run("cmake", "--install", folder, "--component", component, "--strip", "--prefix", stage, capture_output=True)
+        there = list(pathlib.Path(stage).rglob(name))
+        if done.returncode != 0 or len(there) != 1:
+            give_up(f"cmake --install {folder}: expected one {name}, found {len(there)}: {done.stderr.strip()}")
+        found += there
+    return found

@@ -102,8 +102,8 @@ def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
     # The compiled part finds the configurations that came with it below its own folder.
     wheel.add_folder(SOURCE / "config", "yars/share/yars/config", (".guf",))
     with tempfile.TemporaryDirectory() as stage:
-        library = cmake_build.compiled_part(built, stage)
-        wheel.add(f"yars/{library.name}", library.read_bytes(), executable=True)
+        for library in cmake_build.compiled_parts(built, stage, f"libyars-client.so.{version().rpartition('.')[0]}"):
+            wheel.add(f"yars/{library.name}", library.read_bytes(), executable=True)
     return wheel.write(wheel_directory, date())
 
 

@@ -1,42 +1,26 @@
-"""Python client of a running YARS session, the counterpart of yars.h. Needs Python 3.9+ alone: no NumPy, no compiled part.
+"""Python client of a running YARS session: calls libyars-client by ctypes. Needs Python 3.9+ and that library: no NumPy.
 Without a session: patch_map() makes a patch map by the command `yars patch`.
 Inputs to the session: ownship, navigators, events. Outputs: radar state, outputs, sweeps, frames of the display.
-Errors: YarsError. No error means only that a record was sent; `yars status` shows the refused ones.
-Platform: Linux on x86-64, where a store of an aligned 64-bit word is atomic and stores stay in order.
-Usage: docs/attach.md. Segment: docs/shared_memory.md. A test compares all offsets here with `yars status --layout`."""
+Errors: YarsError; MissingPart, an ImportError, if the library is not found. No error means only that a record was sent;
+`yars status` shows the refused ones.
+Usage: docs/attach.md. A test compares the records here with `yars status --layout`."""
 import array
+import ctypes
 import difflib
 import enum
-import fcntl
+import functools
 import json
 import math
-import mmap
-import os
 import pathlib
-import re
-import stat
 import struct
 import subprocess
 import tempfile
-import time
 import typing
 
-from . import Error
+from . import Error, MissingPart, __version__
 
-MAGIC, LINE, SLOTS = 0x314D485353524159, 64, 4
 # begin: lib/values/generate.py
-VERSION, SIZE, HASH = 3, 27471872, 0xEB33F49407411935
-AT_CLOCK, AT_OWNSHIP_PRIORITY, AT_OWNSHIP, AT_NAV = 448, 1024, 1088, 4416
-AT_RADAR_STATE, AT_MODEL_STATUS, AT_OUTPUTS, AT_SWEEPS = 7744, 13440, 16320, 543680
-AT_INPUT, AT_PROCESSES, AT_TRAFFIC, AT_FRAMES, AT_CAPTION = 4934656, 5051392, 13587584, 13840128, 26423936
-FRAMES, FRAME_STRIDE, FRAME_WORDS, FRAME_PIXELS, MOST_FRAME_BYTES = 3, 4194376, 8, 72, 4194304
-SWEEPS, SWEEP_STRIDE, MOST_SAMPLES = 1024, 4288, 4096
-RADAR_MODEL_BYTE, STATE_MACHINE_BYTE, TRAFFIC_BYTE, TOUR_BYTE, FIRST_OWNSHIP_BYTE = 1, 2, 5, 7, 8
-FIRST_INPUT_BYTE, FIRST_PROCESS_BYTE, OWNSHIP_LANES, INPUT_LANES, PROCESSES = 16, 32, 4, 16, 32
-INPUT_DEPTH = 128
-LATEST_PICTURE_ID, PROCESS_STRIDE = 9007199254740992, 40
-INPUT_STRIDE, INPUT_POPPED, INPUT_RECORDS = 7296, 64, 128
-SWEEP_VIDEO_AT = 144
+SWEEP_VIDEO_AT, MOST_SAMPLES = 144, 4096
 
 # Records: (name, struct code) in order; names that begin with an underscore are reserved.
 CLOCK = [("base_sim_ns", "q"), ("base_monotonic_ns", "q"), ("rate", "d"), ("running", "I"), ("epoch", "I"),
@@ -255,6 +239,7 @@ class NavFlags(enum.IntFlag):
     ATTITUDE_FROM_AHRS = 2
 # end: lib/values/generate.py
 
+_ARGUMENT = -2  # YARS_CLIENT_ARGUMENT of yars_client.h
 # Expected values by struct code, for messages.
 EXPECTED = {"d": "a number", "q": "a whole number of 64 bits", "Q": "a whole number of 64 bits, 0 or more",
             "I": "a whole number 0 to 4294967295", "H": "a whole number 0 to 65535", "B": "a whole number 0 to 255",
@@ -381,6 +366,36 @@ def patch_map(yars: "str | pathlib.Path" = "yars", **options: typing.Any) -> "tu
     return facts, power
 
 
+class _Cursor(ctypes.Structure):  # yars_client_cursor
+    _fields_ = [("next", ctypes.c_uint64), ("lost", ctypes.c_uint64), ("begun", ctypes.c_uint64)]
+
+
+@functools.cache
+def _library():
+    """libyars-client of this version: beside the package, in a build of the sources, in the prefix of the package, or where the
+    system looks. PyDLL keeps Python's other threads waiting: calls are short, and one session serves one thread at a time."""
+    name = f"libyars-client.so.{__version__.rpartition('.')[0]}"
+    here = pathlib.Path(__file__).absolute()  # in a build tree a link, which is not followed
+    places = [here.with_name(name)]
+    if here.parents[1].name == "python":
+        places += sorted(here.parents[2].glob(f"build/*/python/yars/{name}"), key=lambda path: path.parts[-4] != "release")
+    if len(here.parents) > 3 and here.parents[3].name == "lib":
+        places += [here.parents[3] / name, *sorted(here.parents[3].glob(f"*-linux-gnu/{name}"))]
+    found = []
+    for place in [*filter(pathlib.Path.is_file, places), name]:
+        try:
+            library = ctypes.PyDLL(str(place))
+        except OSError as problem:
+            found.append(str(problem))
+            continue
+        library.yars_client_error.restype = ctypes.c_char_p
+        library.yars_client_sim_time_ns.restype = ctypes.c_int64
+        library.yars_client_epoch.restype = ctypes.c_uint32
+        return library
+    raise MissingPart(f"yars.session: expected the library {name}, found: {'; '.join(found)}; install the Debian package yars; of a "
+                      "checkout build the target yars_client_library")
+
+
 class Session:
     """with Session("default", "my-program") as session: ..."""
 
@@ -394,46 +409,12 @@ class Session:
             if not isinstance(given, str):
                 raise TypeError(f"yars.Session: {what}: expected a str, found {given!r}")
         shown = text_bytes("program", program[:23], 24)
-        if not re.fullmatch("[0-9A-Za-z_][0-9A-Za-z_-]{0,39}", name):
-            raise Refused(f"session: expected 1 to 40 letters, digits, '-' or '_', and no '-' at the front, found {name!a}")
-        self.path = f"/dev/shm/yars.{os.geteuid()}.{name}"
-        remedy = (f"start the set with --session {name}, or give the name of a session that runs "
-                  "(`yars --session NAME status`)")
-        try:
-            self.descriptor = os.open(self.path, os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)
-        except FileNotFoundError:
-            raise YarsError(f"{self.path}: no such session runs; {remedy}") from None
-        except OSError as problem:
-            raise YarsError(f"{self.path}: expected a segment, found: {problem.strerror}") from None
-        status = os.fstat(self.descriptor)
-        if not stat.S_ISREG(status.st_mode) or status.st_uid != os.geteuid():
-            os.close(self.descriptor)
-            raise YarsError(f"{self.path}: expected a file of this user")
-        # The write lock on byte 0 is free only if no process is attached.
-        if self._lock(0, fcntl.F_WRLCK):
-            os.close(self.descriptor)
-            raise YarsError(f"{self.path}: a leftover: its programs have died; {remedy}")
-        if not self._lock(0, fcntl.F_RDLCK) or not self._is_at_path():
-            os.close(self.descriptor)
-            raise YarsError(f"{self.path}: it is just ending; try again")
-        size = os.fstat(self.descriptor).st_size
-        self.memory = mmap.mmap(self.descriptor, size)
-        self.words = memoryview(self.memory).cast("Q")
-        found = (self.words[0], self.words[1], self.words[2], self.words[3] & 0xFFFFFFFF)
-        self.lane = self.input_lane = self.process = None
-        self.events = 0
-        self.next_sweep = None
+        self.lane = self.input_lane = self.next_sweep = None
         self.sweeps_lost = 0
-        if found != (MAGIC, SIZE, HASH, VERSION):
-            self.close()
-            raise YarsError(f"{self.path}: expected layout version {VERSION}, hash {HASH:016x}, found version "
-                            f"{found[3]}, hash {found[2]:016x}; take the Python package yars of its build")
-        self.process = self._claim(FIRST_PROCESS_BYTE, PROCESSES)
-        if self.process is not None:
-            entry = AT_PROCESSES + PROCESS_STRIDE * self.process
-            self._store(entry + 16, shown.ljust(24, b"\0"))
-            self.heartbeat()
-            self.words[(entry + 8) // 8] = os.getpid()
+        self._cursor = _Cursor()
+        self._handle = ctypes.c_void_p()
+        # Escaped, because C reads a name up to its first zero.
+        self._result(_library().yars_client_attach(name.encode("unicode_escape"), shown, ctypes.byref(self._handle)))
 
     def __enter__(self) -> "Session":
         return self
@@ -442,49 +423,30 @@ class Session:
         self.close()
 
     def close(self) -> None:
-        """Releases all lanes and detaches. The last process that detaches removes the segment. Other methods are a ValueError
-        from then on; a second close() does nothing."""
-        if self.lane is not None:
-            for at in (self._ownship_at(), self._nav_at()):
-                self.words[at // 8] = ((self.words[at // 8] >> 1) + 1) << 1
-            self._release(FIRST_OWNSHIP_BYTE + self.lane)
-        if self.input_lane is not None:
-            self._release(FIRST_INPUT_BYTE + self.input_lane)
-        if self.process is not None:
-            self.words[(AT_PROCESSES + PROCESS_STRIDE * self.process + 8) // 8] = 0
-            self._release(FIRST_PROCESS_BYTE + self.process)
-        self._lock(0, fcntl.F_UNLCK)
-        if self._lock(0, fcntl.F_WRLCK) and self._is_at_path():
-            os.unlink(self.path)
-        self.words.release()
-        self.memory.close()
-        os.close(self.descriptor)
+        """Withdraws what was published, releases all lanes and detaches. The last process that detaches removes the segment. Other
+        methods are a ValueError from then on; a second close() does nothing."""
+        _library().yars_client_detach(self._handle)
         self.__class__ = _ClosedSession
 
     def set_runs(self) -> bool:
         """True while radar-model or state-machine is attached, even if stopped or hanging. False for a short time if
         both were killed, until the set restarts them. When it is False, close this Session and make a new one:
         a set that starts later may have another segment."""
-        return self._is_held(RADAR_MODEL_BYTE) or self._is_held(STATE_MACHINE_BYTE)
+        return bool(self._call("set_runs"))
 
     # ---- time
     def clock(self) -> "Record | None":
-        return self._read(AT_CLOCK, CLOCK)
+        return self._read("clock", CLOCK)
 
     def epoch(self) -> int:
-        clock = self.clock()
-        return clock["epoch"] if clock else 0
+        return self._call("epoch")
 
     def sim_time_ns(self) -> int:
-        clock = self.clock()
-        if not clock or not clock["running"]:
-            return clock["base_sim_ns"] if clock else 0
-        return clock["base_sim_ns"] + int(clock["rate"] * (time.monotonic_ns() - clock["base_monotonic_ns"]))
+        return _library().yars_client_sim_time_ns(self._handle)
 
     def heartbeat(self) -> None:
         """Shows in `yars status` that this program is alive. Call it about once a second."""
-        if self.process is not None:
-            self.words[(AT_PROCESSES + PROCESS_STRIDE * self.process) // 8] = time.monotonic_ns()
+        self._call("heartbeat")
 
     # ---- writing
     def claim_ownship_lane(self, priority: int) -> None:
@@ -492,13 +454,7 @@ class Session:
         models of YARS have priority 10."""
         if not isinstance(priority, int) or not 0 <= priority <= 0xFFFFFFFF:
             raise YarsError(f"claim_ownship_lane: priority: expected {EXPECTED['I']}, found {priority!r}; take 50")
-        self.lane = self._claim(FIRST_OWNSHIP_BYTE, OWNSHIP_LANES)
-        if self.lane is None:
-            raise YarsError("ownship lane: all are taken; `yars status` names the holders")
-        for at in (self._ownship_at(), self._nav_at()):
-            self.words[at // 8] = ((self.words[at // 8] >> 1) + 1) << 1
-        at = AT_OWNSHIP_PRIORITY + 4 * self.lane
-        self.memory[at:at + 4] = struct.pack("<I", priority)
+        self.lane = self._call("claim_ownship", ctypes.c_uint32(priority))
 
     def publish_ownship(self, **values: typing.Any) -> None:
         """Publishes the record Ownship (fields: yars_records.h). Call it 20 to 100 times a second.
@@ -507,7 +463,7 @@ class Session:
         self._needs(self.lane, "publish_ownship", "an ownship lane", "claim_ownship_lane(priority)")
         values = {"epoch": self.epoch(), "radar_altitude_m": math.nan, **values}
         check_limits("publish_ownship", OWNSHIP_LIMITS, values)
-        self._publish("publish_ownship", self._ownship_at(), OWNSHIP, values)
+        self._call("publish_ownship", pack("publish_ownship", OWNSHIP, values))
 
     def publish_nav(self, **values: typing.Any) -> None:
         """Publishes the record Nav: positions and velocity of the navigators. Without it the navigators have no error.
@@ -515,42 +471,23 @@ class Session:
         self._needs(self.lane, "publish_nav", "an ownship lane", "claim_ownship_lane(priority)")
         values = {"epoch": self.epoch(), "magnetic_variation_deg": math.nan, **values}
         check_limits("publish_nav", NAV_LIMITS, values)
-        self._publish("publish_nav", self._nav_at(), NAV, values)
+        self._call("publish_nav", pack("publish_nav", NAV, values))
 
     def claim_input_lane(self, source: "str | bytes") -> None:
         """Claims a free and empty input lane. `source`: name of the sender, at most 23 characters."""
-        name = text_bytes("claim_input_lane: source", source, 24)
-        for lane in range(INPUT_LANES):
-            if self._claim(FIRST_INPUT_BYTE + lane, 1) is None:
-                continue
-            at = AT_INPUT + lane * INPUT_STRIDE
-            if self.words[at // 8] == self.words[(at + INPUT_POPPED) // 8]:
-                self._store(at + 24, name.ljust(24, b"\0"))
-                self.input_lane = lane
-                return
-            self._release(FIRST_INPUT_BYTE + lane)
-        raise YarsError("input lane: all are taken; `yars status` names the sources")
+        self.input_lane = self._call("claim_input", text_bytes("claim_input_lane: source", source, 24))
 
     def push_event(self, kind: int, argument: int = 0, x: float = 0.0, y: float = 0.0, text: "str | bytes" = "") -> None:
         """Sends an input event. `kind`: an Event, which names the argument. Example: push_event(Event.PUSH_BUTTON, 13)."""
         self._needs(self.input_lane, "push_event", "an input lane", "claim_input_lane(source)")
-        record = pack("push_event", INPUT_EVENT, {
-            "session_time_ns": self.sim_time_ns(), "monotonic_ns": time.monotonic_ns(), "x": x, "y": y, "kind": kind,
-            "argument": argument, "number": self.events + 1, "text": text})
-        at = AT_INPUT + self.input_lane * INPUT_STRIDE
-        number = self.words[at // 8]
-        if number - self.words[(at + INPUT_POPPED) // 8] >= INPUT_DEPTH:
-            self.words[at // 8 + 1] += 1
-            raise YarsError("input lane: full; check with `yars status` that state-machine runs")
-        self.events += 1
-        self._store(at + INPUT_RECORDS + number % INPUT_DEPTH * 56, record)
-        self.words[at // 8] = number + 1
+        values = {"x": x, "y": y, "kind": kind, "argument": argument, "text": text}
+        self._call("push_event", pack("push_event", INPUT_EVENT, values))
 
     # ---- reading
     def radar_state(self) -> "Record | None":
         """Dict of the numbers and texts of the record RadarState (yars_records.h), such as mode
         and range. `legends`: list of the legends, with that of button n at index n. None before the first record."""
-        record = self._read_bytes(AT_RADAR_STATE, RADAR_STATE_SIZE)
+        record = self._read_bytes("radar_state", RADAR_STATE_SIZE)
         if record is None:
             return None
         state = {name: struct.unpack_from("<" + code, record, at)[0] for name, at, code in RADAR_STATE}
@@ -562,7 +499,7 @@ class Session:
         """Dict of the record Outputs (yars_records.h): what the radar reports to the rest of the
         aircraft. Cue; designated target with ranging and steering (NaN: no target); `marks`, a list of dicts, oldest
         first. The elevation of a point is NaN while it is unknown. None before the first record."""
-        outputs = self._read(AT_OUTPUTS, OUTPUTS)
+        outputs = self._read("outputs", OUTPUTS)
         if outputs is None:
             return None
         outputs["target_name"] = text_of(outputs["target_name"])
@@ -574,7 +511,7 @@ class Session:
     def caption(self) -> "Record | None":
         """Dict of the record Caption (yars_records.h) of the tour that runs; `lines` is a list of
         texts. None while no tour runs, or while it shows no caption."""
-        caption = self._read(AT_CAPTION, CAPTION) if self._is_held(TOUR_BYTE) else None
+        caption = self._read("caption", CAPTION)
         if caption is None:
             return None
         size = struct.calcsize(code_of(CAPTION_LINE))
@@ -586,121 +523,48 @@ class Session:
         of the last seconds. Each is a dict of the record Sweep with `video`: bytes from near to far, 0 black to 255
         white. Sweeps that were overwritten before they could be read are counted in session.sweeps_lost."""
         found = []
-        end = self.words[AT_SWEEPS // 8]
-        if self.next_sweep is None:
-            self.next_sweep = max(0, end - SWEEPS + 1)
-        begin = min(max(self.next_sweep, end - SWEEPS), end)
-        self.sweeps_lost += max(0, begin - self.next_sweep)
-        self.next_sweep = begin
-        while self.next_sweep < end:
-            slot = (AT_SWEEPS + LINE + self.next_sweep % SWEEPS * SWEEP_STRIDE) // 8
-            whole = 2 * self.next_sweep + 2
-            record = b""
-            if self.words[slot] == whole:
-                used = min(self.words[slot + 1], (SWEEP_VIDEO_AT + MOST_SAMPLES) // 8)
-                record = bytes(self.words[slot + 2:slot + 2 + used])
-            if len(record) >= SWEEP_VIDEO_AT and self.words[slot] == whole:
-                sweep = unpack(SWEEP, record[:SWEEP_VIDEO_AT])
-                sweep["video"] = record[SWEEP_VIDEO_AT:SWEEP_VIDEO_AT + sweep["samples"]]
-                found.append(sweep)
-            else:
-                self.sweeps_lost += 1
-            self.next_sweep += 1
+        record = ctypes.create_string_buffer(SWEEP_VIDEO_AT + MOST_SAMPLES)
+        while self._call("read_sweep", ctypes.byref(self._cursor), record):
+            sweep = unpack(SWEEP, record[:SWEEP_VIDEO_AT])
+            sweep["video"] = record[SWEEP_VIDEO_AT:SWEEP_VIDEO_AT + sweep["samples"]]
+            found.append(sweep)
+        self.next_sweep, self.sweeps_lost = self._cursor.next, self._cursor.lost
         return found
 
     def newest_frame(self, after: int = 0) -> "tuple[Record, bytes] | None":
         """(frame, pixels) of a display started with --publish. None if there is no frame, or if the id of the newest
         frame is `after`. `frame`: dict of the record GlassFrame; pass its "id" as `after` of the next call. `pixels`:
         rows from the top; 4 bytes per pixel: red, green, blue, 255."""
-        for _ in range(8):
-            offsets = [AT_FRAMES + i * FRAME_STRIDE for i in range(FRAMES)]
-            ids = [self.words[offset // 8] for offset in offsets]
-            number = max((i for i in ids if i <= LATEST_PICTURE_ID), default=0)
-            if number in (0, after):
-                return None
-            at = offsets[ids.index(number)]
-            frame = unpack(GLASS_FRAME, self.memory[at + 8:at + 72])
-            size = min(4 * frame["width"] * frame["height"], FRAME_STRIDE - FRAME_PIXELS)
-            pixels = self.memory[at + FRAME_PIXELS:at + FRAME_PIXELS + size]
-            if self.words[at // 8] == number and frame["id"] == number:
-                return frame, pixels
-        return None
+        record = ctypes.create_string_buffer(struct.calcsize(code_of(GLASS_FRAME)))
+        pixels = ctypes.c_void_p()
+        if not self._call("read_frame", ctypes.c_uint64(after), record, ctypes.byref(pixels)):
+            return None
+        frame = unpack(GLASS_FRAME, record.raw)
+        return frame, ctypes.string_at(pixels, 4 * frame["width"] * frame["height"])
 
-    # ---- the containers
-    def _ownship_at(self):
-        return AT_OWNSHIP + self.lane * value_size(OWNSHIP)
+    # ---- the library
+    def _call(self, function, *arguments):
+        return self._result(getattr(_library(), "yars_client_" + function)(self._handle, *arguments))
 
-    def _nav_at(self):
-        return AT_NAV + self.lane * value_size(NAV)
-
-    def _store(self, at, record):
-        for i, (word,) in enumerate(struct.iter_unpack("<Q", record)):
-            self.words[at // 8 + i] = word
+    @staticmethod
+    def _result(code):
+        """What a function of the library returned, if it is no failure."""
+        if code >= 0:
+            return code
+        error = Refused if code == _ARGUMENT else YarsError
+        raise error(_library().yars_client_error().decode("utf-8", "replace"))
 
     def _needs(self, lane, what, expected, remedy):
         if lane is None:
             raise YarsError(f"{what}: expected {expected}, found none; call {remedy} first")
 
-    def _publish(self, what, at, fields, values):
-        record = pack(what, fields, values)
-        version = (self.words[at // 8] >> 1) + 1
-        slot = (at + LINE + version % SLOTS * slot_stride(fields)) // 8
-        odd = (self.words[slot] + 1) | 1
-        self.words[slot] = odd
-        self.words[slot + 1] = version
-        self._store(8 * (slot + 2), record)
-        self.words[slot] = odd + 1
-        self.words[at // 8] = version << 1 | 1
+    def _read_bytes(self, what, size):
+        record = ctypes.create_string_buffer(size)
+        return record.raw if self._call("read_" + what, record) else None
 
-    def _read_bytes(self, at, size):
-        stride = (size + 16 + LINE - 1) // LINE * LINE
-        for _ in range(9):
-            state = self.words[at // 8]
-            if state & 1 == 0:
-                return None
-            slot = (at + LINE + (state >> 1) % SLOTS * stride) // 8
-            before = self.words[slot]
-            if before % 2 or self.words[slot + 1] != state >> 1:
-                continue
-            record = bytes(self.words[slot + 2:slot + 2 + size // 8])
-            if self.words[slot] == before:
-                return record
-        return None
-
-    def _read(self, at, fields):
-        record = self._read_bytes(at, struct.calcsize(code_of(fields)))
+    def _read(self, what, fields):
+        record = self._read_bytes(what, struct.calcsize(code_of(fields)))
         return unpack(fields, record) if record is not None else None
-
-    # ---- locks of the open file description: the kernel releases them when this program ends
-    def _lock(self, byte, kind):
-        try:
-            fcntl.fcntl(self.descriptor, fcntl.F_OFD_SETLK, struct.pack("@hhqqi0q", kind, os.SEEK_SET, byte, 1, 0))
-            return True
-        except OSError:
-            return False
-
-    def _is_held(self, byte):
-        """True if another open file description holds the lock of this byte."""
-        query = struct.pack("@hhqqi0q", fcntl.F_WRLCK, os.SEEK_SET, byte, 1, 0)
-        return struct.unpack_from("@h", fcntl.fcntl(self.descriptor, fcntl.F_OFD_GETLK, query))[0] != fcntl.F_UNLCK
-
-    def _claim(self, first, count):
-        for i in range(count):
-            if self._lock(first + i, fcntl.F_WRLCK):
-                self.memory[32 + 4 * (first + i):36 + 4 * (first + i)] = struct.pack("<i", os.getpid())
-                return i
-        return None
-
-    def _release(self, byte):
-        self.memory[32 + 4 * byte:36 + 4 * byte] = bytes(4)
-        self._lock(byte, fcntl.F_UNLCK)
-
-    def _is_at_path(self):
-        try:
-            here, there = os.fstat(self.descriptor), os.stat(self.path)
-        except FileNotFoundError:
-            return False
-        return (here.st_dev, here.st_ino) == (there.st_dev, there.st_ino)
 
 
 class _ClosedSession(Session):
@@ -716,11 +580,3 @@ class _ClosedSession(Session):
 
     def close(self):
         pass
-
-
-def slot_stride(fields):
-    return (struct.calcsize(code_of(fields)) + 16 + LINE - 1) // LINE * LINE
-
-
-def value_size(fields):
-    return LINE + SLOTS * slot_stride(fields)

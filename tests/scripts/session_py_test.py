@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares every number of python/yars/session.py with `yars status --layout`, and lets it take part in a made-up session: its
+"""Compares the records of python/yars/session.py with `yars status --layout`, and lets it take part in a made-up session: its
 errors, its sweeps, the end of a set. usage: session_py_test.py YARS"""
 import fcntl
 import json
@@ -23,36 +23,9 @@ def same(name, found, expected):
         faults.append(f"{name}: expected {expected}, found {found}")
 
 
-same("VERSION", yars.VERSION, layout["version"])
-same("SIZE", yars.SIZE, layout["size"])
-same("HASH", f"{yars.HASH:016x}", layout["hash"])
-for name, key in [("AT_CLOCK", "clock"), ("AT_OWNSHIP_PRIORITY", "ownship_priority"), ("AT_OWNSHIP", "ownship"),
-                  ("AT_NAV", "nav"), ("AT_OUTPUTS", "outputs"), ("AT_RADAR_STATE", "radar_state"),
-                  ("AT_SWEEPS", "sweeps"), ("AT_INPUT", "input"), ("AT_PROCESSES", "processes"), ("AT_FRAMES", "frames"),
-                  ("AT_CAPTION", "caption")]:
-    same(name, getattr(yars, name), layout["offsets"][key])
-locks, parts = layout["lock_bytes"], layout["containers"]
-same("FIRST_OWNSHIP_BYTE", yars.FIRST_OWNSHIP_BYTE, locks["first_ownship_lane"])
-same("FIRST_INPUT_BYTE", yars.FIRST_INPUT_BYTE, locks["first_input_lane"])
-same("FIRST_PROCESS_BYTE", yars.FIRST_PROCESS_BYTE, locks["first_process"])
-same("RADAR_MODEL_BYTE", yars.RADAR_MODEL_BYTE, locks["radar-model"])
-same("STATE_MACHINE_BYTE", yars.STATE_MACHINE_BYTE, locks["state-machine"])
-same("TOUR_BYTE", yars.TOUR_BYTE, locks["tour"])
-same("SWEEPS", (yars.LINE, yars.SWEEPS, yars.SWEEP_STRIDE, 0, 8, 16),
-     tuple(parts["sweeps"][key] for key in ("slots", "slot_count", "slot_stride", "slot_sequence", "slot_used_words",
-                                            "slot_words")))
+offsets, parts, locks = layout["offsets"], layout["containers"], layout["lock_bytes"]
 same("Sweep.video", [yars.SWEEP_VIDEO_AT, yars.MOST_SAMPLES], layout["records"]["Sweep"]["fields"]["video"])
 same("sizeof Sweep", yars.SWEEP_VIDEO_AT + yars.MOST_SAMPLES, layout["records"]["Sweep"]["size"])
-same("OWNSHIP_LANES", yars.OWNSHIP_LANES, parts["ownship"]["count"])
-same("INPUT", (yars.INPUT_LANES, yars.INPUT_STRIDE, yars.INPUT_DEPTH, yars.INPUT_POPPED, yars.INPUT_RECORDS),
-     tuple(parts["input"][key] for key in ("count", "stride", "depth", "popped", "records")))
-same("INPUT dropped, source", (8, 24), (parts["input"]["dropped"], parts["input"]["source"]))
-same("PROCESSES", (yars.PROCESSES, yars.PROCESS_STRIDE), (parts["processes"]["count"], parts["processes"]["stride"]))
-same("FRAMES", (yars.FRAMES, yars.FRAME_STRIDE, 8, yars.FRAME_PIXELS),
-     tuple(parts["frames"][key] for key in ("slot_count", "slot_stride", "slot_words", "slot_pixels")))
-for name, fields in [("ownship", yars.OWNSHIP), ("nav", yars.NAV), ("clock", yars.CLOCK), ("outputs", yars.OUTPUTS)]:
-    same(f"{name} slots", (yars.LINE, yars.SLOTS, yars.slot_stride(fields), yars.value_size(fields)),
-         tuple(parts[name][key] for key in ("slots", "slot_count", "slot_stride", "stride")))
 for record, fields in [("ClockState", yars.CLOCK), ("Ownship", yars.OWNSHIP), ("Nav", yars.NAV),
                        ("InputEvent", yars.INPUT_EVENT), ("Outputs", yars.OUTPUTS), ("Mark", yars.MARK),
                        ("GlassFrame", yars.GLASS_FRAME), ("Sweep", yars.SWEEP), ("Caption", yars.CAPTION),
@@ -77,8 +50,8 @@ class MadeUpSession:
         self.name = f"py{os.getpid()}"
         self.path = f"/dev/shm/yars.{os.geteuid()}.{self.name}"
         self.file = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_EXCL, 0o600)
-        os.ftruncate(self.file, yars.SIZE)
-        self.write(0, struct.pack("<QQQQ", yars.MAGIC, yars.SIZE, yars.HASH, yars.VERSION))
+        os.ftruncate(self.file, layout["size"])
+        self.write(0, struct.pack("<8sQQQ", b"YARSSHM1", layout["size"], int(layout["hash"], 16), layout["version"]))
         self.lock(0, fcntl.F_RDLCK)
 
     def __enter__(self):
@@ -92,15 +65,31 @@ class MadeUpSession:
     def write(self, at, content):
         os.pwrite(self.file, content, at)
 
+    def read(self, at, size):
+        return os.pread(self.file, size, at)
+
+    def publish(self, name, record):
+        """A first value by the protocol: version 1 in slot 1, then the state word."""
+        part = parts[name]
+        self.write(offsets[name] + part["slots"] + part["slot_stride"], struct.pack("<QQ", 2, 1) + record)
+        self.write(offsets[name], struct.pack("<Q", 3))
+
+    def latest(self, name, size):
+        """The bytes of a container's newest value."""
+        part = parts[name]
+        version = struct.unpack("<Q", self.read(offsets[name], 8))[0] >> 1
+        return self.read(offsets[name] + part["slots"] + version % part["slot_count"] * part["slot_stride"] + part["slot_words"], size)
+
     def lock(self, byte, kind):
         fcntl.fcntl(self.file, fcntl.F_OFD_SETLK, struct.pack("@hhqqi0q", kind, os.SEEK_SET, byte, 1, 0))
 
     def publish_sweep(self, number, samples):
-        slot = yars.AT_SWEEPS + yars.LINE + number % yars.SWEEPS * yars.SWEEP_STRIDE
+        ring = parts["sweeps"]
+        slot = offsets["sweeps"] + ring["slots"] + number % ring["slot_count"] * ring["slot_stride"]
         fields = yars.pack("test", yars.SWEEP, {"number": number, "samples": samples, "range_m": 1000.0 * number})
         self.write(slot, struct.pack("<QQ", 2 * number + 2, (len(fields) + samples + 7) // 8))
         self.write(slot + 16, fields + bytes([number % 200] * samples))
-        self.write(yars.AT_SWEEPS, struct.pack("<Q", number + 1))
+        self.write(offsets["sweeps"], struct.pack("<Q", number + 1))
 
 
 def refuses(fragment, function, *arguments, **values):
@@ -113,7 +102,7 @@ def refuses(fragment, function, *arguments, **values):
         faults.append(f"expected an error with '{fragment}', found none")
 
 
-def what_cannot_be_done_is_an_error(session):
+def what_cannot_be_done_is_an_error(session, made_up):
     refuses("publish_ownship: expected an ownship lane, found none; call claim_ownship_lane", session.publish_ownship)
     refuses("publish_nav: expected an ownship lane, found none", session.publish_nav)
     refuses("push_event: expected an input lane, found none; call claim_input_lane", session.push_event, 1, 13)
@@ -137,35 +126,32 @@ def what_cannot_be_done_is_an_error(session):
     same("outputs before there are any", session.outputs(), None)
     each = [(f"{name}_{i}", code) for i in range(10) for name, code in yars.MARK]
     spread = [entry for field in yars.OUTPUTS for entry in (each if field[0] == "marks" else [field])]
-    session._publish("test", yars.AT_OUTPUTS, spread, {
+    made_up.publish("outputs", yars.pack("test", spread, {
         "target_name": b"4.", "slant_range_m": 9260.0, "cue_count": 2, "mark_count": 3,
-        **{f"latitude_deg_{i}": 36.0 + i for i in range(10)}, **{f"sim_time_ns_{i}": i for i in range(10)}})
+        **{f"latitude_deg_{i}": 36.0 + i for i in range(10)}, **{f"sim_time_ns_{i}": i for i in range(10)}}))
     told = session.outputs()
     same("target, ranging, cue", (told["target_name"], told["slant_range_m"], told["cue_count"]), ("4.", 9260.0, 2))
     same("marks", [(mark["latitude_deg"], mark["sim_time_ns"]) for mark in told["marks"]],
          [(36.0, 0), (37.0, 1), (38.0, 2)])
     session.publish_ownship(latitude_deg=36.5, source=b"mine")
     session.push_event(yars.Event.SEQUENCE_POINT, text="2.01")
-    lane = yars.AT_INPUT + session.input_lane * yars.INPUT_STRIDE
-    same("events of faulty calls", session.words[lane // 8], 1)
-    event = yars.unpack(yars.INPUT_EVENT, session.memory[lane + yars.INPUT_RECORDS:lane + yars.INPUT_RECORDS + 56])
+    lane = offsets["input"] + session.input_lane * parts["input"]["stride"]
+    same("events of faulty calls", struct.unpack("<Q", made_up.read(lane, 8))[0], 1)
+    event = yars.unpack(yars.INPUT_EVENT, made_up.read(lane + parts["input"]["records"], 56))
     same("event", (event["kind"], event["text"].rstrip(b"\0"), event["number"]), (14, b"2.01", 1))
-    own = yars.unpack(yars.OWNSHIP, session._read_bytes(session._ownship_at(), 144))
+    own = yars.unpack(yars.OWNSHIP, made_up.latest("ownship", 144))
     same("ownship", (own["latitude_deg"], own["source"].rstrip(b"\0"), own["radar_altitude_m"] > 0), (36.5, b"mine", False))
     same("radar altitude is NaN", own["radar_altitude_m"] != own["radar_altitude_m"], True)
 
 
-def a_caption_is_there_while_its_tour_runs(session):
+def a_caption_is_there_while_its_tour_runs(session, made_up):
     lines = b"Range down: key E.".ljust(48, b"\0") + b"Then once more.".ljust(48, b"\0") + bytes(48)
     record = struct.pack(yars.code_of(yars.CAPTION), *({"step": 3, "steps": 27, "waiting": 1, "title": b"A tour", "lines": lines}.get(
         name, b"" if code.endswith("s") else 0) for name, code in yars.CAPTION))
-    # The protocol of a first value: version 1 in slot 1, then the state word.
-    slot = yars.AT_CAPTION + yars.LINE + yars.slot_stride(yars.CAPTION)
-    session.memory[slot:slot + 16 + len(record)] = struct.pack("<QQ", 2, 1) + record
-    session.memory[yars.AT_CAPTION:yars.AT_CAPTION + 8] = struct.pack("<Q", 3)
+    made_up.publish("caption", record)
     same("caption without a tour", session.caption(), None)
-    tour = os.open(session.path, os.O_RDWR)
-    fcntl.fcntl(tour, fcntl.F_OFD_SETLK, struct.pack("@hhqqi0q", fcntl.F_WRLCK, os.SEEK_SET, yars.TOUR_BYTE, 1, 0))
+    tour = os.open(made_up.path, os.O_RDWR)
+    fcntl.fcntl(tour, fcntl.F_OFD_SETLK, struct.pack("@hhqqi0q", fcntl.F_WRLCK, os.SEEK_SET, locks["tour"], 1, 0))
     found = session.caption() or {}
     same("caption", [found.get(name) for name in ("title", "step", "steps", "waiting", "lines")],
          ["A tour", 3, 27, 1, ["Range down: key E.", "Then once more."]])
@@ -181,16 +167,17 @@ def sweeps_come_once_and_the_lost_are_counted(session, made_up):
     same("sweeps", [(sweep["number"], sweep["range_m"], sweep["video"]) for sweep in found],
          [(0, 0.0, bytes(5)), (1, 1000.0, bytes([1] * 12))])
     same("sweeps again", session.sweeps(), [])
-    for number in range(2, 2 + yars.SWEEPS + 5):
+    slots = parts["sweeps"]["slot_count"]  # radar-model may be writing into the oldest
+    for number in range(2, 2 + slots + 5):
         made_up.publish_sweep(number, 1)
     late = session.sweeps()
     same("sweeps of one who is late", (late[0]["number"], late[-1]["number"], session.sweeps_lost),
-         (7, yars.SWEEPS + 6, 5))
+         (8, slots + 6, 6))
 
 
 def a_set_runs_while_a_role_is_held(session, made_up):
     same("set_runs of nobody", session.set_runs(), False)
-    for byte in (yars.RADAR_MODEL_BYTE, yars.STATE_MACHINE_BYTE):
+    for byte in (locks["radar-model"], locks["state-machine"]):
         made_up.lock(byte, fcntl.F_WRLCK)
         same(f"set_runs with byte {byte}", session.set_runs(), True)
         made_up.lock(byte, fcntl.F_UNLCK)
@@ -270,8 +257,8 @@ a_name_leads_nowhere_else()
 a_map_is_that_of_the_command()
 with MadeUpSession() as made_up, yars.Session(made_up.name, "session_py_test") as session:
     nothing_works_after_close(made_up.name)
-    what_cannot_be_done_is_an_error(session)
-    a_caption_is_there_while_its_tour_runs(session)
+    what_cannot_be_done_is_an_error(session, made_up)
+    a_caption_is_there_while_its_tour_runs(session, made_up)
     a_misspelled_field_is_answered_with_the_nearest(session)
     sweeps_come_once_and_the_lost_are_counted(session, made_up)
     a_set_runs_while_a_role_is_held(session, made_up)

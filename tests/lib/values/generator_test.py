@@ -130,7 +130,7 @@ class TheRecordsOfTheTree(unittest.TestCase):
 
     def test_come_back_from_python_as_they_went(self):
         made = {"enum": enum}
-        exec(clients.python_records(self.chapters, layout_of(self.chapters)), made)  # what session.py has
+        exec(clients.python_records(self.chapters), made)  # what session.py has
         for name, python_name in clients.PYTHON_NAMES.items():
             at, fields = 0, {field.name: field.offset for field in self.records[name].fields}
             for field, code in made[python_name]:
@@ -143,7 +143,7 @@ class TheRecordsOfTheTree(unittest.TestCase):
         header = clients.c_header(self.chapters, layout_of(self.chapters))
         in_c = {name: int(number, 0) for name, number in re.findall(r"^  (YARS_\w+) = (\w+),?", header, re.M)}
         made = {"enum": enum}
-        exec(clients.python_records(self.chapters, layout_of(self.chapters)), made)
+        exec(clients.python_records(self.chapters), made)
         declared = {one.name for chapter in self.chapters for one in chapter.declarations
                     if isinstance(one, (schema.Enumeration, schema.Bitmask))}
         self.assertLessEqual(set(clients.ENUMERATIONS), declared)
