@@ -19,7 +19,8 @@ LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")
 # What only a checkout needs, and the text that takes its place. The comment marks show the first in the sources.
 SOURCES_ONLY = re.compile(r"<!-- sources -->\n.*?<!-- installed\n(.*?)-->\n", re.S)
 # Before the paths: parts of commands.
-WORDS = [('"databuffer/client/yars.h"', "<yars/yars.h>"), ("PYTHONPATH=python ", ""), ("cc -I. ", "cc "),
+WORDS = [('"databuffer/client/yars.h"', "<yars/yars.h>"), ('"databuffer/client/yars_client.h"', "<yars/yars_client.h>"),
+         ("PYTHONPATH=python ", ""), ("cc -I. ", "cc "),
          ("-I. examples/", "")]
 PLACES = {
     "scripts/start": "yars-start", "scripts/plot_trade": "yars-plot-trade",
@@ -29,7 +30,7 @@ PLACES = {
     "build/release/install/doc/records.md": "share/doc/yars/docs/records.md",
     "build/release/install/doc/dataset_keys.md": "share/doc/yars/docs/dataset_keys.md",
     "build/release/systemd": "lib/systemd/user", "python/yars/session.py": "yars/session.py", "databuffer/client/yars.h": "yars/yars.h",
-    "databuffer/client/yars_records.h": "yars/yars_records.h", "databuffer/client/yars_segment.h": "yars/yars_segment.h",
+    "databuffer/client/yars_client.h": "yars/yars_client.h", "databuffer/client/yars_records.h": "yars/yars_records.h", "databuffer/client/yars_segment.h": "yars/yars_segment.h",
     "display/library/yars_display.h": "yars/yars_display.h", "gateway/yars_network.idl": "share/yars/idl/yars_network.idl",
 }
 SAYS = ("This is the installed copy: the programs are on your path, `examples/` lies beside this README. `SOURCES/` "

@@ -77,6 +77,8 @@ class Pip(unittest.TestCase):
         self.assertEqual(self.installed("."), [*of_build[:2], str(package / "__init__.py")])
         self.assertTrue((package / "share/yars/config/apg68.guf").is_file())
         self.assertEqual(run(self.folder / "v/bin/yars-plot-trade", "--help", folder=self.folder).returncode, 0)
+        library = run(self.python, "-c", "import yars.session; print(yars.session._library()._name)", folder=self.folder)
+        self.assertRegex(library.stdout, rf"^{package}/libyars-client\.so\.\d+\.\d+\n$", library.stderr)
         about = run(self.python, "-m", "yars", folder=self.folder)
         self.assertIn(f"compiled part: {package / f'_core{SUFFIX}'}\n", about.stdout)
         self.assertEqual(self.installed("-e", "."), of_build)

@@ -22,15 +22,18 @@ ALL = "YARS_TEST_FULL" in os.environ  # each kind of installation by each way; w
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 SESSION = f"foreign-{os.getpid()}"
 # Components: all but the programs, which are large with the sanitizers, and the compiled part of the Python module.
-PARTS = ("Unspecified", "display", "radar", "python")
+PARTS = ("Unspecified", "client", "display", "radar", "python")
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")  # a search crashes beside Mesa's threads
 # The strictest reader of the headers. The client's comes first, as it says.
 STRICT = """#include <yars/yars.h>
+#include <yars/yars_client.h>
 #include <yars/yars_display.h>
 int main(void) {
   yars_session s;
+  yars_client* client;
   const yars_viewport viewport = {0, 0, 480, 480};
-  return yars_attach(&s, "no-such-session", "strict") == 0 || yars_display_draw(NULL, viewport) != -1;
+  return yars_attach(&s, "no-such-session", "strict") == 0 || yars_display_draw(NULL, viewport) != -1 ||
+         yars_client_attach("no-such-session", "strict", &client) == 0;
 }
 """
 WANTS = """cmake_minimum_required(VERSION 3.16)
@@ -76,7 +79,7 @@ def unpacked(folder):
     for package in packages:
         must("dpkg-deb", "-x", package, folder / "root")
     python = must("dpkg-deb", "-f", packages[0])
-    expect("python3-yars recommends the programs of its own version", re.search(r"^Recommends: yars \(= [\d.]+-1(~\w+)?\)", python, re.M), python)
+    expect("python3-yars depends on the library of its own version", re.search(r"^Depends: .*yars \(= [\d.]+-1(~\w+)?\)", python, re.M), python)
     package = packages[1]
     fields = must("dpkg-deb", "-f", package)
     files = must("dpkg-deb", "-c", package)
@@ -173,6 +176,7 @@ def by_pkg_config(folder, prefix, kind):
     expect(f"{kind}: version by pkg-config", of("--modversion", "yars-client") == of("--modversion", "yars-display"))
     examples, client, display = prefix / "share/doc/yars/examples", of("--cflags", "yars-client"), of(
         "--cflags", "--libs", "yars-display", "epoxy")
+    client_library = of("--libs", "yars-client")
     must(CC, *FLAGS, examples / "fly.c", *client, "-lm", "-o", built / "fly")
     must(CXX, *FLAGS, "-std=c++17", examples / "host_display.cpp", *display, "-o", built / "host_display")
     check_programs(f"{kind}, pkg-config", built, prefix, LD_LIBRARY_PATH=library)
@@ -182,17 +186,20 @@ def by_pkg_config(folder, prefix, kind):
     for compiler, name, more in ((CC, "strict.c", ["-std=c99", "-pedantic"]),
                                  (CXX, "strict.cpp", ["-std=c++11", "-Wno-missing-field-initializers"])):
         (built / name).write_text(STRICT)
-        must(compiler, *FLAGS, *more, "-Wall", "-Wextra", "-Werror", built / name, *display, "-o", built / "strict")
+        must(compiler, *FLAGS, *more, "-Wall", "-Wextra", "-Werror", built / name, *display, *client_library, "-o", built / "strict")
         strict = run(built / "strict", LD_LIBRARY_PATH=library)
         expect(f"{kind}: {name}", strict.returncode == 0, strict)
 
 
 def check_symbols(prefix):
     """The libraries show what their headers declare and nothing else, which could clash with the host's."""
-    shown = {line.split()[-1] for line in must("nm", "-D", "--defined-only", library_of(prefix)).splitlines()}
-    header = (prefix / "include/yars/yars_display.h").read_text()
-    declared = set(re.findall(r"^YARS_DISPLAY_API.*?(yars_display_\w+)\(", header, re.M))
-    expect("functions of libyars-display", len(declared) > 10 and shown == declared, sorted(shown ^ declared)[:20])
+    for name in ("client", "display"):
+        shown = {line.split()[-1] for line in must("nm", "-D", "--defined-only", library_of(prefix, name)).splitlines()}
+        header = (prefix / f"include/yars/yars_{name}.h").read_text()
+        declared = set(re.findall(rf"^YARS_{name.upper()}_API.*?(yars_{name}_\w+)\(", header, re.M))
+        expect(f"functions of libyars-{name}", len(declared) > 10 and shown == declared, sorted(shown ^ declared)[:20])
+    needed = re.findall(r"Shared library: \[(.*?)[.-]", must("readelf", "-d", library_of(prefix, "client")))
+    expect("libyars-client needs the C++ library alone", {"libc", "libstdc++"} <= set(needed) <= {"libc", "libstdc++", "libgcc_s", "libm", "ld"}, needed)
     shown = {line.split(" ", 2)[-1] for line in must("nm", "-DC", "--defined-only", library_of(prefix, "radar")).splitlines()}
     of_classes = {name for name in shown if re.match(r"(typeinfo.* for )?yars::(Error|Patch|Radar|Recording|Scan|Scene|Terrain)\b", name)}
     expect("names of libyars-radar", len(shown) > 40 and shown == of_classes, sorted(shown - of_classes)[:20])

@@ -7,6 +7,7 @@ usage: python_module_test.py [BUILD]     BUILD: a build folder, whose python/yar
 import ast
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -126,8 +127,29 @@ class Missing(unittest.TestCase):
         self.assertIn("install or build it again", printed)
 
 
+    def of_session(self, *files):
+        """What is said of libyars-client where the package, with these files beside it, is far from any build."""
+        with tempfile.TemporaryDirectory() as folder:
+            package = pathlib.Path(folder, "yars")
+            shutil.copytree(PACKAGE / "yars", package, ignore=shutil.ignore_patterns("dataset", "__pycache__"))
+            for file in files:
+                (package / file).write_text("no library")
+            return said("yars.Session('absent-session')", folder=folder)
+
+    def test_the_library_of_sessions(self):
+        name = run("import yars; print('libyars-client.so.' + yars.__version__.rpartition('.')[0])").strip()
+        if subprocess.run([sys.executable, "-c", f"import ctypes; ctypes.CDLL({name!r})"], capture_output=True).returncode == 0:
+            self.skipTest(f"{name} is installed")
+        for files in ((), (name,)):
+            printed = self.of_session(*files)
+            self.assertRegex(printed, rf"^True yars.session: expected the library {name}, found: .*{name}.*; install the Debian package yars; ")
+            self.assertEqual(printed.count("\n"), 1)
+        self.assertIn("file too short; ", printed)
+        self.assertEqual(run("import yars; print(yars.Event.TDC, yars.patch_map.__name__)"), "2 patch_map\n")
+
+
 class Examples(unittest.TestCase):
-    def test_fly_py_runs_from_the_sources_without_a_build(self):
+    def test_fly_py_runs_from_the_sources(self):
         done = subprocess.run([sys.executable, "-B", "-I", str(SOURCE / "examples/fly.py"), "absent-session"], capture_output=True, text=True,
                               timeout=60)
         self.assertEqual(done.returncode, 1)
@@ -156,6 +178,10 @@ class Built(unittest.TestCase):
             return {path.relative_to(folder): path.read_bytes() for pattern in patterns for path in folder.rglob(pattern)}
 
         self.assertEqual(files(BUILD / "python/yars"), files(PACKAGE / "yars"))
+
+    def test_the_session_calls_the_library_beside_it(self):
+        printed = run("import yars.session; print(yars.session._library()._name)", ("numpy",), folder=BUILD / "python")
+        self.assertRegex(printed, rf"^{BUILD}/python/yars/libyars-client\.so\.\d+\.\d+\n$")
 
     def test_it_is_found_there(self):
         self.assertEqual(run("import yars; print(yars.__file__)", folder=BUILD / "python"), f"{BUILD / 'python/yars/__init__.py'}\n")

@@ -1,10 +1,8 @@
-// Tests of databuffer/client/yars.h: a C program in a live session, and its functions called from this process.
+// Tests of the clients in C: a C program in a live session, and what only databuffer/client/yars.h does.
 #include <gtest/gtest.h>
 #include <spawn.h>
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -21,10 +19,14 @@ namespace {
 
 class YarsHeaderTest : public testing::SessionTest {};
 
-// Runs each test with two C programs: compiled with the current header, and with the header of the first release.
+// Runs each test with three C programs: compiled with the current header, with the header of the first release, and
+// linked with libyars-client.
 class YarsClientTest : public testing::SessionTest, public ::testing::WithParamInterface<const char*> {};
-INSTANTIATE_TEST_SUITE_P(ByHeader, YarsClientTest, ::testing::Values(YARS_C_CLIENT, YARS_FIRST_CLIENT),
-                         [](const auto& test) { return test.index == 0 ? "OfToday" : "OfTheFirstRelease"; });
+std::string header_of(const ::testing::TestParamInfo<const char*>& test) {
+  return std::array{"OfToday", "OfTheFirstRelease", "OfTheLibrary"}.at(test.index);
+}
+INSTANTIATE_TEST_SUITE_P(ByHeader, YarsClientTest,
+                         ::testing::Values(YARS_C_CLIENT, YARS_FIRST_CLIENT, YARS_LIBRARY_CLIENT), header_of);
 
 // The C program as a child process, with pipes to its standard input and from its standard output.
 class CClient {
@@ -152,152 +154,17 @@ TEST_P(YarsClientTest, ACProgramThatLeavesLastRemovesTheSegment) {
   EXPECT_FALSE(file_exists());
 }
 
-TEST_F(YarsHeaderTest, AttachingWithoutASessionIsAnError) {
-  yars_session s;
-  EXPECT_EQ(yars_attach(&s, name_.c_str(), "tester"), -1);
-  EXPECT_NE(std::string(s.error).find("no such session"), std::string::npos) << s.error;
-  EXPECT_NE(std::string(s.error).find("start the set with --session " + name_ + ","), std::string::npos) << s.error;
-  EXPECT_TRUE(std::string(s.error).ends_with("(`yars --session NAME status`)")) << s.error;
-}
-
-TEST_F(YarsHeaderTest, AnotherLayoutIsRefused) {
-  auto session = Session::open(name_, "tester");
-  ASSERT_TRUE(session);
-  session->layout().header.hash += 1;
-  yars_session s;
-  EXPECT_EQ(yars_attach(&s, name_.c_str(), "tester"), -1);
-  EXPECT_NE(std::string(s.error).find("expected layout version 3"), std::string::npos) << s.error;
-  EXPECT_TRUE(file_exists());
-}
-
-TEST_F(YarsHeaderTest, EventsForAFullLaneAreDroppedAndCounted) {
-  auto session = Session::open(name_, "tester");
-  yars_session s;
-  ASSERT_EQ(yars_attach(&s, name_.c_str(), "c"), 0) << s.error;
-  ASSERT_EQ(yars_claim_input_lane(&s, "c"), 0);
-  yars_input_event event{};
-  for (std::size_t n = 0; n < kInputLaneDepth; ++n) ASSERT_EQ(yars_push_event(&s, &event), 0);
-  EXPECT_EQ(yars_push_event(&s, &event), -1);
-  EXPECT_EQ(session->layout().input.dropped(0), 1u);
-  InputEvent out{};
-  for (std::size_t n = 0; n < kInputLaneDepth; ++n) {
-    ASSERT_TRUE(session->layout().input.pop(0, out));
-    EXPECT_EQ(out.number, n + 1);
-  }
-  EXPECT_FALSE(session->layout().input.pop(0, out));
-  EXPECT_EQ(yars_push_event(&s, &event), 0);
-  yars_detach(&s);
-}
-
-TEST_F(YarsHeaderTest, ASetRunsWhileRadarModelOrStateMachineHoldsItsRole) {
+TEST_F(YarsHeaderTest, AClockWithoutARateStandsStill) {
   auto session = Session::open(name_, "tester");
   ASSERT_TRUE(session);
   yars_session s;
   ASSERT_EQ(yars_attach(&s, name_.c_str(), "c"), 0) << s.error;
-  EXPECT_EQ(yars_set_runs(&s), 0) << "neither radar-model nor state-machine runs";
-  {
-    const auto model = session->claim(Role::radar_model);
-    ASSERT_TRUE(model);
-    EXPECT_EQ(yars_set_runs(&s), 1);
-    const auto state_machine = session->claim(Role::state_machine);
-    ASSERT_TRUE(state_machine);
-    EXPECT_EQ(yars_set_runs(&s), 1);
-  }
-  EXPECT_EQ(yars_set_runs(&s), 0) << "both have ended";
-  {
-    const auto state_machine = session->claim(Role::state_machine);
-    ASSERT_TRUE(state_machine);
-    EXPECT_EQ(yars_set_runs(&s), 1);
-  }
-  yars_detach(&s);
-  EXPECT_EQ(yars_set_runs(&s), 0) << "without a session";
-}
-
-Sweep sweep_of(std::uint32_t number, std::uint32_t samples) {
-  Sweep sweep{};
-  sweep.number = number;
-  sweep.samples = samples;
-  sweep.range_m = 1000.0 * number;
-  std::fill_n(std::begin(sweep.video), std::min<std::size_t>(samples, radar::kMaxSamples),
-              static_cast<std::uint8_t>(number % 200));
-  return sweep;
-}
-
-// One session opened by C++ and by yars.h. C++ publishes sweeps, and yars.h reads them.
-class YarsSweepTest : public YarsHeaderTest {
- protected:
-  YarsSweepTest() : session_(std::move(*Session::open(name_, "tester"))) {
-    if (yars_attach(&s_, name_.c_str(), "c") != 0) throw std::runtime_error(s_.error);
-  }
-  ~YarsSweepTest() override { yars_detach(&s_); }
-  void publish(std::uint32_t first, std::uint32_t sweeps) {
-    for (std::uint32_t n = 0; n < sweeps; ++n) session_.layout().sweeps.publish(sweep_of(first + n, 5));
-  }
-  // Reads all unread sweeps and returns their numbers.
-  std::vector<std::uint32_t> read_all() {
-    std::vector<std::uint32_t> numbers;
-    while (yars_read_sweep(&s_, &cursor_, &sweep_) == 1) numbers.push_back(sweep_.number);
-    return numbers;
-  }
-
-  Session session_;
-  yars_session s_{};
-  yars_sweep_cursor cursor_{};
-  yars_sweep sweep_{};
-};
-
-TEST_F(YarsSweepTest, EachSweepIsReadOnceWithItsSamples) {
-  EXPECT_EQ(yars_read_sweep(&s_, &cursor_, &sweep_), 0) << "none yet";
-  publish(7, 2);
-  ASSERT_EQ(yars_read_sweep(&s_, &cursor_, &sweep_), 1);
-  EXPECT_EQ(sweep_.number, 7u);
-  EXPECT_EQ(sweep_.range_m, 7000.0);
-  EXPECT_EQ(sweep_.samples, 5u);
-  EXPECT_EQ(std::vector<int>(sweep_.video, sweep_.video + 5), std::vector<int>(5, 7));
-  EXPECT_EQ(read_all(), std::vector<std::uint32_t>{8});
-  EXPECT_EQ(yars_read_sweep(&s_, &cursor_, &sweep_), 0);
-  EXPECT_EQ(cursor_.lost, 0u);
-}
-
-TEST_F(YarsSweepTest, ALateReaderBeginsWithTheOldestAndHasLostNone) {
-  publish(1, YARS_SWEEPS + 10);
-  const auto numbers = read_all();
-  ASSERT_EQ(numbers.size(), YARS_SWEEPS - 1u);
-  EXPECT_EQ(numbers.front(), 12u);
-  EXPECT_EQ(numbers.back(), YARS_SWEEPS + 10u);
-  EXPECT_EQ(cursor_.lost, 0u);
-}
-
-TEST_F(YarsSweepTest, SweepsOverwrittenBeforeTheyAreReadAreCounted) {
-  EXPECT_EQ(yars_read_sweep(&s_, &cursor_, &sweep_), 0) << "the cursor starts here";
-  publish(1, YARS_SWEEPS + 10);
-  EXPECT_EQ(read_all().size(), YARS_SWEEPS - 1u);
-  EXPECT_EQ(cursor_.lost, 11u);
-}
-
-TEST_F(YarsSweepTest, AFrameLargerThanItsSlotIsNotRead) {
-  GlassFrame frame{};
-  frame.id = 1;
-  frame.width = frame.height = kMaxFramePixels + 1;
-  publish_frame(session_.layout(), frame, std::vector<std::uint8_t>(16));
-  yars_glass_frame found{};
-  std::vector<std::uint8_t> pixels(YARS_MOST_FRAME_BYTES);
-  EXPECT_EQ(yars_read_frame(&s_, 0, &found, pixels.data()), 0);
-}
-
-TEST_F(YarsSweepTest, AClockWithoutARateStandsStill) {
-  ClockState clock = session_.clock();
+  ClockState clock = session->clock();
   clock.base_sim_ns = 5;
   clock.rate = std::numeric_limits<double>::quiet_NaN();
-  session_.layout().clock.publish(clock);
-  EXPECT_EQ(yars_sim_time_ns(&s_), 5);
-}
-
-TEST_F(YarsSweepTest, ASweepWithMoreSamplesThanTheMaximumIsSkipped) {
-  session_.layout().sweeps.publish(sweep_of(1, YARS_MOST_SAMPLES + 1));
-  publish(2, 1);
-  EXPECT_EQ(read_all(), std::vector<std::uint32_t>{2});
-  EXPECT_EQ(cursor_.lost, 1u);
+  session->layout().clock.publish(clock);
+  EXPECT_EQ(yars_sim_time_ns(&s), 5);
+  yars_detach(&s);
 }
 
 }  // namespace
