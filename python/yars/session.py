@@ -378,7 +378,7 @@ def _library():
     here = pathlib.Path(__file__).absolute()  # in a build tree a link, which is not followed
     places = [here.with_name(name)]
     if here.parents[1].name == "python":
-        places += sorted(here.parents[2].glob(f"build/*/python/yars/{name}"), key=lambda path: path.parts[-4] != "release")
+        places += sorted((here.parents[2] / "build").glob(f"*/python/yars/{name}"), key=lambda path: path.parts[-4] != "release")
     if len(here.parents) > 3 and here.parents[3].name == "lib":
         places += [here.parents[3] / name, *sorted(here.parents[3].glob(f"*-linux-gnu/{name}"))]
     found = []

@@ -83,7 +83,7 @@ def missing(prefix):
 def main(cmake, build):
     with tempfile.TemporaryDirectory(dir=build) as folder:
         prefix = pathlib.Path(folder, "prefix")
-        for component in ("idl", "python", "Unspecified", "display"):
+        for component in ("idl", "python", "Unspecified", "client", "display"):
             subprocess.run([cmake, "--install", build, "--component", component, "--prefix", prefix], check=True,
                            stdout=subprocess.DEVNULL, timeout=120)
         faults = list(missing(prefix))
