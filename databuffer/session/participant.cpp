@@ -105,6 +105,7 @@ void Participant::enter_table() {
 // Rewrites name and process id in this process's table entry, because another process may have overwritten them.
 // Session::processes() leaves out an entry with process id 0.
 void Participant::restore_entry() {
+  if (table_byte == 0) return;
   ProcessEntry& entry = write().processes[table_byte - kFirstProcessByte];
   shm::store_text(entry.name.data(), entry.name.size(), process_name);
   entry.pid.store(getpid(), std::memory_order_release);
