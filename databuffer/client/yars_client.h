@@ -5,7 +5,7 @@
  *   and what to do. No function throws or ends the program. NULL, and a client that was detached, are failures.
  * Success of a publish or push means that the record was sent. `yars status` shows whether the record was accepted.
  * Threads: one at a time for each client; a program may have several clients. The text of an error belongs to the
- *   thread that made it.
+ *   thread that made it. After fork() only one of the two processes may use a client.
  * Waiting: none, but yars_client_claim_traffic() may take 0.2 s, and yars_client_attach() some milliseconds.
  *
  *   yars_client* c = NULL;

@@ -1,7 +1,7 @@
 """YARS, an air-to-ground radar simulation, for Python 3.9+: real beam maps, patch maps, sessions and pictures.
 
     Terrain, Scene, Radar, Recording, trade    the kernels, compiled; results are NumPy arrays
-    yars.session                               client of a running session; needs Python alone
+    yars.session                               client of a running session; calls libyars-client
     yars.plot                                  pictures by matplotlib
     yars.dataset                               training data by the million
 

@@ -1,5 +1,5 @@
-"""`python -m yars [--json]` prints what is installed: version and folder, the compiled part, packages of others that are
-there or missing, programs that are found. Exit code 0 whatever is missing; 2 for an option that is not known."""
+"""`python -m yars [--json]` prints what is installed: version and folder, the compiled part, the library of sessions, packages of
+others that are there or missing, programs that are found. Exit code 0 whatever is missing; 2 for an option that is not known."""
 import importlib.metadata
 import importlib.util
 import json
@@ -40,6 +40,14 @@ def compiled_part():
         return None, str(problem).partition(": ")[2]
 
 
+def library_of_sessions():
+    """(libyars-client, why it is not found or None)."""
+    try:
+        return yars.session._library()._name, None
+    except yars.Error as problem:
+        return None, str(problem).partition(": ")[2]
+
+
 def version_of_program(path):
     """What a program prints for --version, "" where it prints none."""
     try:
@@ -58,9 +66,10 @@ def program(name):
 def installed():
     """All of it, as the value that --json prints."""
     file, problem = compiled_part()
+    library, fault = library_of_sessions()
     return {"version": yars.__version__, "folder": list(yars.__path__)[0],
             "python": {"version": platform.python_version(), "executable": sys.executable},
-            "compiled": {"file": file, "problem": problem},
+            "compiled": {"file": file, "problem": problem}, "session": {"file": library, "problem": fault},
             "packages": [{"name": name, "version": version_of(name), "debian": debian, "for": PURPOSES[name]}
                          for name, debian in yars._PACKAGES.items()],
             "programs": [program(name) for name in programs.NAMES]}
@@ -70,8 +79,8 @@ def lines(found):
     """The lines for people."""
     yield f"yars {found['version']} in {found['folder']}"
     yield f"Python {found['python']['version']}, {found['python']['executable']}"
-    compiled = found["compiled"]
-    yield f"compiled part: {compiled['file'] or 'missing: ' + compiled['problem']}"
+    for name, part in (("compiled part", found["compiled"]), ("library of sessions", found["session"])):
+        yield f"{name}: {part['file'] or 'missing: ' + part['problem']}"
     yield "packages of others:"
     for package in found["packages"]:
         state = package["version"] or f"missing; Debian package {package['debian']}"

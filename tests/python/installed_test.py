@@ -55,6 +55,8 @@ class Installed(unittest.TestCase):
             self.assertIsNone(found["compiled"]["file"])
             self.assertIn("expected", found["compiled"]["problem"])
 
+        self.assertRegex(found["session"]["file"] or "", r"/python/yars/libyars-client\.so\.\d+\.\d+$")
+
     def test_programs_of_the_build_and_of_another_version(self):
         with tempfile.TemporaryDirectory() as folder:
             other = pathlib.Path(folder, "radar-model")
