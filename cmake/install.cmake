@@ -37,7 +37,6 @@ install(FILES ${PROJECT_BINARY_DIR}/install/doc/dataset_keys.md DESTINATION ${do
 # The start script: installed it finds the programs beside it.
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/start DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-start)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/scripts/starting DESTINATION libexec/yars FILES_MATCHING PATTERN "*.py")
-install(FILES ${PROJECT_SOURCE_DIR}/scripts/nearest_word.py DESTINATION libexec/yars)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/scripts/network_identities DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME yars-network-identities)
 
 # Man pages and completions, with the options that --help of the programs prints. Python's page is of another package.

@@ -1,5 +1,5 @@
-# `cpack -G DEB` in the build folder of the release preset makes two packages, yars_VERSION-REVISION_ARCHITECTURE.deb and
-# python3-yars_VERSION-REVISION_ARCHITECTURE.deb: docs/packaging.md.
+# `cpack -G DEB` in the build folder of the release preset makes the packages yars, libyars-dev and python3-yars, each
+# NAME_VERSION-REVISION_ARCHITECTURE.deb: docs/packaging.md.
 # The revision names the suite as Debian's own backports do: 1~deb12u1 sorts before 1~deb13u1, so a package follows an upgrade
 # of the system, and behind every revision of an earlier version.
 function(suite_of_this_system result)
@@ -45,7 +45,7 @@ set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
 # Each package has the components of a group.
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING ONE_PER_GROUP)
-set(CPACK_COMPONENTS_ALL programs client display radar idl Unspecified python)
+set(CPACK_COMPONENTS_ALL programs client display radar idl Unspecified headers development python)
 get_property(has_python GLOBAL PROPERTY YARS_HAS_PYTHON)
 if(has_python)
   list(APPEND CPACK_COMPONENTS_ALL python_core)
@@ -65,7 +65,7 @@ or a panel, or read the sweeps, from C, Python or by UDP.")
 set(CPACK_DEBIAN_YARS_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_YARS_PACKAGE_DEPENDS "libegl1, libgl1, python3:any")
 set(CPACK_DEBIAN_YARS_PACKAGE_RECOMMENDS "libgl1-mesa-dri${also_rasters}")
-set(CPACK_DEBIAN_YARS_PACKAGE_SUGGESTS "python3-yars")
+set(CPACK_DEBIAN_YARS_PACKAGE_SUGGESTS "libyars-dev, python3-yars")
 # For the libraries: what a package that is linked with them depends on, and a run of ldconfig by dpkg's trigger.
 file(WRITE ${PROJECT_BINARY_DIR}/install/shlibs
   "libyars-client ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} yars (>= ${PROJECT_VERSION})\n"
@@ -73,6 +73,21 @@ file(WRITE ${PROJECT_BINARY_DIR}/install/shlibs
   "libyars-radar ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR} yars (>= ${PROJECT_VERSION})\n")
 file(WRITE ${PROJECT_BINARY_DIR}/install/triggers "activate-noawait ldconfig\n")
 set(CPACK_DEBIAN_YARS_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/install/shlibs ${PROJECT_BINARY_DIR}/install/triggers)
+
+# In older versions the package yars has these files.
+set(CPACK_DEBIAN_LIBYARS-DEV_PACKAGE_NAME libyars-dev)
+set(CPACK_DEBIAN_LIBYARS-DEV_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_LIBYARS-DEV_DESCRIPTION "air-to-ground radar simulation after the APG-70 (development files)
+What a program of yours is built with: the headers of a running session in C,
+of the display in an OpenGL context of yours, and of scans and patch maps in
+C++20, with files for CMake and pkg-config, and a static library of the radar.")
+set(CPACK_DEBIAN_LIBYARS-DEV_PACKAGE_DEPENDS "yars (= ${full_version})")
+set(CPACK_DEBIAN_LIBYARS-DEV_PACKAGE_RECOMMENDS "libexpected-dev")
+set(static_parts libgeographic-dev libspdlog-dev libfmt-dev libpng-dev libopenjp2-7-dev libzip-dev libzstd-dev zlib1g-dev libhwy-dev)
+list(JOIN static_parts ", " static_parts)
+set(CPACK_DEBIAN_LIBYARS-DEV_PACKAGE_SUGGESTS "${static_parts}")
+set(CPACK_DEBIAN_LIBYARS-DEV_PACKAGE_BREAKS "yars (<< ${full_version})")
+set(CPACK_DEBIAN_LIBYARS-DEV_PACKAGE_REPLACES "yars (<< ${full_version})")
 
 # The session client needs libyars-client, which is in the package yars. The compiled part needs the Python that it is built for, and NumPy.
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_NAME python3-yars)
@@ -102,9 +117,13 @@ endif()
 set(CPACK_POST_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/packaging/debian/repack.cmake)
 include(CPack)
 cpack_add_component_group(yars)
+cpack_add_component_group(libyars-dev)
 cpack_add_component_group(python3-yars)
 foreach(component programs client display radar idl Unspecified)
   cpack_add_component(${component} GROUP yars)
+endforeach()
+foreach(component headers development)
+  cpack_add_component(${component} GROUP libyars-dev)
 endforeach()
 foreach(component python python_core)
   cpack_add_component(${component} GROUP python3-yars)
@@ -112,11 +131,15 @@ endforeach()
 
 # The changes of each package, beside those of the program. The day is that of the build, or of SOURCE_DATE_EPOCH.
 string(TIMESTAMP day "%a, %d %b %Y 00:00:00 +0000" UTC)
-foreach(name yars python3-yars)
+foreach(name yars libyars-dev python3-yars)
   file(WRITE ${PROJECT_BINARY_DIR}/install/changelog_of_${name}
     "${name} (${full_version}) unstable; urgency=medium\n\n  * Made by CPack from YARS ${PROJECT_VERSION}.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${day}\n")
 endforeach()
 compressed(${PROJECT_BINARY_DIR}/install/changelog_of_yars changelog.Debian ${documents} Unspecified)
+set(developer_documents ${CMAKE_INSTALL_DATADIR}/doc/libyars-dev)
+compressed(${PROJECT_BINARY_DIR}/install/changelog_of_libyars-dev changelog.Debian ${developer_documents} headers)
+compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog ${developer_documents} headers)
+install(FILES ${PROJECT_SOURCE_DIR}/LICENSE DESTINATION ${developer_documents} RENAME copyright COMPONENT headers)
 set(python_documents ${CMAKE_INSTALL_DATADIR}/doc/python3-yars)
 compressed(${PROJECT_BINARY_DIR}/install/changelog_of_python3-yars changelog.Debian ${python_documents} python)
 compressed(${PROJECT_SOURCE_DIR}/CHANGELOG.md changelog ${python_documents} python)

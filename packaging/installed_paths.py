@@ -25,7 +25,7 @@ WORDS = [('"databuffer/client/yars.h"', "<yars/yars.h>"), ('"databuffer/client/y
 PLACES = {
     "scripts/start": "yars-start", "scripts/plot_trade": "yars-plot-trade",
     "scripts/network_identities": "yars-network-identities", "build/release/bin": "bin",
-    "scripts/starting": "libexec/yars/starting", "scripts/nearest_word.py": "libexec/yars/nearest_word.py",
+    "scripts/starting": "libexec/yars/starting",
     "build/terrain/default": "~/.cache/yars/terrain", "build/start.log": "yars-start's log",
     "build/release/install/doc/records.md": "share/doc/yars/docs/records.md",
     "build/release/install/doc/dataset_keys.md": "share/doc/yars/docs/dataset_keys.md",

@@ -67,5 +67,5 @@ def names_of(package, strength):
 
 def parts_of(package):
     """The packages of a .deb by strength: {"Depends": [part, ...], ...}, those of this project left out."""
-    return {strength: [part(name) for name in names_of(package, strength) if name not in ("yars", "python3-yars")]
+    return {strength: [part(name) for name in names_of(package, strength) if name not in ("yars", "libyars-dev", "python3-yars")]
             for strength in STRENGTHS}

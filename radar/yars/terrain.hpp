@@ -4,7 +4,7 @@
 // Errors: ErrorCode::failed for a folder that is missing or has no cell that can be read.
 // Memory: what has been read stays in memory for later calls, up to 512 MiB for each use.
 // Threads: any number. Calls that read files wait for each other.
-// Example: examples/cpp/first_picture.cpp.
+// Example: examples/first_picture.cpp.
 // SPDX-License-Identifier: MIT
 #pragma once
 

@@ -4,7 +4,7 @@ import functools
 import os
 import re
 
-import nearest_word
+from starting import nearest_word
 from starting.command import HERE, NAME, SHARE, end, put, quoted, refuse, shown
 from starting.roles import OF_SET
 

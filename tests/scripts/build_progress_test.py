@@ -38,8 +38,7 @@ class BuildProgress(unittest.TestCase):
         self.folder = pathlib.Path(holder.name)
         for name in ("scripts", "tools", "build/release/bin"):
             (self.folder / name).mkdir(parents=True)
-        for name in ("start", "nearest_word.py"):
-            shutil.copy(HOME / "scripts" / name, self.folder / "scripts" / name)
+        shutil.copy(HOME / "scripts/start", self.folder / "scripts/start")
         shutil.copytree(HOME / "scripts/starting", self.folder / "scripts/starting")
         (self.folder / "CMakeLists.txt").touch()
         self.program("scripts/setup", "#!/bin/sh\n")
@@ -137,7 +136,7 @@ class BuildProgress(unittest.TestCase):
         self.run_plainly()
         targets = (self.folder / "targets").read_text().split("--target ")[1].split()
         self.assertEqual(sorted(targets),
-                         ["flight-model", "input-monitor", "radar-display", "radar-model", "state-machine", "yars", "yars-station", "yars_help"])
+                         ["flight-model", "input-monitor", "radar-display", "radar-model", "state-machine", "yars", "yars-station", "yars_client_library", "yars_help"])
 
 
 if __name__ == "__main__":

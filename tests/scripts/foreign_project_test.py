@@ -22,7 +22,7 @@ ALL = "YARS_TEST_FULL" in os.environ  # each kind of installation by each way; w
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 SESSION = f"foreign-{os.getpid()}"
 # Components: all but the programs, which are large with the sanitizers, and the compiled part of the Python module.
-PARTS = ("Unspecified", "client", "display", "radar", "python")
+PARTS = ("headers", "Unspecified", "client", "display", "radar", "development", "python")
 ENVIRONMENT = dict(os.environ, ASAN_OPTIONS="detect_leaks=0")  # a search crashes beside Mesa's threads
 # The strictest reader of the headers. The client's comes first, as it says.
 STRICT = """#include <yars/yars.h>
@@ -75,15 +75,16 @@ def unpacked(folder):
     must(cpack, "-G", "DEB", "-B", folder, "-D", f"CPACK_COMPONENTS_ALL={';'.join(PARTS)}",
          "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=none", folder=BUILD)  # compression takes longer than the rest
     packages = sorted(folder.glob("*.deb"))
-    expect("the packages", [path.name.partition("_")[0] for path in packages] == ["python3-yars", "yars"], packages)
+    expect("the packages", [path.name.partition("_")[0] for path in packages] == ["libyars-dev", "python3-yars", "yars"], packages)
     for package in packages:
         must("dpkg-deb", "-x", package, folder / "root")
-    python = must("dpkg-deb", "-f", packages[0])
+    development, python = (must("dpkg-deb", "-f", package) for package in packages[:2])
     expect("python3-yars depends on the library of its own version", re.search(r"^Depends: .*yars \(= [\d.]+-1(~\w+)?\)", python, re.M), python)
-    package = packages[1]
+    expect("libyars-dev depends on the libraries of its own version", re.search(r"^Depends: yars \(= [\d.]+-1(~\w+)?\)$", development, re.M), development)
+    package = packages[2]
     fields = must("dpkg-deb", "-f", package)
     files = must("dpkg-deb", "-c", package)
-    expect("the package yars has nothing of the package python3-yars", "dist-packages" not in files and "plot-trade" not in files, files)
+    expect("the package yars has nothing of the others", not re.search(r"dist-packages|plot-trade|/include/|/cmake/yars/|\.pc$|\.a$|\.so ->", files, re.M), files)
     expect("the package depends on what the library is linked with", "libepoxy0" in fields and "libspdlog" in fields, fields)
     control = must("dpkg-deb", "-I", package)
     expect("the package has ldconfig run", "triggers" in control and "shlibs" in control, control)
@@ -183,6 +184,9 @@ def by_pkg_config(folder, prefix, kind):
     must(CXX, *FLAGS, "-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Werror", examples / "first_picture.cpp",
          *of("--cflags", "--libs", "yars-radar"), "-o", built / "first_picture")
     check_radar(f"{kind}, pkg-config", built / "first_picture", LD_LIBRARY_PATH=library)
+    static = ["-l:libyars-radar.a" if word == "-lyars-radar" else word for word in of("--static", "--cflags", "--libs", "yars-radar")]
+    must(CXX, *FLAGS, "-std=c++20", examples / "first_picture.cpp", *static, "-o", built / "static_picture")
+    check_radar(f"{kind}, static", built / "static_picture")
     for compiler, name, more in ((CC, "strict.c", ["-std=c99", "-pedantic"]),
                                  (CXX, "strict.cpp", ["-std=c++11", "-Wno-missing-field-initializers"])):
         (built / name).write_text(STRICT)

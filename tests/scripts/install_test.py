@@ -98,8 +98,9 @@ with tempfile.TemporaryDirectory(dir=BUILD) as folder:
     install_without_a_build(folder)
     first, moved, elsewhere = (pathlib.Path(folder, name) for name in ("first", "moved", "elsewhere"))
     elsewhere.mkdir()
-    installed = run(CMAKE, "--install", BUILD, "--component", "Unspecified", "--prefix", first, folder=folder)
-    expect("cmake --install", installed.returncode == 0, installed.stderr)
+    for component in ("Unspecified", "headers"):
+        installed = run(CMAKE, "--install", BUILD, "--component", component, "--prefix", first, folder=folder)
+        expect(f"cmake --install --component {component}", installed.returncode == 0, installed.stderr)
     (first / "bin").mkdir(exist_ok=True)
     for program in PROGRAMS:
         os.link(BUILD / "bin" / program, first / "bin" / program)

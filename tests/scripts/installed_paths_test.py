@@ -32,7 +32,7 @@ def texts(prefix):
     """(path below the prefix, text) of all that is no program, picture or library."""
     for path in sorted(path for path in prefix.rglob("*") if path.is_file()):
         place = path.relative_to(prefix)
-        if place.parts[0] in ("bin", "libexec") or path.suffix in (".png", ".webp", ".ico", ".so") or ".so." in path.name:
+        if place.parts[0] in ("bin", "libexec") or path.suffix in (".png", ".webp", ".ico", ".a") or ".so." in path.name or path.suffix == ".so":
             continue
         opened = gzip.open(path, "rt", encoding="utf-8") if path.suffix == ".gz" else open(path, encoding="utf-8")
         with opened as file:
@@ -83,7 +83,7 @@ def missing(prefix):
 def main(cmake, build):
     with tempfile.TemporaryDirectory(dir=build) as folder:
         prefix = pathlib.Path(folder, "prefix")
-        for component in ("idl", "python", "Unspecified", "client", "display"):
+        for component in ("idl", "python", "Unspecified", "headers", "client", "display", "radar", "development"):
             subprocess.run([cmake, "--install", build, "--component", component, "--prefix", prefix], check=True,
                            stdout=subprocess.DEVNULL, timeout=120)
         faults = list(missing(prefix))

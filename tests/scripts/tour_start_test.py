@@ -43,7 +43,6 @@ def install_start(prefix, supervisor=None):
     (prefix / "bin").mkdir(exist_ok=True)
     shutil.copy(HOME / "scripts/start", prefix / "bin/yars-start")
     shutil.copytree(HOME / "scripts/starting", prefix / "libexec/yars/starting")
-    shutil.copy(HOME / "scripts/nearest_word.py", prefix / "libexec/yars")
     if supervisor:
         (prefix / "libexec/yars/starting/supervisor.py").write_text(supervisor)
 

@@ -1,12 +1,8 @@
-#!/usr/bin/env python3
-"""The word of a list that a misspelled word most likely means, for the scripts: as lib/text/nearest_word.hpp for the programs.
+"""The word of a list that a misspelled word most likely means: as lib/text/nearest_word.hpp for the programs.
 
-usage: nearest_word.py WORD VALID...      prints "did you mean 'VALID'? ", or nothing when none is near
 Near is at most a third of the word's length, in Damerau-Levenshtein distance; upper and lower case are equal. Else the
 shortest that begins with the word, of four characters or more.
 """
-import sys
-
 MAX_LENGTH = 64  # longer words are not compared
 MIN_BEGIN = 4    # shorter words begin too many others
 
@@ -43,7 +39,3 @@ def did_you_mean(word, valid):
         return f"did you mean '{valid[distances.index(best)]}'? "
     completions = [each for each in valid if len(word) >= MIN_BEGIN and each.lower().startswith(word.lower())]
     return f"did you mean '{min(completions, key=len)}'? " if completions else ""
-
-
-if __name__ == "__main__":
-    print(did_you_mean(sys.argv[1], sys.argv[2:]), end="")
