@@ -98,7 +98,7 @@ Expected<FlightSource> open_source(std::string_view text) {
   if (kind == "csv" && !rest.empty()) return open_track(rest);
   static const std::vector<std::string> kKinds{"route:", "fixed:", "csv:", "flightgear:", "jsbsim:", "xplane:", "dis:"};
   const std::string named = std::string(kind) + ':';
-  const bool is_known = std::ranges::find(kKinds, named) != kKinds.end();  // what follows it is missing
+  const bool is_known = std::ranges::find(kKinds, named) != kKinds.end();  // a known kind without its argument
   return tl::unexpected(error::usage_error("--source", std::string(kForms), '"' + std::string(text) + '"',
                                            is_known ? "" : text::did_you_mean(named, kKinds)));
 }

@@ -1,8 +1,8 @@
 // Theatre: terrain and scenes in which scans and patch maps are computed, without a session. The stores stay open, so
-// that later scans and maps find in memory what earlier ones have read. Inputs: folder of elevation cells, scene files;
-// regions of scans and maps. Outputs: views of terrain and scene. Errors: the functions throw Failure for files
-// that cannot be opened, or a region whose files are all unreadable. Threads: one at a time. Any number of threads may
-// read the views.
+// that later scans and maps find in memory what earlier ones have read.
+// Inputs: folder of elevation cells, scene files; regions of scans and maps. Outputs: views of terrain and scene.
+// Errors: the functions throw Failure for files that cannot be opened, or a region whose files are all unreadable.
+// Threads: one call at a time. Any number of threads may read the views.
 #pragma once
 
 #include <functional>
@@ -26,21 +26,21 @@ struct TerrainConfiguration;
 // Takes a warning: one sentence.
 using Warn = std::function<void(const std::string&)>;
 
-// That of a call; one that does nothing where the caller gives none.
+// The function `warn` of a call, or a function that does nothing if the call has none.
 inline Warn warn_of(const Call& call) {
   return call.warn ? call.warn : [](const std::string&) {};
 }
 
-// Warn of each problem of reading; that of terrain warns of notes, too. They then count the files of the region, the
-// ground that the last prepare() has loaded. If some of these files are unreadable, they say how many. If all are
+// Warn of each problem of reading; check_terrain_read() also warns of notes. Call them after prepare() of the stores.
+// A last warning has the number of unreadable files in the region of the last prepare(). If all files of the region are
 // unreadable, they throw Failure.
-// Call after prepare() of the stores. `folder`: terrain folder, for messages. `path_store`: optional second store of
-// the same folder, for the ground between aircraft and map. Problems of this store are told, but are no failure.
+// `folder`: terrain folder, for messages. `path_store`: optional second store of the same folder, for the ground
+// between aircraft and map. Its problems are warnings, and its unreadable files are not counted.
 void check_terrain_read(const Warn& warn, const std::string& folder, model::terrain::TerrainStore& store,
                         model::terrain::TerrainStore* path_store = nullptr);
 void check_scenes_read(const Warn& warn, model::scene::SceneStore& scenes);
 
-// What stores lack of their files, in all regions so far. Each sentence once, in the order of the calls.
+// Data that the stores left out of all regions so far: one sentence each, in the order of the calls, without repeats.
 class LeftOut {
  public:
   void add(const model::terrain::TerrainStore& store);
@@ -63,17 +63,17 @@ class Theatre {
   // Opens the stores. `use`: triangles for maps, scatterers for scans. Scenes of the terrain's own folder are added.
   Theatre(const TerrainConfiguration& terrain, const std::vector<radar::Scene>& scenes, model::scene::SceneUse use);
 
-  // Reads what a scan or a map needs. `warn` takes the problems of files.
+  // Reads what a scan or a map needs. Problems of files are passed to `warn`.
   ScanEnvironment prepare(const model::kernel::ScanRequest& request, const Fidelity& fidelity, const Warn& warn);
   model::hrm::PatchEnvironment prepare(const model::hrm::PatchNeed& need, const Warn& warn);
 
-  // What the regions so far lack of their files, one sentence each: files of the terrain's folder that are not used,
-  // unreadable cells, and parts of scenes.
+  // Data left out of all regions so far, one sentence each: files of the terrain's folder that are not used, unreadable
+  // cells, and parts of scenes.
   std::vector<std::string> left_out() const;
 
-  // Scenes about a position; null: none.
+  // Scenes within `radius_m` of a position; null: no scenes are configured.
   model::scene::SceneViewPointer scenes_near(geo::GeoPoint position, double radius_m, const Warn& warn);
-  // Terrain of the cells that contain a position, on an edge more than one, at their finest level.
+  // Finest terrain of the cell that contains a position. A position on an edge is in several cells.
   model::terrain::TerrainViewPointer terrain_at(geo::GeoPoint position, const Warn& warn);
   // Files of the folder; null: the built-in hills.
   const model::terrain::DirectoryIndex* index() const;

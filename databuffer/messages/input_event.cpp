@@ -98,7 +98,7 @@ std::vector<std::string> all_verbs() {
   return verbs;
 }
 
-// The forms of a verb; of an unknown verb all verbs.
+// The forms of a verb; for an unknown verb, the list of all verbs.
 std::string expected_forms(std::string_view verb) {
   std::string list;
   for (const Form& form : kForms)
@@ -108,7 +108,7 @@ std::string expected_forms(std::string_view verb) {
   return "an event, which begins with one of " + list;
 }
 
-// What the radar has no event for, because buttons of the display do it.
+// Controls that have no event of their own, because push buttons of the display operate them.
 // Source: docs/pilots_manual.md#buttons, real beam map.
 struct OnButtons {
   std::string_view word;
@@ -123,20 +123,19 @@ constexpr std::array kOnButtons{OnButtons{"range", "'pb 13' lengthens it, 'pb 14
                                 OnButtons{"sniff", "'pb 18' switches it"},
                                 OnButtons{"declutter", "'pb 2' switches it"}};
 
-// Remedy for a word that means one of kOnButtons; empty: none is near.
+// Advice for a word that is, or resembles, one of kOnButtons; empty: it resembles none.
 std::string advice_on_buttons(std::string_view word) {
   std::vector<std::string> known;
   known.reserve(kOnButtons.size());
   for (const OnButtons& row : kOnButtons) known.emplace_back(row.word);
-  constexpr std::size_t kShort = 4;  // so short a word is near to too many others: rain is not gain
+  constexpr std::size_t kShort = 4;  // words so short must match exactly: "rain" is not a misspelled "gain"
   const auto meant = text::nearest_word(word, known);
   if (!meant || (meant->size() <= kShort && *meant != word)) return {};
   const auto* row = std::ranges::find(kOnButtons, *meant, &OnButtons::word);
   return "the " + *meant + " is on buttons of the display: " + std::string(row->buttons) + " in RBM";
 }
 
-// The words, of which the first is split where its letters end: "pb13" becomes "pb 13". False: there is nothing to
-// split.
+// Splits the first word where its letters end: "pb13" becomes "pb 13". False: there is nothing to split.
 bool split_first(Words& words) {
   const auto letters = static_cast<std::size_t>(
       std::ranges::find_if(words[0], [](char c) { return std::isalpha(static_cast<unsigned char>(c)) == 0; }) -
@@ -145,7 +144,7 @@ bool split_first(Words& words) {
   const std::string_view first = words[0];
   const std::size_t next = first.find_first_not_of("-_:=", letters);
   if (next == std::string_view::npos) return false;
-  // A minus sign belongs to the number of tdc and elevation.
+  // A minus sign belongs to the number, except in "pb-13".
   const bool is_signed = first[letters] == '-' && !first.starts_with("pb");
   words[0] = first.substr(0, letters);
   words.insert(words.begin() + 1, first.substr(is_signed ? letters : next));
@@ -162,7 +161,7 @@ constexpr std::array<std::array<std::string_view, 3>, 8> kSynonyms{{{"power", "o
                                                                     {"acq", "back", "aft"},
                                                                     {"coolie", "forward", "up"}}};
 
-// The text with the verb, and with the word after it, that a misspelled one most likely means. nullopt: none is near.
+// The event that a misspelled text most likely means, with verb and first operand corrected. nullopt: no verb is near.
 std::optional<std::string> corrected(Words words) {
   if (words.empty()) return std::nullopt;
   if (!is_verb(words[0])) split_first(words);
@@ -293,7 +292,7 @@ std::optional<InputEvent> parsed(const Words& words) {
   return event && !validate(*event) ? event : std::nullopt;
 }
 
-// The nearest event whose numbers are in range; nullopt for a kind that is not of one or two numbers.
+// The event with its numbers moved into range; nullopt for kinds whose numbers are not clamped.
 std::optional<InputEvent> in_range(InputEvent event) {
   switch (static_cast<EventKind>(event.kind)) {
     case EventKind::push_button:
@@ -319,7 +318,7 @@ std::optional<InputEvent> in_range(InputEvent event) {
   return validate(event) ? std::nullopt : std::optional(event);
 }
 
-// What the user can do about words that are no event: "did you mean 'pb 13'?", or which buttons do it; may be empty.
+// Advice about words that are no event: "did you mean 'pb 13'?", or the buttons to press instead; may be empty.
 std::string advice_on(const Words& words) {
   if (words.empty()) return {};
   if (std::string buttons = is_verb(words[0]) ? "" : advice_on_buttons(words[0]); !buttons.empty()) return buttons;

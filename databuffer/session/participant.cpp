@@ -148,7 +148,7 @@ std::int32_t Participant::holder_of(Role role) const {
   return is_held(role) ? segment->holder_pid(static_cast<std::size_t>(role)) : 0;
 }
 
-// True if the gateway holds a role of which each host may have a holder.
+// True if the gateway holds this role, and it is a role that every host may fill at the same time.
 bool Participant::is_lent_to_gateway(Role role) const {
   const bool is_shared = role == Role::traffic || role == Role::recorder || role == Role::tour;
   return is_shared && holder_of(role) != 0 && holder_of(role) == holder_of(Role::gateway);

@@ -1,5 +1,5 @@
 // Modes and switch positions with their numbers in records, sizes of arrays in records, names of sequence points.
-// Abbreviations: docs/pilots_manual.md#controls.
+// Abbreviations: docs/glossary.md#cockpit.
 // Inputs: a number from a record, or the name of a sequence point.
 // Outputs: texts for legends; the number and offset in a sequence point's name; the order of the names.
 // Errors: "?" for a number outside its enumeration; std::nullopt for a text that is no name of a sequence point.
@@ -20,7 +20,7 @@ inline constexpr int kBezelButtons = 20;                     // buttons around t
 inline constexpr int kMaxPointsDrawn = 8;                    // sequence points in a record; state-machine uses five
 inline constexpr int kMaxRoutePoints = 256;                  // sequence points of a route, offsets included
 inline constexpr int kMaxPointNumber = 100;                  // largest number of a sequence point
-inline constexpr int kMaxPointOffset = 99;                   // largest offset of a target; 9 of other points
+inline constexpr int kMaxPointOffset = 99;                   // largest offset of a target; other points have 1 to 9
 inline constexpr std::int64_t kTickNanoseconds = 5'000'000;  // [ns] tick of all programs, in sim time
 inline constexpr double kTickSeconds = 0.005;                // [s] kTickNanoseconds in seconds
 
@@ -67,8 +67,8 @@ std::string_view name_of(CursorFunction function);
 std::string_view name_of(Navigator navigator);
 
 // Number and offset in the name of a sequence point. "7." with a dot is a target. "7" without a dot is a steer point or
-// an initial point. With one digit after the dot (`7.1` to `7.9`) it is an offset, with two (`7.01` to `7.99`) an
-// offset of a target. Numbers are 1 to 100.
+// an initial point. "7.1" to "7.9" are offsets of that point. "7.01" to "7.99" are offsets of a target.
+// Numbers are 1 to 100.
 // Source: docs/pilots_manual.md#rule-11.
 struct PointName {
   int number = 0;       // 1 to 100

@@ -320,7 +320,7 @@ class Series {
 
 }  // namespace
 
-// Their destructors would wait for threads that do not exist here.
+// Releases the Patches without destroying them: their destructors would wait for threads that only the parent has.
 void PatchPool::forget_those_of_the_parent() {
   if (process_ == ::getpid()) return;
   for (Free& one : free_) static_cast<void>(one.patch.release());

@@ -1,6 +1,6 @@
 // Many patch maps in one call: an array of orders gives arrays of pictures and labels, one entry for each order.
 // Inputs: structured arrays PATCH_ORDER and MOVER. Outputs: a dict of arrays; geometry and boxes as structured arrays.
-// Units: as the suffix of each name says. Others are degrees, feet, knots and nautical miles, as the options have them.
+// Units: as the suffix of each name says; positions and headings in degrees, corners in pixels.
 // Errors: ValueError names the index of the order that is beyond the radar's limits.
 // Source: docs/python.md, "Many maps".
 #pragma once
@@ -21,19 +21,19 @@ struct SeriesRequest {
   std::shared_ptr<Terrain> terrain;
   std::shared_ptr<Scene> scene;  // null: the scenes in the terrain's folder, and those of the configuration
   py::array orders;
-  py::object movers;  // None: none but those of the configuration
+  py::object movers;  // None: only those of the configuration
   std::vector<std::string> arrays;
   int threads = 1;
   bool force = false;
   int min_pixels = 0;  // boxes of objects with fewer labelled pixels are left out
 };
 
-// Maps of one radar that no call uses, with their threads and memory. A new one costs as much as some ten small maps.
-// A child of fork() has no threads of its parent; it makes maps of its own.
+// Patch objects of one radar that no call uses at present, kept with their threads and memory. Making a Patch takes as
+// long as about ten small maps. A child of fork() does not have its parent's threads, so it makes Patches of its own.
 class PatchPool {
  public:
   ~PatchPool() { forget_those_of_the_parent(); }
-  // A map with these threads and labels; nullptr: none is free.
+  // A Patch with these threads and labels; nullptr: none is free.
   std::unique_ptr<Patch> take(std::size_t threads, LabelUse labels);
   void give_back(std::unique_ptr<Patch> patch, LabelUse labels);
 
@@ -46,7 +46,7 @@ class PatchPool {
   };
   std::mutex mutex_;
   std::vector<Free> free_;
-  int process_ = 0;  // that has made the maps
+  int process_ = 0;  // pid of the process that made the Patches
 };
 
 py::dict patch_series(const yars::Radar& radar, PatchPool& pool, const SeriesRequest& request);

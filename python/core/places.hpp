@@ -1,4 +1,4 @@
-// Classes Terrain and Scene of the Python module: those of the library (yars/terrain.hpp, yars/scene.hpp) with arrays.
+// Classes Terrain and Scene of the Python module: yars::Terrain and yars::Scene with NumPy arrays in their interface.
 // Units: degrees, metres.
 // Threads: a Terrain and its Scenes serve one call at a time; a lock makes others wait.
 #pragma once
@@ -20,7 +20,7 @@ class Terrain {
   explicit Terrain(const std::string& directory);
 
   const yars::Terrain& terrain() const { return *terrain_; }
-  // [m MSL] at positions in degrees, arrays of equal shape. NaN: void.
+  // Elevations [m MSL] at positions [deg]. All three arrays have the same shape. NaN: void.
   using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
   py::array elevation(const Numbers& latitude_deg, const Numbers& longitude_deg);
 

@@ -1,10 +1,10 @@
-// Branch of a recording: the point from which a live set goes on, and the items up to it.
+// Branch of a recording: the point at which a live set takes over from the recording, and the items up to that point.
 // Inputs: a recording; a time [s] of its session clock. Outputs: the records from which the roles resume; a copy of the
 // items up to the point, each with the same bytes.
 // A point is the tick of a recorded model status, because a radar model resumes from a status alone. Statuses are
 // recorded every 0.1 s, in a live session up to 0.15 s apart.
 // Errors: a time outside the recording (usage error); no ticks; no status or no radar state near the time.
-// Threads: pure, but for reads of the file.
+// Threads: one call at a time for each reader.
 #pragma once
 
 #include <cstddef>
@@ -41,12 +41,12 @@ struct BranchPoint {
   databuffer::ModelStatus status{};  // its tick is `tick`
   std::optional<databuffer::Outputs> outputs;
   std::optional<databuffer::Traffic> traffic;
-  std::optional<databuffer::WorldState> world;  // in effect; nullopt: that of the configuration
+  std::optional<databuffer::WorldState> world;  // in effect at the point; nullopt: the configuration's world
   std::string flight_source;                    // source of flight-model (FlightSource); empty: not recorded
 };
 
-// Newest point at or before the tick; the first one after it if there is none. A point is preferred at which the radar
-// state has applied all events that were recorded up to it. Changes the position of the reader.
+// Newest point at or before the tick; if there is none, the first point after the tick. The newest point whose radar
+// state has applied all events up to it is preferred, if it is at most 0.3 s earlier. Changes the reader's position.
 error::Expected<BranchPoint> find_branch_point(RecordingReader& reader, std::int64_t tick, const std::string& file);
 
 // Appends all items up to the point to a new recording. Blocks that belong to the branch as a whole are copied without

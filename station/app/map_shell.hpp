@@ -1,7 +1,7 @@
 // Draws tiles of the instructor's map in a thread of its own, so that frames of the display do not wait for terrain.
 // Inputs: the terrain of the configuration; requests of tiles. Outputs: tiles as PNG.
-// Errors: problems of the terrain are radar-model's to report; here they are lines of the level debug. Ground without a
-//   file is drawn as it counts: sea or absent.
+// Errors: problems of the terrain are logged at level debug only, because radar-model reports them. Ground without a
+//   file is drawn as sea or as absent, as the configuration counts it.
 // Limits: kMaxWaiting requests wait; more are refused. The newest kKept tiles are kept.
 // Threads: request() is called from one thread; the answers come in the map's own thread.
 #pragma once

@@ -11,7 +11,7 @@ namespace {
 // Town scene, made of quarters. A quarter is the rectangle between the centre lines of four streets.
 // Streets are kStreet_m wide.
 constexpr double kQuarterX_m = 120, kQuarterY_m = 76, kStreet_m = 11;
-// Count of different definitions of each kind of object; then the definition number of the first one of each kind.
+// Number of definitions of each kind of object. Below: the number of the first definition of each kind.
 constexpr int kHouses = 24, kBlocks = 8, kTowers = 4, kTrees = 4, kCars = 4;
 constexpr std::uint16_t kFirstHouse = 1, kFirstBlock = 101, kFirstTower = 201, kFirstTree = 301, kFirstCar = 401;
 

@@ -12,13 +12,13 @@ namespace yars::worldgen {
 
 namespace {
 
-constexpr int kTownRanks = 26;  // attempted towns per tile at the equator
-constexpr int kSites = 24;      // candidate sites per town
-constexpr double kSmallestTown_m = 450.0;
-constexpr int kAirfields = 3;          // attempted airfields per tile
-constexpr int kAirfieldSites = 30;     // candidate sites per airfield
-constexpr double kPadUneven_m = 30.0;  // maximum height difference on ground that is levelled for an airfield
-constexpr int kEdgeMargin = 6;         // [nodes] minimum distance of sites from the tile's edge
+constexpr int kTownRanks = 26;             // attempted towns per tile at the equator
+constexpr int kSites = 24;                 // candidate sites per town
+constexpr double kSmallestTown_m = 450.0;  // radius
+constexpr int kAirfields = 3;              // attempted airfields per tile
+constexpr int kAirfieldSites = 30;         // candidate sites per airfield
+constexpr double kPadUneven_m = 30.0;      // maximum height difference on ground that is levelled for an airfield
+constexpr int kEdgeMargin = 6;             // [nodes] minimum distance of sites from the tile's edge
 
 class SettlementMaker {
  public:

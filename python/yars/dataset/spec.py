@@ -19,7 +19,7 @@ from .yaml_reader import Reader
 MOST_BYTES = 1 << 20
 DEFAULT_ARRAYS = ("video", "shadow", "layover", "object", "material")
 _SLOT = re.compile(r"[A-Za-z][A-Za-z0-9_-]*$")
-_RELATIVE_DEFAULTS = {  # drawn keys with a number as default
+_DRAWN_DEFAULTS = {  # default distributions of drawn keys
     "geometry.squint_deg": Uniform([(20.0, 60.0)]), "geometry.speed_kt": Fixed(480.0), "geometry.time_s": Fixed(0.0),
     "geometry.bearing_deg": Uniform([(0.0, 360.0)]), "targets.north_m": Fixed(0.0), "targets.east_m": Fixed(0.0),
     "movers.count": Fixed(1), "movers.north_m": Fixed(0.0), "movers.east_m": Fixed(0.0),
@@ -30,7 +30,7 @@ _RELATIVE_DEFAULTS = {  # drawn keys with a number as default
 
 @dataclasses.dataclass
 class Setting:
-    """A slot of a GUF form. `value`: a distribution, or a list of numbers and words."""
+    """A slot of a GUF form. `value`: a distribution, or a list of numbers, booleans and texts."""
     form: str
     slot: str
     value: object
@@ -39,7 +39,8 @@ class Setting:
 
 @dataclasses.dataclass
 class Scene:
-    """One scene: a file, or a made-up one of a kind. `at`: None or (latitude, longitude[, heading]) in degrees."""
+    """One scene: an OpenFlight file, or a generated scene, whose kind is `generate`. `at`: None or (latitude,
+    longitude[, heading]) in degrees."""
     line: int
     file: object = None
     generate: object = None
@@ -93,7 +94,7 @@ class Spec:
         return re.sub(r"[\W_]*\d+", "", name) or "object"
 
     def plain(self):
-        """Everything that decides the items, as JSON types; paths as they are written in the file are left out."""
+        """All values that decide the items, as JSON types. Paths are left out, because the store hashes what they name."""
         def simple(value):
             if hasattr(value, "plain"):
                 return value.plain()
@@ -242,8 +243,8 @@ class _SpecReader(Reader):
         self.plan.rain = self._complete(values, "weather.rain")
 
     def _complete(self, values, path):
-        """Values of the drawn keys with their defaults."""
-        result = {key: value for key, value in _RELATIVE_DEFAULTS.items() if key.rpartition(".")[0] == path}
+        """Values of a section, completed by the defaults of its drawn keys."""
+        result = {key: value for key, value in _DRAWN_DEFAULTS.items() if key.rpartition(".")[0] == path}
         result = {key.rpartition(".")[2]: value for key, value in result.items()}
         result.update({name: value for name, value in values.items() if value is not None})
         return result
@@ -286,7 +287,7 @@ class _SpecReader(Reader):
             if len(kinds) != 1:
                 self.fault(item, "one of area, scenes and objects in an entry of targets", " and ".join(kinds) or "none")
             if "on" in values and "area" not in values:
-                self.fault(item, "the key on with an area", "it without")
+                self.fault(item, "an area in an entry with the key on", "none")
             if "objects" in values and not self.plan.scenes and self.root is not None and not self._has("scenes"):
                 self.fault(item, "scenes in the specification, for targets at objects", "none", "add scenes:")
             self.plan.targets.append(Target(item.start_mark.line + 1, **values))
@@ -323,7 +324,7 @@ class _SpecReader(Reader):
             self.plan.classes[name] = [pattern for pattern in self.names(value, KEYS["scenes.without"]) if pattern]
 
     def _together(self):
-        """Faults of keys that do not fit each other."""
+        """Adds the faults of keys that contradict each other."""
         plan = self.plan
 
         def fault(key, text):
@@ -338,13 +339,13 @@ class _SpecReader(Reader):
             if wanted and need not in plan.arrays:
                 fault(key, f"expected the array {need} in chip.arrays, found none; add it")
         if plan.coco and not plan.png and "video" not in plan.geotiff:
-            fault("output.coco", "expected pictures for it, found none; add png: true, or video to geotiff")
+            fault("output.coco", "expected pictures for COCO, found none; add png: true, or video to geotiff")
         if plan.preset == "reference" and plan.size > 1024:
             fault("chip.size", f"expected at most 1024 pixels with the preset reference, found {plan.size}")
 
 
 def read_spec(path):
-    """Reads and checks a specification. Raises SpecError with all faults, DatasetError if the file cannot be read."""
+    """Reads and checks a specification. Raises SpecError with all faults of the file, or with why it cannot be read."""
     try:
         if not stat.S_ISREG(os.stat(path).st_mode):
             raise SpecError(f"{path}: expected a specification, found {'a folder' if os.path.isdir(path) else 'no regular file'}; give the path of "
@@ -358,5 +359,6 @@ def read_spec(path):
     try:
         text = data.decode()
     except UnicodeDecodeError as error:
-        raise SpecError(f"{path}: expected UTF-8 text, found another byte at {error.start}") from None
+        byte = f"byte {data[error.start]:#04x} at offset {error.start}"
+        raise SpecError(f"{path}: expected UTF-8 text, found {byte}") from None
     return _SpecReader(path, text).read()
