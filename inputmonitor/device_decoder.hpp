@@ -103,7 +103,7 @@ class DeviceDecoder {
     AxisAction action;
     double deflection = 0.0;       // TDC axis only: [-1, 1]
     std::optional<int> detent;     // lever only: index of the detent; nullopt: unknown
-    std::size_t first_switch = 0;  // hat or rocker only: index in switches_ of its positive switch; next: negative
+    std::size_t first_switch = 0;  // hat or rocker only: index in switches_ of its positive switch; then its negative
   };
 
   static Switch switch_of(const SwitchAction& action);

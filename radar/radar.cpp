@@ -14,7 +14,7 @@ namespace yars {
 
 namespace {
 
-// Checks GUF text of the caller. A warning about it is an error: it says that a part has no effect.
+// Checks GUF text of the caller. A warning counts as an error, because it means that a part of the text has no effect.
 void check_text(const std::string& text, const char* name) {
   const auto loaded = config::load_configuration_text(text, name);
   if (!loaded) radar::fail(error::usage_error(loaded.error()));

@@ -128,10 +128,10 @@ namespace yars::display::gl {
 
 namespace {
 
-// True if the window's framebuffer keeps its content when buffers are swapped, as that of Mesa's software renderer does
-// on X11. Clears, swaps and reads three times, with colors that cannot be told from black: with two or three buffers in
-// turn, another color would be read. Asked of a software renderer alone. A GPU draws a whole window in no time, and its
-// driver may begin to swap in another way.
+// True if the window's framebuffer keeps its content when buffers are swapped, as with Mesa's software renderer on X11.
+// The test clears, swaps and reads three times, with three colors that look black. A driver that alternates between two
+// or three buffers gives an older color. Only a software renderer is tested. A GPU draws a whole window fast, and its
+// driver may change its way of swapping.
 bool keeps_content(GLFWwindow* window) {
   const std::string renderer = text_of(GL_RENDERER);
   if (renderer.find("llvmpipe") == std::string::npos && renderer.find("softpipe") == std::string::npos) return false;
@@ -155,7 +155,7 @@ class GlfwWindow final : public Window {
     glfwSetKeyCallback(window, [](GLFWwindow* from, int key, int, int action, int) {
       if (action != GLFW_REPEAT) input_of(from).keys.push_back({databuffer::key_of_glfw(key), action == GLFW_PRESS});
     });
-    // GLFW has no key for "?", whose place depends on the keyboard's layout.
+    // GLFW has no key code for "?", because its position depends on the keyboard's layout.
     glfwSetCharCallback(window, [](GLFWwindow* from, unsigned code) {
       if (code != '?') return;
       for (const bool pressed : {true, false}) input_of(from).keys.push_back({databuffer::Key{'?'}, pressed});
@@ -280,7 +280,7 @@ error::Expected<std::unique_ptr<Window>> no_window() {
                      "use --headless --frames DIR");
 }
 
-// Width and height of a window of two thirds of the work area's height, at most its width [screen coordinates].
+// Side of a square window [screen coordinates]: two thirds of the height of the monitor's work area, at most its width.
 int edge_on_screen() {
   constexpr int kWithoutMonitor = 480;
   int left = 0, top = 0, width = 0, height = 0;
@@ -301,7 +301,7 @@ error::Expected<std::unique_ptr<Window>> open_window(const std::string& title, s
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  // Sizes of monitors include their scale.
+  // A side from the monitor already includes the monitor's scale. A side that the user gives does not.
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, size ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "yars-radar-display");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "yars-radar-display");

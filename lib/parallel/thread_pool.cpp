@@ -18,14 +18,14 @@ constexpr std::uint32_t kOneJob = 1U << 16U;
 constexpr std::uint32_t kInside = kOneJob - 1U;
 constexpr std::uint32_t kJob = kOpen - kOneJob;
 
-// The caller works alone for so many times the time that workers have cost. Each time in a row doubles the factor. Its
-// inverse is the share that a busy machine loses by trying again: 6 % at first, 0.4 % in the end. With greater factors,
-// one thread has to do for longer after a moment in which the machine was busy.
+// After workers have cost time, the caller works alone for this factor times that time. Each time in a row doubles the
+// factor. Its inverse is the share that a busy machine loses by trying again: 6 % at first, 0.4 % in the end. A larger
+// factor keeps the pool single-threaded for longer after the machine was busy.
 constexpr std::int64_t kMinAloneFactor = 16;
 constexpr std::int64_t kMaxAloneFactor = 256;
 constexpr std::int64_t kMaxAlone_ns = 1'000'000'000;
-// [ns] At most so much of the time that workers have saved counts against what they cost later. When they have saved
-// so much, the machine counts as quiet again.
+// [ns] Maximum of the saved time that counts against later waits. When workers have saved this much, the machine no
+// longer counts as busy.
 constexpr std::int64_t kMaxSaved_ns = 2'000'000;
 
 // Leaves the processor core to its other hardware thread for some clock cycles.
@@ -45,8 +45,8 @@ std::int64_t thread_cpu_ns() {
   return std::int64_t{1'000'000'000} * now.tv_sec + now.tv_nsec;
 }
 
-// Waits until `value` differs from `seen`, and returns the new value. The thread polls for a few hundred microseconds,
-// then sleeps. The thread that changes the value must call notify_one() or notify_all().
+// Waits until `value` differs from `seen`, and returns the new value. The thread polls kPolls times, then sleeps. The
+// thread that changes the value must call notify_one() or notify_all().
 std::uint32_t wait_for_change(const std::atomic<std::uint32_t>& value, std::uint32_t seen) {
   for (int poll = 0; poll < kPolls; ++poll) {
     if (const std::uint32_t now = value.load(std::memory_order_acquire); now != seen) return now;

@@ -16,18 +16,19 @@
 
 namespace yars::parallel {
 
-// Whether long work goes on. It is asked between the steps of the work, on the thread that has called it. Empty: yes.
+// Returns false to stop long work. The work calls it between its steps, on the thread that started the work. An empty
+// function never stops the work.
 using GoesOn = std::function<bool()>;
-// Thrown by long work that does not go on. Its result is lost; what it has used stays usable.
+// Thrown by work that GoesOn has stopped. The result of the work is lost; the objects that it used stay usable.
 struct Stopped {};
 inline void check(const GoesOn& goes_on) {
   if (goes_on && !goes_on()) throw Stopped{};
 }
 
 // Pool of threads that are reused for all jobs. Starting threads takes as long as a short scan of `yars scan`.
-// Nobody waits for a worker that has not begun. On a busy machine a worker may lose its core while it works, and then
-// the caller waits for it. When such waits have cost more time than the workers have saved, run() calls job(0) alone
-// for some time.
+// run() does not wait for a worker that has not begun. On a busy machine a worker may lose its core while it works, and
+// then the caller waits for it. When such waits have cost more time than the workers have saved, run() calls only
+// job(0) for some time.
 class ThreadPool {
  public:
   // `threads`: number of threads including the calling thread, at least 1.
@@ -55,8 +56,8 @@ class ThreadPool {
   alignas(64) std::atomic<std::uint32_t> left_{0};         // 1: the last worker has left the closed job
   alignas(64) std::atomic<std::int64_t> worked_ns_{0};     // processor time of the workers in the job
   const std::function<void(std::size_t)>* job_ = nullptr;  // null: the workers that enter end
-  std::int64_t saved_ns_ = 0;                              // time that workers have saved the caller and not cost yet
-  std::int64_t alone_factor_ = 0;                          // 0: the machine counts as quiet
+  std::int64_t saved_ns_ = 0;                              // processor time of workers minus the waits for them
+  std::int64_t alone_factor_ = 0;                          // time alone per time lost; 0: the machine is not busy
   std::int64_t alone_until_ns_ = 0;                        // steady clock; 0: the workers take part
   std::vector<std::thread> workers_;
 };

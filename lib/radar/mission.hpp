@@ -1,4 +1,5 @@
-// Configuration of a mission: errors of the navigators, route, cursor range of each window, range by height.
+// Configuration of a mission: errors of the navigators, points of the route, limits of the cursor range for each window
+// of a patch map, selected range by height.
 // config/schema reads the values from GUF files.
 // Units: as the suffix of each name says.
 // Source: docs/spec/physics.md#navigation-errors, docs/pilots_manual.md#rule-1 and the sections cited below.
@@ -12,8 +13,8 @@
 
 namespace yars::radar {
 
-// Errors of both navigators, which are added to their positions and velocities (positive north, east, down), and
-// corrections by the radar.
+// Errors of both navigators, and their corrections by the radar. The errors are added to the navigators' positions and
+// velocities; north, east and down are positive.
 // Source: docs/spec/physics.md#navigation-errors.
 struct NavigationConfiguration {
   double error_north_m = 0.0;       // [m] position error when the session begins

@@ -52,7 +52,8 @@ HWY_INLINE RainFloats error_function(RainFloats x) {
   p = fused::mul_add(p, t, set(1.421413741F));
   p = fused::mul_add(p, t, set(-0.284496736F));
   p = fused::mul_add(p, t, set(0.254829592F));
-  // log2(e) x^2, limited because the powers of numbers below 2^-64 may be subnormal, which is slow.
+  // log2(e) x^2. Limited to 64, where the result is 1 already: with smaller powers of 2 the products may be subnormal,
+  // which is slow.
   const auto octaves = hn::Min(hn::Mul(hn::Mul(x, x), set(1.44269504F)), set(64.0F));
   return fused::neg_mul_add(hn::Mul(p, t), polynomials::exp2(d, hn::Neg(octaves)), set(1.0F));
 }
@@ -62,7 +63,7 @@ struct Direction {
   RainFloats out, up;
 };
 
-// Integral of the two-way pattern from its centre down to a direction; negative above the centre.
+// Integral [rad] of the two-way pattern over elevation, from its centre down to a direction; negative above the centre.
 HWY_INLINE RainFloats integral_below(const RainConstants& c, radar::BeamPattern beam, Direction to) {
   const RainTag d;
   const auto zero = hn::Zero(d);
@@ -79,14 +80,15 @@ HWY_INLINE RainFloats integral_below(const RainConstants& c, radar::BeamPattern 
     return signed_below(hn::Mul(set(c.gaussian_rad), error_function(hn::Mul(set(c.erf_per_rad), off_axis()))));
   };
   if (beam == radar::BeamPattern::gaussian) return gaussian();
-  // csc^2: sin b cos b - sin^2 b cot(lowest), where `lowest` is the angle below the direction b above the axis.
+  // csc^2 below the centre: sin^2 b (cot b - cot x). b is the depression of the centre, at least half a beamwidth.
+  // x is b plus the angle from the centre down to the direction.
   const auto sine = fused::mul_sub(set(c.sin_axis), to.out, hn::Mul(set(c.cos_axis), to.up));
   const auto cosine = fused::mul_add(set(c.cos_axis), to.out, hn::Mul(set(c.sin_axis), to.up));
   const auto within = hn::Gt(sine, zero);
-  const auto least = hn::Neg(set(c.centre_cotangent));
+  const auto min_cotangent = hn::Neg(set(c.centre_cotangent));
   const auto cotangent = hn::Div(cosine, hn::IfThenElse(within, sine, set(1.0F)));
-  const auto lowest = hn::Max(hn::IfThenElse(within, cotangent, least), least);
-  const auto below = hn::Mul(set(c.sin_centre2), hn::Sub(set(c.centre_cotangent), lowest));
+  const auto limited = hn::Max(hn::IfThenElse(within, cotangent, min_cotangent), min_cotangent);
+  const auto below = hn::Mul(set(c.sin_centre2), hn::Sub(set(c.centre_cotangent), limited));
   const auto upper = hn::Gt(above, zero);
   return hn::AllFalse(d, upper) ? below : hn::IfThenElse(upper, gaussian(), below);
 }
@@ -113,7 +115,7 @@ class RainVector {
     distance_inverse_ = hn::Div(set(1.0F), hn::Max(distance_m_, set(1e-3F)));
     sag_m_ = hn::Mul(hn::Mul(distance_m_, angle), set(0.5F));
     const auto fall_m = hn::Sub(hn::Sub(height_m, set(c.altitude_m)), sag_m_);
-    // A ray that is exactly level is taken to fall by a millimetre, because stretch() divides by its fall.
+    // A ray that is level within a millimetre is taken to fall by a millimetre, because stretch() divides by its fall.
     fall_m_ = hn::IfThenElse(hn::Lt(hn::Abs(fall_m), set(1e-3F)), set(-1e-3F), fall_m);
   }
 
@@ -133,7 +135,7 @@ class RainVector {
       received = hn::Mul(echo_, polynomials::exp2(d, octaves));
     }
     hn::StoreU(received, d, power);
-    // The ray's length per distance over ground.
+    // Length of the ray divided by its distance over ground.
     const auto slope = hn::Mul(hn::Sqrt(slant_square_), distance_inverse_);
     const auto loss = polynomials::exp2(d, hn::Neg(hn::Mul(octaves_, slope)));
     hn::StoreU(hn::IfThenElse(hn::Gt(octaves_, hn::Zero(d)), loss, set(1.0F)), d, transmission);
@@ -168,7 +170,7 @@ class RainVector {
     return fused::mul_add(fraction, fused::mul_add(fraction, sag_m_, fall_m_), set(c_.altitude_m));
   }
 
-  // Interval of the ray below the shower's top, relative to the chord's middle (stretch_below()).
+  // Part of the ray below the shower's top, as distances from the chord's middle. Vector form of stretch_below().
   struct Interval {
     RainFloats from_m, to_m;
   };
@@ -302,7 +304,7 @@ void RainSamples::use_showers(const RadarParameters& parameters) {
 }
 
 void RainSamples::enter(const SweepGeometry& geometry) {
-  constexpr double kMargin = 1.02;  // the plane's distances differ by less from those over ground
+  constexpr double kMargin = 1.02;  // distances in the tangent plane and over ground differ by less than 2 %
   crossed_.clear();
   if (centres_.empty()) return;
   const auto sea_level = geo::HeightAboveEllipsoid::metres(0.0);

@@ -1,4 +1,4 @@
-// Class Radar of the Python module: that of the library (yars/radar.hpp), with requests from keywords and with arrays.
+// Class Radar of the Python module: yars::Radar, with requests from keyword arguments and results as NumPy arrays.
 // Inputs: settings; requests, whose fields Python sets by name. Outputs: ScanResult, PatchResult, many maps at once.
 // Errors: ValueError and yars.Error with the fields of the library's error.
 // Threads: the interpreter's lock is released while files are read and while pictures are computed.
@@ -24,7 +24,7 @@ class Radar {
                                    const ScanRequest& request) const;
   std::shared_ptr<PatchResult> patch(const std::shared_ptr<Terrain>& terrain, const std::shared_ptr<Scene>& scene,
                                      const PatchRequest& request) const;
-  // Many maps, as patch_series.hpp says.
+  // Many maps in one call (patch_series.hpp).
   py::dict patches(const std::shared_ptr<Terrain>& terrain, const py::array& orders, std::shared_ptr<Scene> scene,
                    const py::object& movers, const std::vector<std::string>& arrays, int threads, bool force,
                    int min_pixels) const;

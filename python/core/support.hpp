@@ -1,4 +1,4 @@
-// What all parts of yars._core share: errors, warnings, arguments in the form of command-line options, arrays without
+// Helpers of all parts of yars._core: errors, warnings, arguments in the form of command-line options, arrays without
 // copies.
 // Errors: a wrong value of the caller is ValueError, every other failure is yars.Error.
 #pragma once
@@ -28,12 +28,12 @@ void register_exceptions(py::module_& module);
 // Adds xxh3() and xxh3_items(): hashes of the bytes of arrays.
 void add_hashes(py::module_& module);
 
-// Throws ValueError for a wrong value of the caller, else yars.Error, with the fields of the error as attributes. An
-// error of a call that was ended throws parallel::Stopped.
+// Throws ValueError for a wrong value of the caller, else yars.Error, with the fields of the error as attributes. The
+// error of a call that the caller stopped throws parallel::Stopped.
 [[noreturn]] void raise(const Error& error);
 [[noreturn]] void raise_value_error(const std::string& message);
 
-// The value of a call of the library; or its error, raised.
+// Returns the value of a call of the library, or raises its error.
 template <class Value>
 Value value_of(Expected<Value>&& given) {
   if (!given) raise(given.error());
@@ -43,8 +43,8 @@ inline void check_done(const Expected<void>& done) {
   if (!done) raise(done.error());
 }
 
-// Reads words of a command line, which arguments.py makes, by a table of options. `name`: of the function, for
-// messages. Throws ValueError.
+// Parses command-line words, which arguments.py has made from a function's arguments. `name`: name of the function, for
+// messages. `add_options`: declares the options. Throws ValueError.
 void read_options(const std::string& name, const std::vector<std::string>& words,
                   const std::function<void(runtime::Command)>& add_options);
 
@@ -54,24 +54,25 @@ class Warnings {
   radar::Warn sink() {
     return [this](const std::string& warning) { lines_.push_back(warning); };
   }
-  // For a call of the library.
+  // Argument for a call of the library: collects its warnings, and stops it by `goes_on`.
   Call call(const parallel::GoesOn& goes_on) { return {.warn = sink(), .goes_on = goes_on}; }
-  // Each line once, at most five of a call. Call with the interpreter's lock. `function`: prefix of each line, such as
-  // "yars.Radar.scan". `frames`: of this package below the caller, whom the warning names.
+  // Shows each line once, and at most five lines of a call. Call with the interpreter's lock. `function`: prefix of
+  // each line, such as "yars.Radar.scan". `frames`: number of Python frames of this package between this call and the
+  // caller, whose line the warning names.
   void show(const std::string& function, int frames = 1);
 
  private:
   std::vector<std::string> lines_;
 };
 
-// The array, which from now on cannot be written.
+// Makes the array read-only and returns it.
 inline py::array read_only(py::array array) {
   py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
   return array;
 }
 
-// Makes a class without Python's constructor: instances come from functions of the module alone, so that none is
-// without its object.
+// Removes Python's constructor from a class. Only functions of the module make instances, so each instance has its C++
+// object.
 template <class Class>
 void seal(Class& type) {
   reinterpret_cast<PyTypeObject*>(type.ptr())->tp_new = [](PyTypeObject* made, PyObject*, PyObject*) -> PyObject* {
@@ -88,7 +89,7 @@ py::array array_of(const std::shared_ptr<const void>& owner, const T* data, std:
   const py::capsule keeper(kept, [](void* pointer) { delete static_cast<std::shared_ptr<const void>*>(pointer); });
   return read_only(py::array_t<T>(std::move(shape), data, keeper));
 }
-// An array of 0 and 1 as truth values.
+// Array of bool from bytes 0 and 1.
 py::array flags_of(const std::shared_ptr<const void>& owner, const std::uint8_t* data, std::vector<py::ssize_t> shape);
 
 // Array that takes over a vector.

@@ -33,7 +33,7 @@ _PACKAGES = {"numpy": "python3-numpy", "xarray": "python3-xarray", "matplotlib":
 
 
 class Error(RuntimeError):
-    """What the world does not give: a file, a session, a package. The message says what was expected, found, and what to do."""
+    """A file, session or package that is missing or cannot be used. The message says what was expected, found, and what to do."""
 
 
 class MissingPart(Error, ImportError):

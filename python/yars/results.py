@@ -246,7 +246,7 @@ class Radar(Held):
 
     preset: 1996, draft, standard, fine or reference; None: that of the file, else standard.
     config: a GUF file, or the name of one that came with YARS, such as apg68.guf; None: the built-in APG-70.
-    settings: GUF text with forms that go before those of the file, such as "( Sea :state 3 )". knobs: slots of the form Fidelity in lower case, such as samples=480, map_size=256,
+    settings: GUF text with forms that replace those of the file, such as "( Sea :state 3 )". knobs: slots of the form Fidelity in lower case, such as samples=480, map_size=256,
     sub_beams=8. Errors: ValueError for a wrong value or name, yars.Error for the file. A Radar can be pickled.
 
     >>> yars.Radar("fine", samples=320).samples

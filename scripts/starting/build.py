@@ -1,4 +1,4 @@
-"""Of a checkout: installs what the set needs and builds its programs. One at a time, whoever starts."""
+"""Sets up a checkout and builds the programs of a set. A lock keeps other starts waiting meanwhile."""
 import contextlib
 import fcntl
 import os
@@ -12,13 +12,13 @@ BIN, LOG = "build/release/bin", "build/start.log"
 BUILD = ("cmake --preset release -DYARS_TESTS=OFF && NINJA_STATUS='step %f %t ' "
          "cmake --build --preset release --target")
 PROGRAMS = sorted({kind.program for name, kind in ROLES.items() if name != "gateway"})
-# Processor time and disk of a step of the build: means of a whole one, see HACKING.md, "What a build takes".
+# Processor time and disk space of one step: averages over a whole build (HACKING.md, "What a build takes").
 STEP_CPU_MS, STEP_DISK_KB = 2300, 2600
 
 
 @contextlib.contextmanager
 def one_at_a_time(what, path):
-    """A lock that ends with whoever holds it: this process and those that get the descriptor."""
+    """Takes a lock. The kernel frees it when this process and all that inherited the descriptor have closed it."""
     with open(path, "ab") as lock:
         try:
             fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -29,7 +29,7 @@ def one_at_a_time(what, path):
 
 
 def show_progress(lines, log):
-    """Of lines of ninja: on a terminal one line that is redrawn, else a line for every tenth."""
+    """Shows the progress of ninja: on a terminal as one line that is redrawn, else as a line for every 10 %."""
     redraw = os.isatty(1) and os.environ.get("TERM", "dumb") != "dumb"
     began, next_percent, cores = time.monotonic(), 0, len(os.sched_getaffinity(0))
     for line in lines:
@@ -57,7 +57,7 @@ def show_progress(lines, log):
 
 def set_up_and_build(network, lock):
     stopped = []
-    catch_signals(lambda *_: stopped.append(True))  # the build, which they reach too, ends by itself
+    catch_signals(lambda *_: stopped.append(True))  # the signals reach the build, too, and end it
 
     def expect(is_done, doing, fault):
         if stopped:
@@ -83,7 +83,8 @@ def set_up_and_build(network, lock):
 
 
 def folder_of_programs(given, fly_out, network):
-    """Built first, where --bin does not name it; but a live set goes on at once, with what is built already."""
+    """Folder of the programs: --bin, or that of the build, which is brought up to date first. --fly-out uses programs
+    that are there without a build, because its live set takes over at once."""
     if given:
         return given if os.access(f"{given}/yars", os.X_OK) else end(
             2, f"--bin: expected a folder with yars and the other programs, found {quoted(given)}")
@@ -91,6 +92,6 @@ def folder_of_programs(given, fly_out, network):
         return str(HOME / "bin")
     if not fly_out or not all(os.access(f"{BIN}/{program}", os.X_OK) for program in PROGRAMS):
         os.makedirs("build", exist_ok=True)
-        with one_at_a_time("build", "build/start.lock") as lock:  # two builds in one folder spoil each other
+        with one_at_a_time("build", "build/start.lock") as lock:  # two builds in one folder damage each other's files
             set_up_and_build(network, lock)
     return BIN

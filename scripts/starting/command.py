@@ -1,4 +1,4 @@
-"""The command itself: its name, its folders, what it says, and how it ends."""
+"""Name, folders, messages and exit of the start command."""
 import contextlib
 import os
 import pathlib
@@ -17,7 +17,7 @@ SHARE = HOME / "share/yars" if INSTALLED else HOME
 
 
 def put(descriptor, text):
-    """A line for people. Its reader may be gone and a disk may be full: neither is a fault of the set."""
+    """Prints a line. A closed pipe or a full disk must not end the set, so errors of writing are ignored."""
     with contextlib.suppress(OSError):
         os.write(descriptor, f"{text}\n".encode(errors="replace"))
 
@@ -38,7 +38,7 @@ def end(code, text):
 
 
 def refuse(text, meant=""):
-    """Bad usage: what was expected and what was found; `meant`: "did you mean 'WORD'? " or nothing."""
+    """Ends with code 2 for bad usage. `text`: what was expected and found. `meant`: empty, or "did you mean X? "."""
     end(2, f"{text}; {meant}{'See' if meant else 'see'} {NAME} --help")
 
 
@@ -49,7 +49,7 @@ def catch_signals(handler=lambda *_: sys.exit(130)):
 
 
 def run(*command, **more):
-    """The command's end, with what it wrote as text. A command that cannot be started, or is too slow, has failed."""
+    """Runs a command and returns its exit code and output. Code 127: it could not be started, or took too long."""
     try:
         return subprocess.run(command, errors="surrogateescape", stdin=subprocess.DEVNULL, check=False, **more)
     except (subprocess.TimeoutExpired, OSError) as problem:
@@ -57,18 +57,18 @@ def run(*command, **more):
 
 
 def put_as_own(said):
-    """A message of `yars COMMAND` as one of this command."""
+    """Prints a message of `yars COMMAND` with the name of this command in its place."""
     put(2, f"{NAME}: " + re.sub(r"\Ayars.*?: ", "", said.rstrip("\n"), flags=re.S))
 
 
 def user_folder(variable, below_home):
-    """Of the XDG base directories; empty without a home."""
+    """A folder of the XDG Base Directory Specification; empty if neither `variable` nor HOME is set."""
     home = os.environ.get("HOME")
     return os.environ.get(variable) or (f"{home}/{below_home}" if home else "")
 
 
 def private_folder(path):
-    """Made for the user alone."""
+    """Makes a folder with mode 0700 if it does not exist."""
     before = os.umask(0o077)
     try:
         os.makedirs(path, exist_ok=True)

@@ -152,7 +152,7 @@ def parse(arguments):
 
 
 def check_together(given):
-    """Which options go together: what is wrong, and how it is said."""
+    """Refuses options that contradict each other, and files that cannot be read."""
     def readable(file):
         return not file or os.access(file, os.R_OK)
 
@@ -189,7 +189,7 @@ def check_together(given):
 
 
 def choose_display(options):
-    """A window, or frames in a folder for a time."""
+    """Chooses between a window and frames in a folder for a limited time. Says so if no screen is found."""
     frames_given, options.frames = options.frames, options.frames or os.path.join(HERE, "frames")
     options.every, options.endless = options.every or "1", False
     screen, says = os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"), "No display found: running headless"

@@ -1,17 +1,17 @@
-"""The roles, and the set that some of them make."""
+"""Table of the roles that a set can have."""
 import dataclasses
 import subprocess
 
 
 @dataclasses.dataclass(frozen=True)
 class Kind:
-    """What holds for a role in every set."""
+    """Properties of a role that are the same in every set."""
     program: str
-    options: str = ""        # those of sets.py that it gets, behind those of all roles
-    of_set: bool = False     # --roles names it
-    once: int = 0            # a session has it once on a computer: its byte of the set's lock
+    options: str = ""        # its options, by their names in sets.py; options of all roles come first
+    of_set: bool = False     # --roles may name it
+    once: int = 0            # one at most in a session on a computer: its byte in the set's lock; 0: any number
     needed: bool = False     # without it there is no radar
-    awaits: str = "claimed"  # what a hand-over says before the role starts
+    awaits: str = "claimed"  # line of a hand-over after which the role starts
 
 
 ROLES = {  # in the order of a lockstep plan

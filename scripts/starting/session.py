@@ -1,4 +1,4 @@
-"""The session of a set, as its files in /dev/shm and `yars` show it: who has it, who takes part, who still lives."""
+"""State of a set's session, from its files in /dev/shm and from `yars`: lock, participants, heartbeats."""
 import contextlib
 import fcntl
 import json
@@ -13,25 +13,25 @@ FOR_BOTH = os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW | os.O_NONBLOCK  # no link i
 
 
 def path_of(kind, session):
-    """`kind`: yars, the segment; yars-set, the lock of its sets."""
+    """Path of a file of the session. `kind`: yars for the segment, yars-set for the lock of its sets."""
     return f"/dev/shm/{kind}.{os.geteuid()}.{session}"
 
 
 def is_named(path, file):
-    """Whether the name of an open file is still its own."""
+    """Whether the path still leads to this open file."""
     with contextlib.suppress(FileNotFoundError):
         return os.path.samestat(os.stat(path, follow_symlinks=False), os.fstat(file))
     return False
 
 
 def take_set_lock(path, names, lockstep):
-    """The right to run a set in a session: locks on bytes of a file, which the kernel releases when this process ends.
-    Byte 0 is of the set: one in lockstep begins only where no other is. Others are of roles that a session has once.
-    None: another set has a role of this one, or is there beside a set in lockstep. OSError: no file of this user."""
+    """Takes the locks, on bytes of a file, of a set in a session. The kernel frees them when this process ends.
+    Byte 0: shared by sets; a set in lockstep needs it alone. Other bytes: roles of which a session has one (Kind.once).
+    Returns None if another set has one of these locks. OSError: the file belongs to another user."""
     while True:
         file = os.open(path, FOR_BOTH | os.O_CREAT, 0o600)
         try:
-            # Byte 0 first: of a set in lockstep and another one that start at once, one goes on.
+            # Byte 0 first, so that of two sets that start at the same time, one in lockstep, exactly one continues.
             fcntl.lockf(file, ALONE if lockstep else SHARED, 1, 0)
             for byte in sorted({ROLES[name].once for name in names if name in ROLES} - {0}):
                 fcntl.lockf(file, ALONE, 1, byte)
@@ -45,7 +45,7 @@ def take_set_lock(path, names, lockstep):
 
 
 def give_set_lock_back(path, file):
-    """The last set of a session removes the file."""
+    """Frees the locks. The last set of a session removes the file."""
     with contextlib.suppress(OSError):  # others are in the session
         fcntl.lockf(file, ALONE, 1 + max(kind.once for kind in ROLES.values()), 0)
         os.unlink(path)
@@ -63,13 +63,13 @@ def remove_leftover(session):
 
 
 def run_yars(of, *arguments, codes=(0,)):
-    """Standard output of a command in the session of a set; None when it failed: ended with another code."""
+    """Standard output of `yars` in the session of a set; None if it ended with a code that is not in `codes`."""
     done = run(f"{of.bin}/yars", "--session", of.session, *arguments, capture_output=True, timeout=10.0)
     return done.stdout if done.returncode in codes else None
 
 
 def read_json(of, *arguments, codes=(0,)):
-    """What a command prints; empty when it fails, or was killed while it printed."""
+    """JSON that `yars` prints; empty if it fails, or is killed while it prints."""
     with contextlib.suppress(json.JSONDecodeError):
         return json.loads(run_yars(of, *arguments, codes=codes) or "{}")
     return {}
@@ -80,8 +80,8 @@ def watch(of):
 
 
 def heartbeats(of, layout):
-    """Times of the last heartbeats in the session's table of processes, [ns] of CLOCK_MONOTONIC, by pid. `layout` keeps
-    what `yars status --layout` says of the place of the table."""
+    """Times of the last heartbeats in the session's table of processes, [ns] of CLOCK_MONOTONIC, by pid. `layout` is
+    a cache of `yars status --layout`, which has the position of the table."""
     layout |= layout or read_json(of, "status", "--layout")
     try:
         table, at = layout["containers"]["processes"], layout["offsets"]["processes"]
@@ -95,8 +95,8 @@ def heartbeats(of, layout):
 
 
 def is_there_already(of):
-    """Whether processes that no set holds have a role of this set. In lockstep all begin together: any process counts.
-    A program of the user's own may wait in a session for its set, and a hand-over looks by itself."""
+    """Whether a process outside this set has a role of it that a session has once. For a set in lockstep any process
+    counts, because all begin together; else other programs may wait in the session. A hand-over tests this itself."""
     if any(role.name == "hand-over" for role in of.roles):
         return False
     present = watch(of)

@@ -1,4 +1,4 @@
-"""The sets of a command line: one, or the two of a tour. Each role gets its command."""
+"""Makes the sets of a command line, one or the two of a tour, with the command of each role."""
 import glob
 import os
 
@@ -14,7 +14,7 @@ TOURS = (("", "", "radar.tour"), (f"{SHARE}/config/default_apg68.guf", "/apg68",
 
 
 def join_network(options):
-    """A form Network in the configuration joins other computers, too, as the gateway reads it there."""
+    """Sets --network if the configuration has a form Network, because the gateway reads the form there."""
     if options.config and not (options.network or options.tour or options.fly_out):
         printed = run(f"{options.bin}/yars", "config", "print", options.config, capture_output=True).stdout
         if any(line.startswith("( Network") for line in printed.splitlines()):
@@ -27,7 +27,7 @@ def join_network(options):
 
 
 def choose_folders(options):
-    """Those of the user, for logs and the station's tokens; without a home there is none."""
+    """Chooses the user's folders for logs and for the station's tokens. Without a home folder there are none."""
     state = user_folder("XDG_STATE_HOME", ".local/state")
     if options.log_dir is None:
         options.log_dir = f"{state}/yars/{options.session}" if state else ""
@@ -50,7 +50,7 @@ def inputs_of(options, tour_file):
 
 
 def folder_for(options, frames):
-    """Of the display's pictures in files, if there are any."""
+    """Folder of the display's frames; None if it writes none."""
     if not options.headless or options.no_frames or "radar-display" not in options.running:
         return None
     earlier = len(glob.glob(f"{glob.escape(private_folder(frames))}/frame_*.png"))

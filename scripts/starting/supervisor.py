@@ -38,7 +38,7 @@ def how_it_ended(code):
 
 
 def usable(folder):
-    """The folder of the logs, or nothing. One warning for the whole set when it is no good."""
+    """The folder of the logs; empty if it cannot be written, with one warning for the whole set."""
     try:
         if folder and not os.access(private_folder(folder), os.W_OK | os.X_OK):
             raise PermissionError("no leave to write there")
@@ -76,7 +76,7 @@ class Supervisor:
             self.terminal = termios.tcgetattr(0)
 
     def is_due(self, what, pause_s):
-        """Once in a pause."""
+        """True at most once in `pause_s` for each `what`."""
         now = time.monotonic()
         if now < self.due.get(what, 0.0):
             return False
@@ -144,7 +144,7 @@ class Supervisor:
             self.fail(f"the hand-over of the recording {how_it_ended(code)}; the set ends")
             return
         self.say(f"goes on from the recording {time.monotonic() - self.began:.2f} s after the start")
-        # Its power is that of the recording, and then the pilot's.
+        # The radar has the power state of the recording. From then on the pilot decides.
         self.powered_segment, self.powered_events = self.segment() or 0, session.watch(self.of).get("events_applied", 0)
 
     def may_start(self, role):
@@ -197,12 +197,12 @@ class Supervisor:
             self.restore_terminal()
 
     def hand_in_notes(self):
-        """When all have died there is no flight recorder until the first is back."""
+        """Writes the notes into the flight recorder. Without a running role there is none, and the notes wait."""
         while self.notes and session.run_yars(self.of, "note", *self.notes[0]) is not None:
             self.notes.pop(0)
 
     def keep(self, file):
-        """What the recorder wrote before it died plays; the next one would write over it."""
+        """Keeps the file of a dead recorder under another name: it can be replayed, and the next one writes over it."""
         number = 1
         while os.path.lexists(f"{file}.{number}"):
             number += 1
@@ -220,7 +220,7 @@ class Supervisor:
         signal.signal(signal.SIGTTOU, before)
 
     def end_all(self):
-        """The hand-over first. The gateway last: it tells the other computers how the roles here have ended."""
+        """Ends the hand-over, the roles, then the gateway, which reports to other computers how the roles ended."""
         gateways = [role for role in self.roles if role.name == "gateway"]
         others = [role for role in self.roles if role not in gateways]
         for group in ([self.hand_over] if self.hand_over else [], others, gateways):
@@ -241,7 +241,7 @@ class Supervisor:
     # ---- Who takes part, who hangs, and the power ----
 
     def look_who_is_here(self):
-        """Only while somebody is awaited: a running set costs nothing."""
+        """Finds roles that have joined the session. Looks only while one is missing, so a running set costs nothing."""
         if all(role.here or not role.process for role in self.roles) or not self.is_due("who is here", JOIN_LOOK_S):
             return
         present = {entry["pid"] for entry in session.watch(self.of).get("processes", {}).values()}
@@ -276,14 +276,14 @@ class Supervisor:
         return self.gateway_awaited
 
     def segment(self):
-        """Identity of the session's segment; None when its name is gone, which changes nothing."""
+        """Inode of the session's segment; None if its name was removed, which does not affect the running set."""
         with contextlib.suppress(OSError):
             return os.stat(session.path_of("yars", self.of.session)).st_ino
         return None
 
     def switch_on(self):
-        """Sends the events until the radar is seen on; from then on power is the pilot's. What was sent to a set that
-        died is sent to the next one: a new segment, or a state-machine that has applied fewer events than were sent."""
+        """Sends the power-on events until the radar is on; from then on the pilot decides. Sends them again to a new
+        segment, or to a new state-machine: one that has applied fewer events than were sent."""
         machine = next((role for role in self.roles if role.name == "state-machine"), None)
         first = self.powered_segment is None
         is_late = first and time.monotonic() - self.began > POWER_ON_WITHIN_S

@@ -1,4 +1,4 @@
-"""Where the set flies: by the user's file of defaults, a recording, or the coast that is made once."""
+"""Chooses terrain, flight and configuration of a set: the user's, a recording's, or the default coast's."""
 import os
 import pathlib
 import shutil
@@ -13,12 +13,12 @@ GENERATOR_SOURCES = ("worldgen", "lib/random", "model/terrain/formats", "tools/t
                      "tools/scene/scene_command.cpp", "config/coast.scenes")
 SUM_OF_SOURCES = (r"""find "$@" \( -name '*.[ch]pp' -o -name '*.scenes' \) -print0 | LC_ALL=C sort -z | xargs -0 cat """
                   "| sha256sum")
-# What the coast has to be: its generator, and every file with its sum. `complete` in it says the same.
+# Prints the checksum of each file of the coast. Its file `complete` has the generator's checksum, then these.
 SUMS = "find . -type f ! -name complete -print0 | LC_ALL=C sort -z | xargs -0r sha256sum"
 
 
 def take(options, lines, names):
-    """Values of lines NAME = VALUE, unless the command line has them; all that the lines say."""
+    """Sets options from lines NAME = VALUE, unless the command line has set them. Returns all values of the lines."""
     said = dict(line.split(" = ", 1) for line in lines.splitlines() if " = " in line)
     for name in names:
         setattr(options, name, getattr(options, name) or said.get(name))
@@ -26,7 +26,7 @@ def take(options, lines, names):
 
 
 def use_user_defaults(options):
-    """The programs do not read the file again."""
+    """Takes options from the user's file of defaults. The programs of the set then do not read that file."""
     done = run(f"{options.bin}/yars", "config", "user", stdout=subprocess.PIPE)
     if done.returncode != 0:
         raise SystemExit(1)
@@ -38,7 +38,7 @@ def use_user_defaults(options):
 
 
 def use_recording(options):
-    """What the recording of --fly-out says: configuration, terrain and flight."""
+    """Takes configuration, terrain and source of the flight from the recording of --fly-out."""
     source = options.source
     done = run(f"{options.bin}/yars", "recordings", options.fly_out, "--at", options.at, "--lines",
                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
@@ -61,7 +61,7 @@ def shell(script, *words, folder=None):
 
 
 def generator_of(options):
-    """What makes the coast, as a sum: the program, of a checkout its sources; and the list of scenes."""
+    """Checksum of the coast's generator, with the list of scenes: of the program yars, in a checkout of its sources."""
     if INSTALLED:
         return shell('cat "$@" | sha256sum', f"{options.bin}/yars", SCENES).stdout
     done = shell(SUM_OF_SOURCES, *GENERATOR_SOURCES)
@@ -70,7 +70,7 @@ def generator_of(options):
 
 
 def make_coast(folder, generator, yars, lock):
-    """Made beside its place and renamed when it is whole. Under the lock, so what others left half made may go."""
+    """Makes the coast under a temporary name, then renames it. Removes unfinished folders: the caller has the lock."""
     def make(*words, **more):
         done = run(yars, *words, stdout=subprocess.PIPE, pass_fds=[lock], **more)
         if done.returncode != 0:
@@ -98,7 +98,7 @@ def make_coast(folder, generator, yars, lock):
 
 
 def use_coast(options):
-    """Made again when its generator has changed or something is missing or damaged."""
+    """Uses the default coast. Makes it if its generator has changed, or a file is missing or damaged."""
     folder = pathlib.Path("build/terrain/default")
     if INSTALLED:
         cache = user_folder("XDG_CACHE_HOME", ".cache")

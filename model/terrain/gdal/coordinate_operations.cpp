@@ -122,9 +122,9 @@ std::string missing_grid(PJ_CONTEXT* context, PJ* operation) {
   return {};
 }
 
-// Some operations cannot be used because a grid file is missing. Returns a text that names the file of the most
-// accurate of them. Empty if none of them is more than 1 m more accurate than the chosen operation. `accuracy_m`:
-// accuracy of the chosen operation; negative: not known, so that any operation with a known accuracy is better.
+// Text that names the missing grid file of the most accurate operation that cannot be used without it. Empty if no such
+// operation is better than the chosen one by more than 1 m. `accuracy_m`: accuracy of the chosen operation; negative:
+// not known, so any operation with a known accuracy is better.
 std::string better_operation_lacking_grid(PJ_CONTEXT* context, PJ_OBJ_LIST* list, double accuracy_m) {
   std::string best;
   double best_m = accuracy_m < 0.0 ? 1e9 : accuracy_m - 1.0;
