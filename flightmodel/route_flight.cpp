@@ -147,7 +147,7 @@ bool RouteFlight::resume(const databuffer::Ownship& last, geo::Duration gap) {
   return true;
 }
 
-// Index of the waypoint at the begin of the leg that the aircraft flies. A leg in another direction than the track
+// Index of the waypoint at the start of the leg that the aircraft flies. A leg in another direction than the track
 // counts as farther away: by the radius of a turn for each radian.
 std::size_t RouteFlight::leg_flown(const Motion& motion) const {
   std::size_t best = 0;

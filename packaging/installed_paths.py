@@ -16,7 +16,7 @@ FOLDERS = ("build|config|databuffer|display|docs|examples|gateway|inputmonitor|l
            "|worldgen")
 PATH = re.compile(rf"(?<![\w./<~$=-])(?:\./)?((?:{FOLDERS})/(?:[\w*@-]|[./](?=[\w*@-]))*/?)")
 LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")
-# What only a checkout needs, and the text that takes its place. The comment marks show the first in the sources.
+# Text for a checkout, and the text that replaces it in an installation. In the sources the comment hides the second.
 SOURCES_ONLY = re.compile(r"<!-- sources -->\n.*?<!-- installed\n(.*?)-->\n", re.S)
 # Before the paths: parts of commands.
 WORDS = [('"databuffer/client/yars.h"', "<yars/yars.h>"), ('"databuffer/client/yars_client.h"', "<yars/yars_client.h>"),
@@ -38,7 +38,7 @@ SAYS = ("This is the installed copy: the programs are on your path, `examples/` 
 
 
 def installed_place(path, prefix, documents, share):
-    """What stands for a path of the sources."""
+    """Path or text in an installation for a path of the sources."""
     if path in PLACES:
         return PLACES[path]
     program = re.fullmatch(r"build/(?:release|dev)/bin/([\w-]+)", path)

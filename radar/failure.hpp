@@ -1,4 +1,4 @@
-// How parts of the library end a call with an error, and how a public function gives it to its caller.
+// Errors inside the library: fail() throws a Failure, and guarded() turns it into the error of a public function.
 #pragma once
 
 #include <functional>
@@ -19,7 +19,7 @@ struct Failure {
   throw Failure{std::move(error)};
 }
 
-// What call() gives; or the error that it ended with.
+// Returns the result of call(), or the error that it has thrown.
 template <class Function>
 auto guarded(const Function& call) -> Expected<std::invoke_result_t<Function>> {
   const text::DecimalPoint numbers;  // in GUF, messages and names, whatever the caller's locale has

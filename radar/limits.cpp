@@ -168,7 +168,7 @@ const values::Field* field_named(std::span<const values::Field> fields, std::str
   return found == fields.end() ? nullptr : &*found;
 }
 
-// The text with each `NAME` or `NAME=VALUE` of a field spelled anew.
+// The text with each `NAME` or `NAME=VALUE` of a field replaced by what `spell` returns for it.
 std::string spelled_text(const std::string& text, std::span<const values::Field> fields, const Spell& spell) {
   std::string changed;
   std::size_t at = 0;

@@ -1,4 +1,4 @@
-// What a Patch has: configuration, order, environment, and the computation or its result.
+// Data of a Patch: configuration, order, environment, and the computation or its result.
 #pragma once
 
 #include <memory>
@@ -17,7 +17,7 @@ namespace yars {
 struct Patch::Work {
   Work(const radar::RadarConfiguration& given, std::size_t threads, LabelUse labels);
 
-  // The computation, made when first asked for, and anew after finish().
+  // The computation. ready() makes it at the first call, and again after finish().
   struct Formation {
     Formation(const radar::RadarConfiguration& configuration, std::size_t threads, LabelUse labels);
     parallel::ThreadPool workers;

@@ -1,4 +1,4 @@
-// What the middle ray of each sweep of a scan meets: ground, lit or in shadow.
+// Ground under the samples of the middle ray of each sweep of a scan, lit or in shadow.
 #pragma once
 
 #include <span>
@@ -28,8 +28,8 @@ struct RaySample {
   bool returns = false;
 };
 
-// Samples of all sweeps: sweep after sweep, from near to far. It asks `goes_on` between sweeps, and throws
-// parallel::Stopped.
+// Samples of all sweeps: sweep after sweep, from near to far. Calls `goes_on` between sweeps; if it returns false,
+// throws parallel::Stopped.
 std::vector<RaySample> ray_samples(const RadarConfiguration& configuration,
                                    std::span<const model::kernel::SweepHeader> positions,
                                    const model::terrain::TerrainView& terrain, const parallel::GoesOn& goes_on = {});

@@ -1,4 +1,4 @@
-// What a Scan has: configuration, environment, and the computation or its result.
+// Data of a Scan: configuration, request, environment, and the computation or its result.
 #pragma once
 
 #include <memory>
@@ -27,7 +27,7 @@ struct Scan::Work {
   std::size_t rays = 0;                              // after finish()
   std::optional<ScanLabels> labels;
 
-  // The computation, made when first asked for.
+  // The computation, made at the first call.
   model::kernel::OfflineScan& ready();
   std::span<const databuffer::Sweep> sweeps() const { return scan ? scan->sweeps() : std::span(result.sweeps); }
   std::span<const model::kernel::SweepHeader> headers() const {

@@ -1,4 +1,4 @@
-// What terrain and scenes are to the library: stores that stay open, and footprints of objects.
+// Data of a Terrain and a Scene: stores that stay open, and footprints of objects.
 // Threads: Terrain::Stores serves one call at a time; a lock makes others wait.
 #pragma once
 
@@ -26,8 +26,8 @@ class Terrain::Stores {
 
   const radar::TerrainConfiguration& configuration() const { return configuration_; }
 
-  // What work(theatre) gives, with the theatre of these scenes and this use, which is opened when first asked for.
-  // After a Failure the files are read anew next time. Throws parallel::Stopped.
+  // Returns work(theatre). `theatre`: that of these scenes and this use, opened at the first call. After a Failure the
+  // next call reads the files again. Throws parallel::Stopped.
   template <class Work>
   auto with_theatre(const std::vector<radar::Scene>& scenes, model::scene::SceneUse use,
                     const parallel::GoesOn& goes_on, const Work& work) {

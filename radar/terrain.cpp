@@ -30,7 +30,7 @@ Expected<Terrain> Terrain::open(const TerrainSettings& settings) {
     configuration.directory = settings.folder;
     configuration.missing_cell_is_sea = settings.missing_cell_is_sea;
     auto stores = std::make_shared<Stores>(std::move(configuration));
-    stores->with_theatre({}, SceneUse::scatterers, {}, [](const Theatre&) {});  // a missing folder is told at once
+    stores->with_theatre({}, SceneUse::scatterers, {}, [](const Theatre&) {});  // a missing folder is reported at once
     return Terrain(std::move(stores));
   });
 }

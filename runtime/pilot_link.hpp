@@ -1,4 +1,4 @@
-// What a program with a display needs of the session: an input lane for the pilot's actions, and which roles live.
+// Link of a program with a display to the session: an input lane for the pilot's actions, and the running roles.
 // Inputs: events of a pilot; the process table. Outputs: stamped events in the lane.
 // Errors: no input lane is free. A full lane drops the event, with a warning.
 // Threads: one for each InputLane.

@@ -495,7 +495,7 @@ def run(checker, purpose, findings, clean, draw=None):
     parser = argparse.ArgumentParser(description=purpose)
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
     if draw:
-        parser.add_argument("--draw", action="store_true", help=f"write {DIAGRAM} and its picture anew")
+        parser.add_argument("--draw", action="store_true", help=f"rewrite {DIAGRAM} and its picture")
     options = parser.parse_args()
     root = options.root
     if draw and options.draw:

@@ -190,7 +190,7 @@ namespace {
 using radar::PointName;
 using text::text_of;
 
-// Navigator coordinates of the cursor. They are computed anew, because the cursor may have jumped in this tick.
+// Navigator coordinates of the cursor. They are computed again, because the cursor may have jumped in this tick.
 geo::GeoPoint known_cursor(const Step& step) {
   const RadarState& state = step.state;
   const auto navigator = databuffer::selected_navigator_position(step.inputs.ownship, step.inputs.nav, state);

@@ -1,4 +1,4 @@
-// What an action of the transition table receives, and helpers for flags, enums and messages of the radar state.
+// Argument of the actions of the transition table, and helpers for flags, enums and messages of the radar state.
 // Inputs: radar state, one event, inputs of the tick, configuration.
 // Outputs: changes of the radar state; `refused` when the event cannot be carried out.
 #pragma once

@@ -1,4 +1,4 @@
-// What the instructor's map shows, as objects of JSON: aircraft, scan, patch maps; sequence points, beacons, route.
+// JSON objects of the instructor's map: aircraft, scan, patch maps; sequence points, beacons, route.
 // Inputs: valid records of the session; the configuration; waypoints of the route.
 // Outputs: objects for docs/station.md#messages. Positions are WGS84 in degrees; unknown values are null.
 // Errors: none. Threads: any; functions without state.

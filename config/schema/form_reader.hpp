@@ -49,7 +49,7 @@ class FormReader {
   FormReader(ConfigurationBuilder& builder, std::vector<std::string>& warnings)
       : builder_(builder), warnings_(warnings) {}
   void read_all(const std::vector<Slot>& arguments);
-  // What a user can intend, and can overlook: "FILE:LINE:COLUMN: note: TEXT".
+  // Remarks on valid text that may be a mistake: "FILE:LINE:COLUMN: note: TEXT".
   const std::vector<std::string>& notes() const { return notes_; }
 
  private:

@@ -1,4 +1,4 @@
-// Who takes part in a session: its roles, and the hosts of one that runs on several computers. Parts of Status.
+// Participants of a session: its roles, and its hosts if it runs on several computers. Parts of Status.
 // Inputs: a session, read only; the record that its gateway publishes. A record that fails validation counts as absent.
 // Source: docs/network.md.
 #pragma once

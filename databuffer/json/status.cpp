@@ -164,7 +164,7 @@ void add_role_reasons(const Status& status, std::vector<std::string>& reasons) {
   }
 }
 
-// What a user can do for a role that is too slow at a clock of this rate.
+// Remedy for a role that is too slow for the clock's rate.
 std::string remedy_of_lag(std::string_view role, double rate) {
   std::string remedy;
   if (rate > 1.0) remedy = "let time run slower (yars sim rate 1), ";

@@ -59,7 +59,7 @@ inline bool is_help(Key key) {
   return key == Key{'?'} || key == Key::f1;
 }
 
-// True for a letter or digit without an event. Who types it is told so.
+// True for a letter or digit without an event. The program then answers with kDeadKeyHelp.
 bool is_dead_letter(Key key);
 inline constexpr const char* kDeadKeyHelp = "this key does nothing; ? shows the keys";
 

@@ -23,7 +23,7 @@ inline constexpr int kPortionTime_ms = 30;
 
 ClockState with_running(const ClockState& clock, bool running);
 ClockState with_rate(const ClockState& clock, double rate);
-// Freezes and advances by at most kStepPortion_ticks. From any time within a tick, the first of them leads to the begin
+// Freezes and advances by at most kStepPortion_ticks. From any time within a tick, the first step leads to the start
 // of the next tick.
 ClockState stepped(const ClockState& clock, std::int64_t ticks);
 // Begins an epoch at sim time `time_s`, rounded to a whole tick, because a replay shows the picture of that tick.

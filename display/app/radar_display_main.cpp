@@ -40,7 +40,7 @@ struct DisplayOptions {
   bool shows_panel() const { return bezel || tooltip; }
 };
 
-// Interval of updates without a window. If sim time runs at the rate of real time, a frame follows the begin of its
+// Interval of updates without a window. If sim time runs at the rate of real time, a frame follows the start of its
 // step (FrameSteps) by about 10 ms at most. No sweep is lost, because the session's ring keeps sweeps for 5 s.
 constexpr std::chrono::milliseconds kHeadlessInterval{10};
 

@@ -44,7 +44,7 @@ struct KeyEdge {
 };
 
 // Press or release of a mouse button. `at`: position as fractions of the largest square in the middle of the window,
-// from its upper left corner. A position beside the square has a coordinate outside 0..1.
+// from its upper left corner. A position outside the square has a coordinate outside 0..1.
 struct MouseEdge {
   bool left = true;  // false: the right button
   bool pressed = false;

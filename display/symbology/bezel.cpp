@@ -84,7 +84,7 @@ void draw_bezel(const PanelLayout& layout, int lit, DrawList& list) {
 
 namespace {
 
-// Lines of the tooltip: number, key and legend; what the button does; above the legend of PB 8 stands the window.
+// Lines of the tooltip: number, key and legend; what the button does; for PB 8 also the window above its legend.
 std::vector<std::string> tooltip_lines(const DisplayInput& input, int button, float max_width) {
   constexpr int kBelowWindow = 8;
   const std::string legend(text::text_of(input.state.legends[button]));

@@ -22,7 +22,7 @@ struct PanelLayout {
   float border = kBezelBorder;  // [units] 0: no bezel
 
   float edge() const { return kDisplayUnits + 2.0F * border; }
-  // The position in display units, which lies outside 0..480 beside the picture.
+  // The position in display units; outside the picture a coordinate is outside 0..480.
   Point on_picture(Point on_panel) const { return {on_panel.x - border, on_panel.y - border}; }
 };
 
@@ -33,7 +33,7 @@ std::optional<int> button_at(const PanelLayout& layout, Point on_panel);
 // Draws the bezel, if the layout has one. `lit`: button under the mouse, drawn brighter; 0: none.
 void draw_bezel(const PanelLayout& layout, int lit, DrawList& list);
 
-// Draws the tooltip of a button beside it: number, key, legend, what it does now, or why it is dead and the remedy.
+// Draws the tooltip of a button next to it: number, key, legend, what it does now, or why it is dead and the remedy.
 void draw_tooltip(const PanelLayout& layout, const DisplayInput& input, int button, DrawList& list);
 
 // Draws a line of text in the upper part of the picture.

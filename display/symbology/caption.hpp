@@ -8,8 +8,8 @@
 
 namespace yars::display {
 
-// Draws the caption on a plate as wide as its longest line. The plate stands low in the picture, above the messages. If
-// it covered a text, a symbol or a line on the ground there, it stands at the top, or where it covers least. A caption
+// Draws the caption on a plate as wide as its longest line. The plate is low in the picture, above the messages. If it
+// would cover a text, a symbol or a line on the ground there, it is at the top, or where it covers least. A caption
 // with step 0 draws nothing. Call it last.
 void draw_caption(const databuffer::Caption& caption, DrawList& list);
 

@@ -354,7 +354,7 @@ template <class Element>
 void visit_changed(const std::vector<Element>& before, const std::vector<Element>& after,
                    const std::function<void(const Rect&)>& box) {
   const bool same_count = before.size() == after.size();
-  std::size_t begin = 0, end = 0;  // equal elements at the begin and at the end
+  std::size_t begin = 0, end = 0;  // equal elements at the start and at the end
   const std::size_t common = std::min(before.size(), after.size());
   while (begin < common && before[begin] == after[begin]) ++begin;
   while (end < common - begin && before[before.size() - 1 - end] == after[after.size() - 1 - end]) ++end;

@@ -24,11 +24,11 @@ std::optional<Point> cursor_at(const DisplayInput& input, const PlanView& view, 
 // Records the boxes of the cursor's arms as occupied. Texts that can move are placed clear of these boxes.
 void occupy_cursor(Point at, DrawList& list);
 
-// Draws the cursor, a cross with an open centre, on the top layer. Its arms are left out where a text stands. Draw it
+// Draws the cursor, a cross with an open centre, on the top layer. Its arms are left out where there is a text. Draw it
 // after all texts.
 void draw_cursor(Point at, DrawList& list);
 
-// True if the cursor's position is known and lies off the display.
+// True if the cursor's position is known and is off the display.
 bool cursor_is_off(const DisplayInput& input, const PlanView& view, const ViewFrame& frame);
 
 // Draws the window of the commanded patch map while the map forms: a square with two sides along the line of sight.

@@ -14,11 +14,12 @@ namespace yars::display {
 
 void draw_help(const DisplayInput& input, DrawList& list);
 
-// What a button does now or why it is dead, with its remedy: "longer range: 80 NM". `button`: 1..20. Without an advice
-// of the state machine the text says so.
+// What a button does now or why it is dead, with its remedy: "longer range: 80 NM". `button`: 1..20. Without advice
+// from the state machine the text says so.
 std::string words_of_button(const DisplayInput& input, int button);
 
-// The selected window, which stands above the legend of PB 8, and the events that change it; what a blank window is.
+// Text about the window above the legend of PB 8: the selected window, the events that change it, and what a blank
+// window is.
 std::string words_of_window(const DisplayInput& input);
 
 // Number and key of a button: "PB 13, KEY D"; "PB 1" for a button without a key.

@@ -3,9 +3,9 @@
 //   lines.
 // Outputs: the labels as texts of the list, clear of each other and of the list's content. Range arcs and the zero
 //   azimuth line may run behind the labels.
-// A label stands in one of eight positions around its symbol, or farther out at the end of a leader line. A label
+// A label is put in one of eight positions around its symbol, or farther out at the end of a leader line. A label
 // without a free position is omitted. A label in the rows of the legends at the upper and lower edge would be read as a
-// legend; only a name without another position stands there. A name without any such position has a leader line that
+// legend; only a name without another position is put there. A name without any such position has a leader line that
 // runs behind texts and the cursor. A label keeps its position from picture to picture while
 // the position is clear. It moves nearer its symbol only to a position with more clearance than a new label needs. The
 // same labels, list and memory give the same positions. So do the same labels and list with the memory that the first
@@ -24,7 +24,7 @@
 
 namespace yars::display {
 
-// Name of a point, or heading of the steering line. A heading stands farther from its symbol than a name.
+// Name of a point, or heading of the steering line. A heading is farther from its symbol than a name.
 enum class LabelRole : std::uint8_t { name, heading };
 
 struct Label {

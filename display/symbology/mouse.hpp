@@ -15,9 +15,9 @@ namespace yars::display {
 
 enum class MouseButton { left, right };
 
-// The left button on the map: the cursor goes there and follows the mouse; the release releases the TDC's switch. A
-// release beside the map designates nothing. The right button moves the cursor alone. Without a button the mouse moves
-// nothing, so that a touch of the mouse does not disturb a pilot who uses keys or a stick.
+// A press of the left button on the map moves the cursor there, and the cursor then follows the mouse. The release
+// releases the TDC's switch; off the map it designates nothing. The right button only moves the cursor. Without a
+// button the mouse moves nothing, so that a touch of the mouse does not disturb a pilot who uses keys or a stick.
 class Mouse {
  public:
   std::vector<databuffer::InputEvent> press(const PanelLayout& layout, MouseButton button, Point at, bool takes_cursor);

@@ -1,4 +1,4 @@
-// Texts of the display: legends beside the buttons, readouts, messages, velocity differences.
+// Texts of the display: legends next to the buttons, readouts, messages, velocity differences.
 // Inputs: radar state; DisplayInput (plan_view.hpp); the position of a click.
 // Outputs: texts in a draw list; the number of the clicked button.
 // Units: positions in display units (draw_list.hpp).
@@ -12,7 +12,7 @@
 
 namespace yars::display {
 
-// Position of a legend beside its button, inside the display. The buttons of the MPD count counter-clockwise: 1-5 left
+// Position of a legend next to its button, inside the display. The buttons of the MPD count counter-clockwise: 1-5 left
 // side, downward; 6-10 bottom, left to right; 11-15 right side, upward; 16-20 top, right to left.
 struct LegendPosition {
   Point at;  // reference point of the text, at the middle of its height
@@ -26,7 +26,7 @@ LegendPosition legend_position(int button);
 // `at` is in no zone, for example in the middle, in a corner, between two zones or outside the display.
 std::optional<int> button_at(Point at);
 
-// Draws a readout. If the cursor is there, the readout steps aside, beyond the cursor, unless another text stands
+// Draws a readout. If the cursor is there, the readout moves beyond the cursor, unless another text is
 // there. The cursor must be in the list before (occupy_cursor()).
 void draw_readout(std::string_view words, Point at, const TextStyle& style, DrawList& list);
 
@@ -40,7 +40,7 @@ void draw_brightness(const databuffer::RadarState& state, DrawList& list);      
 void draw_range(const databuffer::RadarState& state, DrawList& list);           // between PB 13 and 14
 void draw_window_size(const databuffer::RadarState& state, DrawList& list);     // above PB 8; blank: no text
 void draw_cursor_readout(const databuffer::RadarState& state, DrawList& list);  // bearing with its north, ground range
-// Says below the cursor's readout that the cursor lies off the display.
+// Writes below the cursor's readout that the cursor is off the display.
 void draw_cursor_off(DrawList& list);
 void draw_map_width(const databuffer::PatchMap& map, DrawList& list);  // lower left: side of the map that is shown
 // Position error of UPDT, from the selected sequence point to the cursor: north and east components in feet, or in NM
@@ -52,7 +52,7 @@ void draw_map_timer(double seconds, DrawList& list);  // nothing if not finite
 // range to the target. Draws nothing in other modes.
 void draw_mode_name(const DisplayInput& input, DrawList& list);
 void draw_freeze(DrawList& list);
-// Draws the message, and below it the remedy in smaller text, on at most three lines. They stand above the azimuth
+// Draws the message, and below it the remedy in smaller text, on at most three lines. They are above the azimuth
 // scale; if the cursor is there, higher. Without a state machine the message is out of date; nothing is drawn. Nor is
 // NO OWNSHIP while draw_silent() draws it.
 void draw_message(const DisplayInput& input, DrawList& list);

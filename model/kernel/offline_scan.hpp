@@ -52,7 +52,7 @@ class OfflineScan {
   // Geometry and settings of each sweep. power() has the power of all samples, sweep after sweep.
   std::span<const SweepHeader> headers() const { return positions_; }
   std::span<const float> power() const { return power_; }
-  // What the functions above give, taken out of this object. Call it last.
+  // Results of the functions above, moved out of this object. Call it last.
   struct Result {
     std::vector<databuffer::Sweep> sweeps;
     std::vector<SweepHeader> headers;

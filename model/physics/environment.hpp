@@ -96,7 +96,7 @@ class Movers {
     geo::Vector3 ecef;  // [m] on the ellipsoid
     geo::Duration time{};
   };
-  // What the echoes of one sweep share.
+  // Values that all echoes of one sweep share.
   struct Sweep {
     const SweepGeometry& geometry;
     const Receiver& receiver;

@@ -57,7 +57,7 @@ class Beam {
   // As Algorithm::measure(), with point targets. Returns the sum over the rays.
   std::size_t measure(const physics::SweepGeometry& geometry, const physics::Environment& environment,
                       std::span<float> power);
-  // Number of rays measured since the begin of the pass.
+  // Number of rays measured since the start of the pass.
   std::size_t rays() const { return measured_; }
   // As Algorithm::lit(), of the ray nearest the beam's centre.
   void lit(std::span<std::uint8_t> mask) const;

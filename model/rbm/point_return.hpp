@@ -56,7 +56,7 @@ class PointReturn {
     std::size_t nearer = 0;    // about how many samples are nearer
     double power = 0.0;        // received in the middle of the beam's azimuth, without shadow; below 0: not yet known
   };
-  // What the echoes of a view have in common.
+  // Values that the echoes of a view share.
   struct View {
     geo::GeoPoint apex;
     geo::AltitudeMsl altitude;
@@ -67,7 +67,7 @@ class PointReturn {
 
     bool operator==(const View&) const = default;
   };
-  // What all targets of one sweep share.
+  // Values that all targets of one sweep share.
   struct Sweep {
     const physics::SweepGeometry& geometry;
     const physics::Environment& environment;

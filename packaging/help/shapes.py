@@ -1,4 +1,4 @@
-"""What may be written at a place of a command line, for all shells.
+"""Words and files that may complete an argument of a command line, for all shells.
 
 Inputs: commands and entries of help_text.py. Outputs: a list of words, or what the shell looks up.
 """

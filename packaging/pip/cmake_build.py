@@ -22,7 +22,7 @@ def give_up(message):
 
 
 def environment():
-    """That of the caller without pip's, which hides the packages that this Python has."""
+    """The caller's environment without the variables of pip and Python, which would hide installed packages."""
     return {name: value for name, value in os.environ.items() if not name.startswith(("PYTHON", "PIP_"))}
 
 

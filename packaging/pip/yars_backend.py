@@ -27,7 +27,7 @@ SUFFIXES = (".py", ".pyi", "py.typed", ".yaml", ".json")
 
 
 def version():
-    """That of the programs."""
+    """Version of the programs, from CMakeLists.txt."""
     return re.search(r"^project\(yars VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"), re.M)[1]
 
 

@@ -30,7 +30,7 @@ thread_local int own_calls = 0;
 std::atomic<bool> python_ends{false};
 thread_local bool ends_python = false;  // this thread runs what atexit has registered
 
-// Other threads run on until the interpreter is taken down: they are told to stop, and awaited for a while.
+// Stops the calls of other threads, and waits up to kLongestWait for them, before the interpreter is taken down.
 void end_calls() {
   constexpr std::chrono::seconds kLongestWait{2};
   constexpr std::chrono::milliseconds kPause{1};
@@ -84,7 +84,7 @@ std::set<ObjectLock*>& known_locks() {
   static auto* const locks = new std::set<ObjectLock*>;
   return *locks;
 }
-// Those that this thread holds for its fork().
+// The locks that this thread holds during its fork().
 struct HeldLock {
   ObjectLock* lock;
   std::shared_ptr<std::timed_mutex> mutex;

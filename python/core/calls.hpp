@@ -66,8 +66,8 @@ void without_interpreter(const Work& work) {
 
 // Lock of an object that several threads may use. os.fork() waits up to some seconds for the calls that hold such
 // locks, because a child has only the thread that forks. In the child all of them are free. An object whose call took
-// longer then may be half changed: `renew` makes it usable again, and leaves what it had to itself. Make and destroy it
-// with the interpreter's lock. Take it without.
+// longer may be half changed in the child: there `renew` makes it usable again, without freeing what it had. Make and
+// destroy an ObjectLock with the interpreter's lock; call take() without.
 class ObjectLock {
  public:
   explicit ObjectLock(std::function<void()> renew);

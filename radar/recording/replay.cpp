@@ -40,7 +40,7 @@ void Comparison::match(Hashes& own, Hashes& other, Key sweep, std::uint64_t hash
 }
 
 namespace {
-constexpr int kSmearMemory = 2;  // [sweeps] after the begin whose azimuth smear has power from before it
+constexpr int kSmearMemory = 2;  // [sweeps] at the start whose azimuth smear uses power from before it
 
 bool has_sub_beams(const radar::RadarConfiguration& configuration) {
   return configuration.fidelity.automatic || configuration.fidelity.sub_beams > 1;

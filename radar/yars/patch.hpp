@@ -28,7 +28,7 @@ class Radar;
 // Labels to compute. surfaces: shadow, layover, object, material. heights: height and grazing angle, too.
 enum class LabelUse : std::uint8_t { none, surfaces, heights };
 
-// What is on the ground, and what is computed of it.
+// Scenes and movers on the ground, and the labels to compute.
 struct PatchSubject {
   const Scene* scene = nullptr;  // null: the scenes in the terrain's folder, and those of the configuration
   std::span<const Mover> movers{};

@@ -63,7 +63,7 @@ class Supervisor:
         self.due = {}                 # time of the next look, by what is looked at
         self.layout = {}              # of the session's table of processes
         self.powered_segment = None   # inode of the segment in which the radar was seen on
-        self.powered_events = 0       # applied by then: a state-machine that knows fewer began anew
+        self.powered_events = 0       # applied by then: a state-machine with fewer has been restarted
         self.power_sent = None        # time at which the events were sent, and how many had been applied by then
         self.power_looked = False     # the state-machine that runs was seen to be on, or to be the pilot's
         self.power_told = False

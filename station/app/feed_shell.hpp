@@ -1,4 +1,5 @@
-// What the pages show, from the segment: frames of the display and the state of the set. What the pilot does, into it.
+// Feed between the segment and the pages: frames of the display and state of the set to the pages, the pilot's events
+// to the segment.
 // Inputs: published frames, radar state, model status, advice; events of the pages.
 // Outputs: messages for the pages; input events in an input lane.
 // Errors: invalid records are refused and noted; the last valid one stays. A full input lane drops the event, with a

@@ -39,7 +39,7 @@ Answer refusal(http::status status, std::string body) {
   return {status, std::move(body) + '\n', "text/plain; charset=utf-8", "default-src 'none'", {}, {}};
 }
 
-// What is wrong with where a request comes from, and what to do.
+// Answer to a request of a foreign host or origin: what is wrong, and what to do. nullopt: the request is allowed.
 std::optional<Answer> foreign(const Site& site, const Request& request, const Origins& origins) {
   const std::string_view origin = view_of(request[http::field::origin]);
   const auto quoted = [](std::string_view text) { return "'" + text::shortened(text::printable(text)) + "'"; };

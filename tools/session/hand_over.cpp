@@ -49,7 +49,7 @@ databuffer::Traffic traffic_at(databuffer::Traffic traffic, std::int64_t tick) {
   return traffic;
 }
 
-// What has joined the session since its roles were given back.
+// Tests which awaited roles have joined the session since this process gave its roles back.
 class Joining {
  public:
   Joining(const Session& session, const recording::BranchPoint& point, const std::string& roles)

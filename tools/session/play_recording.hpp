@@ -25,9 +25,9 @@ class ReplaySession {
   // jump_to() and start() set the clock to `tick` in a new epoch. start() also sets the rate and runs the clock.
   error::Expected<void> jump_to(std::int64_t tick);
   error::Expected<void> start(std::int64_t tick, double rate);
-  // Freezes the clock at `tick` in the recorded epoch, with the position at which a flight that begins anew is placed.
+  // Freezes the clock at `tick` in the recorded epoch, with the position at which a new flight begins.
   error::Expected<void> hold(std::int64_t tick, std::uint32_t epoch, const databuffer::Ownship& ownship);
-  // Runs the clock from where it stands. The epoch stays.
+  // Runs the clock from its present time. The epoch stays.
   error::Expected<void> release_clock();
   // Gives the ownship lane and the two roles back. The process still takes part.
   void release_roles();

@@ -120,7 +120,7 @@ SceneStore::SceneStore(std::vector<IndexedScene> index, std::unique_ptr<terrain:
 
 namespace {
 
-// What the file of a scene has and its model has not, one sentence each: all of it if the file cannot be read.
+// Parts of a scene's file that its model leaves out, one sentence each. For an unreadable file it is one sentence.
 std::vector<std::string> left_out_of(const IndexedScene& scene, const error::Expected<Model>& model) {
   if (!model) return {model.error().message() + "; the scene is left out"};
   std::vector<std::string> sentences;

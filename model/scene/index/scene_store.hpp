@@ -91,11 +91,11 @@ class SceneStore {
     std::size_t files = 0, unreadable = 0;
   };
   const Wanted& wanted() const { return wanted_; }
-  // What the views of all regions so far lack of the files, one sentence each: files that cannot be indexed or read,
-  // and parts of the others. It stays, unlike the problems.
+  // Data left out of the views of all regions so far, one sentence each: files that cannot be indexed or read, and
+  // parts of the others. A call does not clear the list, unlike take_problems().
   std::vector<std::string> left_out() const;
 
-  // What reading the whole files of all scenes has as problems, before any region needs them, file by file in the order
+  // Reads the files of all scenes before any region needs them, and reports their problems, file by file in the order
   // of the index. `report` takes the sentences of one file, as take_problems() will have them, and may stop the check
   // by returning false. Bounds: a file above kMaxCheckedFileBytes, and what follows kMaxCheckedBytes in all, is not
   // read; the last sentence says how many files that are. One model at a time is in memory.

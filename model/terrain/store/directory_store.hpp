@@ -59,8 +59,9 @@ class DirectoryTerrainStore final : public TerrainStore {
   std::vector<std::string> take_problems() override;
   std::vector<std::string> take_notes() override;
   const RegionCells& region_cells() const { return region_cells_; }
-  // What all regions so far lack, one sentence each: files of the folder that are not used, unreadable cells, then what
-  // is left out of other cells, or may be damaged there. It stays, unlike the problems.
+  // Data left out of all regions so far, one sentence each: files of the folder that are not used, unreadable cells,
+  // then parts of other cells that are left out or may be damaged. A call does not clear the list, unlike
+  // take_problems().
   std::vector<std::string> left_out() const;
   const DirectoryIndex& index() const { return index_; }
   // The next region without a cell is a problem again, for callers whose regions have nothing to do with each other.
