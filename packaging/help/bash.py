@@ -84,7 +84,7 @@ def rows_of(program):
 
 
 def case_of(question, answers):
-    """Keys with the same answer share a line."""
+    """A case of the lookup function; keys with the same answer share a line."""
     default = {"count": "0", "commands": "", "options": ""}.get(question, NOTHING)
     keys_of = {}
     for key, answer in answers.items():

@@ -66,7 +66,7 @@ def option(start, entry):
 
 
 def path_function(program):
-    """With the number of values of each option, which is the same in all commands."""
+    """The function that finds the command before the cursor. An option has as many values in every command."""
     names_of = {}
     for command in program.walk():
         for entry in command.options:

@@ -29,12 +29,12 @@ class Entry:
 
     @property
     def values(self):
-        """The fixed values, of a kind like {green,gray}."""
+        """The allowed words, if the kind is a list such as {green,gray}."""
         return self.kind.strip("{}").split(",") if self.kind.startswith("{") else []
 
     @property
     def facts(self):
-        """What stands in parentheses at the end: ["0.1 to 1000", "default 40"]."""
+        """Facts in the parentheses at the end of the text: ["0.1 to 1000", "default 40"]."""
         found = re.search(r"\(([^()]*(?:\([^()]*\)[^()]*)*)\)$", self.lines[-1]) if self.lines else None
         return found[1].split("; ") if found else []
 
@@ -62,7 +62,7 @@ class Command:
 
 
 def environment():
-    """Without what changes the defaults."""
+    """The environment without variables that change the defaults in --help."""
     return {**{name: value for name, value in os.environ.items() if name != "YARS_SESSION"}, "YARS_USER_CONFIG": ""}
 
 

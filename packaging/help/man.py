@@ -10,7 +10,7 @@ UNKNOWN = ".Sh OPTIONS\n.Nm Fl Fl help\nprints the options.\n"  # of a program t
 
 
 def plain(text):
-    """Text that no macro or escape is read out of."""
+    """The text, escaped so that man reads no macro or escape in it."""
     text = text.replace("\\", "\\e").replace("--", "\\-\\-")
     return re.sub(r"^(?=[.'])", r"\\&", text)
 

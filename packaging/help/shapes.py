@@ -9,7 +9,7 @@ MADE = "Made from --help when YARS was built."
 
 
 def shape(entry):
-    """For a value of an option, or an argument. A word that ends in a colon goes on with a file."""
+    """Words for the value of an option or an argument. A word that ends in a colon is followed by a file name."""
     text = "\n".join(entry.lines)
     if entry.values:
         return entry.values

@@ -17,7 +17,7 @@ _yars_source() {
 
 
 def plain(text):
-    """Within single quotes, brackets and colons of a specification."""
+    """The text, escaped for single quotes, brackets and colons of a specification."""
     return re.sub(r"([][:\\])", r"\\\1", text).replace("'", "'\\''")
 
 

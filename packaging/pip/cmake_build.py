@@ -68,7 +68,7 @@ def cached(folder):
 
 
 def fits(folder, python):
-    """Whether a build folder makes what a user installs: these sources, optimized, for this Python."""
+    """Whether a build folder is a release build of these sources, with the compiled part for this Python."""
     cache = cached(folder)
     return (pathlib.Path(cache.get("CMAKE_HOME_DIRECTORY", "/")) == SOURCE and cache.get("CMAKE_BUILD_TYPE") == "Release"
             and cache.get("YARS_PYTHON", "OFF") != "OFF"

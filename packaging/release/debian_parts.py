@@ -43,7 +43,7 @@ def licences(text):
 
 
 def part(name):
-    """What is known of one Debian package."""
+    """Name, version, source and licences of one Debian package."""
     known = query(name)
     copyright_file = pathlib.Path("/usr/share/doc", name, "copyright")
     text = copyright_file.read_text(encoding="utf-8", errors="replace") if copyright_file.is_file() else ""

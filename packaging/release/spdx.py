@@ -56,7 +56,7 @@ def npm_packages(lock):
 
 
 def npm_faults(lock, licences):
-    """What package-lock.json has and the table of LICENCES.md has not, or otherwise: one text each."""
+    """Packages whose version or licence in package-lock.json is not that in LICENCES.md: one text each."""
     rows = {row[0]: row[1:] for row in re.findall(r"^\| (\S+) \| (\S+) \| (\S+) \|", licences, re.M)}
     for place, entry in sorted(lock["packages"].items()):
         name = place.rpartition("node_modules/")[2]

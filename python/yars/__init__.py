@@ -62,7 +62,7 @@ def _compiled(name):
 
 
 def _fault_of_core(problem):
-    """What is wrong with yars._core, which failed to load by `problem`, and what to do."""
+    """Message about yars._core, which did not load because of `problem`, with what to do."""
     folders = [pathlib.Path(folder) for folder in __path__]
     built = sorted(path.name for folder in folders for path in folder.glob("_core.*.so"))
     fitting = importlib.machinery.EXTENSION_SUFFIXES
@@ -76,7 +76,7 @@ def _fault_of_core(problem):
 
 
 def _available():
-    """Names that can be loaded here, without loading them."""
+    """Names of this package whose modules are installed. Does not load them."""
     def found(module):
         try:
             return importlib.util.find_spec(module, __name__) is not None

@@ -21,7 +21,7 @@ PURPOSES = {"numpy": "Terrain, Scene, Radar, Recording, trade", "xarray": ".to_x
 
 
 def version_of(module):
-    """Version of a module of others, "unknown" where it does not say, None where there is none. It is not loaded: that takes seconds."""
+    """Version of another project's module, which is not loaded; "unknown": it has none; None: not installed."""
     try:
         if importlib.util.find_spec(module) is None:
             return None
@@ -49,7 +49,7 @@ def library_of_sessions():
 
 
 def version_of_program(path):
-    """What a program prints for --version, "" where it prints none."""
+    """Output of a program's --version; "" if it fails."""
     try:
         done = subprocess.run([path, "--version"], capture_output=True, text=True, timeout=30, stdin=subprocess.DEVNULL, check=False)
     except (OSError, subprocess.SubprocessError):
@@ -64,7 +64,7 @@ def program(name):
 
 
 def installed():
-    """All of it, as the value that --json prints."""
+    """All facts about this installation, as --json prints them."""
     file, problem = compiled_part()
     library, fault = library_of_sessions()
     return {"version": yars.__version__, "folder": list(yars.__path__)[0],
@@ -76,7 +76,7 @@ def installed():
 
 
 def lines(found):
-    """The lines for people."""
+    """The facts of installed() as lines of text."""
     yield f"yars {found['version']} in {found['folder']}"
     yield f"Python {found['python']['version']}, {found['python']['executable']}"
     for name, part in (("compiled part", found["compiled"]), ("library of sessions", found["session"])):

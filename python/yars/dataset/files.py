@@ -28,7 +28,7 @@ _SIGNALS = {signal.SIGXFSZ: "raise the limit of a file's size (ulimit -f)",
 
 
 def end_of(code):
-    """What ended a process, in words with an action if there is one. `code`: as subprocess gives it, negative for a signal."""
+    """How a process ended, with what to do. `code`: returncode of subprocess, negative for a signal."""
     if code >= 0:
         return f"exit code {code}"
     try:

@@ -179,7 +179,7 @@ class Store:
                                f"{', '.join(self._differences(there))}); choose another --out, or remove this folder")
 
     def _differences(self, there):
-        """What differs between this data set and the one whose dataset.json is `there`, in words."""
+        """Differences between this data set and the one whose dataset.json is `there`, one text each."""
         if there.get("format") != FORMAT:
             return [f"format {there.get('format')} of the folder, this YARS writes {FORMAT}"]
         before = there.get("inputs") if isinstance(there.get("inputs"), dict) else {}
@@ -236,7 +236,7 @@ class Store:
         return about["files"] if about.get("of") == (mark or self.mark) and isinstance(about.get("files"), dict) else {}
 
     def unfit(self, subject, full, mark=None):
-        """What keeps the files of checks/SUBJECT.json from being whole; None if they are. Sizes only, or with `full` all bytes."""
+        """Why files of checks/SUBJECT.json are not complete; None: they are. Compares sizes, with `full` all bytes."""
         names = self.noted(subject, mark)
         if not names:
             return "its sizes and hashes are absent"
@@ -273,7 +273,7 @@ class Store:
         return (head, lines) if good else (None, "its part is damaged")
 
     def fault(self, block, full=False):
-        """What keeps a block from being whole; None if it is. Sizes only, or with `full` all bytes."""
+        """Why a block is not complete; None: it is. Compares sizes, with `full` all bytes."""
         head, reason = self.read_part(block)
         if head is None:
             return reason

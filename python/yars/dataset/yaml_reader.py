@@ -22,7 +22,7 @@ def shown(text):
 
 
 def found(node):
-    """What stands in the file, in a few words."""
+    """Short description of a node, for the part `found` of messages."""
     if isinstance(node, yaml.ScalarNode):
         return f'"{node.value}"' if node.tag.endswith("str") else (node.value or "nothing")
     return "a list" if isinstance(node, yaml.SequenceNode) else "a section"
