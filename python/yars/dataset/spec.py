@@ -287,7 +287,7 @@ class _SpecReader(Reader):
             if len(kinds) != 1:
                 self.fault(item, "one of area, scenes and objects in an entry of targets", " and ".join(kinds) or "none")
             if "on" in values and "area" not in values:
-                self.fault(item, "an area in an entry with the key on", "none")
+                self.fault(item, "the key area in an entry with the key on", "none")
             if "objects" in values and not self.plan.scenes and self.root is not None and not self._has("scenes"):
                 self.fault(item, "scenes in the specification, for targets at objects", "none", "add scenes:")
             self.plan.targets.append(Target(item.start_mark.line + 1, **values))
