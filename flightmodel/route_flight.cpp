@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lib/file/text_file.hpp"
+#include "lib/values/fields.hpp"
 
 namespace yars::flightmodel {
 
@@ -17,9 +18,13 @@ using error::fail;
 constexpr double kMinLeg_m = 100.0;  // [m] minimum length of a leg; the direction of a shorter leg is ill-defined
 
 Expected<Waypoint> parse_waypoint(const text::NumberedLine& line, std::string_view name) {
-  const auto numbers = file::parse_numbers(
-      file::line_location(name, line.number), text::words_of(line.text),
-      {{"LAT", -90.0, 90.0}, {"LON", -180.0, 180.0}, {"ALT_FT", -1'000.0, 200'000.0}, {"KT", 30.0, 5'000.0}}, " ");
+  const auto numbers =
+      file::parse_numbers(file::line_location(name, line.number), text::words_of(line.text),
+                          {{"LAT", -90.0, 90.0},
+                           {"LON", -180.0, 180.0},
+                           {"ALT_FT", values::Reposition::altitude.low, values::Reposition::altitude.high},
+                           {"KT", values::Reposition::speed.low, values::Reposition::speed.high}},
+                          " ");
   if (!numbers) return tl::unexpected(numbers.error());
   const auto& value = *numbers;
   return Waypoint{{value[0], value[1]}, geo::AltitudeMsl::feet(value[2]), geo::Speed::knots(value[3])};

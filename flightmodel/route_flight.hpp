@@ -20,7 +20,7 @@ namespace yars::flightmodel {
 // Waypoint of a route. File format: one waypoint per line, `LAT LON ALT_FT KT` (degrees, degrees, feet above mean sea
 // level, knots of ground speed). `#` begins a comment. A last line `loop` adds a leg from the last waypoint to the
 // first. Altitude and speed apply to the leg that ends at the waypoint.
-// Ranges: altitude [-1000, 200000] ft, speed [30, 5000] kt.
+// Ranges: altitude and speed of values::Reposition (lib/values/requests.idl).
 struct Waypoint {
   geo::GeoPoint point;
   geo::AltitudeMsl altitude;

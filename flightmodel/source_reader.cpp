@@ -8,6 +8,7 @@
 #include "lib/file/text_file.hpp"
 #include "lib/text/nearest_word.hpp"
 #include "lib/text/plain_text.hpp"
+#include "lib/values/fields.hpp"
 
 namespace yars::flightmodel {
 
@@ -15,9 +16,9 @@ error::Expected<FixedSetting> parse_fixed(std::string_view text) {
   const auto numbers = file::parse_numbers("fixed", text::fields_of(text, ','),
                                            {{"LAT", -90.0, 90.0},
                                             {"LON", -180.0, 180.0},
-                                            {"ALT_FT", -1'000.0, 200'000.0},
-                                            {"HDG", 0.0, 360.0},
-                                            {"KT", 0.0, 5'000.0}},
+                                            {"ALT_FT", values::Pose::altitude.low, values::Pose::altitude.high},
+                                            {"HDG", values::Pose::heading.low, values::Pose::heading.high},
+                                            {"KT", 0.0, values::Reposition::speed.high}},
                                            ",");
   if (!numbers) return tl::unexpected(numbers.error());
   const auto& value = *numbers;

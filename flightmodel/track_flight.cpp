@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "lib/file/text_file.hpp"
+#include "lib/values/fields.hpp"
 
 namespace yars::flightmodel {
 
@@ -15,8 +16,10 @@ using error::fail;
 
 // Columns in the order in which parse_row() reads them, with their ranges. Headings may be -180..180 or 0..360.
 const std::vector<file::NumberField> kColumns{
-    {"time", 0.0, 1e9},         {"lat", -90.0, 90.0},   {"lon", -180.0, 180.0},  {"alt_ft", -3'000.0, 600'000.0},
-    {"heading", -180.0, 360.0}, {"pitch", -90.0, 90.0}, {"roll", -180.0, 180.0},
+    {"time", 0.0, 1e9},         {"lat", -90.0, 90.0},
+    {"lon", -180.0, 180.0},     {"alt_ft", values::Pose::altitude.low, values::Pose::altitude.high},
+    {"heading", -180.0, 360.0}, {"pitch", -90.0, 90.0},
+    {"roll", -180.0, 180.0},
 };
 
 using ColumnIndices = std::vector<std::size_t>;  // for each of kColumns, the index of its field in a row

@@ -17,7 +17,7 @@ namespace yars::flightmodel {
 // Row of a track file. Rows are comma-separated, below a header row with these columns in any order:
 //   time [s], lat, lon [deg WGS84], alt_ft [ft above mean sea level], heading [deg true],
 //   pitch [deg, nose up positive], roll [deg, right wing down positive].
-// Other columns are ignored. Times ascend. `#` begins a comment. Ranges: time [0, 1e9] s, alt_ft [-3000, 600000],
+// Other columns are ignored. Times ascend. `#` begins a comment. Ranges: time [0, 1e9] s, alt_ft of values::Pose,
 // heading [-180, 360].
 // A last line `loop` repeats the track from its first row. First and last row should then have the same position.
 struct TrackRow {

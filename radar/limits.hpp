@@ -13,7 +13,7 @@
 
 #include "lib/error/error.hpp"
 #include "lib/radar/mapping.hpp"
-#include "lib/values/request_fields.hpp"
+#include "lib/values/fields.hpp"
 #include "model/hrm/patch_geometry.hpp"
 
 namespace yars::radar {

@@ -49,8 +49,8 @@ struct CellPositions {
 };
 
 void check_position(double latitude_deg, double longitude_deg) {
-  const auto& [latitude, longitude] = values::kPosition;
-  for (const auto& [field, found] : {std::pair{&latitude, latitude_deg}, std::pair{&longitude, longitude_deg}})
+  using At = values::Pose;
+  for (const auto& [field, found] : {std::pair{&At::latitude, latitude_deg}, std::pair{&At::longitude, longitude_deg}})
     if (!field->contains(found)) radar::fail(radar::beyond_field(std::string(field->name), *field, found));
 }
 

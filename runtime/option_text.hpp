@@ -2,7 +2,7 @@
 // Inputs: options of CLI11 whose type name is a kind of value: NUMBER, INTEGER, TEXT, FILE, DIR, another word in
 // capitals, or the valid values as {a,b}. Descriptions of their validators are limits: "1 to 8".
 // Outputs: the help of a program, one entry for each option:
-//   --range-nm NUMBER           [NM] range of the scan (0.1 to 1000; default 40)
+//   --ticks INTEGER             number of ticks (1 to 8; default 2)
 // At least two blanks separate an entry's head from what it does; packaging/help/help_text.py reads this form.
 #pragma once
 

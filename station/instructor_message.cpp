@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "databuffer/messages/clock_limits.hpp"
+#include "databuffer/messages/limits.hpp"
 #include "lib/text/plain_text.hpp"
+#include "lib/values/fields.hpp"
 
 namespace yars::station {
 
@@ -18,11 +20,14 @@ using error::Expected;
 using nlohmann::json;
 
 constexpr std::size_t kMaxPathLetters = 1000, kMaxNoteLetters = 100;
-constexpr double kMaxTime_s = 1e8, kMaxTicks = 2000.0;
+constexpr double kMaxTime_s = databuffer::kLatestSimTime_s, kMaxTicks = 2000.0;
 
 struct Limits {
   double min, max;
 };
+Limits limits(const values::Field& field) {
+  return {field.low, field.high};
+}
 
 // Arguments of one command, by name.
 class Arguments {
@@ -91,10 +96,11 @@ constexpr std::array<std::pair<std::string_view, Make>, 16> kCommands{{
     {"reset", [](Arguments& of) -> InstructorCommand { return Reset{of.number("time", {0.0, kMaxTime_s})}; }},
     {"reposition",
      [](Arguments& of) -> InstructorCommand {
-       return Reposition{{of.number("lat", {-90.0, 90.0}), of.number("lon", {-180.0, 180.0})},
-                         of.number("alt_ft", {-3000.0, 600000.0}),
-                         of.number("heading", {0.0, 360.0}),
-                         of.optional_number("speed_kt", {30.0, 5000.0})};
+       using To = values::Reposition;
+       return Reposition{{of.number("lat", limits(To::latitude)), of.number("lon", limits(To::longitude))},
+                         of.number("alt_ft", limits(To::altitude)),
+                         of.number("heading", limits(To::heading)),
+                         of.optional_number("speed_kt", limits(To::speed))};
      }},
     {"restore",
      [](Arguments& of) -> InstructorCommand {

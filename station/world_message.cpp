@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "databuffer/messages/inspection.hpp"
-#include "lib/geo/quantity.hpp"
+#include "lib/geo/geodesy.hpp"
+#include "lib/values/fields.hpp"
 #include "world/world_edit.hpp"
 
 namespace yars::station {
@@ -19,10 +19,8 @@ using error::Expected;
 using nlohmann::json;
 using world::WorldList;
 
-constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
-
 // Number of an object; NaN if it is absent or something else.
-double number(const json& object, const char* name) {
+double number(const json& object, std::string_view name) {
   const auto found = object.find(name);
   return found != object.end() && found->is_number() ? found->get<double>() : std::numeric_limits<double>::quiet_NaN();
 }
@@ -74,56 +72,39 @@ Expected<WorldEdit> add_edit(WorldList list, geo::GeoPoint position) {
   return refused("list", kWorldLists);
 }
 
-// Replaces the values of an entry that the object has.
-Expected<WorldEdit> change_edit(WorldList list, std::uint32_t id, const json& object) {
-  const auto changed = [](auto entries, std::uint32_t wanted) {
-    for (const auto& entry : entries)
-      if (entry.id == wanted) return entry;
-    typename decltype(entries)::value_type absent{};
-    absent.id = wanted;
-    return absent;
-  };
-  switch (list) {
-    case WorldList::rain: {
-      const double radius_nm = number(object, "radius_nm"), rate_mmh = number(object, "rate_mmh"),
-                   top_ft = number(object, "top_ft");
-      return edit_by([=](WorldState& world, std::int64_t) {
-        auto cell = changed(databuffer::used(std::as_const(world.rain), world.rain_count), id);
-        cell.radius_m = radius_nm * geo::kMetresPerNauticalMile;
-        cell.rate_mmh = rate_mmh;
-        cell.top_m = top_ft * geo::kMetresPerFoot;
-        return world::replace(world, cell);
-      });
-    }
-    case WorldList::jammers: {
-      const double power_w = number(object, "power_w");
-      return edit_by([=](WorldState& world, std::int64_t) {
-        auto jammer = changed(databuffer::used(std::as_const(world.jammers), world.jammer_count), id);
-        jammer.power_w = power_w;
-        return world::replace(world, jammer);
-      });
-    }
-    case WorldList::movers: {
-      const double speed_kt = number(object, "speed_kt"), heading_deg = number(object, "heading_deg");
-      return edit_by([=](WorldState& world, std::int64_t sim_time_ns) {
-        return world::steer(world, id, speed_kt * kMetresPerSecondPerKnot, heading_deg, sim_time_ns);
-      });
-    }
-    case WorldList::points: {
-      const std::string name = text(object, "name");
-      const auto elevation = object.find("elevation_ft");
-      const bool is_unknown = elevation != object.end() && elevation->is_null();
-      const double elevation_ft = number(object, "elevation_ft");
-      if (!is_unknown && !std::isfinite(elevation_ft)) return refused("elevation_ft", "a number, or null: unknown");
-      return edit_by([=](WorldState& world, std::int64_t) -> Expected<void> {
-        auto point = changed(databuffer::used(std::as_const(world.points), world.point_count), id);
-        if (auto named = world::set_name(point, name); !named) return named;
-        point.elevation_m = elevation_ft * geo::kMetresPerFoot;
-        return world::replace(world, point);
-      });
-    }
+// Replaces the values of an entry that the object has, by their names in world_json.hpp; null: not known.
+template <class Entry>
+Expected<WorldEdit> change_edit(std::uint32_t id, const json& object) {
+  for (const values::Field& field : Entry::Values::all) {
+    const auto found = object.find(field.name);
+    if (found != object.end() && !found->is_number() && !found->is_null())
+      return error::fail(std::string(field.name), "a number, or null", "something else");
   }
-  return refused("list", kWorldLists);
+  return edit_by([=](WorldState& world, std::int64_t sim_time_ns) -> Expected<void> {
+    auto entry = world::entry_with<Entry>(world, id, sim_time_ns);
+    if (!entry) return tl::unexpected(entry.error());
+    if constexpr (requires { entry->name; })
+      if (object.contains("name"))
+        if (auto named = world::set_name(*entry, text(object, "name")); !named) return named;
+    values::visit_fields(*entry, [&object](const values::Field& field, double& value) {
+      if (object.contains(field.name)) value = field.recorded(number(object, field.name));
+    });
+    return world::replace(world, *entry);
+  });
+}
+
+Expected<WorldEdit> change_edit(WorldList list, std::uint32_t id, const json& object) {
+  switch (list) {
+    case WorldList::rain:
+      return change_edit<databuffer::WorldRainCell>(id, object);
+    case WorldList::jammers:
+      return change_edit<databuffer::WorldJammer>(id, object);
+    case WorldList::movers:
+      return change_edit<databuffer::WorldMover>(id, object);
+    case WorldList::points:
+      break;
+  }
+  return change_edit<databuffer::WorldPoint>(id, object);
 }
 
 Expected<WorldEdit> entry_edit(std::string_view command, const json& object) {
@@ -168,7 +149,8 @@ std::optional<Expected<WorldEdit>> world_edit(std::string_view command, const js
     return edit_by([=](WorldState& world, std::int64_t) { return world::set_sea_state(world, value); });
   }
   if (command == "wind") {
-    const double speed_mps = number(object, "speed_kt") * kMetresPerSecondPerKnot, from_deg = number(object, "from");
+    const double speed_mps = values::WorldState::wind_speed.recorded(number(object, "speed_kt"));
+    const double from_deg = number(object, "from");
     return edit_by([=](WorldState& world, std::int64_t) { return world::set_wind(world, speed_mps, from_deg); });
   }
   if (command == "fidelity") {

@@ -4,7 +4,7 @@
 // Errors: an argument that is absent or no number of the right kind, when the command is read; a value out of range or
 //   an unknown id, when the change is made. Each says what was expected.
 // Threads: any; functions without state.
-// Source: docs/station.md#commands; limits: world/world_edit.hpp.
+// Source: docs/station.md#commands; names, units and limits of values: lib/values/world_state.idl.
 #pragma once
 
 #include <cstdint>

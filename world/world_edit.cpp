@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <limits>
 #include <span>
 #include <string>
@@ -11,8 +10,9 @@
 #include "databuffer/messages/inspection.hpp"
 #include "lib/radar/fidelity.hpp"
 #include "lib/radar/route.hpp"
+#include "lib/radar/world.hpp"
 #include "lib/text/plain_text.hpp"
-#include "world/world_values.hpp"
+#include "lib/values/fields.hpp"
 
 namespace yars::world {
 
@@ -21,68 +21,30 @@ using error::fail;
 
 namespace {
 
-constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
-
-// A value with its limits in the unit of the configuration's forms. `factor`: that unit in the unit of the record.
-struct Quantity {
-  std::string_view name;
-  double value;
-  double min, max;
-  std::string_view unit;
-  double factor = 1.0;
-};
-
 std::string number_with_unit(double value, std::string_view unit) {
   return text::text_of_number(value) + (unit.empty() ? "" : " ") + std::string(unit);
 }
 
-Expected<void> check_all(std::string_view subject, std::initializer_list<Quantity> quantities) {
+// Checks a value of a record against its limits in the unit in which people give it.
+Expected<void> check(std::string_view subject, const values::Field& field, double recorded) {
   constexpr double kRounding = 1e-9;  // relative; the conversion of a limit to another unit rounds it
-  for (const Quantity& quantity : quantities) {
-    const double value = quantity.value / quantity.factor;
-    const double slack = kRounding * std::max(std::abs(quantity.min), std::abs(quantity.max));
-    if (value >= quantity.min - slack && value <= quantity.max + slack) continue;  // NaN is out of range
-    return fail(std::string(subject) + ": " + std::string(quantity.name),
-                text::text_of_number(quantity.min) + " to " + number_with_unit(quantity.max, quantity.unit),
-                number_with_unit(value, quantity.unit), "give a value within these limits");
-  }
-  return {};
+  const double value = field.given(recorded);
+  const double slack = kRounding * std::max(std::abs(field.low), std::abs(field.high));
+  if (value >= field.low - slack && value <= field.high + slack) return {};
+  if (std::isnan(value) && !field.otherwise.empty()) return {};
+  return fail(std::string(subject) + ": " + std::string(field.label),
+              text::text_of_number(field.low) + " to " + number_with_unit(field.high, field.unit),
+              number_with_unit(value, field.unit), "give a value within these limits");
 }
 
-Expected<void> check(const databuffer::WorldRainCell& cell) {
-  return check_all("rain cell", {{"latitude", cell.latitude_deg, -90.0, 90.0, "deg"},
-                                 {"longitude", cell.longitude_deg, -180.0, 180.0, "deg"},
-                                 {"radius", cell.radius_m, 0.1, 100.0, "NM", geo::kMetresPerNauticalMile},
-                                 {"rate", cell.rate_mmh, 0.1, 300.0, "mm/h"},
-                                 {"top", cell.top_m, 500.0, 60'000.0, "ft", geo::kMetresPerFoot}});
-}
-
-Expected<void> check(const databuffer::WorldJammer& jammer) {
-  const double altitude_m = std::isnan(jammer.altitude_m) ? 0.0 : jammer.altitude_m;
-  return check_all("jammer", {{"latitude", jammer.latitude_deg, -90.0, 90.0, "deg"},
-                              {"longitude", jammer.longitude_deg, -180.0, 180.0, "deg"},
-                              {"altitude", altitude_m, -1500.0, 100'000.0, "ft", geo::kMetresPerFoot},
-                              {"band", static_cast<double>(jammer.band), -1.0, 4.0, ""},
-                              {"channels (bits)", static_cast<double>(jammer.channels), 1.0, 255.0, ""},
-                              {"power", jammer.power_w, 0.0, 1e9, "W"}});
-}
-
-Expected<void> check(const databuffer::WorldMover& mover) {
-  return check_all("mover", {{"latitude", mover.latitude_deg, -90.0, 90.0, "deg"},
-                             {"longitude", mover.longitude_deg, -180.0, 180.0, "deg"},
-                             {"speed", mover.speed_mps, 0.0, 1000.0, "kt", kMetresPerSecondPerKnot},
-                             {"heading", mover.heading_deg, 0.0, 360.0, "deg"},
-                             {"cross section", mover.cross_section_m2, 0.0, 1e7, "m2"},
-                             {"height", mover.height_m, 0.0, 1000.0, "ft", geo::kMetresPerFoot},
-                             {"sim time", static_cast<double>(mover.since_ns), 0.0,
-                              static_cast<double>(databuffer::kLatestSimTime_ns), "ns"}});
-}
-
-Expected<void> check(const databuffer::WorldPoint& point) {
-  const double elevation_m = std::isnan(point.elevation_m) ? 0.0 : point.elevation_m;
-  return check_all("point", {{"latitude", point.latitude_deg, -90.0, 90.0, "deg"},
-                             {"longitude", point.longitude_deg, -180.0, 180.0, "deg"},
-                             {"elevation", elevation_m, -1500.0, 30'000.0, "ft", geo::kMetresPerFoot}});
+// Checks the values of an entry that people give. change_world() checks the whole record.
+template <class Entry>
+Expected<void> check(std::string_view subject, const Entry& entry) {
+  Expected<void> outcome;
+  values::visit_fields(entry, [&](const values::Field& field, double recorded) {
+    if (outcome) outcome = check(subject, field, recorded);
+  });
+  return outcome;
 }
 
 template <std::size_t size>
@@ -211,9 +173,10 @@ Expected<void> append_entry(databuffer::WorldState& world, const Entry& entry) {
 
 template <class Entry>
 Expected<std::uint32_t> add_entry(databuffer::WorldState& world, Entry entry) {
-  if (auto valid = check(entry); !valid) return tl::unexpected(valid.error());
+  const List<Entry> list = list_in<Entry>(world);
+  if (auto valid = check(list.subject, entry); !valid) return tl::unexpected(valid.error());
   const std::uint32_t last_id = world.last_id;
-  entry.id = new_id(world, list_in<Entry>(world).in_use());
+  entry.id = new_id(world, list.in_use());
   if (auto added = append_entry(world, entry); !added) {
     world.last_id = last_id;
     return tl::unexpected(added.error());
@@ -223,8 +186,8 @@ Expected<std::uint32_t> add_entry(databuffer::WorldState& world, Entry entry) {
 
 template <class Entry>
 Expected<void> restore_entry(databuffer::WorldState& world, const Entry& entry) {
-  if (auto valid = check(entry); !valid) return valid;
   const List<Entry> list = list_in<Entry>(world);
+  if (auto valid = check(list.subject, entry); !valid) return valid;
   if (std::ranges::find(list.in_use(), entry.id, &Entry::id) != list.in_use().end())
     return fail(std::string(list.subject), "one that was removed", "id " + std::to_string(entry.id) + " in the world");
   return append_entry(world, entry);
@@ -232,9 +195,10 @@ Expected<void> restore_entry(databuffer::WorldState& world, const Entry& entry) 
 
 template <class Entry>
 Expected<void> replace_entry(databuffer::WorldState& world, const Entry& entry) {
-  if (auto valid = check(entry); !valid) return valid;
-  const auto found = find(list_in<Entry>(world), entry.id);
+  const List<Entry> list = list_in<Entry>(world);
+  const auto found = find(list, entry.id);
   if (!found) return tl::unexpected(found.error());
+  if (auto valid = check(list.subject, entry); !valid) return valid;
   if (auto fitting = check_beside_others(world, entry); !fitting) return fitting;
   **found = entry;
   mark_list_changed<Entry>(world);
@@ -244,13 +208,11 @@ Expected<void> replace_entry(databuffer::WorldState& world, const Entry& entry) 
 template <class Entry>
 Expected<void> move_entry(databuffer::WorldState& world, std::uint32_t id, geo::GeoPoint position,
                           std::int64_t sim_time_ns) {
-  const auto found = find(list_in<Entry>(world), id);
-  if (!found) return tl::unexpected(found.error());
-  Entry moved = **found;
-  if constexpr (std::is_same_v<Entry, databuffer::WorldMover>) moved = at_sim_time(moved, sim_time_ns);
-  moved.latitude_deg = position.latitude_deg;
-  moved.longitude_deg = position.longitude_deg;
-  return replace_entry(world, moved);
+  auto moved = entry_with<Entry>(world, id, sim_time_ns);
+  if (!moved) return tl::unexpected(moved.error());
+  moved->latitude_deg = position.latitude_deg;
+  moved->longitude_deg = position.longitude_deg;
+  return replace_entry(world, *moved);
 }
 
 // The entries behind the removed one keep their order.
@@ -267,24 +229,31 @@ Expected<void> remove_entry(databuffer::WorldState& world, std::uint32_t id) {
   return {};
 }
 
+// An entry with the defaults. What has none is missing.
+template <class Entry>
+Entry default_entry(geo::GeoPoint position) {
+  Entry entry{};
+  values::visit_fields(entry, [](const values::Field& field, double& value) { value = field.recorded(field.initial); });
+  entry.latitude_deg = position.latitude_deg;
+  entry.longitude_deg = position.longitude_deg;
+  return entry;
+}
+
 }  // namespace
 
 databuffer::WorldRainCell default_rain_cell(geo::GeoPoint position) {
-  radar::WorldConfiguration world;
-  world.rain.cells = {{.position = position}};
-  return world_state_from(world).rain[0];
+  return default_entry<databuffer::WorldRainCell>(position);
 }
 
 databuffer::WorldJammer default_jammer(geo::GeoPoint position) {
-  radar::WorldConfiguration world;
-  world.jamming.jammers = {{.name = {}, .position = position}};
-  return world_state_from(world).jammers[0];
+  auto jammer = default_entry<databuffer::WorldJammer>(position);
+  jammer.band = radar::kEveryBand;
+  jammer.channels = (1U << radar::kChannels) - 1U;
+  return jammer;
 }
 
 databuffer::WorldMover default_mover(geo::GeoPoint position, std::int64_t sim_time_ns) {
-  radar::WorldConfiguration world;
-  world.movers = {{.name = {}, .position = position}};
-  databuffer::WorldMover mover = world_state_from(world).movers[0];
+  auto mover = default_entry<databuffer::WorldMover>(position);
   mover.since_ns = sim_time_ns;
   return mover;
 }
@@ -299,8 +268,9 @@ Expected<databuffer::WorldPoint> default_point(const databuffer::WorldState& wor
     for (number = 1; number <= radar::kMaxPointNumber && !is_free(number);) ++number;
   if (number > radar::kMaxPointNumber)
     return fail("point", "a free number from 1 to 100", "none", "remove another point first, or add an offset");
-  radar::RoutePoint point{.name = std::to_string(number), .position = position, .elevation_m = std::nan("")};
-  return world_state_from({}, std::span(&point, 1)).points[0];
+  auto point = default_entry<databuffer::WorldPoint>(position);
+  if (auto named = set_name(point, std::to_string(number)); !named) return tl::unexpected(named.error());
+  return point;
 }
 
 Expected<void> set_name(databuffer::WorldJammer& jammer, std::string_view name) {
@@ -368,20 +338,24 @@ Expected<void> move(databuffer::WorldState& world, WorldList list, std::uint32_t
 
 Expected<void> steer(databuffer::WorldState& world, std::uint32_t id, double speed_mps, double heading_deg,
                      std::int64_t sim_time_ns) {
-  const auto found = find(list_in<databuffer::WorldMover>(world), id);
-  if (!found) return tl::unexpected(found.error());
-  databuffer::WorldMover steered = at_sim_time(**found, sim_time_ns);
-  steered.speed_mps = speed_mps;
-  steered.heading_deg = heading_deg;
-  return replace_entry(world, steered);
+  auto steered = entry_with<databuffer::WorldMover>(world, id, sim_time_ns);
+  if (!steered) return tl::unexpected(steered.error());
+  steered->speed_mps = speed_mps;
+  steered->heading_deg = heading_deg;
+  return replace_entry(world, *steered);
 }
 
-Expected<databuffer::WorldPoint> point_with(const databuffer::WorldState& world, std::uint32_t id) {
-  const auto in_use = databuffer::used(world.points, world.point_count);
-  const auto found = std::ranges::find(in_use, id, &databuffer::WorldPoint::id);
-  if (found == in_use.end()) return fail_unknown("point", in_use, id);
-  return *found;
+template <class Entry>
+Expected<Entry> entry_with(databuffer::WorldState& world, std::uint32_t id, std::int64_t sim_time_ns) {
+  const auto found = find(list_in<Entry>(world), id);
+  if (!found) return tl::unexpected(found.error());
+  if constexpr (std::is_same_v<Entry, databuffer::WorldMover>) return at_sim_time(**found, sim_time_ns);
+  return **found;
 }
+template Expected<databuffer::WorldRainCell> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
+template Expected<databuffer::WorldJammer> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
+template Expected<databuffer::WorldMover> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
+template Expected<databuffer::WorldPoint> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
 
 Expected<void> remove(databuffer::WorldState& world, WorldList list, std::uint32_t id) {
   switch (list) {
@@ -411,17 +385,15 @@ Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldPoi
 }
 
 Expected<void> set_sea_state(databuffer::WorldState& world, double state) {
-  if (auto valid = check_all("sea", {{"state", std::isnan(state) ? 0.0 : state, 0.0, 6.0, ""}}); !valid) return valid;
+  if (auto valid = check("world", values::WorldState::sea_state, state); !valid) return valid;
   world.sea_state = state;
   mark_changed(world);
   return {};
 }
 
 Expected<void> set_wind(databuffer::WorldState& world, double speed_mps, double from_deg) {
-  if (auto valid = check_all("wind", {{"speed", speed_mps, 0.0, 120.0, "kt", kMetresPerSecondPerKnot},
-                                      {"from", from_deg, 0.0, 360.0, "deg"}});
-      !valid)
-    return valid;
+  if (auto valid = check("world", values::WorldState::wind_speed, speed_mps); !valid) return valid;
+  if (auto valid = check("world", values::WorldState::wind_from, from_deg); !valid) return valid;
   world.wind_speed_mps = speed_mps;
   world.wind_from_deg = from_deg;
   mark_changed(world);

@@ -1,10 +1,10 @@
 // Edits of a world: what an instructor changes while the set flies. Pure functions on a WorldState.
 // Inputs: a valid WorldState and the change. Outputs: the changed WorldState, without flag kWorldConfigured.
-// Units: those of the record. Messages name limits in the units of the configuration's forms: NM, ft, kt, deg.
+// Units: those of the record. Messages name limits in the units in which people give values: NM, ft, kt, deg.
 // Errors: a value out of range, an unknown id, a full list, a name that another sequence point has. The world then
 //   stays as it was.
 // Use: inside databuffer::change_world() (session_world.hpp), so that no edit of another program is lost.
-// Source: limits as in docs/configuration (forms Sea, RainCell, Jammer, Mover, Point).
+// Source: limits and defaults are those of lib/values/world_state.idl.
 #pragma once
 
 #include <cstdint>
@@ -55,8 +55,9 @@ error::Expected<void> move(databuffer::WorldState& world, WorldList list, std::u
 // Gives a mover another speed and heading at its position at `sim_time_ns`.
 error::Expected<void> steer(databuffer::WorldState& world, std::uint32_t id, double speed_mps, double heading_deg,
                             std::int64_t sim_time_ns);
-// Point with an id, to be changed by replace().
-error::Expected<databuffer::WorldPoint> point_with(const databuffer::WorldState& world, std::uint32_t id);
+// Entry with an id, to be changed by replace(). A mover is as it is at `sim_time_ns`.
+template <class Entry>
+error::Expected<Entry> entry_with(databuffer::WorldState& world, std::uint32_t id, std::int64_t sim_time_ns);
 error::Expected<void> remove(databuffer::WorldState& world, WorldList list, std::uint32_t id);
 // Add an entry that was removed again, with the id that it had. Errors: the list is full, or has an entry with this id.
 error::Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldRainCell& cell);
@@ -64,7 +65,7 @@ error::Expected<void> restore(databuffer::WorldState& world, const databuffer::W
 error::Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldMover& mover);
 error::Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldPoint& point);
 
-// Sea state, WMO code 3700, 0 to 6; NaN: from the wind.
+// Sea state, WMO code 3700; NaN: from the wind.
 error::Expected<void> set_sea_state(databuffer::WorldState& world, double state);
 error::Expected<void> set_wind(databuffer::WorldState& world, double speed_mps, double from_deg);
 

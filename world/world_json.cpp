@@ -5,11 +5,13 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <type_traits>
 
 #include "databuffer/messages/inspection.hpp"
-#include "lib/geo/quantity.hpp"
 #include "lib/radar/route.hpp"
+#include "lib/radar/world.hpp"
 #include "lib/text/plain_text.hpp"
+#include "lib/values/fields.hpp"
 #include "world/world_edit.hpp"
 
 namespace yars::world {
@@ -24,47 +26,22 @@ ordered_json null_if_missing(double value) {
   return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
 }
 
-ordered_json object_of(const databuffer::WorldRainCell& cell) {
-  return {{"id", cell.id},
-          {"latitude_deg", cell.latitude_deg},
-          {"longitude_deg", cell.longitude_deg},
-          {"radius_nm", cell.radius_m / geo::kMetresPerNauticalMile},
-          {"rate_mmh", cell.rate_mmh},
-          {"top_ft", cell.top_m / geo::kMetresPerFoot}};
-}
-
-ordered_json object_of(const databuffer::WorldJammer& jammer) {
-  ordered_json channels = ordered_json::array();
-  for (unsigned bit = 0; bit < 8; ++bit)
-    if ((jammer.channels >> bit & 1U) != 0U) channels.push_back(bit + 1);
-  return {{"id", jammer.id},
-          {"name", std::string(text_of(jammer.name))},
-          {"latitude_deg", jammer.latitude_deg},
-          {"longitude_deg", jammer.longitude_deg},
-          {"altitude_ft", null_if_missing(jammer.altitude_m / geo::kMetresPerFoot)},
-          {"band", band_name(jammer.band)},
-          {"channels", channels},
-          {"power_w", jammer.power_w}};
-}
-
-ordered_json object_of(const databuffer::WorldMover& mover) {
-  return {{"id", mover.id},
-          {"name", std::string(text_of(mover.name))},
-          {"latitude_deg", mover.latitude_deg},
-          {"longitude_deg", mover.longitude_deg},
-          {"speed_kt", geo::Speed::metres_per_second(mover.speed_mps).knots()},
-          {"heading_deg", mover.heading_deg},
-          {"cross_section_m2", mover.cross_section_m2},
-          {"height_ft", mover.height_m / geo::kMetresPerFoot}};
-}
-
-ordered_json object_of(const databuffer::WorldPoint& point) {
-  return {{"id", point.id},
-          {"name", std::string(text_of(point.name))},
-          {"kind", kind_name(point)},
-          {"latitude_deg", point.latitude_deg},
-          {"longitude_deg", point.longitude_deg},
-          {"elevation_ft", null_if_missing(point.elevation_m / geo::kMetresPerFoot)}};
+// Names and units of the values are those of lib/values/world_state.idl.
+template <class Entry>
+ordered_json object_of(const Entry& entry) {
+  ordered_json object{{"id", entry.id}};
+  if constexpr (requires { entry.name; }) object["name"] = std::string(text_of(entry.name));
+  values::visit_fields(entry, [&object](const values::Field& field, double value) {
+    object[std::string(field.name)] = null_if_missing(field.given(value));
+  });
+  if constexpr (std::is_same_v<Entry, databuffer::WorldJammer>) {
+    object["band"] = band_name(entry.band);
+    ordered_json& channels = object["channels"] = ordered_json::array();
+    for (int channel = 0; channel < radar::kChannels; ++channel)
+      if ((entry.channels >> channel & 1U) != 0U) channels.push_back(channel + 1);
+  }
+  if constexpr (std::is_same_v<Entry, databuffer::WorldPoint>) object["kind"] = kind_name(entry);
+  return object;
 }
 
 template <class Entries>
@@ -93,7 +70,7 @@ nlohmann::ordered_json world_json(const databuffer::WorldState& world, std::int6
           {"tick", world.tick},
           {"configured", (world.flags & databuffer::kWorldConfigured) != 0U},
           {"sea_state", null_if_missing(world.sea_state)},
-          {"wind_kt", geo::Speed::metres_per_second(world.wind_speed_mps).knots()},
+          {"wind_kt", values::WorldState::wind_speed.given(world.wind_speed_mps)},
           {"wind_from_deg", world.wind_from_deg},
           {"rain", list_of(databuffer::used(world.rain, world.rain_count))},
           {"jammers", list_of(databuffer::used(world.jammers, world.jammer_count))},

@@ -1,5 +1,4 @@
-// JSON object of a world, as `yars world --json` prints it. Source of its fields and units:
-// docs/commands.md#world.
+// JSON object of a world, as `yars world --json` prints it. Names and units of the values: lib/values/world_state.idl.
 #pragma once
 
 #include <cstdint>

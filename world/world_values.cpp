@@ -8,12 +8,12 @@
 
 #include "databuffer/messages/inspection.hpp"
 #include "lib/text/plain_text.hpp"
+#include "lib/values/fields.hpp"
 
 namespace yars::world {
 
 namespace {
 
-constexpr int kChannels = 8;
 constexpr double kSecondsPerNanosecond = 1e-9;
 
 template <std::size_t size>
@@ -30,59 +30,58 @@ std::uint32_t count_in(const Entry (&)[size], std::size_t configured) {
 
 std::uint32_t mask_of(const std::vector<double>& channels) {
   std::uint32_t mask = 0;
-  for (int channel = 1; channel <= kChannels; ++channel)
+  for (int channel = 1; channel <= radar::kChannels; ++channel)
     if (std::ranges::find(channels, channel) != channels.end()) mask |= 1U << (channel - 1);
   return mask;
 }
 
 std::vector<double> channels_of(std::uint32_t mask) {
   std::vector<double> channels;
-  for (int channel = 1; channel <= kChannels; ++channel)
+  for (int channel = 1; channel <= radar::kChannels; ++channel)
     if ((mask >> (channel - 1) & 1U) != 0U) channels.push_back(channel);
   return channels;
 }
 
-databuffer::WorldRainCell record_of(const radar::RainCell& cell) {
-  databuffer::WorldRainCell record{};
-  record.latitude_deg = cell.position.latitude_deg;
-  record.longitude_deg = cell.position.longitude_deg;
-  record.radius_m = cell.radius_m;
-  record.rate_mmh = cell.rate_mmh;
-  record.top_m = cell.top_m;
+// A record, and an entry of a configuration, with the values that people give of the other.
+template <class Record, class Configured>
+Record record_with_values(const Configured& configured) {
+  Record record{};
+  record.latitude_deg = configured.position.latitude_deg;
+  record.longitude_deg = configured.position.longitude_deg;
+  Record::Values::copy(configured, record);
   return record;
+}
+template <class Configured, class Record>
+Configured configured_with_values(const Record& record) {
+  Configured configured{};
+  configured.position = {record.latitude_deg, record.longitude_deg};
+  Record::Values::copy(record, configured);
+  if constexpr (requires { record.name; }) configured.name = std::string(text::text_of(record.name));
+  return configured;
+}
+
+databuffer::WorldRainCell record_of(const radar::RainCell& cell) {
+  return record_with_values<databuffer::WorldRainCell>(cell);
 }
 
 databuffer::WorldJammer record_of(const radar::Jammer& jammer) {
-  databuffer::WorldJammer record{};
+  auto record = record_with_values<databuffer::WorldJammer>(jammer);
   write_name(record.name, jammer.name);
-  record.latitude_deg = jammer.position.latitude_deg;
-  record.longitude_deg = jammer.position.longitude_deg;
-  record.altitude_m = jammer.altitude_m;
-  record.power_w = jammer.power_w;
   record.band = jammer.band;
   record.channels = mask_of(jammer.channels);
   return record;
 }
 
 databuffer::WorldMover record_of(const radar::Mover& mover) {
-  databuffer::WorldMover record{};
+  auto record = record_with_values<databuffer::WorldMover>(mover);
   write_name(record.name, mover.name);
-  record.latitude_deg = mover.position.latitude_deg;
-  record.longitude_deg = mover.position.longitude_deg;
   record.since_ns = std::llround(mover.since.seconds() / kSecondsPerNanosecond);
-  record.speed_mps = mover.speed_mps;
-  record.heading_deg = mover.heading_deg;
-  record.cross_section_m2 = mover.cross_section_m2;
-  record.height_m = mover.height_m;
   return record;
 }
 
 databuffer::WorldPoint record_of(const radar::RoutePoint& point) {
-  databuffer::WorldPoint record{};
+  auto record = record_with_values<databuffer::WorldPoint>(point);
   write_name(record.name, point.name);
-  record.latitude_deg = point.position.latitude_deg;
-  record.longitude_deg = point.position.longitude_deg;
-  record.elevation_m = point.elevation_m;
   record.kind = static_cast<std::uint8_t>(point.kind);
   return record;
 }
@@ -101,7 +100,6 @@ std::uint32_t write_list(Entry (&entries)[size], const Configured& configured) {
 
 databuffer::WorldState world_state_from(const radar::WorldConfiguration& world,
                                         std::span<const radar::RoutePoint> route) {
-  static_assert(databuffer::kMaxWorldPoints == radar::kMaxRoutePoints);
   databuffer::WorldState state{};
   state.flags = databuffer::kWorldConfigured;
   state.sea_state = world.sea.state;
@@ -121,37 +119,25 @@ void apply(const databuffer::WorldState& state, radar::WorldConfiguration& world
   world.sea.wind_from_deg = state.wind_from_deg;
   world.rain.cells.clear();
   for (const databuffer::WorldRainCell& cell : databuffer::used(state.rain, state.rain_count))
-    world.rain.cells.push_back({.position = {cell.latitude_deg, cell.longitude_deg},
-                                .radius_m = cell.radius_m,
-                                .rate_mmh = cell.rate_mmh,
-                                .top_m = cell.top_m});
+    world.rain.cells.push_back(configured_with_values<radar::RainCell>(cell));
   world.jamming.jammers.clear();
-  for (const databuffer::WorldJammer& jammer : databuffer::used(state.jammers, state.jammer_count))
-    world.jamming.jammers.push_back({.name = std::string(text::text_of(jammer.name)),
-                                     .position = {jammer.latitude_deg, jammer.longitude_deg},
-                                     .altitude_m = jammer.altitude_m,
-                                     .band = jammer.band,
-                                     .channels = channels_of(jammer.channels),
-                                     .power_w = jammer.power_w});
+  for (const databuffer::WorldJammer& jammer : databuffer::used(state.jammers, state.jammer_count)) {
+    radar::Jammer& added = world.jamming.jammers.emplace_back(configured_with_values<radar::Jammer>(jammer));
+    added.band = jammer.band;
+    added.channels = channels_of(jammer.channels);
+  }
   world.movers.clear();
-  for (const databuffer::WorldMover& mover : databuffer::used(state.movers, state.mover_count))
-    world.movers.push_back(
-        {.name = std::string(text::text_of(mover.name)),
-         .position = {mover.latitude_deg, mover.longitude_deg},
-         .speed_mps = mover.speed_mps,
-         .heading_deg = mover.heading_deg,
-         .cross_section_m2 = mover.cross_section_m2,
-         .height_m = mover.height_m,
-         .since = geo::Duration::seconds(static_cast<double>(mover.since_ns) * kSecondsPerNanosecond)});
+  for (const databuffer::WorldMover& mover : databuffer::used(state.movers, state.mover_count)) {
+    radar::Mover& added = world.movers.emplace_back(configured_with_values<radar::Mover>(mover));
+    added.since = geo::Duration::seconds(static_cast<double>(mover.since_ns) * kSecondsPerNanosecond);
+  }
 }
 
 std::vector<radar::RoutePoint> route_of(const databuffer::WorldState& state) {
   std::vector<radar::RoutePoint> route;
   for (const databuffer::WorldPoint& point : databuffer::used(state.points, state.point_count))
-    route.push_back({.name = std::string(text::text_of(point.name)),
-                     .kind = static_cast<radar::PointKind>(point.kind),
-                     .position = {point.latitude_deg, point.longitude_deg},
-                     .elevation_m = point.elevation_m});
+    route.emplace_back(configured_with_values<radar::RoutePoint>(point)).kind =
+        static_cast<radar::PointKind>(point.kind);
   return route;
 }
 

@@ -28,10 +28,10 @@ std::vector<SlotSchema> mode_slots(const Names& displays, const Names& antennas,
        .purpose = "terrain of the mode",
        .same_as = "terrain of Apg70"},
       {.name = "samples",
-       .lowest = 1,
-       .highest = 4096,
+       .lowest = values::ScanRequest::samples.low,
+       .highest = values::ScanRequest::samples.high,
        .binding = samples,
-       .purpose = "samples of a sweep",
+       .purpose = values::ScanRequest::samples.purpose,
        .instead = samples.of != nullptr ? "" : "samples of RealBeamMode and SarMode",
        .same_as = samples.of != nullptr ? "samples of Fidelity" : ""}};
 }

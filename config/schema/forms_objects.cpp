@@ -22,10 +22,8 @@ std::optional<ConstraintViolation> check_jammer(const ConfigurationBuilder& buil
   const auto fractional =
       std::find_if(channels.begin(), channels.end(), [](double channel) { return channel != std::floor(channel); });
   if (fractional != channels.end()) return ConstraintViolation{"channels", "whole numbers", number_text(*fractional)};
-  if (builder.radar.world.jamming.jammers.size() >= radar::kMaxJammers) {
-    return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxJammers) + " jammers", "one more"};
-  }
-  return check_coordinates(builder.jammer.position);
+  return check_entry(builder.jammer.position, builder.radar.world.jamming.jammers.size(), radar::kMaxJammers,
+                     "jammers");
 }
 
 FormSchema jammer() {
@@ -35,8 +33,7 @@ FormSchema jammer() {
       .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(jammer.name)}, .purpose = "name, free text"},
                 latitude_slot(YARS_FIELD(jammer.position.latitude_deg)),
                 longitude_slot(YARS_FIELD(jammer.position.longitude_deg)),
-                number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(jammer.altitude_m), geo::kMetresPerFoot},
-                            "above mean sea level; left out: a mast of 10 m on the ground"),
+                entry_slot("altitude", values::WorldJammer::altitude, YARS_FIELD(jammer.altitude_m)),
                 {.name = "band",
                  .binding = ChoiceSlot{kBands,
                                        [](const ConfigurationBuilder& builder) {
@@ -49,11 +46,10 @@ FormSchema jammer() {
                  .purpose = "band that it jams; left out: all"},
                 {.name = "channels",
                  .lowest = 1,
-                 .highest = 8,
-                 .binding = ListSlot{YARS_FIELD(jammer.channels), 1, 8, Order::ascending},
+                 .highest = radar::kChannels,
+                 .binding = ListSlot{YARS_FIELD(jammer.channels), 1, radar::kChannels, Order::ascending},
                  .purpose = "channels that it jams; left out: all"},
-                number_slot("power", "W", 0, 1e9, {YARS_FIELD(jammer.power_w)},
-                            "effective radiated power within the receiver's bandwidth; left out: 10")},
+                entry_slot("power", values::WorldJammer::power, YARS_FIELD(jammer.power_w))},
       .part_of_value = true,
       .begin = [](ConfigurationBuilder& builder) { builder.jammer = {.name = {}, .position = {kNotGiven, kNotGiven}}; },
       .check = check_jammer,
@@ -64,28 +60,20 @@ FormSchema jammer() {
 }
 
 std::optional<ConstraintViolation> check_mover(const ConfigurationBuilder& builder) {
-  if (builder.radar.world.movers.size() >= radar::kMaxMovers) {
-    return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxMovers) + " movers", "one more"};
-  }
-  return check_coordinates(builder.mover.position);
+  return check_entry(builder.mover.position, builder.radar.world.movers.size(), radar::kMaxMovers, "movers");
 }
 
 FormSchema mover() {
-  constexpr double kMetresPerSecondPerKnot = geo::kMetresPerNauticalMile / 3600.0;
   return {
       .name = "Mover",
       .purpose = "a ship or a vehicle: a point that moves along a great circle",
       .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(mover.name)}, .purpose = "name, free text"},
                 latitude_slot(YARS_FIELD(mover.position.latitude_deg)),
                 longitude_slot(YARS_FIELD(mover.position.longitude_deg)),
-                number_slot("speed", "kt", 0, 1000, {YARS_FIELD(mover.speed_mps), kMetresPerSecondPerKnot},
-                            "over ground; left out: 0"),
-                number_slot("heading", "deg", 0, 360, {YARS_FIELD(mover.heading_deg)},
-                            "true heading at sim time 0; later the direction of the great circle"),
-                number_slot("crossSection", "m2", 0, 1e7, {YARS_FIELD(mover.cross_section_m2)},
-                            "radar cross section; left out: 1000"),
-                number_slot("height", "ft", 0, 1000, {YARS_FIELD(mover.height_m), geo::kMetresPerFoot},
-                            "height of the reflecting point above the ground; left out: 20")},
+                entry_slot("speed", values::WorldMover::speed, YARS_FIELD(mover.speed_mps)),
+                entry_slot("heading", values::WorldMover::heading, YARS_FIELD(mover.heading_deg)),
+                entry_slot("crossSection", values::WorldMover::cross_section, YARS_FIELD(mover.cross_section_m2)),
+                entry_slot("height", values::WorldMover::height, YARS_FIELD(mover.height_m))},
       .part_of_value = true,
       .begin = [](ConfigurationBuilder& builder) { builder.mover = {.name = {}, .position = {kNotGiven, kNotGiven}}; },
       .check = check_mover,
@@ -150,7 +138,7 @@ std::vector<FormSchema> traffic_forms() {
            .slots = {list_slot(
                          "jammers", "Jammer",
                          [](ConfigurationBuilder& builder) { builder.radar.world.jamming.jammers.clear(); },
-                         "at most 16 jammers; they replace those of earlier forms"),
+                         replaced_list(radar::kMaxJammers, "jammers")),
                      number_slot("radarPower", "dBW", 0, 120, {YARS_FIELD(radar.world.jamming.radar_power_dbw)},
                                  "the radar's effective radiated peak power"),
                      number_slot("sidelobes", "dB", -80, 0, {YARS_FIELD(radar.world.jamming.sidelobe_db)},
@@ -161,15 +149,15 @@ std::vector<FormSchema> traffic_forms() {
            .purpose = "ships and vehicles",
            .slots = {list_slot(
                          "movers", "Mover", [](ConfigurationBuilder& builder) { builder.radar.world.movers.clear(); },
-                         "at most 64 movers; they replace those of earlier forms"),
+                         replaced_list(radar::kMaxMovers, "movers")),
                      more_slot("moreMovers", "Mover", "movers", "movers beside those of earlier forms")}},
           mover(),
           {.name = "Scenes",
            .purpose = "polygonal scenes",
            .slots = {list_slot(
                          "scenes", "Scene", [](ConfigurationBuilder& builder) { builder.radar.world.scenes.clear(); },
-                         "at most 1024 scenes; a scene without position is placed by the file's name or header; they "
-                         "replace those of earlier forms"),
+                         replaced_list(radar::kMaxScenes,
+                                       "scenes; a scene without position is placed by the file's name or header")),
                      more_slot("moreScenes", "Scene", "scenes", "scenes beside those of earlier forms")}},
           scene()};
 }
@@ -179,9 +167,8 @@ namespace {
 constexpr double kMaxCode = 99;  // greatest interrogation code of a beacon
 
 std::optional<ConstraintViolation> check_beacon(const ConfigurationBuilder& builder) {
-  if (builder.radar.world.beacons.beacons.size() >= radar::kMaxBeacons)
-    return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxBeacons) + " beacons", "one more"};
-  return check_coordinates(builder.beacon.position);
+  return check_entry(builder.beacon.position, builder.radar.world.beacons.beacons.size(), radar::kMaxBeacons,
+                     "beacons");
 }
 
 SlotSchema whole_number(std::string_view name, double lowest, double highest, int& (*of)(ConfigurationBuilder&),
@@ -196,8 +183,7 @@ FormSchema beacon() {
       .slots = {{.name = "name", .binding = TextSlot{YARS_FIELD(beacon.name)}, .purpose = "name, free text"},
                 latitude_slot(YARS_FIELD(beacon.position.latitude_deg)),
                 longitude_slot(YARS_FIELD(beacon.position.longitude_deg)),
-                number_slot("altitude", "ft", -1500, 100'000, {YARS_FIELD(beacon.altitude_m), geo::kMetresPerFoot},
-                            "above mean sea level; left out: a mast of 10 m on the ground"),
+                entry_slot("altitude", values::WorldJammer::altitude, YARS_FIELD(beacon.altitude_m)),
                 whole_number("code", 1, kMaxCode, YARS_FIELD(beacon.code),
                              "interrogation code to which it replies; left out: 1"),
                 number_slot("delay", "us", 0, 1000, {YARS_FIELD(beacon.delay_us)},
@@ -225,7 +211,7 @@ std::vector<FormSchema> beacon_forms() {
            .slots = {list_slot(
                          "beacons", "Beacon",
                          [](ConfigurationBuilder& builder) { builder.radar.world.beacons.beacons.clear(); },
-                         "at most 64 beacons; they replace those of earlier forms"),
+                         replaced_list(radar::kMaxBeacons, "beacons")),
                      whole_number("beaconCode", 1, kMaxCode, YARS_FIELD(radar.world.beacons.code),
                                   "code that the radar interrogates; beacons with another code do not reply"),
                      more_slot("moreBeacons", "Beacon", "beacons", "beacons beside those of earlier forms")}},

@@ -102,12 +102,7 @@ FormSchema point() {
                      .purpose = "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\""},
                     latitude_slot(YARS_FIELD(point.position.latitude_deg)),
                     longitude_slot(YARS_FIELD(point.position.longitude_deg)),
-                    {.name = "elevation",
-                     .unit = "ft",
-                     .lowest = -1500,
-                     .highest = 30'000,
-                     .binding = NumberSlot{YARS_FIELD(point.elevation_m), geo::kMetresPerFoot},
-                     .purpose = "above mean sea level; left out: unknown"},
+                    entry_slot("elevation", values::WorldPoint::elevation, YARS_FIELD(point.elevation_m)),
                     {.name = "kind",
                      .binding = ChoiceSlot{
                          radar::kPointKindNames, [](const ConfigurationBuilder& builder) { return builder.point_kind; },

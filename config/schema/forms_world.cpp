@@ -217,13 +217,9 @@ SlotSchema sea_coefficients(std::string_view name, std::vector<double>& (*of)(Co
 FormSchema sea() {
   return {.name = "Sea",
           .purpose = "radar return of the sea: the NRL model, with the wind direction factor of the GIT model",
-          .slots = {number_slot("state", "", 0, 6, {YARS_FIELD(radar.world.sea.state)},
-                                "state of the sea, WMO code 3700; left out: from the Beaufort force of the wind"),
-                    number_slot("windSpeed", "kt", 0, 120,
-                                {YARS_FIELD(radar.world.sea.wind_speed_mps), geo::kMetresPerNauticalMile / 3600.0},
-                                "wind over the sea; used if state is left out"),
-                    number_slot("windFrom", "deg", 0, 360, {YARS_FIELD(radar.world.sea.wind_from_deg)},
-                                "true direction from which the wind blows; the sea is brightest in this direction"),
+          .slots = {value_slot("state", values::WorldState::sea_state, YARS_FIELD(radar.world.sea.state)),
+                    value_slot("windSpeed", values::WorldState::wind_speed, YARS_FIELD(radar.world.sea.wind_speed_mps)),
+                    value_slot("windFrom", values::WorldState::wind_from, YARS_FIELD(radar.world.sea.wind_from_deg)),
                     {.name = "polarization",
                      .binding = ChoiceSlot{
                          kPolarizations,
@@ -242,9 +238,8 @@ FormSchema sea() {
 }
 
 std::optional<ConstraintViolation> check_rain_cell(const ConfigurationBuilder& builder) {
-  if (auto wrong = check_coordinates(builder.rain_cell.position)) return wrong;
-  if (builder.radar.world.rain.cells.size() < radar::kMaxRainCells) return std::nullopt;
-  return ConstraintViolation{"latitude", "at most " + std::to_string(radar::kMaxRainCells) + " showers", "one more"};
+  return check_entry(builder.rain_cell.position, builder.radar.world.rain.cells.size(), radar::kMaxRainCells,
+                     "showers");
 }
 
 FormSchema rain_cell() {
@@ -252,12 +247,9 @@ FormSchema rain_cell() {
           .purpose = "a shower: heaviest in the middle, nothing at the rim",
           .slots = {latitude_slot(YARS_FIELD(rain_cell.position.latitude_deg)),
                     longitude_slot(YARS_FIELD(rain_cell.position.longitude_deg)),
-                    number_slot("radius", "NM", 0.1, 100, {YARS_FIELD(rain_cell.radius_m), geo::kMetresPerNauticalMile},
-                                "radius of the rim; left out: 5"),
-                    number_slot("rate", "mm/h", 0.1, 300, {YARS_FIELD(rain_cell.rate_mmh)},
-                                "rain rate in the middle; left out: 10"),
-                    number_slot("top", "ft", 500, 60'000, {YARS_FIELD(rain_cell.top_m), geo::kMetresPerFoot},
-                                "top of the rain above mean sea level; left out: 15,000")},
+                    entry_slot("radius", values::WorldRainCell::radius, YARS_FIELD(rain_cell.radius_m)),
+                    entry_slot("rate", values::WorldRainCell::rate, YARS_FIELD(rain_cell.rate_mmh)),
+                    entry_slot("top", values::WorldRainCell::top, YARS_FIELD(rain_cell.top_m))},
           .part_of_value = true,
           .begin = [](ConfigurationBuilder& builder) { builder.rain_cell = {.position = {kNotGiven, kNotGiven}}; },
           .check = check_rain_cell,
@@ -273,7 +265,7 @@ FormSchema rain() {
       .purpose = "showers, and echo and attenuation of rain",
       .slots = {list_slot(
                     "cells", "RainCell", [](ConfigurationBuilder& builder) { builder.radar.world.rain.cells.clear(); },
-                    "at most 64 showers; they replace those of earlier forms"),
+                    replaced_list(radar::kMaxRainCells, "showers")),
                 number_slot("reflectivityFactor", "", 0, 2000, {YARS_FIELD(radar.world.rain.reflectivity_factor)},
                             "a of Z = a r^b, Z in mm^6/m^3, rain rate r in mm/h (Marshall and Palmer)"),
                 number_slot("reflectivityExponent", "", 0.5, 3, {YARS_FIELD(radar.world.rain.reflectivity_exponent)},

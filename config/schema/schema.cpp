@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <deque>
 #include <memory>
 #include <utility>
 
@@ -221,10 +222,56 @@ bool is_used(const SlotSchema& slot) {
   return std::visit(IsUsed{}, slot.binding);
 }
 
+std::optional<ConstraintViolation> check_entry(geo::GeoPoint position, std::size_t count, int most,
+                                               std::string_view entries) {
+  if (count < static_cast<std::size_t>(most)) return check_coordinates(position);
+  return ConstraintViolation{"latitude", "at most " + std::to_string(most) + " " + std::string(entries), "one more"};
+}
+
 std::optional<ConstraintViolation> check_coordinates(geo::GeoPoint position) {
   if (std::isnan(position.latitude_deg)) return ConstraintViolation{"latitude", "a latitude", "none"};
   if (std::isnan(position.longitude_deg)) return ConstraintViolation{"longitude", "a longitude", "none"};
   return std::nullopt;
+}
+
+namespace {
+
+// A text that lives as long as the table of forms.
+std::string_view kept(std::string text) {
+  static std::deque<std::string> texts;
+  return texts.emplace_back(std::move(text));
+}
+
+}  // namespace
+
+std::string_view replaced_list(int most, std::string_view entries) {
+  return kept("at most " + std::to_string(most) + " " + std::string(entries) + "; they replace those of earlier forms");
+}
+
+SlotSchema value_slot(std::string_view name, const values::Field& field, double& (*of)(ConfigurationBuilder&)) {
+  SlotSchema slot = number_slot(name, field.unit, field.low, field.high, {of, field.factor}, field.purpose);
+  if (!field.otherwise.empty())
+    slot.purpose = kept(std::string(field.purpose) + "; left out: " + std::string(field.otherwise));
+  return slot;
+}
+
+SlotSchema entry_slot(std::string_view name, const values::Field& field, double& (*of)(ConfigurationBuilder&)) {
+  SlotSchema slot = value_slot(name, field, of);
+  if (!std::isnan(field.initial))
+    slot.purpose = kept(std::string(field.purpose) + "; left out: " + number_text(field.initial));
+  return slot;
+}
+
+SlotSchema latitude_slot(double& (*of)(ConfigurationBuilder&)) {
+  SlotSchema slot = value_slot("latitude", values::WorldPoint::latitude, nullptr);
+  slot.binding = AngleSlot{of, true};
+  return slot;
+}
+
+SlotSchema longitude_slot(double& (*of)(ConfigurationBuilder&)) {
+  SlotSchema slot = value_slot("longitude", values::WorldPoint::longitude, nullptr);
+  slot.binding = AngleSlot{of, false};
+  return slot;
 }
 
 std::string value_kind(const SlotSchema& slot) {

@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "lib/geo/geodesy.hpp"
+#include "lib/values/fields.hpp"
 
 namespace yars::radar {
 struct AntennaConfiguration;
@@ -290,6 +291,12 @@ std::optional<ConstraintViolation> check_windows_have_limits(const Configuration
 
 // Rule: latitude and longitude are given.
 std::optional<ConstraintViolation> check_coordinates(geo::GeoPoint position);
+// Rules of an entry of a list: there are fewer than `most` so far, and it has coordinates.
+std::optional<ConstraintViolation> check_entry(geo::GeoPoint position, std::size_t count, int most,
+                                               std::string_view entries);
+
+// Purpose of the list of these entries.
+std::string_view replaced_list(int most, std::string_view entries);
 
 inline SlotSchema number_slot(std::string_view name, std::string_view unit, double lowest, double highest,
                               NumberSlot binding, std::string_view purpose) {
@@ -314,23 +321,13 @@ inline SlotSchema more_slot(std::string_view name, std::string_view form, std::s
           .same_as = list};
 }
 
-inline SlotSchema latitude_slot(double& (*of)(ConfigurationBuilder&)) {
-  return {.name = "latitude",
-          .unit = "deg",
-          .lowest = -90,
-          .highest = 90,
-          .binding = AngleSlot{of, true},
-          .purpose = "WGS84, north positive"};
-}
-
-inline SlotSchema longitude_slot(double& (*of)(ConfigurationBuilder&)) {
-  return {.name = "longitude",
-          .unit = "deg",
-          .lowest = -180,
-          .highest = 180,
-          .binding = AngleSlot{of, false},
-          .purpose = "WGS84, east positive"};
-}
+// Slot of a value that lib/values describes. Its purpose says what holds where the slot is left out, if that is no
+// number.
+SlotSchema value_slot(std::string_view name, const values::Field& field, double& (*of)(ConfigurationBuilder&));
+// The same of an entry of a list. Its purpose has the default, too.
+SlotSchema entry_slot(std::string_view name, const values::Field& field, double& (*of)(ConfigurationBuilder&));
+SlotSchema latitude_slot(double& (*of)(ConfigurationBuilder&));
+SlotSchema longitude_slot(double& (*of)(ConfigurationBuilder&));
 
 // The slots of a form that extends a base form: first the slots of the base, then the form's own slots.
 inline std::vector<SlotSchema> with_base(std::vector<SlotSchema> base, const std::vector<SlotSchema>& own) {

@@ -291,9 +291,9 @@ typedef struct {
   double longitude_deg;      /* [deg] [-180, 180] WGS84 */
   double velocity_north_mps; /* [m/s] [-10000, 10000] */
   double velocity_east_mps;  /* [m/s] [-10000, 10000] */
-  double height_m; /* [m] [0, 1000] height of the point from which the entity reflects, above the ground or water */
-  double cross_section_m2; /* [m2] [0, 1e7] radar cross section */
-  uint32_t id;             /* number given by the source */
+  double height_m;           /* [m] [0, 1000] height of the reflecting point above the ground or water */
+  double cross_section_m2;   /* [m2] [0, 1e7] radar cross section */
+  uint32_t id;               /* number given by the source */
   uint32_t reserved0;
 } yars_traffic_entity;
 

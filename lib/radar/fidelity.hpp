@@ -25,7 +25,7 @@ struct Fidelity {
   Algorithm algorithm = Algorithm::standard;
   EarthModel earth = EarthModel::ellipsoid;
   double earth_radius_factor = 4.0 / 3.0;  // effective earth radius factor k; 1 = no refraction
-  int samples = 480;                       // range samples of a sweep, 1 to 4096
+  int samples = 480;                       // range samples of a sweep
   // Number of exact geodesic positions of a sweep, 2 to 9. The other positions are interpolated. With 5 or more, a
   // Taylor series (GeodesicSeries) replaces the interpolation where the error of the series is at most 1 mm. 0: every
   // position is exact.
@@ -44,7 +44,7 @@ struct Fidelity {
   bool pulse_smear = true;         // smear over the pulse length
   BeamPattern beam = BeamPattern::cosecant_squared;
   // Parameters of patch maps.
-  int map_size = 480;              // [pixels] edge of the map, 16 to 4096; in a session at most 1024
+  int map_size = 480;              // [pixels] edge of the map; in a session at most 1024
   int map_oversampling = 1;        // cells of the polar grid (range, azimuth) per pixel, in each direction, 1 to 4
   bool map_layover = true;         // slant range geometry with layover; false: orthographic
   bool map_response = true;        // impulse response with sidelobes

@@ -12,17 +12,19 @@
 #include <string>
 #include <string_view>
 
+#include "lib/values/defaults.hpp"
+
 namespace yars::radar {
 
 // Sizes of arrays in records, numbers of sequence points, and the duration of a tick.
-inline constexpr int kMaxSamples = 4096;                     // maximum number of samples of a sweep
-inline constexpr int kBezelButtons = 20;                     // buttons around the display
-inline constexpr int kMaxPointsDrawn = 8;                    // sequence points in a record; state-machine uses five
-inline constexpr int kMaxRoutePoints = 256;                  // sequence points of a route, offsets included
-inline constexpr int kMaxPointNumber = 100;                  // largest number of a sequence point
-inline constexpr int kMaxPointOffset = 99;                   // largest offset of a target; other points have 1 to 9
-inline constexpr std::int64_t kTickNanoseconds = 5'000'000;  // [ns] tick of all programs, in sim time
-inline constexpr double kTickSeconds = 0.005;                // [s] kTickNanoseconds in seconds
+inline constexpr int kMaxSamples = 4096;                         // maximum number of samples of a sweep
+inline constexpr int kBezelButtons = 20;                         // buttons around the display
+inline constexpr int kMaxPointsDrawn = 8;                        // sequence points in a record; state-machine uses five
+inline constexpr int kMaxRoutePoints = values::kMaxWorldPoints;  // sequence points of a route, offsets included
+inline constexpr int kMaxPointNumber = 100;                      // largest number of a sequence point
+inline constexpr int kMaxPointOffset = 99;                       // largest offset of a target; other points have 1 to 9
+inline constexpr std::int64_t kTickNanoseconds = 5'000'000;      // [ns] tick of all programs, in sim time
+inline constexpr double kTickSeconds = 0.005;                    // [s] kTickNanoseconds in seconds
 
 enum class Power : std::uint8_t { off = 0, standby = 1, operate = 2 };
 enum class Mode : std::uint8_t {

@@ -10,6 +10,7 @@
 
 #include "lib/geo/geodesy.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/values/defaults.hpp"
 
 namespace yars::radar {
 
@@ -17,9 +18,9 @@ namespace yars::radar {
 inline constexpr double kNotGiven = std::numeric_limits<double>::quiet_NaN();
 
 // The following limits bound the work of one sweep.
-inline constexpr int kMaxRainCells = 64;
-inline constexpr int kMaxJammers = 16;
-inline constexpr int kMaxMovers = 64;
+using values::kMaxJammers;
+using values::kMaxMovers;
+using values::kMaxRainCells;
 inline constexpr int kMaxBeacons = 64;
 inline constexpr int kMaxReplies = 6;  // replies of a beacon to one pulse
 inline constexpr int kMaxScenes = 1024;
@@ -50,9 +51,9 @@ struct LandConfiguration {
 
 // Return of the sea. Source: Gregers-Hansen and Mital, NRL 2012 (DTIC ADA559494), table 2, coefficients c1 to c5.
 struct SeaConfiguration {
-  double state = kNotGiven;  // sea state 0 to 6, WMO code 3700; kNotGiven: from the wind speed
-  double wind_speed_mps = geo::Speed::knots(10.0).metres_per_second();
-  double wind_from_deg = 270.0;  // [deg] true direction that the wind comes from
+  double state = kNotGiven;  // sea state, WMO code 3700; kNotGiven: from the wind speed
+  double wind_speed_mps = values::WorldStateDefaults::wind_speed_mps;
+  double wind_from_deg = values::WorldStateDefaults::wind_from_deg;  // [deg] true direction that the wind comes from
   Polarization polarization = Polarization::horizontal;
   std::vector<double> horizontal{-73.0, 20.781, 7.351, 25.65, 0.0054};
   std::vector<double> vertical{-50.796, 25.93, 0.7093, 21.588, 0.00211};
@@ -64,9 +65,9 @@ struct SeaConfiguration {
 // at the rim and above the top.
 struct RainCell {
   geo::GeoPoint position;
-  double radius_m = 9260.0;  // [m] 5 NM
-  double rate_mmh = 10.0;    // [mm/h] rain rate at the axis
-  double top_m = 4572.0;     // [m] height of the top above mean sea level; 15,000 ft
+  double radius_m = values::WorldRainCellDefaults::radius_m;
+  double rate_mmh = values::WorldRainCellDefaults::rate_mmh;  // at the axis
+  double top_m = values::WorldRainCellDefaults::top_m;        // above mean sea level
 };
 
 struct RainConfiguration {
@@ -79,16 +80,17 @@ struct RainConfiguration {
   std::vector<RainCell> cells;
 };
 
+inline constexpr int kChannels = 8;    // frequency channels of the radar
 inline constexpr int kEveryBand = -1;  // Jammer::band of a jammer in all bands
 
 // Noise jammer. On the display the jammer causes a strobe, a bright line in its direction.
 struct Jammer {
   std::string name;
   geo::GeoPoint position;
-  double altitude_m = kNotGiven;                         // [m] above mean sea level; kNotGiven: 10 m above ground
-  int band = kEveryBand;                                 // 0 to 4 are bands A to E
-  std::vector<double> channels{1, 2, 3, 4, 5, 6, 7, 8};  // jammed channels, ascending
-  double power_w = 10.0;                                 // [W] effective radiated power in the receiver's bandwidth
+  double altitude_m = kNotGiven;                          // [m] above mean sea level; kNotGiven: 10 m above ground
+  int band = kEveryBand;                                  // 0 to 4 are bands A to E
+  std::vector<double> channels{1, 2, 3, 4, 5, 6, 7, 8};   // jammed channels, ascending
+  double power_w = values::WorldJammerDefaults::power_w;  // effective radiated power in the receiver's bandwidth
 };
 
 struct JammingConfiguration {
@@ -117,12 +119,12 @@ struct BeaconConfiguration {
 // Moving target: a point that follows a geodesic at constant speed.
 struct Mover {
   std::string name;
-  geo::GeoPoint position;            // position at sim time `since`
-  double speed_mps = 0.0;            // [m/s] over ground
-  double heading_deg = 0.0;          // [deg] true direction of motion at sim time `since`
-  double cross_section_m2 = 1000.0;  // [m^2] radar cross section
-  double height_m = 6.096;           // [m] height of the scatterer above the ground; 20 ft
-  geo::Duration since{};             // sim time; the configuration has 0
+  geo::GeoPoint position;                                        // position at sim time `since`
+  double speed_mps = values::WorldMoverDefaults::speed_mps;      // over ground
+  double heading_deg = values::WorldMoverDefaults::heading_deg;  // true direction of motion at sim time `since`
+  double cross_section_m2 = values::WorldMoverDefaults::cross_section_m2;
+  double height_m = values::WorldMoverDefaults::height_m;  // height of the scatterer above the ground
+  geo::Duration since{};                                   // sim time; the configuration has 0
 };
 
 // Polygonal scene of the OpenFlight format.

@@ -2,10 +2,10 @@
 """Generates code and tables from the IDL of the records (records.idl in this folder).
 
 usage: generate.py --build FOLDER   the C++ headers and sources, and the IDL for DDS, into FOLDER; the build calls it
-       generate.py --requests FOLDER  of requests.idl: <yars/requests.hpp> and the table of its fields, into FOLDER
+       generate.py --fields FOLDER  what people give: <yars/requests.hpp>, tables of fields and defaults, into FOLDER
        generate.py --tables FILE    the page of all records, fields and values, in Markdown; needs no build
-       generate.py --write YARS     layout.tsv in this folder, databuffer/client/yars_records.h, and the marked parts of
-                                    python/yars/session.py and results.pyi
+       generate.py --write YARS     layout.tsv in this folder, databuffer/client/yars_records.h, station/web/src/values.ts,
+                                    and the marked parts of python/yars/session.py, results.pyi and dataset/keys.py
        generate.py --check YARS     checks that these files equal what --write would write; exit 1 if not
 YARS is the command `yars` built from the same records, such as build/dev/bin/yars. It prints the offsets of the
 segment's containers (`yars status --layout`). A fault in the IDL is reported in one line: file:line, what was expected,
@@ -19,12 +19,14 @@ import sys
 sys.dont_write_bytecode = True
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
-from generator import clients, cpp, dds, idl, requests, schema, stability, tables  # noqa: E402
+from generator import clients, cpp, dds, fields, idl, schema, stability, tables  # noqa: E402
 
 ROOT = HERE.parents[1]
 HEADER = "databuffer/client/yars_records.h"
 PYTHON = "python/yars/session.py"
 STUB = "python/yars/results.pyi"
+KEYS = "python/yars/dataset/keys.py"
+PAGES = "station/web/src/values.ts"
 LAYOUT = "lib/values/layout.tsv"
 BEGIN, END = "# begin: lib/values/generate.py\n", "# end: lib/values/generate.py\n"  # the part of PYTHON
 
@@ -88,18 +90,22 @@ def tree_files(chapters, layout, root):
     python = text_of(root / PYTHON)
     made[PYTHON] = with_part(PYTHON, python, clients.python_records(chapters))
     stub = text_of(root / STUB)
-    for name, part in requests.stubs(idl.read(HERE, "requests.idl")[-1]).items():
+    requests = idl.read(HERE, "requests.idl")
+    for name, part in fields.stubs(requests[-1]).items():
         stub = with_part(STUB, stub, part, f"        # begin: lib/values/generate.py, {name}\n", f"        # end: {name}\n")
     made[STUB] = stub
+    keys = with_part(KEYS, text_of(root / KEYS), "")
+    made[KEYS] = with_part(KEYS, keys, fields.python_values(chapters, requests, keys))
+    made[PAGES] = fields.typescript(chapters, requests)
     return {name: (text_of(root / name), text) for name, text in made.items()}
 
 
 def main(arguments):
-    if len(arguments) != 2 or arguments[0] not in ("--build", "--requests", "--tables", "--write", "--check"):
+    if len(arguments) != 2 or arguments[0] not in ("--build", "--fields", "--tables", "--write", "--check"):
         sys.exit(__doc__)
     what, where = arguments
-    if what == "--requests":
-        return write_all(pathlib.Path(where), requests.files(idl.read(HERE, "requests.idl")[-1]))
+    if what == "--fields":
+        return write_all(pathlib.Path(where), fields.files(idl.read(HERE), idl.read(HERE, "requests.idl")))
     chapters = idl.read(HERE)
     if what == "--build":
         return build(pathlib.Path(where), chapters)

@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "lib/geo/earth.hpp"
-#include "lib/values/request_fields.hpp"
+#include "lib/values/fields.hpp"
 #include "python/core/patch_boxes.hpp"
 #include "radar/failure.hpp"
 #include "radar/limits.hpp"
@@ -155,34 +155,32 @@ Outputs make_outputs(const SeriesRequest& request, std::size_t count, int size) 
   return outputs;
 }
 
-// A number of an entry, with the field of the request that it becomes.
+// A number of an entry, with the field that it becomes.
 struct Number {
-  const char* name;   // of the entry's field
-  const char* field;  // of the request
+  const char* name;  // of the entry's field
+  const values::Field& field;
   double value;
 };
 
 // Throws ValueError that names the first number beyond its field's limits. `entry`: such as "orders[3]".
 void check_numbers(const std::string& entry, std::initializer_list<Number> numbers) {
-  for (const Number& number : numbers) {
-    const auto& fields = values::kPatchRequestFields;
-    const auto field = std::ranges::find(fields, std::string_view(number.field), &values::Field::name);
-    if (!field->contains(number.value))
-      radar::fail(radar::beyond_field("yars.Radar.patches: " + entry + ": " + number.name, *field, number.value));
-  }
+  for (const Number& number : numbers)
+    if (!number.field.contains(number.value))
+      radar::fail(radar::beyond_field("yars.Radar.patches: " + entry + ": " + number.name, number.field, number.value));
 }
 
 PatchRequest request_of(const std::string& entry, const Order& order, bool force) {
-  check_numbers(entry, {{"latitude", "latitude_deg", order.latitude},
-                        {"longitude", "longitude_deg", order.longitude},
-                        {"altitude_ft", "altitude_ft", order.altitude_ft},
-                        {"heading", "heading_deg", order.heading},
-                        {"speed_kt", "speed_kt", order.speed_kt},
-                        {"target_latitude", "target_latitude_deg", order.target_latitude},
-                        {"target_longitude", "target_longitude_deg", order.target_longitude},
-                        {"window_nm", "window_nm", order.window_nm},
-                        {"time_s", "time_s", order.time_s},
-                        {"looks", "looks", static_cast<double>(order.looks)}});
+  using Of = values::PatchRequest;
+  check_numbers(entry, {{"latitude", Of::latitude, order.latitude},
+                        {"longitude", Of::longitude, order.longitude},
+                        {"altitude_ft", Of::altitude, order.altitude_ft},
+                        {"heading", Of::heading, order.heading},
+                        {"speed_kt", Of::speed, order.speed_kt},
+                        {"target_latitude", Of::target_latitude, order.target_latitude},
+                        {"target_longitude", Of::target_longitude, order.target_longitude},
+                        {"window_nm", Of::window, order.window_nm},
+                        {"time_s", Of::time, order.time_s},
+                        {"looks", Of::looks, static_cast<double>(order.looks)}});
   PatchRequest request;
   request.latitude_deg = order.latitude;
   request.longitude_deg = order.longitude;
@@ -199,12 +197,6 @@ PatchRequest request_of(const std::string& entry, const Order& order, bool force
   return request;
 }
 
-void check_field(const std::string& entry, const char* name, double value, double low, double high) {
-  if (!(value >= low && value <= high))
-    radar::fail(
-        radar::beyond_field("yars.Radar.patches: " + entry + ": " + name, {"", "", "", low, high, "", "", {}}, value));
-}
-
 // Movers of each order.
 std::vector<std::vector<Mover>> movers_of(const py::object& given, std::size_t orders) {
   std::vector<std::vector<Mover>> movers(orders);
@@ -215,13 +207,14 @@ std::vector<std::vector<Mover>> movers_of(const py::object& given, std::size_t o
   for (std::size_t i = 0; i < all.size(); ++i) {
     const MoverEntry& mover = all[i];
     const std::string entry = "movers[" + std::to_string(i) + "]";
-    check_field(entry, "order", static_cast<double>(mover.order), 0.0, static_cast<double>(orders - 1));
-    check_numbers(entry, {{"latitude", "latitude_deg", mover.latitude},
-                          {"longitude", "longitude_deg", mover.longitude},
-                          {"heading", "heading_deg", mover.heading},
-                          {"speed_kt", "speed_kt", mover.speed_kt}});
-    check_field(entry, "cross_section_m2", mover.cross_section_m2, 1e-3, 1e7);
-    check_field(entry, "height_m", mover.height_m, 0.0, 1000.0);
+    const values::Field order{"order", "order", "", "", 0.0, static_cast<double>(orders - 1), "", ""};
+    check_numbers(entry, {{"order", order, static_cast<double>(mover.order)},
+                          {"latitude", values::WorldMover::latitude, mover.latitude},
+                          {"longitude", values::WorldMover::longitude, mover.longitude},
+                          {"heading", values::WorldMover::heading, mover.heading},
+                          {"speed_kt", values::WorldMover::speed, mover.speed_kt},
+                          {"cross_section_m2", values::TrafficEntity::cross_section, mover.cross_section_m2},
+                          {"height_m", values::TrafficEntity::height, mover.height_m}});
     movers[static_cast<std::size_t>(mover.order)].push_back(
         {mover.latitude, mover.longitude, mover.heading, mover.speed_kt, mover.cross_section_m2, mover.height_m});
   }

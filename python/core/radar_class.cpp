@@ -5,7 +5,7 @@
 #include <type_traits>
 
 #include "lib/file/file_search.hpp"
-#include "lib/values/request_fields.hpp"
+#include "lib/values/fields.hpp"
 
 namespace yars::python {
 

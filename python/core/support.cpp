@@ -41,8 +41,8 @@ std::string message_in_python(Error error) {
   const auto spell = [](const values::Field& field, std::string_view value) {
     return std::string(field.name) + (value.empty() ? "" : value == "true" ? "=True" : '=' + std::string(value));
   };
-  for (const std::span<const values::Field> fields : {std::span<const values::Field>(values::kScanRequestFields),
-                                                      std::span<const values::Field>(values::kPatchRequestFields)})
+  for (const std::span<const values::Field> fields : {std::span<const values::Field>(values::ScanRequest::all),
+                                                      std::span<const values::Field>(values::PatchRequest::all)})
     error = radar::spelled(std::move(error), fields, spell);
   return error.message();
 }

@@ -190,6 +190,7 @@ class Patch(_Picture):
 
 _SCAN = Request("yars.Radar.scan", _core.ScanRequest, _core.ScanRequest_fields)
 _PATCH = Request("yars.Radar.patch", _core.PatchRequest, _core.PatchRequest_fields)
+_THREADS = next([int(end) for end in field[4:]] for field in _core.PatchRequest_fields if field[0] == "threads")
 _TRADE = ("presets", "knob", "base", "ruler", "repeat", "csv", "out", "scene")
 _TRADES = {maps: Options("yars.trade", (*_TRADE, *more), lists=("knob", "scene", "view", "scene_without"), commas=("presets",),
                          paths=("csv", "out"), optional=("knob", "csv", "out", "scene", "view", "scene_without"))
@@ -312,7 +313,7 @@ class Radar(Held):
 
         terrain: Terrain. scene: Scene on it; None: the scenes in the terrain's folder, and of the configuration.
         fields: latitude_deg, longitude_deg, altitude_ft [ft MSL], heading_deg (true), range_nm, width_deg, elevation_deg,
-        gain 0 to 3, band A to E, channel 1 to 8, samples, time_s, threads, seed, force (beyond gimbal limits, below ground).
+        gain, band A to E, channel, samples, time_s, threads, seed, force (beyond gimbal limits, below ground).
         """
         places = self._places("yars.Radar.scan", terrain, scene)
         request = _SCAN.of(fields)
@@ -323,7 +324,7 @@ class Radar(Held):
         """One patch map, as `yars patch`. Returns a Patch.
 
         terrain, scene: as scan(). fields: latitude_deg, longitude_deg, altitude_ft [ft MSL], heading_deg (true), speed_kt,
-        target_latitude_deg, target_longitude_deg, window_nm, looks 1 to 16, size [pixels], map (number, selects the noise
+        target_latitude_deg, target_longitude_deg, window_nm, looks, size [pixels], map (number, selects the noise
         with the seed), time_s, threads, seed, force (beyond the radar's limits).
         """
         places = self._places("yars.Radar.patch", terrain, scene)
@@ -364,7 +365,7 @@ class Radar(Held):
         if names is None:
             raise kind_error(f"{where}: arrays", "the name of an array, or a list of names", arrays)
         names = [text(f"{where}: arrays", name, "the name of an array") for name in names]
-        numbers = (whole(f"{where}: threads", threads, 1, 256), truth(f"{where}: force", force),
+        numbers = (whole(f"{where}: threads", threads, *_THREADS), truth(f"{where}: force", force),
                    whole(f"{where}: min_pixels", min_pixels, 0, 2 ** 31 - 1))
         with Said(where):
             return self._core.patches(places[0], orders, places[1], movers, names, *numbers)

@@ -102,7 +102,7 @@ class Radar(Held):
         gain: int = ...,  # 0 to 3: receiver gain
         band: Literal["A", "B", "C", "D", "E"] = ...,  # band of the radar; a jammer acts only in its own bands
         channel: int = ...,  # 1 to 8: frequency channel
-        time_s: float = ...,  # [s] 0 to 1e8: sim time of the first sweep, for moving targets
+        time_s: float = ...,  # [s] 0 to 576460752: sim time of the first sweep, for moving targets
         threads: int = ...,  # 1 to 256: number of threads
         seed: int | None = ...,  # seed of the noise; left out: the configuration's
         # end: ScanRequest
@@ -124,7 +124,7 @@ class Radar(Held):
         force: bool = ...,  # ignore the radar's limits; the blind zone stays blank
         looks: int | None = ...,  # 1 to 16: number of looks to average; left out: that of ML1
         size: int | None = ...,  # [pixels] 16 to 4096: per side; up to 1024 with the preset reference; left out: the configuration's
-        time_s: float = ...,  # [s] 0 to 1e8: sim time at the start, for moving targets
+        time_s: float = ...,  # [s] 0 to 576460752: sim time at the start, for moving targets
         threads: int | None = ...,  # 1 to 256: number of threads; left out: one for each processor
         seed: int | None = ...,  # seed of the noise; left out: the configuration's
         map: int = ...,  # 0 to 4294967295: number of the map; selects the noise together with the seed

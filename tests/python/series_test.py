@@ -91,7 +91,7 @@ class Series(Folder):
         self.assertEqual(without["hash"][0], with_one["hash"][0])
         self.assertNotEqual(without["hash"][1], with_one["hash"][1])
         for field, value in (("order", 2), ("order", -1), ("latitude", 91), ("heading", np.nan), ("heading", 361), ("speed_kt", -1),
-                             ("cross_section_m2", 0), ("height_m", np.inf)):
+                             ("cross_section_m2", -1), ("height_m", np.inf)):
             bad = np.repeat(movers, 2)
             bad[field][1] = value
             self.refused(ValueError, rf"movers\[1\]: {field}: expected .* to .*, found {value}",

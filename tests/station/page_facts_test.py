@@ -1,7 +1,6 @@
 #!/usr/bin/env python3
-"""What is written twice about the pages: the presets' errors are those of docs/performance.md, rounded; the limits of the instructor's fields
-are those that the world's records are checked against; the list of licences has each package of package-lock.json.
-usage: page_facts_test.py"""
+"""What is written twice about the pages: the presets' errors are those of docs/performance.md, rounded; the list of licences
+has each package of package-lock.json. usage: page_facts_test.py"""
 import json
 import pathlib
 import re
@@ -40,35 +39,6 @@ class Presets(unittest.TestCase):
                 self.assertLessEqual(abs(float(text) - float(mean)), 0.5000001 * 10.0**-digits,
                                      f"{name} {field}: expected docs/performance.md's {mean}, found {text} in presets.ts")
                 self.assertEqual(float(text) == 0, float(mean) == 0, f"{name} {field}: rounded to nothing")
-
-
-def checked():
-    """Limits in world_edit.cpp: entry -> {(quantity, unit): (least, greatest)}."""
-    text = (TOP / "world/world_edit.cpp").read_text(encoding="utf-8")
-    checks = re.findall(r"^Expected<void> check\(const databuffer::World(\w+)&.*?^}", text, re.M | re.S)
-    bodies = re.split(r"^Expected<void> check\(const databuffer::World\w+&.*$", text, flags=re.M)[1:]
-    quantity = re.compile(r'\{"([\w ]+)", [^{}"]*, ([-\d.e\']+), ([-\d.e\']+),\s+"([^"]*)"')
-    return {entry: {(name, unit): (float(least.replace("'", "")), float(most.replace("'", "")))
-                    for name, least, most, unit in quantity.findall(body.split("\n}\n")[0])} for entry, body in zip(checks, bodies)}
-
-
-def fields_of_the_page():
-    """Limits in world_panel.ts: list of the world -> {(quantity, unit): (least, greatest)}."""
-    text = (TOP / "station/web/src/world_panel.ts").read_text(encoding="utf-8")
-    text = text[text.index("const FIELDS"):].split("\n};\n")[0]
-    field = re.compile(r'name: "\w+", label: "(\w+) \[([^\]]+)\]", min: ([-\d.e]+), max: ([-\d.e]+)')
-    return {kind: {(label.lower(), unit): (float(least), float(most)) for label, unit, least, most in field.findall(fields)}
-            for kind, fields in re.findall(r"^  (\w+): \[(.*?)\],$", text, re.M | re.S)}
-
-
-class Limits(unittest.TestCase):
-    def test_the_page_takes_what_the_world_takes(self):
-        names = {("rain", "mm/h"): ("rate", "mm/h"), ("heading", "deg true"): ("heading", "deg")}
-        world, page = checked(), fields_of_the_page()
-        self.assertEqual({kind: len(fields) for kind, fields in page.items()}, {"rain": 3, "jammers": 1, "movers": 2, "points": 1})
-        for kind, entry in {"rain": "RainCell", "jammers": "Jammer", "movers": "Mover", "points": "Point"}.items():
-            for name, limits in page[kind].items():
-                self.assertEqual(limits, world[entry][names.get(name, name)], f"{kind} {name}")
 
 
 class Licences(unittest.TestCase):

@@ -11,6 +11,7 @@
 
 #include "databuffer/messages/validation.hpp"
 #include "lib/radar/route.hpp"
+#include "lib/values/fields.hpp"
 #include "world/world_values.hpp"
 
 namespace yars::world {
@@ -153,8 +154,8 @@ databuffer::WorldPoint a_point(const databuffer::WorldState& world, const char* 
   return point;
 }
 
-radar::PointKind kind_of(const databuffer::WorldState& world, std::uint32_t id) {
-  return static_cast<radar::PointKind>(point_with(world, id).value().kind);
+radar::PointKind kind_of(databuffer::WorldState& world, std::uint32_t id) {
+  return static_cast<radar::PointKind>(entry_with<databuffer::WorldPoint>(world, id, 0).value().kind);
 }
 
 TEST(WorldValues, ARecordGivesTheRouteBack) {
@@ -225,7 +226,7 @@ TEST(WorldPoints, ATargetMakesTheLastSteerPointBeforeItAnInitialPoint) {
   EXPECT_EQ(kind_of(world, 4), radar::PointKind::initial);
   EXPECT_EQ(kind_of(world, 2), radar::PointKind::steer);
   EXPECT_EQ(kind_of(world, *target), radar::PointKind::target);
-  databuffer::WorldPoint renamed = point_with(world, 2).value();
+  databuffer::WorldPoint renamed = entry_with<databuffer::WorldPoint>(world, 2, 0).value();
   ASSERT_TRUE(set_name(renamed, "3."));
   ASSERT_TRUE(replace(world, renamed));
   EXPECT_EQ(kind_of(world, 1), radar::PointKind::initial);
@@ -238,7 +239,7 @@ TEST(WorldPoints, AMovedTargetChangesNoOtherPoint) {
   ASSERT_TRUE(add(world, a_point(world, "6.")));
   world.points[3].kind = static_cast<std::uint8_t>(radar::PointKind::steer);  // as a configuration can state it
   ASSERT_TRUE(move(world, WorldList::points, 5, {39.0, -120.0}, 0));
-  EXPECT_EQ(point_with(world, 5).value().latitude_deg, 39.0);
+  EXPECT_EQ(entry_with<databuffer::WorldPoint>(world, 5, 0).value().latitude_deg, 39.0);
   EXPECT_EQ(kind_of(world, 4), radar::PointKind::steer);
 }
 
@@ -261,16 +262,16 @@ TEST(WorldPoints, AreRemovedAndComeBackUnlessTheirNameIsGiven) {
   EXPECT_EQ(std::memcmp(&world.points[3], &point, sizeof point), 0);
   ASSERT_TRUE(add(renewed, a_point(renewed, "1")));
   EXPECT_FALSE(restore(renewed, point));
-  EXPECT_FALSE(point_with(world, 77));
+  EXPECT_FALSE(entry_with<databuffer::WorldPoint>(world, 77, 0));
 }
 
 TEST(WorldPoints, ValuesOutOfRangeAreRefused) {
   databuffer::WorldState world = a_route();
   databuffer::WorldPoint point = world.points[0];
-  point.elevation_m = 31'000.0 * geo::kMetresPerFoot;
+  point.elevation_m = 33'000.0 * geo::kMetresPerFoot;
   const auto refused = replace(world, point);
   ASSERT_FALSE(refused);
-  EXPECT_NE(refused.error().message().find("-1500 to 30000 ft"), std::string::npos) << refused.error().message();
+  EXPECT_NE(refused.error().message().find("-39370 to 32808 ft"), std::string::npos) << refused.error().message();
   EXPECT_FALSE(move(world, WorldList::points, 1, {91.0, 0.0}, 0));
 }
 
@@ -340,8 +341,8 @@ TEST(WorldEdit, ValuesOutOfRangeAreRefusedWithTheLimitsAndChangeNothing) {
   wide.radius_m = 200'000.0;
   EXPECT_TRUE(refused(add(world, wide), "0.1 to 100 NM"));
   databuffer::WorldMover fast = world.movers[0];
-  fast.speed_mps = 600.0;
-  EXPECT_TRUE(refused(replace(world, fast), "0 to 1000 kt"));
+  fast.speed_mps = 5200.0;
+  EXPECT_TRUE(refused(replace(world, fast), "0 to 10000 kt"));
   databuffer::WorldJammer lost = world.jammers[0];
   lost.latitude_deg = kNaN;
   EXPECT_TRUE(refused(replace(world, lost), "-90 to 90 deg"));
@@ -361,9 +362,11 @@ TEST(WorldEdit, TheLimitsThemselvesAreValid) {
   cell.top_m = 60'000.0 * geo::kMetresPerFoot;
   EXPECT_TRUE(add(world, cell));
   databuffer::WorldMover mover = default_mover({-90.0, -180.0}, 0);
-  mover.speed_mps = geo::Speed::knots(1000.0).metres_per_second();
-  mover.height_m = 1000.0 * geo::kMetresPerFoot;
-  mover.heading_deg = 360.0;
+  mover.speed_mps = values::WorldMover::speed.recorded(10'000.0);
+  mover.height_m = 1000.0;
+  mover.heading_deg = -360.0;
+  EXPECT_TRUE(add(world, mover));
+  mover.height_m = values::WorldMover::height.recorded(values::WorldMover::height.high);
   EXPECT_TRUE(add(world, mover));
   EXPECT_TRUE(set_wind(world, geo::Speed::knots(120.0).metres_per_second(), 360.0));
   EXPECT_TRUE(set_sea_state(world, kNaN));

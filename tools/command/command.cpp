@@ -9,7 +9,7 @@
 
 #include "config/schema/load.hpp"
 #include "lib/text/plain_text.hpp"
-#include "lib/values/request_fields.hpp"
+#include "lib/values/fields.hpp"
 #include "model/scene/index/scene_index.hpp"
 #include "model/scene/openflight/node_tree.hpp"
 #include "radar/limits.hpp"
@@ -77,12 +77,26 @@ Number number_in(const std::optional<Number>&);
 template <class Number>
 Number number_in(const Number&);
 
+std::string help_of(const values::Field& field) {
+  return (field.unit.empty() ? "" : '[' + std::string(field.unit) + "] ") + std::string(field.purpose);
+}
+
+// Adds the option of a number.
+template <class Value>
+runtime::Option add_number(runtime::Command command, const std::string& name, const values::Field& field,
+                           Value& value) {
+  using Number = std::remove_cvref_t<decltype(number_in(value))>;
+  runtime::Option option = command.option(name, value, help_of(field));
+  if (field.high < values::kAny) option.range(static_cast<Number>(field.low), static_cast<Number>(field.high));
+  if (!field.otherwise.empty()) option.otherwise(std::string(field.otherwise));
+  return option;
+}
+
 // Adds the option of one field.
 template <class Value>
 void add_field(runtime::Command command, const values::Field& field, Value& value) {
   const std::string name = "--" + std::string(field.option);
-  const std::string help =
-      (field.unit.empty() ? "" : '[' + std::string(field.unit) + "] ") + std::string(field.purpose);
+  const std::string help = help_of(field);
   if constexpr (std::is_same_v<Value, bool>) {
     command.flag(name, value, help);
   } else if constexpr (std::is_enum_v<Value>) {
@@ -96,10 +110,7 @@ void add_field(runtime::Command command, const values::Field& field, Value& valu
       return given;
     });
   } else {
-    using Number = std::remove_cvref_t<decltype(number_in(value))>;
-    runtime::Option option = command.option(name, value, help);
-    if (field.high < values::kAny) option.range(static_cast<Number>(field.low), static_cast<Number>(field.high));
-    if (!field.otherwise.empty()) option.otherwise(std::string(field.otherwise));
+    add_number(command, name, field, value);
   }
 }
 
@@ -109,6 +120,15 @@ void add_all(runtime::Command command, Request& request) {
 }
 
 }  // namespace
+
+runtime::Option add_value(runtime::Command command, const std::string& name, const values::Field& field,
+                          double& value) {
+  return add_number(command, name, field, value);
+}
+runtime::Option add_value(runtime::Command command, const std::string& name, const values::Field& field,
+                          std::optional<double>& value) {
+  return add_number(command, name, field, value);
+}
 
 void add_request_options(runtime::Command command, ScanRequest& request) {
   add_all(command, request);
@@ -124,8 +144,8 @@ CommandFailed failure_of(const error::Error& error) {
   const auto spell = [](const values::Field& field, std::string_view value) {
     return "--" + std::string(field.option) + (value.empty() || value == "true" ? "" : ' ' + std::string(value));
   };
-  for (const std::span<const values::Field> fields : {std::span<const values::Field>(values::kScanRequestFields),
-                                                      std::span<const values::Field>(values::kPatchRequestFields)})
+  for (const std::span<const values::Field> fields : {std::span<const values::Field>(values::ScanRequest::all),
+                                                      std::span<const values::Field>(values::PatchRequest::all)})
     in_options = radar::spelled(std::move(in_options), fields, spell);
   return {in_options.message(), error.bad_usage() ? runtime::kExitUsage : runtime::kExitFailure};
 }

@@ -19,6 +19,9 @@ class NameFilter;
 namespace yars::radar {
 struct RadarConfiguration;
 }
+namespace yars::values {
+struct Field;
+}
 
 namespace yars::tools {
 
@@ -66,6 +69,11 @@ void apply_options(const ConfigurationOptions& options, radar::RadarConfiguratio
 // Adds an option for each field of a request (lib/values/requests.idl).
 void add_request_options(runtime::Command command, ScanRequest& request);
 void add_request_options(runtime::Command command, PatchRequest& request);
+
+// Adds an option or argument for a value (lib/values/fields.hpp), with its unit, limits and purpose. `name`: "--rate".
+runtime::Option add_value(runtime::Command command, const std::string& name, const values::Field& field, double& value);
+runtime::Option add_value(runtime::Command command, const std::string& name, const values::Field& field,
+                          std::optional<double>& value);
 
 using radar::LeftOut;
 using radar::Warn;

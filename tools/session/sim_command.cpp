@@ -14,6 +14,7 @@
 #include "databuffer/session/validated.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/modes.hpp"
+#include "lib/values/fields.hpp"
 #include "runtime/process.hpp"
 #include "runtime/program.hpp"
 #include "tools/command/command.hpp"
@@ -195,13 +196,12 @@ void add_sim_command(runtime::Command app, const CommonOptions& common) {
         const databuffer::Repositioning to = repositioning_of(*position);
         begin_epoch(*options, [&](const ClockState& clock) { return databuffer::repositioned(clock, to); });
       });
-  move.option("LAT", position->latitude_deg, "[deg] north positive").range(-90.0, 90.0).required();
-  move.option("LON", position->longitude_deg, "[deg] east positive").range(-180.0, 180.0).required();
-  move.option("ALT_FT", position->altitude_ft, "[ft] above mean sea level").range(-3000.0, 600000.0).required();
-  move.option("HDG", position->heading_deg, "[deg] true").range(0.0, 360.0).required();
-  move.option("--speed", position->speed_kt, "[kt] over ground: the aircraft then flies straight and level")
-      .range(30.0, 5000.0)
-      .otherwise("the source chooses");
+  using To = values::Reposition;
+  add_value(move, "LAT", To::latitude, position->latitude_deg).required();
+  add_value(move, "LON", To::longitude, position->longitude_deg).required();
+  add_value(move, "ALT_FT", To::altitude, position->altitude_ft).required();
+  add_value(move, "HDG", To::heading, position->heading_deg).required();
+  add_value(move, "--speed", To::speed, position->speed_kt);
 }
 
 }  // namespace yars::tools

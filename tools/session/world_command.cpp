@@ -2,6 +2,7 @@
 // sequence points.
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -17,9 +18,8 @@
 
 #include "databuffer/messages/inspection.hpp"
 #include "databuffer/session/session_world.hpp"
-#include "lib/geo/quantity.hpp"
 #include "lib/text/plain_text.hpp"
-#include "lib/values/request_fields.hpp"
+#include "lib/values/fields.hpp"
 #include "tools/command/command.hpp"
 #include "tools/command/json_output.hpp"
 #include "world/world_edit.hpp"
@@ -53,10 +53,11 @@ std::string position_text(double latitude_deg, double longitude_deg) {
   return text;
 }
 
-std::string rounded(double value, const char* unit) {
+// A value of a record with six digits, in the unit in which people give it.
+std::string rounded(double recorded, const values::Field& field) {
   char text[48];
-  std::snprintf(text, sizeof text, "%.6g %s", value, unit);
-  return text;
+  std::snprintf(text, sizeof text, "%.6g ", field.given(recorded));
+  return text + std::string(field.unit);
 }
 
 std::string named(std::uint32_t id, const char* name) {
@@ -66,29 +67,32 @@ std::string named(std::uint32_t id, const char* name) {
 }
 
 void print_entries(const WorldState& world, std::int64_t sim_time_ns) {
+  using Rain = values::WorldRainCell;
+  using Jammer = values::WorldJammer;
+  using Mover = values::WorldMover;
   for (const auto& cell : databuffer::used(world.rain, world.rain_count))
     std::printf("rain %u: %s, radius %s, %s, top %s\n", cell.id,
                 position_text(cell.latitude_deg, cell.longitude_deg).c_str(),
-                rounded(cell.radius_m / geo::kMetresPerNauticalMile, "NM").c_str(),
-                rounded(cell.rate_mmh, "mm/h").c_str(), rounded(cell.top_m / geo::kMetresPerFoot, "ft").c_str());
+                rounded(cell.radius_m, Rain::radius).c_str(), rounded(cell.rate_mmh, Rain::rate).c_str(),
+                rounded(cell.top_m, Rain::top).c_str());
   for (const auto& jammer : databuffer::used(world.jammers, world.jammer_count))
-    std::printf("jammer %s: %s, %s, band %s, %s\n", named(jammer.id, jammer.name).c_str(),
-                position_text(jammer.latitude_deg, jammer.longitude_deg).c_str(),
-                std::isnan(jammer.altitude_m) ? "10 m above ground"
-                                              : rounded(jammer.altitude_m / geo::kMetresPerFoot, "ft").c_str(),
-                world::band_name(jammer.band), rounded(jammer.power_w, "W").c_str());
+    std::printf(
+        "jammer %s: %s, %s, band %s, %s\n", named(jammer.id, jammer.name).c_str(),
+        position_text(jammer.latitude_deg, jammer.longitude_deg).c_str(),
+        std::isnan(jammer.altitude_m) ? "10 m above ground" : rounded(jammer.altitude_m, Jammer::altitude).c_str(),
+        world::band_name(jammer.band), rounded(jammer.power_w, Jammer::power).c_str());
   for (const auto& mover : databuffer::used(world.movers, world.mover_count)) {
     const auto now = world::at_sim_time(mover, sim_time_ns);
     std::printf("mover %s: %s, %s, heading %s, %s\n", named(now.id, now.name).c_str(),
                 position_text(now.latitude_deg, now.longitude_deg).c_str(),
-                rounded(geo::Speed::metres_per_second(now.speed_mps).knots(), "kt").c_str(),
-                rounded(now.heading_deg, "deg").c_str(), rounded(now.cross_section_m2, "m2").c_str());
+                rounded(now.speed_mps, Mover::speed).c_str(), rounded(now.heading_deg, Mover::heading).c_str(),
+                rounded(now.cross_section_m2, Mover::cross_section).c_str());
   }
   for (const auto& point : databuffer::used(world.points, world.point_count))
     std::printf("point %u \"%s\": %s, %s, %s\n", point.id, point.name,
                 position_text(point.latitude_deg, point.longitude_deg).c_str(),
                 std::isnan(point.elevation_m) ? "elevation unknown"
-                                              : rounded(point.elevation_m / geo::kMetresPerFoot, "ft").c_str(),
+                                              : rounded(point.elevation_m, values::WorldPoint::elevation).c_str(),
                 std::string(world::kind_name(point)).c_str());
 }
 
@@ -115,8 +119,8 @@ void report(const Session& session, const WorldState& world, const std::string& 
               (world.flags & databuffer::kWorldConfigured) != 0U ? ", the configuration's world" : "", waiting);
   std::printf("sea state %s, wind %s from %s\n",
               std::isnan(world.sea_state) ? "from the wind" : number(world.sea_state).c_str(),
-              rounded(geo::Speed::metres_per_second(world.wind_speed_mps).knots(), "kt").c_str(),
-              rounded(world.wind_from_deg, "deg").c_str());
+              rounded(world.wind_speed_mps, values::WorldState::wind_speed).c_str(),
+              rounded(world.wind_from_deg, values::WorldState::wind_from).c_str());
   print_entries(world, now_ns);
 }
 
@@ -188,7 +192,9 @@ void set_sea(const WorldOptions& options, const std::string& word) {
     char* end = nullptr;
     state = std::strtod(word.c_str(), &end);
     if (end == word.c_str() || *end != '\0' || std::isnan(state))
-      throw_failure(error::usage_error("STATE", "a sea state from 0 to 6, or auto", '\'' + word + '\''));
+      throw_failure(error::usage_error(
+          "STATE", "a sea state from 0 to " + number(values::WorldState::sea_state.high) + ", or auto",
+          '\'' + word + '\''));
   }
   change(options, [state, &word](WorldState& world, std::int64_t) {
     return text_if_done(world::set_sea_state(world, state),
@@ -209,10 +215,57 @@ void add_id(runtime::Command command, Place& place) {
 }
 
 void add_position(runtime::Command command, Place& place) {
-  const auto& [latitude, longitude] = values::kPosition;
-  command.option("LAT", place.latitude_deg, "[deg] north positive").range(latitude.low, latitude.high).required();
-  command.option("LON", place.longitude_deg, "[deg] east positive").range(longitude.low, longitude.high).required();
+  add_value(command, "LAT", values::WorldPoint::latitude, place.latitude_deg).required();
+  add_value(command, "LON", values::WorldPoint::longitude, place.longitude_deg).required();
 }
+
+// What a user gives for a new entry: position, name, and its other values in the units in which people give them.
+template <class Entry>
+class NewEntry {
+ public:
+  geo::GeoPoint position() const { return place_.point(); }
+
+  void add_options(runtime::Command command) {
+    add_position(command, place_);
+    if constexpr (requires { Entry::name; })
+      command.option("--name", name_, "name, at most " + std::to_string(sizeof(Entry::name) - 1) + " characters")
+          .otherwise("none");
+    auto number = numbers_.begin();
+    for (const values::Field& field : Entry::Values::all) {
+      const std::string option = "--" + std::string(field.option);
+      if (is_of_position(field)) continue;
+      number->value = field.initial;
+      if (std::isnan(field.initial))
+        add_value(command, option, field, number++->optional);
+      else
+        add_value(command, option, field, number++->value);
+    }
+  }
+
+  Expected<void> write(Entry& entry) const {
+    auto number = numbers_.begin();
+    values::visit_fields(entry, [&](const values::Field& field, double& value) {
+      if (is_of_position(field)) return;
+      value = field.recorded(std::isnan(field.initial) ? number->optional.value_or(field.initial) : number->value);
+      ++number;
+    });
+    if constexpr (requires { Entry::name; }) return world::set_name(entry, name_);
+    return {};
+  }
+
+ private:
+  struct Number {
+    double value = 0.0;
+    std::optional<double> optional;  // of a value without a default
+  };
+  static bool is_of_position(const values::Field& field) {
+    return field.name == values::WorldPoint::latitude.name || field.name == values::WorldPoint::longitude.name;
+  }
+
+  Place place_;
+  std::string name_;
+  std::array<Number, Entry::Values::all.size()> numbers_;
+};
 
 using Shared = std::shared_ptr<WorldOptions>;
 
@@ -249,65 +302,43 @@ void add_move_and_remove(runtime::Command list_command, WorldList list, const st
 }
 
 void add_rain(runtime::Command parent, const Shared& options) {
-  struct Values {
-    Place place;
-    double radius_nm = 5.0, rate_mmh = 10.0, top_ft = 15'000.0;
-  };
   runtime::Command rain = parent.subcommand("rain", "rain cells");
   rain.require_subcommand();
-  const auto values = std::make_shared<Values>();
-  runtime::Command command = add_action(rain, "add", "add a rain cell", options, [options, values] {
-    change(*options, [&](WorldState& world, std::int64_t) {
-      auto cell = world::default_rain_cell(values->place.point());
-      cell.radius_m = values->radius_nm * geo::kMetresPerNauticalMile;
-      cell.rate_mmh = values->rate_mmh;
-      cell.top_m = values->top_ft * geo::kMetresPerFoot;
+  const auto given = std::make_shared<NewEntry<databuffer::WorldRainCell>>();
+  given->add_options(add_action(rain, "add", "add a rain cell", options, [options, given] {
+    change(*options, [&](WorldState& world, std::int64_t) -> Expected<std::string> {
+      auto cell = world::default_rain_cell(given->position());
+      if (auto written = given->write(cell); !written) return tl::unexpected(written.error());
       return added(world, cell, "rain cell");
     });
-  });
-  add_position(command, values->place);
-  command.option("--radius-nm", values->radius_nm, "[NM] radius of the rim").range(0.1, 100.0);
-  command.option("--rate", values->rate_mmh, "[mm/h] rain rate at the axis").range(0.1, 300.0);
-  command.option("--top-ft", values->top_ft, "[ft] top above mean sea level").range(500.0, 60'000.0);
+  }));
   add_move_and_remove(rain, WorldList::rain, "rain cell", options);
 }
 
 void add_jammer(runtime::Command parent, const Shared& options) {
-  struct Values {
-    Place place;
-    std::string name, band = "all";
-    std::optional<double> altitude_ft;
-    double power_w = 10.0;
+  struct Given : NewEntry<databuffer::WorldJammer> {
+    std::string band = "all";
     std::vector<double> channels;
   };
   runtime::Command jammer = parent.subcommand("jammer", "noise jammers");
   jammer.require_subcommand();
-  const auto values = std::make_shared<Values>();
-  runtime::Command command = add_action(jammer, "add", "add a jammer", options, [options, values] {
+  const auto given = std::make_shared<Given>();
+  runtime::Command command = add_action(jammer, "add", "add a jammer", options, [options, given] {
     change(*options, [&](WorldState& world, std::int64_t) -> Expected<std::string> {
-      auto entry = world::default_jammer(values->place.point());
-      if (auto named_entry = world::set_name(entry, values->name); !named_entry)
-        return tl::unexpected(named_entry.error());
-      if (values->altitude_ft) entry.altitude_m = *values->altitude_ft * geo::kMetresPerFoot;
-      entry.power_w = values->power_w;
-      entry.band = values->band == "all" ? -1 : values->band.front() - 'A';
-      if (!values->channels.empty()) entry.channels = 0;
-      for (const double channel : values->channels) entry.channels |= 1U << (static_cast<unsigned>(channel) - 1U);
+      auto entry = world::default_jammer(given->position());
+      if (auto written = given->write(entry); !written) return tl::unexpected(written.error());
+      entry.band = given->band == "all" ? -1 : given->band.front() - 'A';
+      if (!given->channels.empty()) entry.channels = 0;
+      for (const double channel : given->channels) entry.channels |= 1U << (static_cast<unsigned>(channel) - 1U);
       return added(world, entry, "jammer");
     });
   });
-  add_position(command, values->place);
-  command.option("--name", values->name, "name, at most 15 characters").otherwise("none");
-  command.option("--altitude-ft", values->altitude_ft, "[ft] above mean sea level")
-      .range(-1500.0, 100'000.0)
-      .otherwise("a mast of 10 m on the ground");
-  command.option("--band", values->band, "jammed band").one_of({"A", "B", "C", "D", "E", "all"});
-  command.option("--channel", values->channels, "jammed channel; repeatable")
+  given->add_options(command);
+  command.option("--band", given->band, "jammed band").one_of({"A", "B", "C", "D", "E", "all"});
+  command.option("--channel", given->channels, "jammed channel; repeatable")
       .one_of({"1", "2", "3", "4", "5", "6", "7", "8"})
       .repeatable()
       .otherwise("all channels");
-  command.option("--power", values->power_w, "[W] effective radiated power in the receiver's bandwidth")
-      .range(0.0, 1e9);
   add_move_and_remove(jammer, WorldList::jammers, "jammer", options);
 }
 
@@ -321,43 +352,27 @@ void add_steer(runtime::Command mover, const Shared& options) {
       add_action(mover, "steer", "change speed and heading where the mover is", options, [options, values] {
         change(*options, [&](WorldState& world, std::int64_t now_ns) {
           const auto id = static_cast<std::uint32_t>(values->place.id);
-          const double speed_mps = geo::Speed::knots(values->speed_kt).metres_per_second();
+          const double speed_mps = values::WorldMover::speed.recorded(values->speed_kt);
           return text_if_done(world::steer(world, id, speed_mps, values->heading_deg, now_ns),
                               "mover " + std::to_string(id) + " steered");
         });
       });
   add_id(command, values->place);
-  command.option("SPEED_KT", values->speed_kt, "[kt] over ground").range(0.0, 1000.0).required();
-  command.option("HDG", values->heading_deg, "[deg] true").range(0.0, 360.0).required();
+  add_value(command, "SPEED_KT", values::WorldMover::speed, values->speed_kt).required();
+  add_value(command, "HDG", values::WorldMover::heading, values->heading_deg).required();
 }
 
 void add_mover(runtime::Command parent, const Shared& options) {
-  struct Values {
-    Place place;
-    std::string name;
-    double speed_kt = 0.0, heading_deg = 0.0, cross_section_m2 = 1000.0, height_ft = 20.0;
-  };
   runtime::Command mover = parent.subcommand("mover", "moving targets: ships and vehicles");
   mover.require_subcommand();
-  const auto values = std::make_shared<Values>();
-  runtime::Command command = add_action(mover, "add", "add a moving target", options, [options, values] {
+  const auto given = std::make_shared<NewEntry<databuffer::WorldMover>>();
+  given->add_options(add_action(mover, "add", "add a moving target", options, [options, given] {
     change(*options, [&](WorldState& world, std::int64_t now_ns) -> Expected<std::string> {
-      auto entry = world::default_mover(values->place.point(), now_ns);
-      if (auto named_entry = world::set_name(entry, values->name); !named_entry)
-        return tl::unexpected(named_entry.error());
-      entry.speed_mps = geo::Speed::knots(values->speed_kt).metres_per_second();
-      entry.heading_deg = values->heading_deg;
-      entry.cross_section_m2 = values->cross_section_m2;
-      entry.height_m = values->height_ft * geo::kMetresPerFoot;
+      auto entry = world::default_mover(given->position(), now_ns);
+      if (auto written = given->write(entry); !written) return tl::unexpected(written.error());
       return added(world, entry, "mover");
     });
-  });
-  add_position(command, values->place);
-  command.option("--name", values->name, "name, at most 15 characters").otherwise("none");
-  command.option("--speed-kt", values->speed_kt, "[kt] over ground").range(0.0, 1000.0);
-  command.option("--heading", values->heading_deg, "[deg] true").range(0.0, 360.0);
-  command.option("--cross-section", values->cross_section_m2, "[m2] radar cross section").range(0.0, 1e7);
-  command.option("--height-ft", values->height_ft, "[ft] of the reflecting point above the ground").range(0.0, 1000.0);
+  }));
   add_move_and_remove(mover, WorldList::movers, "mover", options);
   add_steer(mover, options);
 }
@@ -368,7 +383,7 @@ struct PointValues {
   std::string name;
   std::optional<double> elevation_ft;
   Expected<void> write(databuffer::WorldPoint& point) const {
-    if (elevation_ft) point.elevation_m = *elevation_ft * geo::kMetresPerFoot;
+    if (elevation_ft) point.elevation_m = values::WorldPoint::elevation.recorded(*elevation_ft);
     if (name.empty()) return {};
     return world::set_name(point, name);
   }
@@ -378,8 +393,7 @@ void add_point_options(runtime::Command command, PointValues& values, const char
                        const char* elevation_otherwise) {
   command.option("--name", values.name, "\"2\", target \"2.\", offset \"2.1\", target offset \"2.01\"")
       .otherwise(name_otherwise);
-  command.option("--elevation-ft", values.elevation_ft, "[ft] above mean sea level")
-      .range(-1500.0, 30'000.0)
+  add_value(command, "--elevation-ft", values::WorldPoint::elevation, values.elevation_ft)
       .otherwise(elevation_otherwise);
 }
 
@@ -400,9 +414,9 @@ void add_point(runtime::Command parent, const Shared& options) {
   const auto changes = std::make_shared<PointValues>();
   runtime::Command changing =
       add_action(point, "change", "change the name or the elevation of a point", options, [options, changes] {
-        change(*options, [&](WorldState& world, std::int64_t) -> Expected<std::string> {
+        change(*options, [&](WorldState& world, std::int64_t now_ns) -> Expected<std::string> {
           const auto id = static_cast<std::uint32_t>(changes->place.id);
-          auto entry = world::point_with(world, id);
+          auto entry = world::entry_with<databuffer::WorldPoint>(world, id, now_ns);
           if (!entry) return tl::unexpected(entry.error());
           if (auto written = changes->write(*entry); !written) return tl::unexpected(written.error());
           return text_if_done(world::replace(world, *entry), "point " + std::to_string(id) + " changed");
@@ -420,13 +434,13 @@ void add_wind(runtime::Command parent, const Shared& options) {
   const auto values = std::make_shared<Values>();
   runtime::Command command = add_action(parent, "wind", "set the wind over the sea", options, [options, values] {
     change(*options, [&](WorldState& world, std::int64_t) {
-      const double speed_mps = geo::Speed::knots(values->speed_kt).metres_per_second();
+      const double speed_mps = values::WorldState::wind_speed.recorded(values->speed_kt);
       return text_if_done(world::set_wind(world, speed_mps, values->from_deg),
                           "wind " + number(values->speed_kt) + " kt from " + number(values->from_deg) + " deg");
     });
   });
-  command.option("SPEED_KT", values->speed_kt, "[kt]").range(0.0, 120.0).required();
-  command.option("FROM_DEG", values->from_deg, "[deg] true direction from which it blows").range(0.0, 360.0).required();
+  add_value(command, "SPEED_KT", values::WorldState::wind_speed, values->speed_kt).required();
+  add_value(command, "FROM_DEG", values::WorldState::wind_from, values->from_deg).required();
 }
 
 }  // namespace
@@ -441,7 +455,7 @@ void add_world_command(runtime::Command app, const CommonOptions& common) {
   });
   const auto state = std::make_shared<std::string>();
   add_action(world, "sea", "set the sea state", options, [options, state] { set_sea(*options, *state); })
-      .option("STATE", *state, "WMO code 3700, 0 to 6; auto: from the wind")
+      .option("STATE", *state, std::string(values::WorldState::sea_state.purpose) + "; auto: from the wind")
       .required();
   add_wind(world, options);
   add_rain(world, options);

@@ -8,6 +8,7 @@
 
 #include "lib/file/text_file.hpp"
 #include "lib/radar/sensor.hpp"
+#include "lib/values/fields.hpp"
 
 namespace yars::tools::trade {
 
@@ -21,6 +22,10 @@ error::Expected<std::vector<double>> numbers_of(std::string_view list, const cha
   return numbers;
 }
 
+file::NumberField named(std::string_view name, const values::Field& field) {
+  return {name, field.low, field.high};
+}
+
 // At most six significant digits, without trailing zeros.
 std::string short_number(double value) {
   std::array<char, 32> text{};
@@ -31,12 +36,11 @@ std::string short_number(double value) {
 }  // namespace
 
 error::Expected<Scene> scene_of(std::string_view text) {
-  const auto values = numbers_of(text, "--scene",
-                                 {{"LAT", -90.0, 90.0},
-                                  {"LON", -180.0, 180.0},
-                                  {"ALT_FT", -3000.0, 600000.0},
-                                  {"HDG", -360.0, 360.0},
-                                  {"RANGE_NM", 0.1, 1000.0}});
+  using Of = values::ScanRequest;
+  const auto values =
+      numbers_of(text, "--scene",
+                 {named("LAT", Of::latitude), named("LON", Of::longitude), named("ALT_FT", Of::altitude),
+                  named("HDG", Of::heading), named("RANGE_NM", Of::range)});
   if (!values) return tl::unexpected(values.error());
   return Scene{{(*values)[0], (*values)[1]}, (*values)[2], (*values)[3], (*values)[4]};
 }
@@ -70,13 +74,11 @@ double distance_nm(const MapView& view) {
 }  // namespace
 
 error::Expected<MapView> map_view_of(std::string_view text) {
+  using Of = values::PatchRequest;
   const auto values = numbers_of(text, "--view",
-                                 {{"LAT", -90.0, 90.0},
-                                  {"LON", -180.0, 180.0},
-                                  {"ALT_FT", -3000.0, 600000.0},
-                                  {"TARGET_LAT", -90.0, 90.0},
-                                  {"TARGET_LON", -180.0, 180.0},
-                                  {"WINDOW_NM", 0.01, 200.0}});
+                                 {named("LAT", Of::latitude), named("LON", Of::longitude),
+                                  named("ALT_FT", Of::altitude), named("TARGET_LAT", Of::target_latitude),
+                                  named("TARGET_LON", Of::target_longitude), named("WINDOW_NM", Of::window)});
   if (!values) return tl::unexpected(values.error());
   const MapView view{{(*values)[0], (*values)[1]}, (*values)[2], {(*values)[3], (*values)[4]}, (*values)[5]};
   if (distance_nm(view) <= view.window_nm)

@@ -290,7 +290,7 @@ void add_scan_trade_options(runtime::Command command, ScanTradeOptions& options)
       .value_name("SCENE")
       .repeatable()
       .otherwise("three ranges in the middle of the terrain");
-  command.option("--scan-width", options.width_deg, "[deg] width of the scans in azimuth").range(1.0, 120.0);
+  add_value(command, "--scan-width", values::ScanRequest::width, options.width_deg);
   command.option("--ruler-samples", options.ruler_samples, "samples per sweep of --ruler reference")
       .range(1, radar::kMaxSamples);
 }

@@ -60,7 +60,8 @@ def field_item(field):
 
 
 def record(one):
-    text = doc_lines(one) + f"struct {one.name} {{\n" + commented(map(field_item, one.fields), "  ") + "};\n"
+    values = f"  using Values = values::{one.name};  // what people give\n" if any(field.shown for field in one.fields) else ""
+    text = doc_lines(one) + f"struct {one.name} {{\n" + values + commented(map(field_item, one.fields), "  ") + "};\n"
     text += f"static_assert(sizeof({one.name}) == {one.size} && std::is_trivially_copyable_v<{one.name}>);\n"
     last = one.fields[-1]
     if last.cut:
@@ -97,7 +98,11 @@ def header(chapter, chapters):
     text = "".join(f"// {line}\n" for line in chapter.doc) + MADE.format(chapter.name + ".idl") + "\n#pragma once\n\n"
     text += "".join(f"#include <{name}>\n" for name in sorted(system)) + "\n"
     text += "".join(f'#include "{name}"\n' for name in included(chapter, chapters))
-    text += ("\n" if included(chapter, chapters) else "") + "namespace yars::databuffer {\n"
+    text += "\n" if included(chapter, chapters) else ""
+    shown = [one.name for one in records if any(field.shown for field in one.fields)]
+    if shown:
+        text += "namespace yars::values {  // lib/values/fields.hpp\n" + "".join(f"struct {name};\n" for name in shown) + "}\n\n"
+    text += "namespace yars::databuffer {\n"
     before = None
     for one in chapter.declarations:
         in_a_row = isinstance(one, Constant) and isinstance(before, Constant) and not one.heading

@@ -4,6 +4,7 @@ In: modules, const, enum, bitmask and struct of the building blocks Core Data Ty
 #include "file" from the same folder. Out: a list of schema.Chapter. Other text raises schema.IdlError with file and line.
 Source: OMG IDL 4.2 (formal/18-01-05), 7.4.1, 7.4.13, 7.4.15, 8.
 """
+import math
 import re
 
 from . import schema
@@ -14,7 +15,7 @@ TOKEN = re.compile(r"""(?P<blank>[ \t\r]+)|(?P<line>\n)|(?P<comment>//[^\n]*)|(?
     |(?P<name>(?:::)?[A-Za-z]\w*(?:::[A-Za-z]\w*)*)|(?P<mark>[@(){}\[\]<>;:,=+\-*/])""", re.X)
 ARITHMETIC = {"+": lambda a, b: a + b, "-": lambda a, b: a - b, "*": lambda a, b: a * b}
 ANNOTATIONS = {"final", "nested", "bit_bound", "position", "unit", "range", "min", "max", "default", "nan", "counted_by", "cut",
-               "by_hand", "request", "option", "otherwise", "optional"}
+               "by_hand", "request", "option", "otherwise", "optional", "shown"}
 TYPES = {**schema.INTEGERS, **schema.REALS}
 
 
@@ -316,9 +317,31 @@ class Parser:
         field.nan = parameter("nan") if "nan" in notes else None
         field.counted_by = parameter("counted_by") if "counted_by" in notes else None
         field.cut, field.by_hand = "cut" in notes, "by_hand" in notes
-        field.option = parameter("option") if "option" in notes else field.name.replace("_", "-")
         field.otherwise = parameter("otherwise") if "otherwise" in notes else ""
         field.optional = "optional" in notes
+        if "shown" in notes:
+            self.show(field, notes["shown"])
+        field.option = parameter("option") if "option" in notes else field.shown_name.replace("_", "-")
+
+    def show(self, field, note):
+        """Sets `shown` of a field, and its range by it, or `shown` by its range."""
+        unit, initial = note.get("unit", field.unit), note["initial"].value if "initial" in note else None
+        factor = schema.Limit(1.0, "1.0") if unit == field.unit else schema.FACTORS.get((unit, field.unit))
+        if factor is None:
+            raise IdlError(field.where, f"a unit of @shown that becomes [{field.unit}]", f"[{unit}]", "add it to FACTORS of schema.py")
+        if field.minimum and field.maximum:
+            low, high = math.ceil(field.minimum.value / factor.value), math.floor(field.maximum.value / factor.value)
+        elif "min" in note and "max" in note:
+            low, high = note["min"].value, note["max"].value
+            field.minimum, field.maximum = note["min"], note["max"]
+            if unit != field.unit:
+                field.minimum = schema.beyond(low * factor.value, -1)
+                field.maximum = schema.beyond(high * factor.value, 1)
+        else:
+            raise IdlError(field.where, f"@shown with min and max, or @range, at {field.name}", ", ".join(note) or "none")
+        if initial is not None and not low <= initial <= high:
+            raise IdlError(field.where, f"an initial {field.name} in [{low}, {high}] {unit}", schema.shown(initial))
+        field.shown = schema.Shown(unit, factor, float(low), float(high), initial)
 
     # ---- expressions: sums and products of numbers and constants
     def expression(self):

@@ -5,6 +5,7 @@ bytes.
 A contradiction in the model raises IdlError: one line with the expected value, the found value and the remedy.
 """
 import dataclasses
+import math
 import re
 
 # IDL type -> bytes, minimum, maximum. Numbers are little-endian, at offsets that are multiples of their size.
@@ -15,7 +16,7 @@ BOOLEAN = "boolean"  # of requests alone: a record has bits of flags
 
 # Last word of a field's name -> unit of the field.
 SUFFIXES = {"deg": "deg", "m": "m", "m2": "m2", "mps": "m/s", "dps": "deg/s", "nm": "NM", "s": "s", "ns": "ns",
-            "tick": "tick"}
+            "tick": "tick", "ft": "ft", "kt": "kt", "mmh": "mm/h", "w": "W"}
 
 
 class IdlError(Exception):
@@ -65,6 +66,32 @@ class Limit:
     expression: str
 
 
+# (unit that people use, unit of a record) -> the first in the second.
+FACTORS = {("NM", "m"): Limit(1852.0, "1852.0"), ("ft", "m"): Limit(0.3048, "0.3048"),
+           ("kt", "m/s"): Limit(1852.0 / 3600.0, "1852.0 / 3600.0")}
+
+
+def beyond(value, step):
+    """Limit at the next whole number beyond a value, in the direction of `step`; 0 stays."""
+    number = 0.0 if value == 0 else float((math.floor(value) if step > 0 else math.ceil(value)) + step)
+    return Limit(number, f"{number:.1f}")
+
+
+@dataclasses.dataclass(eq=False)
+class Shown:
+    """A value as people give it: unit, that unit in the field's, limits and default in that unit (None: no default)."""
+    unit: str
+    factor: Limit
+    low: float
+    high: float
+    initial: object
+
+    def text(self):
+        """"0.1 to 100 NM, 5 if not given"."""
+        initial = "" if self.initial is None else f", {shown(self.initial)} if not given"
+        return f"{shown(self.low)} to {shown(self.high)} {self.unit}".rstrip() + initial
+
+
 @dataclasses.dataclass(eq=False)
 class Field(Declaration):
     type: object = None  # str: name of a number type; int: maximum length of a string; else Enumeration, Bitmask or Record
@@ -80,7 +107,19 @@ class Field(Declaration):
     option: str = ""  # of requests: name of the option of the command line
     optional: bool = False  # of requests: the field may be left out
     otherwise: str = ""  # of requests: what holds then
+    shown: Shown = None  # None: people do not give the value
     offset: int = 0
+
+    @property
+    def stem(self):
+        """Name without its unit."""
+        return self.name.rpartition("_")[0] if SUFFIXES.get(self.name.rpartition("_")[2], None) == self.unit else self.name
+
+    @property
+    def shown_name(self):
+        """Name with the unit that people use."""
+        suffix = next((word for word, unit in SUFFIXES.items() if self.shown and unit == self.shown.unit), "")
+        return f"{self.stem}_{suffix}" if suffix else self.name
 
     @property
     def reserved(self):
@@ -125,7 +164,8 @@ class Field(Declaration):
         kind = self.type.scoped if isinstance(self.type, (Enumeration, Bitmask)) else ""
         text = " ".join(filter(None, [kind, *self.doc]))
         missing = f"NaN = {self.nan}" if self.nan is not None else ""
-        return "; ".join(filter(None, [text, missing, f"the first `{self.counted_by}` are in use" if self.counted_by else ""]))
+        people = self.shown.text() if self.shown and (self.shown.unit != self.unit or self.shown.initial is not None) else ""
+        return "; ".join(filter(None, [text, people, missing, f"the first `{self.counted_by}` are in use" if self.counted_by else ""]))
 
 
 @dataclasses.dataclass(eq=False)

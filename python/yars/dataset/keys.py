@@ -18,9 +18,39 @@ SECTIONS = ("chip", "radar", "weather", "weather.rain", "terrain.generate", "sce
             "classes", "output")
 
 
+# Values that keys share with records and requests.
+# begin: lib/values/generate.py
+_COUNTS = {"kMaxRainCells": 64, "kMaxJammers": 16, "kMaxMovers": 64, "kMaxWorldPoints": 256}
+_VALUES = {  # least, greatest, unit, default, purpose
+    "TrafficEntity.height": (0, 1000, "m", None, "height of the reflecting point above the ground or water"),
+    "TrafficEntity.cross_section": (0, 1e7, "m2", None, "radar cross section"),
+    "WorldRainCell.radius": (0.1, 100, "NM", "5", "radius of the rim"),
+    "WorldRainCell.rate": (0.1, 300, "mm/h", "10", "rain rate at the axis"),
+    "WorldRainCell.top": (500, 60000, "ft", "15000", "top above mean sea level"),
+    "WorldMover.speed": (0, 10000, "kt", "0", "over ground"),
+    "WorldMover.heading": (-360, 360, "deg", "0", "true heading at the beginning; later the direction of the great circle"),
+    "WorldState.sea_state": (0, 6, "", None, "state of the sea, WMO code 3700"),
+    "WorldState.wind_speed": (0, 120, "kt", "10", "wind over the sea; used if the sea state is not given"),
+    "WorldState.wind_from": (0, 360, "deg", "270", "true direction from which the wind blows; the sea is brightest in this direction"),
+    "PatchRequest.altitude": (-3000, 600000, "ft", "15000", "altitude of the aircraft above mean sea level"),
+    "PatchRequest.speed": (0, 10000, "kt", "480", "speed over ground"),
+    "PatchRequest.window": (0.01, 200, "NM", None, "side of the map"),
+    "PatchRequest.looks": (1, 16, "", None, "number of looks to average"),
+    "PatchRequest.size": (16, 4096, "pixels", None, "per side; up to 1024 with the preset reference"),
+    "PatchRequest.time": (0, 576460752, "s", "0", "sim time at the start, for moving targets"),
+}
+# end: lib/values/generate.py
+
+
 def _key(path, kind, ends=None, unit="", drawn=False, default="required", text="", values=()):
     least, most = ends or (-INFINITY, INFINITY)
     return Key(path, kind, least, most, unit, drawn, default, text, tuple(values))
+
+
+def _value(path, name, default=None, text=None, kind="number"):
+    """A drawn key whose limits, unit, default and purpose are those of a value of the description."""
+    least, most, unit, its_default, purpose = _VALUES[name]
+    return _key(path, kind, (least, most), unit, True, default or its_default or "required", text or purpose)
 
 
 _ROWS = [
@@ -37,9 +67,9 @@ _ROWS = [
     _key("classes", "section", default="names without digits", text="class: pattern or list of patterns of object names"),
     _key("output", "section", default="see below", text="the files"),
 
-    _key("chip.size", "whole", (16, 4096), "pixels", default="128", text="pixels along the edge"),
-    _key("chip.window_nm", "number", (0.01, 200), "NM", True, "the radar's at power-up", "edge of the ground shown"),
-    _key("chip.looks", "whole", (1, 16), "", True, "the radar's for ML1", "number of looks to average"),
+    _key("chip.size", "whole", _VALUES["PatchRequest.size"][:2], "pixels", default="128", text="pixels along the edge"),
+    _value("chip.window_nm", "PatchRequest.window", "the radar's at power-up", "edge of the ground shown"),
+    _value("chip.looks", "PatchRequest.looks", "the radar's for ML1", kind="whole"),
     _key("chip.arrays", "names", default="[video, shadow, layover, object, material]", text="arrays to keep", values=ARRAYS),
 
     _key("radar.preset", "text", default="the configuration's", text="fidelity", values=PRESETS),
@@ -49,15 +79,15 @@ _ROWS = [
     _key("radar.every", "whole", (1, 10**9), "items", default="64",
          text="settings and weather are drawn once for so many successive items"),
 
-    _key("weather.sea_state", "number", (0, 6), "WMO code 3700", True, "by the wind", "state of the sea"),
-    _key("weather.wind_speed_kt", "number", (0, 120), "kt", True, "the configuration's", "wind over the sea"),
-    _key("weather.wind_from_deg", "number", (0, 360), "deg", True, "the configuration's", "true direction of the wind's origin"),
+    _value("weather.sea_state", "WorldState.sea_state", "by the wind"),
+    _value("weather.wind_speed_kt", "WorldState.wind_speed", "the configuration's"),
+    _value("weather.wind_from_deg", "WorldState.wind_from", "the configuration's"),
     _key("weather.rain", "section", default="the configuration's", text="showers"),
-    _key("weather.rain.cells", "whole", (0, 64), "", True, "1", "number of showers"),
+    _key("weather.rain.cells", "whole", (0, _COUNTS["kMaxRainCells"]), "", True, "1", "number of showers"),
     _key("weather.rain.area", "place", unit="deg", text="[south, west, north, east] of their centres"),
-    _key("weather.rain.radius_nm", "number", (0.1, 100), "NM", True, "5", "radius of the rim"),
-    _key("weather.rain.rate_mm_h", "number", (0.1, 300), "mm/h", True, "10", "rate in the middle"),
-    _key("weather.rain.top_ft", "number", (500, 60000), "ft", True, "15000", "top above mean sea level"),
+    _value("weather.rain.radius_nm", "WorldRainCell.radius"),
+    _value("weather.rain.rate_mm_h", "WorldRainCell.rate"),
+    _value("weather.rain.top_ft", "WorldRainCell.top"),
 
     _key("terrain.generate", "section", default="none", text="made-up terrain, written to DIR/terrain"),
     _key("terrain.generate.south", "whole", (-90, 89), "deg", text="south edge"),
@@ -86,8 +116,7 @@ _ROWS = [
     _key("targets.east_m", "number", (-1e6, 1e6), "m", True, "0", "offset of the centre to the east"),
 
     _key("geometry.range_nm", "number", (0.01, 1000), "NM", True, text="ground range from the aircraft to the target"),
-    _key("geometry.altitude_ft", "number", (-3000, 600000), "ft", True, "this or depression_deg",
-         "altitude above mean sea level"),
+    _value("geometry.altitude_ft", "PatchRequest.altitude", "this or depression_deg"),
     _key("geometry.depression_deg", "number", (0.01, 89), "deg", True, "this or altitude_ft",
          "angle of the line of sight below the horizontal, on a flat earth"),
     _key("geometry.bearing_deg", "number", (-360, 360), "deg", True, "{uniform: [0, 360]}",
@@ -95,19 +124,19 @@ _ROWS = [
     _key("geometry.squint_deg", "number", (0, 180), "deg", True, "{uniform: [20, 60]}", "angle of the target off the ground track"),
     _key("geometry.side", "text", default="both", text="side of the track on which the target lies",
          values=("left", "right", "both")),
-    _key("geometry.speed_kt", "number", (0, 10000), "kt", True, "480", "speed over ground"),
-    _key("geometry.time_s", "number", (0, 1e8), "s", True, "0", "sim time, for movers of the configuration"),
+    _value("geometry.speed_kt", "PatchRequest.speed"),
+    _value("geometry.time_s", "PatchRequest.time", text="sim time, for movers of the configuration"),
     _key("geometry.force", "yes/no", default="false", text="ignore the radar's limits"),
     _key("geometry.attempts", "whole", (1, 10000), "", default="100",
          text="draws of an item before the run ends with an error"),
 
-    _key("movers.count", "whole", (0, 64), "", True, "1", "number in an item"),
+    _key("movers.count", "whole", (0, _COUNTS["kMaxMovers"]), "", True, "1", "number in an item"),
     _key("movers.north_m", "number", (-1e6, 1e6), "m", True, "0", "position relative to the target"),
     _key("movers.east_m", "number", (-1e6, 1e6), "m", True, "0", "position relative to the target"),
-    _key("movers.heading_deg", "number", (-360, 360), "deg", True, "{uniform: [0, 360]}", "true heading"),
-    _key("movers.speed_kt", "number", (0, 1000), "kt", True, "20", "speed"),
-    _key("movers.cross_section_m2", "number", (0.001, 1e7), "m2", True, "10", "radar cross section"),
-    _key("movers.height_m", "number", (0, 1000), "m", True, "3", "height above the ground"),
+    _value("movers.heading_deg", "WorldMover.heading", "{uniform: [0, 360]}", "true heading"),
+    _value("movers.speed_kt", "WorldMover.speed", "20"),
+    _value("movers.cross_section_m2", "TrafficEntity.cross_section", "10"),
+    _value("movers.height_m", "TrafficEntity.height", "3"),
 
     _key("output.format", "text", default="zarr", text="of the arrays", values=("zarr", "npz")),
     _key("output.block", "whole", (1, 65536), "items", default="64", text="items of a block: the unit of work and of a chunk"),

@@ -19,13 +19,17 @@ from .yaml_reader import Reader
 MOST_BYTES = 1 << 20
 DEFAULT_ARRAYS = ("video", "shadow", "layover", "object", "material")
 _SLOT = re.compile(r"[A-Za-z][A-Za-z0-9_-]*$")
-_DRAWN_DEFAULTS = {  # default distributions of drawn keys
-    "geometry.squint_deg": Uniform([(20.0, 60.0)]), "geometry.speed_kt": Fixed(480.0), "geometry.time_s": Fixed(0.0),
-    "geometry.bearing_deg": Uniform([(0.0, 360.0)]), "targets.north_m": Fixed(0.0), "targets.east_m": Fixed(0.0),
-    "movers.count": Fixed(1), "movers.north_m": Fixed(0.0), "movers.east_m": Fixed(0.0),
-    "movers.heading_deg": Uniform([(0.0, 360.0)]), "movers.speed_kt": Fixed(20.0), "movers.cross_section_m2": Fixed(10.0),
-    "movers.height_m": Fixed(3.0), "weather.rain.cells": Fixed(1), "weather.rain.radius_nm": Fixed(5.0),
-    "weather.rain.rate_mm_h": Fixed(10.0), "weather.rain.top_ft": Fixed(15000.0)}
+
+
+def _distribution(key):
+    """Default distribution of a drawn key; None: it has no number."""
+    value = yaml.safe_load(key.default)
+    if isinstance(value, dict):
+        return Uniform([tuple(map(float, value["uniform"]))])
+    return None if isinstance(value, str) else Fixed(value if key.kind == "whole" else float(value))
+
+
+_DRAWN_DEFAULTS = {path: value for path, value in ((path, _distribution(key)) for path, key in KEYS.items() if key.drawn) if value}
 
 
 @dataclasses.dataclass

@@ -2,11 +2,12 @@
 import { Connection, sessionOfPage } from "./connection";
 import { Position, TheatreMap, Thing } from "./map";
 import { Answer, InstructorState, RoleEntry, Theatre } from "./messages";
-import { element, fill, keepSession, onClick, onSubmit, say, sayRight } from "./page";
+import { element, fill, keepSession, limit, onClick, onSubmit, say, sayRight } from "./page";
 import { Picture } from "./picture";
 import { PRESETS, wordsOfPreset } from "./presets";
 import { listenToSections } from "./sections";
 import { TimeMachine } from "./time_machine";
+import { FIELDS, LATEST_SIM_TIME_S } from "./values";
 import { WorldPanel } from "./world_panel";
 
 const DIGITS = 5; // of positions in degrees: 1 m
@@ -120,6 +121,7 @@ class InstructorPage {
     onClick("run", () => this.toggleRunning());
     element("rate").addEventListener("change", () => void this.order("rate", { rate: Number(element<HTMLSelectElement>("rate").value) }));
     onSubmit("step_form", () => void this.order("step", { ticks: number("ticks") }));
+    Object.assign(input("time"), { min: "0", max: String(LATEST_SIM_TIME_S), step: "any" });
     onSubmit("reset_form", () => void this.order("reset", { time: number("time") }));
   }
 
@@ -132,6 +134,8 @@ class InstructorPage {
   }
 
   private listenToAircraft(): void {
+    for (const [id, field] of Object.entries({ lat: "latitude", lon: "longitude", alt: "altitude", heading: "heading", speed: "speed" } as const))
+      limit(input(id), FIELDS.Reposition[field]);
     element("aircraft_form").addEventListener("input", () => { this.typed = true; });
     onClick("copy", () => {
       this.typed = false;

@@ -1,4 +1,5 @@
 // Messages between page and server. Source: docs/station.md, "Messages".
+import { JammerValues, Mover, Rain, SequencePoint } from "./values";
 
 export type Right = "viewer" | "instructor"; // what the page may do: look; look, fly and change the set
 
@@ -51,12 +52,7 @@ export function frameOf(message: ArrayBuffer): FrameMessage {
 }
 
 // What the instructor's page shows of a session.
-export interface Rain { id: number; latitude_deg: number; longitude_deg: number; radius_nm: number; rate_mmh: number; top_ft: number }
-export interface Jammer { id: number; name: string; latitude_deg: number; longitude_deg: number; altitude_ft: number | null; power_w: number; band: string; channels: number[] }
-export interface Mover {
-  id: number; name: string; latitude_deg: number; longitude_deg: number; speed_kt: number; heading_deg: number; cross_section_m2: number; height_ft: number;
-}
-export interface SequencePoint { id: number; name: string; kind: string; latitude_deg: number; longitude_deg: number; elevation_ft: number | null }
+export interface Jammer extends JammerValues { band: string; channels: number[] }
 export interface World {
   sea_state: number | null; wind_kt: number; wind_from_deg: number; configured: boolean;
   rain: Rain[]; jammers: Jammer[]; movers: Mover[]; points: SequencePoint[];

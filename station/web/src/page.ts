@@ -1,5 +1,6 @@
 // Parts of all pages.
 import { Right } from "./messages";
+import { Field } from "./values";
 
 export function element<T extends HTMLElement>(id: string): T {
   const found = document.getElementById(id);
@@ -24,6 +25,11 @@ export const addressOfPage = (page: string, session: string): string => (session
 // Leads the links to the other pages to the session of this one.
 export function keepSession(session: string): void {
   for (const link of document.querySelectorAll<HTMLAnchorElement>(".page_link")) link.href = addressOfPage(link.getAttribute("href") ?? "", session);
+}
+
+// Gives an input the limits and the purpose of a value.
+export function limit(made: HTMLInputElement, { min, max, purpose }: Field): void {
+  Object.assign(made, { type: "number", step: "any", min: String(min), max: String(max), title: purpose });
 }
 
 export function button(text: string, act: () => void): HTMLButtonElement {

@@ -2,38 +2,38 @@
 // brought back.
 import { Kind, LISTS, Position, TheatreMap, Thing, WORDS } from "./map";
 import { Answer, InstructorState } from "./messages";
-import { button, element, fill, onClick, onSubmit, say } from "./page";
+import { button, element, fill, limit, onClick, onSubmit, say } from "./page";
 import { UndoLine } from "./undo";
+import { Field, FIELDS } from "./values";
 
 const KINDS: Record<string, string> = { rain: "rain", jammers: "jammer", movers: "mover", points: "sequence point" };
 
-// A value of a thing that the page edits. `name`: in the state and in commands.
-interface Field { name: string; label: string; min?: number; max?: number; pattern?: string; hint?: string; optional?: boolean }
-const FIELDS: Record<string, Field[]> = {
-  rain: [{ name: "radius_nm", label: "Radius [NM]", min: 0.1, max: 100 }, { name: "rate_mmh", label: "Rain [mm/h]", min: 0.1, max: 300 },
-    { name: "top_ft", label: "Top [ft]", min: 500, max: 60000 }],
-  jammers: [{ name: "power_w", label: "Power [W]", min: 0, max: 1e9 }],
-  movers: [{ name: "speed_kt", label: "Speed [kt]", min: 0, max: 1000 }, { name: "heading_deg", label: "Heading [deg true]", min: 0, max: 360 }],
-  points: [{ name: "name", label: "Name", pattern: "[1-9][0-9]{0,2}([.][0-9]{0,2})?", hint: "7 is a steer point, 7. a target, 7.1 an offset, 7.01 an offset of a target. The radar draws the five nearest and the selected one" },
-    { name: "elevation_ft", label: "Elevation [ft]", min: -1500, max: 30000, optional: true, hint: "above mean sea level; empty: unknown" }],
+// Values of a thing that the page edits: all but its position, and the names of sequence points.
+const edited = (values: Record<string, Field>): Field[] => Object.values(values).filter(({ name }) => !name.endsWith("itude_deg"));
+const FORMS: Record<string, Field[]> = {
+  rain: edited(FIELDS.WorldRainCell), jammers: edited(FIELDS.WorldJammer), movers: edited(FIELDS.WorldMover), points: edited(FIELDS.WorldPoint),
 };
+const NAME_PATTERN = "[1-9][0-9]{0,2}([.][0-9]{0,2})?"; // of a sequence point
+const NAME_HINT = "Name: 7 is a steer point, 7. a target, 7.1 an offset, 7.01 an offset of a target. The radar draws the five nearest and the selected one";
 
-// Input of a field, with the value that the thing has.
+// Input of a value, with what the thing has.
 function inputOf(field: Field, value: unknown): HTMLInputElement {
   const made = document.createElement("input");
-  const isText = field.pattern !== undefined;
-  Object.assign(made, { id: `thing_${field.name}`, type: isText ? "text" : "number", required: !field.optional, title: field.hint ?? "" });
-  if (isText) Object.assign(made, { pattern: field.pattern, size: 6 });
-  else Object.assign(made, { step: "any", min: String(field.min), max: String(field.max) });
-  if (isText) made.value = String(value ?? "");
-  else if (typeof value === "number") made.value = String(Math.round(value * 100) / 100);
+  Object.assign(made, { id: `thing_${field.name}`, required: field.otherwise === "" });
+  limit(made, field);
+  if (typeof value === "number") made.defaultValue = String(Math.round(value * 100) / 100);
   return made;
 }
-// What the user has put in: a text, a number, or null for an empty field of numbers.
-function valueOf(field: Field): string | number | null {
-  const shown = input(`thing_${field.name}`);
-  if (field.pattern !== undefined) return shown.value;
-  return shown.value === "" ? null : shown.valueAsNumber;
+function nameInput(value: unknown): HTMLInputElement {
+  return Object.assign(document.createElement("input"), { id: "thing_name", required: true, pattern: NAME_PATTERN, size: 6, defaultValue: String(value ?? "") });
+}
+function labelled(text: string, made: HTMLInputElement): HTMLLabelElement {
+  const label = document.createElement("label");
+  label.append(`${text} `, made);
+  return label;
+}
+function noteOf(text: string): HTMLParagraphElement {
+  return Object.assign(document.createElement("p"), { className: "note", textContent: text });
 }
 
 const input = (id: string): HTMLInputElement => element<HTMLInputElement>(id);
@@ -60,11 +60,22 @@ export class WorldPanel {
       void this.order("sea", { state: state === "" ? null : Number(state) });
     });
     onSubmit("wind_form", () => void this.order("wind", { speed_kt: number("wind"), from: number("wind_from") }));
-    onSubmit("thing_form", () => {
-      if (!this.chosen) return;
-      const values = Object.fromEntries(FIELDS[this.chosen.kind].map((field) => [field.name, valueOf(field)]));
-      void this.order("change", { list: this.chosen.kind, item: this.chosen.id, ...values });
-    });
+    onSubmit("thing_form", () => void this.change());
+    limit(input("wind"), FIELDS.WorldState.wind_speed);
+    limit(input("wind_from"), FIELDS.WorldState.wind_from);
+    for (let state = FIELDS.WorldState.sea_state.min; state <= FIELDS.WorldState.sea_state.max; ++state)
+      element<HTMLSelectElement>("sea").add(new Option(String(state)));
+  }
+
+  // Sends what the user has changed of the chosen thing: a text, a number, or null for an empty field of numbers.
+  private async change(): Promise<void> {
+    if (!this.chosen) return;
+    const changed = [...element("thing_form").querySelectorAll("input")].filter((field) => field.value !== field.defaultValue);
+    const valueOf = ({ type, value, valueAsNumber }: HTMLInputElement): string | number | null =>
+      type !== "number" ? value : value === "" ? null : valueAsNumber;
+    const values = Object.fromEntries(changed.map((field) => [field.id.replace("thing_", ""), valueOf(field)]));
+    const { problem } = await this.order("change", { list: this.chosen.kind, item: this.chosen.id, ...values });
+    if (problem === null) for (const field of changed) field.defaultValue = field.value;
   }
 
   // A second press adds where the middle of the map is.
@@ -112,21 +123,15 @@ export class WorldPanel {
     this.chosen = thing;
     this.map.chosen = thing;
     const form = element<HTMLFormElement>("thing_form");
-    form.hidden = thing === undefined || !(thing.kind in FIELDS);
+    form.hidden = thing === undefined || !(thing.kind in FORMS);
     if (form.hidden || !thing || thing.kind === "aircraft") return;
     const entries: readonly { id: number }[] = this.state?.world?.[thing.kind] ?? [];
     const entry = entries.find(({ id }) => id === thing.id) as Record<string, unknown> | undefined;
-    const rows = FIELDS[thing.kind].map((field) => {
-      const label = document.createElement("label");
-      label.append(`${field.label} `, inputOf(field, entry?.[field.name]));
-      return label;
-    });
-    const hints = FIELDS[thing.kind].filter(({ hint }) => hint !== undefined).map(({ label, hint }) => {
-      const note = document.createElement("p");
-      note.className = "note";
-      note.textContent = `${label}: ${hint}`;
-      return note;
-    });
+    const fields = FORMS[thing.kind], isPoint = thing.kind === "points";
+    const rows = fields.map((field) => labelled(`${field.label} [${field.unit.replace("m2", "m²")}]`, inputOf(field, entry?.[field.name])));
+    if (isPoint) rows.unshift(labelled("Name", nameInput(entry?.name)));
+    const hints = fields.filter(({ otherwise }) => otherwise !== "").map(({ label, purpose, otherwise }) => noteOf(`${label}: ${purpose}; empty: ${otherwise}`));
+    if (isPoint) hints.unshift(noteOf(NAME_HINT));
     const submit = document.createElement("button");
     submit.id = "change_thing";
     submit.textContent = `Change ${thing.name}`;

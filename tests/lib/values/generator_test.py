@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 MESSAGES = ROOT / "lib/values"
 sys.path.insert(0, str(MESSAGES))
 import generate  # noqa: E402
-from generator import clients, cpp, dds, idl, requests, schema, stability  # noqa: E402
+from generator import clients, cpp, dds, fields, idl, schema, stability  # noqa: E402
 
 GOOD = """// One record.
 module yars {
@@ -204,16 +204,17 @@ REQUESTS = """module yars {
 
 class Requests(unittest.TestCase):
     def test_become_a_struct_and_a_table(self):
-        structs, table = requests.files(chapters_of(REQUESTS)[-1]).values()
+        structs, table, _ = fields.files([], chapters_of(REQUESTS)).values()
         self.assertIn("enum class Band : std::uint8_t { A, B };", structs)
         self.assertIn("struct Look {\n  double latitude_deg = 37.8;  // [deg] -90 to 90: of the aircraft\n", structs)
         self.assertIn("bool force = false;", structs)
         self.assertIn("std::optional<int> looks;    // 1 to 16: to average; left out: the configuration's", structs)
         self.assertIn("Band band = Band::A;", structs)
         self.assertNotIn("struct Pose", structs)
-        self.assertIn('Field{"latitude_deg", "lat", "deg", -90, 90, "of the aircraft", "", {}}', table)
-        self.assertIn('Field{"looks", "looks", "", 1, 16, "to average", "the configuration\'s", {}}', table)
+        self.assertIn('Field latitude{"latitude_deg", "latitude", "lat", "deg", -90, 90,\n      "of the aircraft", "", {}}', table)
+        self.assertIn('Field looks{"looks", "looks", "looks", "", 1, 16,\n      "to average", "the configuration\'s", {}}', table)
         self.assertIn('"of the radar", "", {"A", "B"}}', table)
+        self.assertIn("each(looks, entry.looks);", table)
 
     def test_that_contradict_themselves_are_refused(self):
         for old, new, message in (('@option("lat")', '@option("looks")', "expected one option looks in Look, found two"),
@@ -229,6 +230,64 @@ class Requests(unittest.TestCase):
         with self.assertRaises(schema.IdlError) as caught:
             chapters_of(changed("uint32 count;", "boolean count;").replace("@range(min=0, max=4) ", ""))
         self.assertIn("expected a number, a text or a record for count, found boolean", str(caught.exception))
+
+
+SHOWN = GOOD.replace('@unit("m") @nan("unknown")',
+                     '@unit("m") @shown(unit="ft", min=-100.0, max=1000.0, initial=20.0) @nan("unknown")')
+
+
+class WhatPeopleGive(unittest.TestCase):
+    def height(self, note):
+        return schema.records_of(chapters_of(changed('@unit("m") @nan', f'@unit("m") {note} @nan')))[0].fields[1]
+
+    def test_has_limits_that_are_rounded_outwards_in_the_record(self):
+        field = self.height('@shown(unit="ft", min=0.0, max=1000.0, initial=20.0)')
+        self.assertEqual((field.minimum.value, field.maximum.value), (0.0, 305.0))
+        self.assertEqual((field.shown_name, field.option, field.stem), ("height_ft", "height-ft", "height"))
+        self.assertEqual(field.sentence(), "above mean sea level; 0 to 1000 ft, 20 if not given; NaN = unknown")
+        field = self.height('@shown(unit="NM", min=-10.0, max=10.0)')
+        self.assertEqual((field.minimum.value, field.maximum.value), (-18521.0, 18521.0))
+        field = self.height("@shown(min=0.5, max=2.5)")
+        self.assertEqual((field.minimum.value, field.maximum.value, field.shown_name), (0.5, 2.5, "height_m"))
+
+    def test_has_limits_of_whole_numbers_inside_a_range_that_is_given(self):
+        field = self.height('@range(min=-100.0, max=100.0) @shown(unit="ft")')
+        self.assertEqual((field.minimum.value, field.shown.low, field.shown.high), (-100.0, -328.0, 328.0))
+
+    def test_is_refused_where_it_says_too_little_or_too_much(self):
+        for note, message in (('@shown(unit="ft")', "expected @shown with min and max, or @range, at height_m, found unit"),
+                              ('@shown(unit="kt", min=0.0, max=1.0)', "a unit of @shown that becomes [m], found [kt]; add it to"),
+                              ("@shown(min=0.0, max=1.0, initial=2.0)", "an initial height_m in [0.0, 1.0] m, found 2")):
+            with self.assertRaises(schema.IdlError) as caught:
+                self.height(note)
+            self.assertIn(message, str(caught.exception))
+
+    def test_becomes_fields_defaults_forms_and_keys(self):
+        chapters = chapters_of(SHOWN)
+        table, defaults = fields.table(chapters), fields.defaults(chapters)
+        self.assertIn('Field height{"height_ft", "height", "height-ft", "ft", -100, 1000,\n'
+                      '      "above mean sea level", "unknown", {}, 20, 0.3048}', table)
+        self.assertIn("struct PlaceDefaults {\n  static constexpr double height_m = 20.0 * (0.3048);\n};", defaults)
+        self.assertIn("inline constexpr int kMost = 4;", defaults)
+        self.assertIn("  using Values = values::Place;", cpp.record(schema.records_of(chapters)[0]))
+        keys = fields.python_values(chapters, [], '_value("a", "Place.height")')
+        self.assertIn('"Place.height": (-100, 1000, "ft", "20", "above mean sea level"),', keys)
+        self.assertNotIn("Place", fields.python_values(chapters, [], ""))
+
+    def test_in_the_tree_contains_what_was_valid_before(self):
+        """The ranges of the records of 0.3."""
+        before = {"WorldRainCell.radius_m": (185.0, 185201.0), "WorldRainCell.rate_mmh": (0.1, 300.0),
+                  "WorldRainCell.top_m": (152.0, 18289.0), "WorldJammer.altitude_m": (-458.0, 30481.0),
+                  "WorldJammer.power_w": (0.0, 1e9), "WorldMover.speed_mps": (0.0, 514.5),
+                  "WorldMover.heading_deg": (0.0, 360.0), "WorldMover.cross_section_m2": (0.0, 1e7),
+                  "WorldMover.height_m": (0.0, 1000.0), "WorldPoint.elevation_m": (-12000.0, 10000.0),
+                  "WorldState.sea_state": (0.0, 6.0), "WorldState.wind_speed_mps": (0.0, 61.8),
+                  "WorldState.wind_from_deg": (0.0, 360.0), "TrafficEntity.height_m": (0.0, 1000.0),
+                  "TrafficEntity.cross_section_m2": (0.0, 1e7)}
+        found = {f"{one.name}.{field.name}": (field.minimum.value, field.maximum.value)
+                 for one in schema.records_of(idl.read(MESSAGES)) for field in one.fields if field.shown}
+        for name, (low, high) in before.items():
+            self.assertTrue(found[name][0] <= low and high <= found[name][1], (name, found[name]))
 
 
 class TheIdlForDds(unittest.TestCase):
@@ -285,8 +344,9 @@ class TheFilesOfTheTree(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.addCleanup(self.folder.cleanup)
         self.root = pathlib.Path(self.folder.name)
-        for name in (generate.PYTHON, generate.HEADER, generate.LAYOUT):
-            (self.root / name).parent.mkdir(parents=True)
+        for name in (generate.PYTHON, generate.HEADER, generate.LAYOUT, generate.KEYS, generate.PAGES):
+            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
+        (self.root / generate.KEYS).write_text(generate.BEGIN + generate.END)
         (self.root / generate.PYTHON).write_text(f"before\n{generate.BEGIN}{generate.END}after\n")
         (self.root / generate.STUB).write_text("".join(f"        # begin: lib/values/generate.py, {name}\n        # end: {name}\n"
                                                        for name in ("ScanRequest", "PatchRequest")))
@@ -309,8 +369,8 @@ class TheFilesOfTheTree(unittest.TestCase):
         self.assertIn(message, str(caught.exception))
 
     def test_are_written_and_then_found_fresh(self):
-        self.refuses(generate.StaleError, "python/yars/session.py, python/yars/results.pyi: expected what the IDL says, found otherwise; run "
-                                          "lib/values/generate.py --write")
+        self.refuses(generate.StaleError, "python/yars/results.pyi, python/yars/dataset/keys.py, station/web/src/values.ts: "
+                                          "expected what the IDL says, found otherwise; run lib/values/generate.py --write")
         self.run_with("--write")
         self.run_with("--check")
         text = (self.root / generate.PYTHON).read_text()
