@@ -93,20 +93,6 @@ Expected<WorldEdit> change_edit(std::uint32_t id, const json& object) {
   });
 }
 
-Expected<WorldEdit> change_edit(WorldList list, std::uint32_t id, const json& object) {
-  switch (list) {
-    case WorldList::rain:
-      return change_edit<databuffer::WorldRainCell>(id, object);
-    case WorldList::jammers:
-      return change_edit<databuffer::WorldJammer>(id, object);
-    case WorldList::movers:
-      return change_edit<databuffer::WorldMover>(id, object);
-    case WorldList::points:
-      break;
-  }
-  return change_edit<databuffer::WorldPoint>(id, object);
-}
-
 Expected<WorldEdit> entry_edit(std::string_view command, const json& object) {
   const auto list = world_list(object, "list");
   if (!list) return refused("list", kWorldLists);
@@ -115,7 +101,9 @@ Expected<WorldEdit> entry_edit(std::string_view command, const json& object) {
   const bool has_position = std::isfinite(position.latitude_deg) && std::isfinite(position.longitude_deg);
   if ((command == "add" || command == "move") && !has_position) return refused("lat, lon", "two numbers");
   if (command == "add") return add_edit(*list, position);
-  if (command == "change") return change_edit(*list, id, object);
+  if (command == "change")
+    return world::for_list(*list,
+                           [&]<class Entry>(std::type_identity<Entry>) { return change_edit<Entry>(id, object); });
   if (command == "move")
     return edit_by([=, list = *list](WorldState& world, std::int64_t sim_time_ns) {
       return world::move(world, list, id, position, sim_time_ns);

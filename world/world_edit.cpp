@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "databuffer/messages/inspection.hpp"
@@ -172,47 +173,13 @@ Expected<void> append_entry(databuffer::WorldState& world, const Entry& entry) {
 }
 
 template <class Entry>
-Expected<std::uint32_t> add_entry(databuffer::WorldState& world, Entry entry) {
-  const List<Entry> list = list_in<Entry>(world);
-  if (auto valid = check(list.subject, entry); !valid) return tl::unexpected(valid.error());
-  const std::uint32_t last_id = world.last_id;
-  entry.id = new_id(world, list.in_use());
-  if (auto added = append_entry(world, entry); !added) {
-    world.last_id = last_id;
-    return tl::unexpected(added.error());
-  }
-  return entry.id;
-}
-
-template <class Entry>
-Expected<void> restore_entry(databuffer::WorldState& world, const Entry& entry) {
-  const List<Entry> list = list_in<Entry>(world);
-  if (auto valid = check(list.subject, entry); !valid) return valid;
-  if (std::ranges::find(list.in_use(), entry.id, &Entry::id) != list.in_use().end())
-    return fail(std::string(list.subject), "one that was removed", "id " + std::to_string(entry.id) + " in the world");
-  return append_entry(world, entry);
-}
-
-template <class Entry>
-Expected<void> replace_entry(databuffer::WorldState& world, const Entry& entry) {
-  const List<Entry> list = list_in<Entry>(world);
-  const auto found = find(list, entry.id);
-  if (!found) return tl::unexpected(found.error());
-  if (auto valid = check(list.subject, entry); !valid) return valid;
-  if (auto fitting = check_beside_others(world, entry); !fitting) return fitting;
-  **found = entry;
-  mark_list_changed<Entry>(world);
-  return {};
-}
-
-template <class Entry>
 Expected<void> move_entry(databuffer::WorldState& world, std::uint32_t id, geo::GeoPoint position,
                           std::int64_t sim_time_ns) {
   auto moved = entry_with<Entry>(world, id, sim_time_ns);
   if (!moved) return tl::unexpected(moved.error());
   moved->latitude_deg = position.latitude_deg;
   moved->longitude_deg = position.longitude_deg;
-  return replace_entry(world, *moved);
+  return replace(world, *moved);
 }
 
 // The entries behind the removed one keep their order.
@@ -289,51 +256,48 @@ Expected<void> set_name(databuffer::WorldPoint& point, std::string_view name) {
   return store_name(point.name, "point", name);
 }
 
-Expected<std::uint32_t> add(databuffer::WorldState& world, databuffer::WorldRainCell cell) {
-  return add_entry(world, cell);
-}
-Expected<std::uint32_t> add(databuffer::WorldState& world, databuffer::WorldJammer jammer) {
-  return add_entry(world, jammer);
-}
-Expected<std::uint32_t> add(databuffer::WorldState& world, databuffer::WorldMover mover) {
-  return add_entry(world, mover);
-}
-Expected<std::uint32_t> add(databuffer::WorldState& world, databuffer::WorldPoint point) {
-  auto id = add_entry(world, point);
-  if (id) make_initial_point(world, point);
-  return id;
+template <class Entry>
+Expected<std::uint32_t> add(databuffer::WorldState& world, Entry entry) {
+  const List<Entry> list = list_in<Entry>(world);
+  if (auto valid = check(list.subject, entry); !valid) return tl::unexpected(valid.error());
+  const std::uint32_t last_id = world.last_id;
+  entry.id = new_id(world, list.in_use());
+  if (auto added = append_entry(world, entry); !added) {
+    world.last_id = last_id;
+    return tl::unexpected(added.error());
+  }
+  if constexpr (std::is_same_v<Entry, databuffer::WorldPoint>) make_initial_point(world, entry);
+  return entry.id;
 }
 
-Expected<void> replace(databuffer::WorldState& world, const databuffer::WorldRainCell& cell) {
-  return replace_entry(world, cell);
+template <class Entry>
+Expected<void> replace(databuffer::WorldState& world, const Entry& entry) {
+  const List<Entry> list = list_in<Entry>(world);
+  const auto found = find(list, entry.id);
+  if (!found) return tl::unexpected(found.error());
+  if (auto valid = check(list.subject, entry); !valid) return valid;
+  if (auto fitting = check_beside_others(world, entry); !fitting) return fitting;
+  const Entry before = std::exchange(**found, entry);
+  mark_list_changed<Entry>(world);
+  if constexpr (std::is_same_v<Entry, databuffer::WorldPoint>)
+    if (text::text_of(before.name) != text::text_of(entry.name)) make_initial_point(world, entry);
+  return {};
 }
-Expected<void> replace(databuffer::WorldState& world, const databuffer::WorldJammer& jammer) {
-  return replace_entry(world, jammer);
-}
-Expected<void> replace(databuffer::WorldState& world, const databuffer::WorldMover& mover) {
-  return replace_entry(world, mover);
-}
-Expected<void> replace(databuffer::WorldState& world, const databuffer::WorldPoint& point) {
-  const auto before = find(list_in<databuffer::WorldPoint>(world), point.id);
-  const bool is_renamed = before && text::text_of((*before)->name) != text::text_of(point.name);
-  auto done = replace_entry(world, point);
-  if (done && is_renamed) make_initial_point(world, point);
-  return done;
+
+template <class Entry>
+Expected<void> restore(databuffer::WorldState& world, const Entry& entry) {
+  const List<Entry> list = list_in<Entry>(world);
+  if (auto valid = check(list.subject, entry); !valid) return valid;
+  if (std::ranges::find(list.in_use(), entry.id, &Entry::id) != list.in_use().end())
+    return fail(std::string(list.subject), "one that was removed", "id " + std::to_string(entry.id) + " in the world");
+  return append_entry(world, entry);
 }
 
 Expected<void> move(databuffer::WorldState& world, WorldList list, std::uint32_t id, geo::GeoPoint position,
                     std::int64_t sim_time_ns) {
-  switch (list) {
-    case WorldList::rain:
-      return move_entry<databuffer::WorldRainCell>(world, id, position, sim_time_ns);
-    case WorldList::jammers:
-      return move_entry<databuffer::WorldJammer>(world, id, position, sim_time_ns);
-    case WorldList::movers:
-      return move_entry<databuffer::WorldMover>(world, id, position, sim_time_ns);
-    case WorldList::points:
-      break;
-  }
-  return move_entry<databuffer::WorldPoint>(world, id, position, sim_time_ns);
+  return for_list(list, [&]<class Entry>(std::type_identity<Entry>) {
+    return move_entry<Entry>(world, id, position, sim_time_ns);
+  });
 }
 
 Expected<void> steer(databuffer::WorldState& world, std::uint32_t id, double speed_mps, double heading_deg,
@@ -342,7 +306,7 @@ Expected<void> steer(databuffer::WorldState& world, std::uint32_t id, double spe
   if (!steered) return tl::unexpected(steered.error());
   steered->speed_mps = speed_mps;
   steered->heading_deg = heading_deg;
-  return replace_entry(world, *steered);
+  return replace(world, *steered);
 }
 
 template <class Entry>
@@ -352,36 +316,9 @@ Expected<Entry> entry_with(databuffer::WorldState& world, std::uint32_t id, std:
   if constexpr (std::is_same_v<Entry, databuffer::WorldMover>) return at_sim_time(**found, sim_time_ns);
   return **found;
 }
-template Expected<databuffer::WorldRainCell> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
-template Expected<databuffer::WorldJammer> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
-template Expected<databuffer::WorldMover> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
-template Expected<databuffer::WorldPoint> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
 
 Expected<void> remove(databuffer::WorldState& world, WorldList list, std::uint32_t id) {
-  switch (list) {
-    case WorldList::rain:
-      return remove_entry<databuffer::WorldRainCell>(world, id);
-    case WorldList::jammers:
-      return remove_entry<databuffer::WorldJammer>(world, id);
-    case WorldList::movers:
-      return remove_entry<databuffer::WorldMover>(world, id);
-    case WorldList::points:
-      break;
-  }
-  return remove_entry<databuffer::WorldPoint>(world, id);
-}
-
-Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldRainCell& cell) {
-  return restore_entry(world, cell);
-}
-Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldJammer& jammer) {
-  return restore_entry(world, jammer);
-}
-Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldMover& mover) {
-  return restore_entry(world, mover);
-}
-Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldPoint& point) {
-  return restore_entry(world, point);
+  return for_list(list, [&]<class Entry>(std::type_identity<Entry>) { return remove_entry<Entry>(world, id); });
 }
 
 Expected<void> set_sea_state(databuffer::WorldState& world, double state) {
@@ -423,5 +360,23 @@ databuffer::WorldMover at_sim_time(const databuffer::WorldMover& mover, std::int
   now.since_ns = sim_time_ns;
   return now;
 }
+
+// The kinds of entries.
+template Expected<databuffer::WorldRainCell> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
+template Expected<std::uint32_t> add(databuffer::WorldState&, databuffer::WorldRainCell);
+template Expected<void> replace(databuffer::WorldState&, const databuffer::WorldRainCell&);
+template Expected<void> restore(databuffer::WorldState&, const databuffer::WorldRainCell&);
+template Expected<databuffer::WorldJammer> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
+template Expected<std::uint32_t> add(databuffer::WorldState&, databuffer::WorldJammer);
+template Expected<void> replace(databuffer::WorldState&, const databuffer::WorldJammer&);
+template Expected<void> restore(databuffer::WorldState&, const databuffer::WorldJammer&);
+template Expected<databuffer::WorldMover> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
+template Expected<std::uint32_t> add(databuffer::WorldState&, databuffer::WorldMover);
+template Expected<void> replace(databuffer::WorldState&, const databuffer::WorldMover&);
+template Expected<void> restore(databuffer::WorldState&, const databuffer::WorldMover&);
+template Expected<databuffer::WorldPoint> entry_with(databuffer::WorldState&, std::uint32_t, std::int64_t);
+template Expected<std::uint32_t> add(databuffer::WorldState&, databuffer::WorldPoint);
+template Expected<void> replace(databuffer::WorldState&, const databuffer::WorldPoint&);
+template Expected<void> restore(databuffer::WorldState&, const databuffer::WorldPoint&);
 
 }  // namespace yars::world

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <string_view>
+#include <type_traits>
 
 #include "databuffer/messages/world_state.hpp"
 #include "lib/error/error.hpp"
@@ -17,6 +18,22 @@
 namespace yars::world {
 
 enum class WorldList : std::uint8_t { rain, jammers, movers, points };
+
+// Calls call(std::type_identity<Entry>()) with the kind of a list's entries.
+template <class Call>
+auto for_list(WorldList list, const Call& call) {
+  switch (list) {
+    case WorldList::rain:
+      return call(std::type_identity<databuffer::WorldRainCell>());
+    case WorldList::jammers:
+      return call(std::type_identity<databuffer::WorldJammer>());
+    case WorldList::movers:
+      return call(std::type_identity<databuffer::WorldMover>());
+    case WorldList::points:
+      break;
+  }
+  return call(std::type_identity<databuffer::WorldPoint>());
+}
 
 // Entries with the values that hold for what a user does not give.
 databuffer::WorldRainCell default_rain_cell(geo::GeoPoint position);
@@ -38,16 +55,12 @@ error::Expected<void> set_name(databuffer::WorldPoint& point, std::string_view n
 // target that is added or renamed makes the last steer point before it an initial point, as in a configuration.
 
 // Add an entry with a new id and return the id; the id of the argument is not used.
-error::Expected<std::uint32_t> add(databuffer::WorldState& world, databuffer::WorldRainCell cell);
-error::Expected<std::uint32_t> add(databuffer::WorldState& world, databuffer::WorldJammer jammer);
-error::Expected<std::uint32_t> add(databuffer::WorldState& world, databuffer::WorldMover mover);
-error::Expected<std::uint32_t> add(databuffer::WorldState& world, databuffer::WorldPoint point);
+template <class Entry>
+error::Expected<std::uint32_t> add(databuffer::WorldState& world, Entry entry);
 
 // Replace the entry with the id of the argument.
-error::Expected<void> replace(databuffer::WorldState& world, const databuffer::WorldRainCell& cell);
-error::Expected<void> replace(databuffer::WorldState& world, const databuffer::WorldJammer& jammer);
-error::Expected<void> replace(databuffer::WorldState& world, const databuffer::WorldMover& mover);
-error::Expected<void> replace(databuffer::WorldState& world, const databuffer::WorldPoint& point);
+template <class Entry>
+error::Expected<void> replace(databuffer::WorldState& world, const Entry& entry);
 
 // Moves an entry to a position. A mover is there at `sim_time_ns`, and goes on with its speed and present heading.
 error::Expected<void> move(databuffer::WorldState& world, WorldList list, std::uint32_t id, geo::GeoPoint position,
@@ -60,10 +73,8 @@ template <class Entry>
 error::Expected<Entry> entry_with(databuffer::WorldState& world, std::uint32_t id, std::int64_t sim_time_ns);
 error::Expected<void> remove(databuffer::WorldState& world, WorldList list, std::uint32_t id);
 // Add an entry that was removed again, with the id that it had. Errors: the list is full, or has an entry with this id.
-error::Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldRainCell& cell);
-error::Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldJammer& jammer);
-error::Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldMover& mover);
-error::Expected<void> restore(databuffer::WorldState& world, const databuffer::WorldPoint& point);
+template <class Entry>
+error::Expected<void> restore(databuffer::WorldState& world, const Entry& entry);
 
 // Sea state, WMO code 3700; NaN: from the wind.
 error::Expected<void> set_sea_state(databuffer::WorldState& world, double state);
