@@ -10,7 +10,8 @@ import signal
 import sys
 import time
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "python"))  # of the sources; else the installed one
+# of the sources; else the installed one
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "python"))
 from yars.session import Session, YarsError  # noqa: E402
 
 
@@ -21,8 +22,10 @@ def fly(session, latitude_deg, longitude_deg, radius_m=8000.0, speed_mps=200.0):
         angle = speed_mps / radius_m * (time.monotonic() - begin_s)  # [rad] on the circle, clockwise from north
         session.publish_ownship(
             latitude_deg=latitude_deg + radius_m * math.cos(angle) / 111000.0,  # 111,000 m: one degree of latitude
-            longitude_deg=longitude_deg + radius_m * math.sin(angle) / (111000.0 * math.cos(math.radians(latitude_deg))),
-            altitude_msl_m=4500.0, heading_deg=(math.degrees(angle) + 90.0) % 360.0, roll_deg=27.0,  # bank: atan(v^2/(g r))
+            longitude_deg=longitude_deg +
+                radius_m * math.sin(angle) / (111000.0 * math.cos(math.radians(latitude_deg))),
+            # bank: atan(v^2/(g r))
+            altitude_msl_m=4500.0, heading_deg=(math.degrees(angle) + 90.0) % 360.0, roll_deg=27.0,
             velocity_north_mps=-speed_mps * math.sin(angle), velocity_east_mps=speed_mps * math.cos(angle),
             source="fly.py")
         session.heartbeat()

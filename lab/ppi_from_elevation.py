@@ -43,11 +43,13 @@ def vincenty_direct(latitude_deg, longitude_deg, azimuth_deg, distance_m):
     for _ in range(20):
         middle = np.cos(2 * sigma1 + sigma)
         s, c = np.sin(sigma), np.cos(sigma)
-        change = b * s * (middle + b / 4 * (c * (2 * middle**2 - 1) - b / 6 * middle * (4 * s**2 - 3) * (4 * middle**2 - 3)))
+        change = b * s * (middle +
+                          b / 4 * (c * (2 * middle**2 - 1) - b / 6 * middle * (4 * s**2 - 3) * (4 * middle**2 - 3)))
         sigma = distance_m / (minor * a) + change
     middle, s, c = np.cos(2 * sigma1 + sigma), np.sin(sigma), np.cos(sigma)
     across = sin_u1 * s - cos_u1 * c * np.cos(azimuth)
-    latitude = np.arctan2(sin_u1 * c + cos_u1 * s * np.cos(azimuth), (1 - FLATTENING) * np.sqrt(sin_alpha**2 + across**2))
+    latitude = np.arctan2(sin_u1 * c + cos_u1 * s * np.cos(azimuth),
+                          (1 - FLATTENING) * np.sqrt(sin_alpha**2 + across**2))
     turn = np.arctan2(s * np.sin(azimuth), cos_u1 * c - sin_u1 * s * np.cos(azimuth))
     k = FLATTENING / 16 * cos2_alpha * (4 + FLATTENING * (4 - 3 * cos2_alpha))
     bend = (1 - k) * FLATTENING * sin_alpha * (sigma + k * s * (middle + k * c * (2 * middle**2 - 1)))
@@ -150,7 +152,8 @@ def draw(options):
     if not files:
         sys.exit(f"{options.terrain}: expected DTED or HGT cells, found none")
     step = (WIDTH[1] - WIDTH[0]) / options.size
-    x, y = np.meshgrid(WIDTH[0] + (np.arange(options.size) + 0.5) * step, HEIGHT[1] - (np.arange(options.size) + 0.5) * step)
+    x, y = np.meshgrid(WIDTH[0] + (np.arange(options.size) + 0.5) * step,
+                       HEIGHT[1] - (np.arange(options.size) + 0.5) * step)
     height = elevations(files, *glass_place(options, x, y))
     metres = step * options.range_nm * METRES_PER_NM
     known = np.nan_to_num(height, nan=0.0)
@@ -198,7 +201,8 @@ def main():
     image = draw(options)
     marks = add_marks(options, image)
     image.save(options.out)
-    print(json.dumps({"metres_per_pixel": (WIDTH[1] - WIDTH[0]) / options.size * options.range_nm * METRES_PER_NM, "marks": marks}))
+    print(json.dumps({"metres_per_pixel": (WIDTH[1] - WIDTH[0]) / options.size * options.range_nm * METRES_PER_NM,
+                      "marks": marks}))
 
 
 if __name__ == "__main__":

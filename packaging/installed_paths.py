@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Rewrites installed documents, examples and configurations in place, so that they name what is installed.
 
-usage: installed_paths.py PREFIX_WITH_DESTDIR DOCUMENTS SHARE [VERSION]      folders below the prefix: share/doc/yars, share/yars
-`cmake --install` runs it. scripts/start becomes yars-start, build/release/bin/yars becomes yars, config/apg68.guf becomes
-apg68.guf, which the programs find. A path of the sources that is not installed gets SOURCES/ before it, and a link to it
-becomes such a path; the README says what SOURCES is. To do it twice changes nothing.
+usage: installed_paths.py PREFIX_WITH_DESTDIR DOCUMENTS SHARE [VERSION]
+DOCUMENTS, SHARE: folders below the prefix: share/doc/yars, share/yars.
+`cmake --install` runs it. scripts/start becomes yars-start, build/release/bin/yars becomes yars, config/apg68.guf
+becomes apg68.guf, which the programs find. A path of the sources that is not installed gets SOURCES/ before it, and a
+link to it becomes such a path; the README says what SOURCES is. To do it twice changes nothing.
 """
 import os
 import pathlib
@@ -12,8 +13,8 @@ import re
 import sys
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
-FOLDERS = ("build|config|databuffer|display|docs|examples|gateway|inputmonitor|lib|model|packaging|python|scripts|shm|statemachine|station|tests|tools"
-           "|worldgen")
+FOLDERS = ("build|config|databuffer|display|docs|examples|gateway|inputmonitor|lib|model|packaging|python|scripts|shm"
+           "|statemachine|station|tests|tools|worldgen")
 PATH = re.compile(rf"(?<![\w./<~$=-])(?:\./)?((?:{FOLDERS})/(?:[\w*@-]|[./](?=[\w*@-]))*/?)")
 LINK = re.compile(r"(!?)\[([^\]\n]*)\]\(([^)\s#]+)(#[^)\s]*)?\)")
 # Text for a checkout, and the text that replaces it in an installation. In the sources the comment hides the second.
@@ -29,9 +30,12 @@ PLACES = {
     "build/terrain/default": "~/.cache/yars/terrain", "build/start.log": "yars-start's log",
     "build/release/install/doc/records.md": "share/doc/yars/docs/records.md",
     "build/release/install/doc/dataset_keys.md": "share/doc/yars/docs/dataset_keys.md",
-    "build/release/systemd": "lib/systemd/user", "python/yars/session.py": "yars/session.py", "databuffer/client/yars.h": "yars/yars.h",
-    "databuffer/client/yars_client.h": "yars/yars_client.h", "databuffer/client/yars_records.h": "yars/yars_records.h", "databuffer/client/yars_segment.h": "yars/yars_segment.h",
-    "display/library/yars_display.h": "yars/yars_display.h", "gateway/yars_network.idl": "share/yars/idl/yars_network.idl",
+    "build/release/systemd": "lib/systemd/user", "python/yars/session.py": "yars/session.py",
+    "databuffer/client/yars.h": "yars/yars.h", "databuffer/client/yars_client.h": "yars/yars_client.h",
+    "databuffer/client/yars_records.h": "yars/yars_records.h",
+    "databuffer/client/yars_segment.h": "yars/yars_segment.h",
+    "display/library/yars_display.h": "yars/yars_display.h",
+    "gateway/yars_network.idl": "share/yars/idl/yars_network.idl",
 }
 SAYS = ("This is the installed copy: the programs are on your path, `examples/` lies beside this README. `SOURCES/` "
         "stands for the sources of YARS{}, which hold the rest.")
@@ -90,7 +94,8 @@ def with_preface(text, version):
 def main(prefix, documents, share, version=""):
     prefix, documents, share = pathlib.Path(prefix), pathlib.Path(documents), pathlib.Path(share)
     for path in sorted(path for root in (documents, share) for path in (prefix / root).rglob("*") if path.is_file()):
-        if path.suffix not in (".md", ".c", ".cpp", ".py", ".txt", ".idl", ".guf", ".route", ".script", ".scenes", ".tour"):
+        if path.suffix not in (".md", ".c", ".cpp", ".py", ".txt", ".idl", ".guf", ".route", ".script", ".scenes",
+                               ".tour"):
             continue
         before = path.read_text(encoding="utf-8")
         after = rewritten(before, path.relative_to(prefix), prefix, documents, share)

@@ -108,7 +108,8 @@ def check_outside(name, text):
             continue  # a neighbour in the same folder
         yield line_of(text, match.start()), "outside", f"'{match.group()}': cite {SPECIFICATION}... and an anchor"
     for match in UNNAMED.finditer(text):
-        yield line_of(text, match.start()), "outside", f"'{match.group()}' names no page: cite {SPECIFICATION}... and an anchor"
+        yield (line_of(text, match.start()), "outside",
+               f"'{match.group()}' names no page: cite {SPECIFICATION}... and an anchor")
     for match in NEIGHBOUR.finditer(text):
         yield line_of(text, match.start()), "outside", f"'{match.group()}' lies outside of the repository"
 

@@ -4,8 +4,8 @@ files are named.
 
 usage: check_layers.py [--root DIR] [--draw]
 Prints one line per finding, `file:line: rule: what was found, what is allowed`. The exit code is 1 if there is any.
---draw first writes the diagram of the folders, docs/layers.dot, and its picture. A long file gives a warning, which is no
-finding. The tables below are the rules. A new folder or a new third-party header needs a row in them.
+--draw first writes the diagram of the folders, docs/layers.dot, and its picture. A long file gives a warning, which is
+no finding. The tables below are the rules. A new folder or a new third-party header needs a row in them.
 """
 import argparse
 import collections
@@ -18,7 +18,8 @@ import sys
 BASE = ["lib/text", "lib/error"]
 RADAR = BASE + ["lib/values", "lib/geo", "lib/radar"]
 RECORDS = RADAR + ["databuffer/messages"]
-TERRAIN = RADAR + ["lib/simd", "lib/memory", "lib/random", "lib/file", "lib/imageio", "model/terrain/formats", "model/terrain/sampling"]
+TERRAIN = RADAR + ["lib/simd", "lib/memory", "lib/random", "lib/file", "lib/imageio", "model/terrain/formats",
+                   "model/terrain/sampling"]
 SCENE = TERRAIN + ["model/scene/openflight", "model/scene/placement"]
 PHYSICS = SCENE + ["lib/parallel", "model/physics"]
 KERNEL = PHYSICS + ["databuffer/messages", "model/antenna", "model/rbm", "model/hrm", "model/kernel"]
@@ -88,12 +89,14 @@ LAYERS = {
     "gateway/exchange": RECORDS + ["lib/log", "databuffer/session", "runtime", "gateway", "gateway/dds"],
     "gateway/app": SHELL + ["gateway", "gateway/checks", "gateway/dds", "gateway/exchange"],
     "station": TERRAIN + ["databuffer/messages", "world", "model/terrain/picture"],
-    "station/app": SHELL + TERRAIN + ["model/terrain/picture", "flightmodel", "databuffer/json", "world", "display/symbology", "station"] + SCENE + WORLD,
+    "station/app": SHELL + TERRAIN + ["model/terrain/picture", "flightmodel", "databuffer/json", "world",
+                                      "display/symbology", "station"] + SCENE + WORLD,
     "tools/command": SHELL + LIBRARY,
     "tools/trade": SHELL + LIBRARY + ["tools/command"],
     "tools/scan": SHELL + LIBRARY + ["tools/command"],
     "tools/patch": SHELL + LIBRARY + ["tools/command"],
-    "tools/terrain": SHELL + TERRAIN + WORLD + ["model/terrain/picture", "worldgen/terrain", "tools/command", "lib/parallel"],
+    "tools/terrain": SHELL + TERRAIN + WORLD + ["model/terrain/picture", "worldgen/terrain", "tools/command",
+                                                "lib/parallel"],
     "tools/scene": SHELL + SCENE + WORLD + ["worldgen/scene", "tools/command", "lib/parallel"],
     "tools/dataset": SHELL + ["tools/command"],
     "tools/session": SHELL + LIBRARY + ["databuffer/json", "world", "statemachine", "tools/command"],
@@ -104,8 +107,10 @@ LAYERS = {
 }
 
 # Shells: folders that may use the segment, the log and clocks. They have the programs, and code that programs share.
-SHELLS = ["lib/log", "databuffer/session", "runtime", "flightmodel/app", "databuffer/client", "model/app", "statemachine/app",
-          "inputmonitor/app", "display/host", "display/library", "display/app", "gateway/exchange", "gateway/app", "station/app", "databuffer/json", "tools", "python/core", "tests", "examples"]
+SHELLS = ["lib/log", "databuffer/session", "runtime", "flightmodel/app", "databuffer/client", "model/app",
+          "statemachine/app", "inputmonitor/app", "display/host", "display/library", "display/app",
+          "gateway/exchange", "gateway/app", "station/app", "databuffer/json", "tools", "python/core", "tests",
+          "examples"]
 
 # Third-party and system headers: a header, or a folder of headers with "/" at the end -> who may include it: folders,
 # single files, or "shells" for SHELLS.
@@ -165,19 +170,21 @@ CLOCK_FOLDERS = ["shm", "shells", "lib/parallel/thread_pool.cpp"]
 OPENING = re.compile(r"\bstd::[io]?fstream\b|\bfopen\b|(?<![\w>])::(open|openat|mmap)\b"
                      r"|\bstd::filesystem::(recursive_)?directory_iterator\b")
 READERS = [re.compile(pattern) for pattern in (
-    r"_(main|shell)\.[ch]pp$", r"^(config/schema/load|runtime/processor_load|databuffer/session/participant|inputmonitor/device_source|lib/imageio/png"
-    r"|model/terrain/formats/cell_reading|model/terrain/store/cell_files|shm/segment_file)\.cpp$",
+    r"_(main|shell)\.[ch]pp$",
+    r"^(config/schema/load|runtime/processor_load|databuffer/session/participant|inputmonitor/device_source"
+    r"|lib/imageio/png|model/terrain/formats/cell_reading|model/terrain/store/cell_files|shm/segment_file)\.cpp$",
     r"^(lib/file|radar/recording|tools|tests|examples)/",
 )]
 
 # Text that makes files or folders: allowed only in WRITERS. Product code makes them in lib/file and segment_file.cpp.
 # Protection against links planted by others is needed only there. load.cpp has a function rename() of its own.
-WRITING = re.compile(r'\bstd::ofstream\b|\bfopen\([^;]*"[wa]|\bO_CREAT\b|\bmkstemp\b|\bmkdir(at)?\s*\(|\brename(at)?\s*\('
-                     r"|\bstd::filesystem::(create_director\w+|rename|copy\w*)\b|\b\w+_file_sink\w*\b")
+WRITING = re.compile(r'\bstd::ofstream\b|\bfopen\([^;]*"[wa]|\bO_CREAT\b|\bmkstemp\b|\bmkdir(at)?\s*\('
+                     r"|\brename(at)?\s*\(|\bstd::filesystem::(create_director\w+|rename|copy\w*)\b"
+                     r"|\b\w+_file_sink\w*\b")
 WRITERS = ("lib/file/", "shm/segment_file.cpp", "tests/", "examples/", "config/schema/load.cpp")
 
 HEAVY_IN_HEADERS = ("iostream", "boost/", "spdlog/")
-# May include them: of the first, only shm/segment.cpp and its test include it; the others are of the server over connections,
+# May include them. Only shm/segment.cpp and its test include the first. The others are of the server over connections,
 # whose types are those of Boost.Beast.
 HEAVY_HEADERS = {"shm/segment_file.hpp", "station/app/connection_shell.hpp", "station/app/page_shell.hpp"}
 # made by flex and bison in the build folder
@@ -245,7 +252,8 @@ def file_of(root, header):
     """The file from the top of the tree that an include names: "yars/scan.hpp" is radar/yars/scan.hpp."""
     if header in MADE_PUBLIC:
         return MADE_PUBLIC[header]
-    found = [f"{folder}/{header}" for folder in PUBLIC_FOLDERS if header.startswith("yars/") and (root / folder / header).is_file()]
+    found = [f"{folder}/{header}" for folder in PUBLIC_FOLDERS
+             if header.startswith("yars/") and (root / folder / header).is_file()]
     return found[0] if found else header
 
 
@@ -427,15 +435,18 @@ def check_cycles(root, names):
 
 def diagram(root, names):
     """The folders and their includes in Graphviz' language. An arrow that follows from other arrows is left out."""
-    graph = joined({name: headers for name, headers in includes(root, names).items() if LAYERS[folder_of(name)] is not None},
-                   folder_of)
+    graph = joined({name: headers for name, headers in includes(root, names).items()
+                    if LAYERS[folder_of(name)] is not None}, folder_of)
     below = {folder: graph.get(folder, set()) for folder in LAYERS if folder in graph}
     reached = {}
     for folder in below:  # lower ones first
         reached[folder] = set(below[folder]).union(*(reached.get(other, set()) for other in below[folder]))
-    lines = ["// Made by scripts/check_layers.py --draw: who includes whom. An arrow that follows from others is left out.",
-             "digraph layers {", '  graph [rankdir=TB, nodesep=0.2, ranksep=0.5, fontname="Helvetica", fontsize=11]',
-             '  node [shape=box, style="rounded,filled", fillcolor="#e8f2ea", color="#4a7a55", fontname="Helvetica", fontsize=10]',
+    lines = ["// Made by scripts/check_layers.py --draw: who includes whom. "
+             "An arrow that follows from others is left out.",
+             "digraph layers {",
+             '  graph [rankdir=TB, nodesep=0.2, ranksep=0.5, fontname="Helvetica", fontsize=11]',
+             '  node [shape=box, style="rounded,filled", fillcolor="#e8f2ea", color="#4a7a55", '
+             'fontname="Helvetica", fontsize=10]',
              '  edge [color="#777777", arrowsize=0.6]']
     tops = collections.defaultdict(list)
     for folder in below:
@@ -509,4 +520,5 @@ def run(checker, purpose, findings, clean, draw=None):
 
 
 if __name__ == "__main__":
-    sys.exit(run("check_layers", "Checks layers, names and paths of the YARS tree.", findings_of, "the layers hold", draw))
+    sys.exit(run("check_layers", "Checks layers, names and paths of the YARS tree.", findings_of, "the layers hold",
+                 draw))

@@ -3,8 +3,8 @@
 
 usage: doxygen_source.py FOLDER         copies the tree to FOLDER; scripts/docs calls it
        doxygen_source.py --filter FILE  prints one file; Doxygen calls it as a filter
-In the Markdown of the copy, Doxygen's command for a diagram replaces `<!-- diagram: FILE.dot -->`. Links to headings and
-to anchors (`<a id="NAME"></a>`) use Doxygen's labels.
+In the Markdown of the copy, Doxygen's command for a diagram replaces `<!-- diagram: FILE.dot -->`. Links to headings
+and to anchors (`<a id="NAME"></a>`) use Doxygen's labels.
 The filter turns plain comments into documentation. The first comment of a header or source describes the file. In a
 header, a comment above a declaration, or after it on its line, describes that declaration. After the first blank line
 the filter keeps all line numbers, so that links to lines of the unfiltered sources are right.
@@ -15,15 +15,17 @@ import re
 import shutil
 import sys
 
-ROOTS = [pathlib.Path(root) for root in ("README.md", "HACKING.md", "CHANGELOG.md", "CONTRIBUTING.md", "ROADMAP.md", "SECURITY.md", "docs",
-                                            "lib", "shm", "config", "databuffer", "model", "worldgen", "statemachine", "inputmonitor",
-                                            "display", "gateway", "tools", "python", "examples", "tests/README.md", "tests/gateway/lab/README.md")]
+ROOTS = [pathlib.Path(root) for root in (
+    "README.md", "HACKING.md", "CHANGELOG.md", "CONTRIBUTING.md", "ROADMAP.md", "SECURITY.md", "docs", "lib", "shm",
+    "config", "databuffer", "model", "worldgen", "statemachine", "inputmonitor", "display", "gateway", "tools",
+    "python", "examples", "tests/README.md", "tests/gateway/lab/README.md")]
 SOURCES = (".hpp", ".h", ".cpp", ".c")
 ANCHOR = r'<a id="([^"]*)"></a>'
 
 
 def escaped(text):
-    """Comment text with escapes, so that Doxygen finds no command, tag or emphasis in it. Code in `...` is unchanged."""
+    """Comment text with escapes, so that Doxygen finds no command, tag or emphasis in it.
+    Code in `...` is unchanged."""
     kept = re.split(r"(`[^`]*`)", text)
     kept[::2] = [re.sub(r"[\\@<>#$%&*]", r"\\\g<0>", part) for part in kept[::2]]
     return "".join(kept)

@@ -1,8 +1,8 @@
 # %% [markdown]
 # # A first scan
-# From terrain to pictures: elevation, one scan of the real beam map, its arrays, xarray, and what changes with altitude and
-# preset. Run it as a program, or cell by cell in an editor or in Jupyter (jupytext). It writes `land/` and its pictures into
-# the current folder.
+# From terrain to pictures: elevation, one scan of the real beam map, its arrays, xarray, and what changes with altitude
+# and preset. Run it as a program, or cell by cell in an editor or in Jupyter (jupytext). It writes `land/` and its
+# pictures into the current folder.
 
 # %%
 import numpy
@@ -22,11 +22,12 @@ print(terrain.elevation(numpy.linspace(37.4, 38.2, 5), -122.2).round(1), "m MSL 
 
 # %% [markdown]
 # ## A scan
-# Position and heading in degrees, altitude in feet, range in nautical miles, as on the flight deck. The arguments are the
-# options of the command `yars scan`. The antenna looks 4 degrees down.
+# Position and heading in degrees, altitude in feet, range in nautical miles, as on the flight deck. The arguments are
+# the options of the command `yars scan`. The antenna looks 4 degrees down.
 
 # %%
-pose = {"latitude_deg": 37.45, "longitude_deg": -122.3, "heading_deg": 5, "range_nm": 40, "elevation_deg": -4, "seed": 1}
+pose = {"latitude_deg": 37.45, "longitude_deg": -122.3, "heading_deg": 5, "range_nm": 40, "elevation_deg": -4,
+        "seed": 1}
 radar = yars.Radar("standard")
 scan = radar.scan(terrain, altitude_ft=12000, **pose)
 print(scan)
@@ -59,7 +60,8 @@ except yars.MissingPart as missing:
 figure, axes = pyplot.subplots(2, 2, figsize=(10.5, 7.6), constrained_layout=True)
 for ax, quantity in zip(axes.flat, ("video", "power", "shadow")):
     plot.ppi(scan, ax=ax, quantity=quantity)
-    ax.set_title({"video": "video: what the pilot sees", "power": "power before noise", "shadow": "shadow (black)"}[quantity])
+    ax.set_title(
+        {"video": "video: what the pilot sees", "power": "power before noise", "shadow": "shadow (black)"}[quantity])
 plot.map(terrain, scan, ax=axes[1, 1], bounds=(37.2, -123.0, 38.4, -121.5))
 axes[1, 1].set_title("elevation, coast, outline of the scan")
 figure.savefig("python_scan.png", dpi=80)
@@ -79,8 +81,9 @@ figure.savefig("python_altitudes.png", dpi=70)
 
 # %% [markdown]
 # ## What the preset changes
-# A preset trades speed for accuracy: `1996` is the method of the report that YARS follows, `reference` the yardstick. The
-# presets have different numbers of samples; the ranges are the same. `1996` lights only what lies within the beam's height.
+# A preset trades speed for accuracy: `1996` is the method of the report that YARS follows, `reference` the yardstick.
+# The presets have different numbers of samples; the ranges are the same.
+# `1996` lights only what lies within the beam's height.
 
 # %%
 figure, axes = pyplot.subplots(1, 4, figsize=(16, 3.5), constrained_layout=True)

@@ -1,7 +1,8 @@
 # %% [markdown]
 # # A patch map and its labels
-# A made-up town on made-up terrain, mapped finely: which object, which material, where shadow and layover are, where each
-# pixel lies, and the same place from four sides. It writes `land/`, `town.flt` and its pictures into the current folder.
+# A made-up town on made-up terrain, mapped finely: which object, which material, where shadow and layover are, where
+# each pixel lies, and the same place from four sides.
+# It writes `land/`, `town.flt` and its pictures into the current folder.
 
 # %%
 import numpy
@@ -17,7 +18,8 @@ from yars import plot
 
 # %%
 CENTRE = (37.5, -122.5)
-terrain = yars.Terrain(yars.Terrain.generate("land_of_the_town", south=37, west=-123, cells_lat=1, cells_lon=1, edge="cut"))
+terrain = yars.Terrain(yars.Terrain.generate("land_of_the_town", south=37, west=-123, cells_lat=1, cells_lon=1,
+                                             edge="cut"))
 town = yars.Scene.generate("town.flt", kind="town", triangles=20000, seed=1, origin=(*CENTRE, 20))
 scene = yars.Scene(town, terrain)
 print(scene)
@@ -25,7 +27,8 @@ print(scene.objects[["name", "height_m", "length_m", "width_m", "heading_deg"]][
 
 # %% [markdown]
 # ## One map
-# The aircraft maps the town from 8 NM, 40 degrees off its ground track: straight ahead a synthetic aperture sees nothing.
+# The aircraft maps the town from 8 NM, 40 degrees off its ground track:
+# straight ahead a synthetic aperture sees nothing.
 
 # %%
 radar = yars.Radar("standard", map_size=200)
@@ -37,8 +40,9 @@ def pose_from(bearing_deg):
     back = numpy.radians(bearing_deg + 180)
     return {"latitude_deg": CENTRE[0] + RANGE_NM / 60 * numpy.cos(back),
             "longitude_deg": CENTRE[1] + RANGE_NM / 60 * numpy.sin(back) / numpy.cos(numpy.radians(CENTRE[0])),
-            "altitude_ft": 14000, "heading_deg": (bearing_deg + 40) % 360, "speed_kt": 480, "target_latitude_deg": CENTRE[0],
-            "target_longitude_deg": CENTRE[1], "window_nm": 0.67, "looks": 3, "seed": 1}
+            "altitude_ft": 14000, "heading_deg": (bearing_deg + 40) % 360, "speed_kt": 480,
+            "target_latitude_deg": CENTRE[0], "target_longitude_deg": CENTRE[1], "window_nm": 0.67, "looks": 3,
+            "seed": 1}
 
 
 one = radar.patch(terrain, scene, **pose_from(45))
@@ -52,10 +56,10 @@ print(one, {name: round(one.facts[name], 2) for name in ("slant_range_m", "grazi
 # - **layover**: two or more separate surfaces have that slant range, such as a roof and the street in front of it.
 
 # %%
-MATERIALS = {0: "land", 1: "metal", 2: "part metal", 3: "masonry", 4: "composition", 5: "earthworks", 6: "water", 7: "sand",
-             8: "rock", 9: "concrete", 10: "soil", 11: "marsh", 12: "trees", 13: "snow", 14: "asphalt"}
-COLORS = ["#e8e0c8", "#c81e1e", "#f08232", "#823ca0", "#e6c81e", "#8c6e46", "#1e5abe", "#f0dca0", "#787878", "#505050", "#c8a878",
-          "#5a9696", "#1e8c46", "#f0f0ff", "#282828"]
+MATERIALS = {0: "land", 1: "metal", 2: "part metal", 3: "masonry", 4: "composition", 5: "earthworks", 6: "water",
+             7: "sand", 8: "rock", 9: "concrete", 10: "soil", 11: "marsh", 12: "trees", 13: "snow", 14: "asphalt"}
+COLORS = ["#e8e0c8", "#c81e1e", "#f08232", "#823ca0", "#e6c81e", "#8c6e46", "#1e5abe", "#f0dca0", "#787878", "#505050",
+          "#c8a878", "#5a9696", "#1e8c46", "#f0f0ff", "#282828"]
 labelled = one.object[one.object >= 0]
 print(f"shadow {one.shadow.mean():.1%}, layover {one.layover.mean():.1%}, {numpy.unique(labelled).size} objects return")
 for code, pixels in zip(*numpy.unique(one.material[~one.shadow], return_counts=True)):
@@ -63,7 +67,8 @@ for code, pixels in zip(*numpy.unique(one.material[~one.shadow], return_counts=T
 
 # %% [markdown]
 # ## Boxes
-# `patches()` maps many places in one call and gives boxes of objects, too: corners as (column, row) from the upper left corner.
+# `patches()` maps many places in one call and gives boxes of objects, too:
+# corners as (column, row) from the upper left corner.
 
 # %%
 order = numpy.zeros(1, yars.PATCH_ORDER)

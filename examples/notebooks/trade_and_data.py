@@ -1,7 +1,7 @@
 # %% [markdown]
 # # A trade, and a data set
-# How much time a preset costs and what it gains; then 64 labelled chips, read back, and statistics of the theatre. It writes
-# `chips.yaml`, `chips/` and its pictures into the current folder.
+# How much time a preset costs and what it gains; then 64 labelled chips, read back, and statistics of the theatre. It
+# writes `chips.yaml`, `chips/` and its pictures into the current folder.
 
 # %%
 import pathlib
@@ -16,14 +16,15 @@ from yars import plot
 
 # %% [markdown]
 # ## The trade of presets
-# Time against error, over two scans of the built-in hills: a marker is the mean, a bar ends at the worse scan. The times are
-# those of this computer.
+# Time against error, over two scans of the built-in hills: a marker is the mean, a bar ends at the worse scan. The
+# times are those of this computer.
 
 # %%
 SCANS = ["37.3,-122.4,15000,30,10", "37.3,-122.4,15000,30,40"]
 rows = yars.trade(presets="all", scene=SCANS, repeat=2)
 for point in rows["points"]:
-    print(f"{point['point']:10} {point['scan_ms']['mean']:8.2f} ms {point['shadow_percent']['mean']:6.2f} % of the shadow wrong")
+    print(f"{point['point']:10} {point['scan_ms']['mean']:8.2f} ms {point['shadow_percent']['mean']:6.2f} % of "
+          "the shadow wrong")
 figure, ax = pyplot.subplots(figsize=(7.5, 5), constrained_layout=True)
 plot.trade_front(rows, ax=ax, error="shadow_percent")
 ax.set_title("presets: time against error of the shadow")
@@ -83,8 +84,8 @@ figure.savefig("python_chips.png", dpi=66)
 # Power by material, over all pixels of all chips that are not in shadow; and how the objects lie to the line of sight.
 
 # %%
-MATERIALS = {0: "land", 1: "metal", 2: "part metal", 3: "masonry", 4: "composition", 6: "water", 9: "concrete", 10: "soil",
-             12: "trees", 14: "asphalt"}
+MATERIALS = {0: "land", 1: "metal", 2: "part metal", 3: "masonry", 4: "composition", 6: "water", 9: "concrete",
+             10: "soil", 12: "trees", 14: "asphalt"}
 chips = [data[item] for item in range(len(data))]
 power = numpy.concatenate([chip["power"].ravel() for chip in chips])
 material = numpy.concatenate([chip["material"].ravel() for chip in chips])
@@ -97,7 +98,8 @@ for code, name in MATERIALS.items():
     of_code = good & (material == code)
     if of_code.sum() > 500:
         power_db = 10 * numpy.log10(power[of_code])
-        axes[0].hist(power_db, edges_db, density=True, histtype="step", linewidth=1.5, label=f"{name} ({of_code.sum():,})")
+        axes[0].hist(power_db, edges_db, density=True, histtype="step", linewidth=1.5,
+                     label=f"{name} ({of_code.sum():,})")
         print(f"{name:12} median {numpy.median(power_db):6.1f} dB, {of_code.sum()} pixels")
 axes[0].set_xlabel("power: gamma before speckle and noise [dB]")
 axes[0].set_ylabel("density [1/dB]")

@@ -79,7 +79,8 @@ def rows_of(program):
                 rows["count"][f"{path} {name}"] = str(entry.count)
     for command in program.walk():  # help takes the words of all commands
         if program.below and command.below:
-            rows["commands"][" ".join([program.words[0], "help", *command.words[1:]])] = rows["commands"][" ".join(command.words)]
+            rows["commands"][" ".join([program.words[0], "help", *command.words[1:]])] = (
+                rows["commands"][" ".join(command.words)])
     return rows
 
 

@@ -35,7 +35,8 @@ SOURCE_FUNCTION = '''
 function __yars_source
     set -l word (commandline -ct)
     if string match -q '*:*' -- $word
-        string replace -r '^' (string split -m 1 : -- $word)[1]: (__fish_complete_path (string split -m 1 : -- $word)[2])
+        set -l parts (string split -m 1 : -- $word)
+        string replace -r '^' $parts[1]: (__fish_complete_path $parts[2])
     else
         printf '%s\\n' $argv
     end

@@ -1,7 +1,7 @@
 """Options in man pages, out of what the programs say with --help.
 
-A page packaging/man/PROGRAM.1 has the line `MARK` where the options of the program, and of its subcommands with all below
-them, belong. The rest of the page is written by hand.
+A page packaging/man/PROGRAM.1 has the line `MARK` where the options of the program, and of its subcommands with all
+below them, belong. The rest of the page is written by hand.
 """
 import re
 

@@ -14,9 +14,11 @@ def shape(entry):
     if entry.values:
         return entry.values
     if entry.kind == "EVENT":  # lines like "acq fwd | acq aft" between the first and the last
-        return sorted(set(re.findall(r"(?<![\w.])[a-z]{2,}(?![\w.])", re.sub(r"\(.*?\)", "", "\n".join(entry.lines[1:])))))
+        return sorted(set(re.findall(r"(?<![\w.])[a-z]{2,}(?![\w.])",
+                                     re.sub(r"\(.*?\)", "", "\n".join(entry.lines[1:])))))
     if entry.kind == "SOURCE":  # "route:FILE  a route", "window, terminal, script:FILE or auto"
-        return sorted(set(re.findall(r"(?<!\S)[a-z]+:(?=[A-Z[])", text)) | set(re.findall(r"\b(?:window|terminal|auto)\b", text)))
+        return sorted(set(re.findall(r"(?<!\S)[a-z]+:(?=[A-Z[])", text)) |
+                      set(re.findall(r"\b(?:window|terminal|auto)\b", text)))
     return {"FILE": FILES, "DIR": FOLDERS, "SESSION": SESSIONS}.get(entry.kind, NOTHING)
 
 

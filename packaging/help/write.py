@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Writes man pages and completions of the programs, with the options that --help of this build prints.
 
-usage: write.py BIN OUT      BIN: folder of the programs, such as build/release/bin. OUT: becomes share/ of an installation
+usage: write.py BIN OUT
+BIN: folder of the programs, such as build/release/bin. OUT: becomes share/ of an installation
 Files: man/man?/NAME.?.gz; bash-completion/completions/PROGRAM, zsh/vendor-completions/_yars and
 fish/vendor_completions.d/PROGRAM.fish with commands, options, fixed values, files, folders, names of sessions, words of
 events. In a cross build BIN is - : no program runs here, so the pages have no options and there are no completions.

@@ -1,8 +1,8 @@
 """The compiled part of the package yars, built by CMake for the Python that pip runs in.
 
-The build folder is, in this order: the one that the setting `build-folder` or YARS_BUILD_FOLDER names, which is built but
-not configured; build/release, if it is configured for this Python; build/pip-cpXYZ, configured by the preset release.
-What is missing ends the program with one message: what was expected, what was found, what to do."""
+The build folder is, in this order: the one that the setting `build-folder` or YARS_BUILD_FOLDER names, which is built
+but not configured; build/release, if it is configured for this Python; build/pip-cpXYZ, configured by the preset
+release. What is missing ends the program with one message: what was expected, what was found, what to do."""
 import os
 import pathlib
 import re
@@ -39,7 +39,8 @@ def check_cmake():
     printed = run(tool("cmake"), "--version", capture_output=True).stdout
     match = re.search(r"(\d+)\.(\d+)", printed)
     if not match or tuple(map(int, match.groups())) < LEAST_CMAKE:
-        give_up(f"expected cmake {LEAST_CMAKE[0]}.{LEAST_CMAKE[1]} or later, found {printed.partition(chr(10))[0]!r}; {REMEDY}")
+        give_up(f"expected cmake {LEAST_CMAKE[0]}.{LEAST_CMAKE[1]} or later, "
+                f"found {printed.partition(chr(10))[0]!r}; {REMEDY}")
     tool("ninja")
 
 
@@ -49,13 +50,14 @@ def numpy_version(python):
 
 
 def interpreter():
-    """The Python to build for: that behind a virtual environment, which outlives it, else the environment's, with NumPy."""
+    """The Python to build for: that behind a virtual environment, which outlives it, else the environment's,
+    with NumPy."""
     base = getattr(sys, "_base_executable", None) or sys.executable
     for python in (os.path.realpath(base), sys.executable):
         if numpy_version(python):
             return python
-    give_up(f"expected NumPy of {base} or of {sys.executable}, found none; {REMEDY}. An environment sees them when it is made "
-            "by python3 -m venv --system-site-packages of Debian's /usr/bin/python3")
+    give_up(f"expected NumPy of {base} or of {sys.executable}, found none; {REMEDY}. An environment sees them when it "
+            "is made by python3 -m venv --system-site-packages of Debian's /usr/bin/python3")
 
 
 def cached(folder):
@@ -70,7 +72,8 @@ def cached(folder):
 def fits(folder, python):
     """Whether a build folder is a release build of these sources, with the compiled part for this Python."""
     cache = cached(folder)
-    return (pathlib.Path(cache.get("CMAKE_HOME_DIRECTORY", "/")) == SOURCE and cache.get("CMAKE_BUILD_TYPE") == "Release"
+    return (pathlib.Path(cache.get("CMAKE_HOME_DIRECTORY", "/")) == SOURCE and
+            cache.get("CMAKE_BUILD_TYPE") == "Release"
             and cache.get("YARS_PYTHON", "OFF") != "OFF"
             and os.path.realpath(cache.get("YARS_PYTHON_EXECUTABLE", "")) == os.path.realpath(python))
 
@@ -81,7 +84,8 @@ def configure(folder, python):
     if done.returncode != 0:
         print(done.stdout)
         missing = re.search(r"YARS_PYTHON=ON: ([^;]*);", re.sub(r"\s+", " ", done.stdout))
-        give_up(f"{missing[1] if missing else f'cmake could not configure {folder}; its messages stand above'}; {REMEDY}")
+        give_up(f"{missing[1] if missing else f'cmake could not configure {folder}; its messages stand above'}; "
+                f"{REMEDY}")
 
 
 def build_folder(settings):
@@ -90,7 +94,8 @@ def build_folder(settings):
     if named:
         folder = pathlib.Path(named).resolve()
         if not cached(folder):
-            give_up(f"build-folder: expected a build folder of cmake, found none at {folder}; configure it: cmake --preset release")
+            give_up(f"build-folder: expected a build folder of cmake, found none at {folder}; "
+                    "configure it: cmake --preset release")
         return folder
     python = interpreter()
     release = SOURCE / "build/release"
@@ -109,16 +114,18 @@ def build(settings):
     if run("cmake", "--build", folder, "--target", "yars_python", "--parallel", jobs).returncode != 0:
         give_up(f"cmake could not build the target yars_python in {folder}; its messages stand above")
     if not (folder / f"python/yars/_core{SUFFIX}").is_file():
-        give_up(f"expected python/yars/_core{SUFFIX} in {folder}, found none; configure it for this Python: cmake {folder} "
-                f"-DYARS_PYTHON=ON -DYARS_PYTHON_EXECUTABLE={os.path.realpath(sys.executable)}")
+        give_up(f"expected python/yars/_core{SUFFIX} in {folder}, found none; configure it for this Python: "
+                f"cmake {folder} -DYARS_PYTHON=ON -DYARS_PYTHON_EXECUTABLE={os.path.realpath(sys.executable)}")
     return folder
 
 
 def compiled_parts(folder, stage, library):
-    """The compiled part and the library of this name as CMake installs them, without symbols, below the folder `stage`."""
+    """The compiled part and the library of this name as CMake installs them, without symbols,
+    below the folder `stage`."""
     found = []
     for component, name in (("python_core", f"_core{SUFFIX}"), ("client", library)):
-        done = run("cmake", "--install", folder, "--component", component, "--strip", "--prefix", stage, capture_output=True)
+        done = run("cmake", "--install", folder, "--component", component, "--strip", "--prefix", stage,
+                   capture_output=True)
         there = list(pathlib.Path(stage).rglob(name))
         if done.returncode != 0 or len(there) != 1:
             give_up(f"cmake --install {folder}: expected one {name}, found {len(there)}: {done.stderr.strip()}")

@@ -18,7 +18,8 @@ def record_line(name, content):
 
 
 class WheelFile:
-    """Collects files as (name, content, executable) and writes them at once. `tag`: such as cp311-cp311-linux_x86_64."""
+    """Collects files as (name, content, executable) and writes them at once.
+    `tag`: such as cp311-cp311-linux_x86_64."""
 
     def __init__(self, name, version, tag):
         self.tag = tag

@@ -20,7 +20,8 @@ from wheel_file import EARLIEST, WheelFile
 try:
     import tomllib
 except ImportError:
-    sys.exit(f"yars: expected Python 3.11 or later, found {sys.version.split()[0]}; use /usr/bin/python3 of Debian 12 or later")
+    sys.exit(f"yars: expected Python 3.11 or later, found {sys.version.split()[0]}; "
+             "use /usr/bin/python3 of Debian 12 or later")
 
 SOURCE = cmake_build.SOURCE
 SUFFIXES = (".py", ".pyi", "py.typed", ".yaml", ".json")
@@ -28,15 +29,16 @@ SUFFIXES = (".py", ".pyi", "py.typed", ".yaml", ".json")
 
 def version():
     """Version of the programs, from CMakeLists.txt."""
-    return re.search(r"^project\(yars VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"), re.M)[1]
+    return re.search(r"^project\(yars VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"),
+                     re.M)[1]
 
 
 def date():
     """Seconds of POSIX for all entries of an archive: SOURCE_DATE_EPOCH, else the commit's."""
     if "SOURCE_DATE_EPOCH" in os.environ:
         return int(os.environ["SOURCE_DATE_EPOCH"])
-    commit = subprocess.run(["git", "-C", SOURCE, "log", "-1", "--format=%ct"], capture_output=True, text=True, check=False) \
-        if (SOURCE / ".git").exists() else None
+    commit = (subprocess.run(["git", "-C", SOURCE, "log", "-1", "--format=%ct"], capture_output=True, text=True,
+                             check=False) if (SOURCE / ".git").exists() else None)
     return int(commit.stdout) if commit and commit.returncode == 0 and commit.stdout else EARLIEST
 
 
@@ -46,14 +48,17 @@ def tag():
 
 
 def metadata(numpy=""):
-    """The file METADATA. `numpy`: the version that the compiled part is built with; a later major version has another ABI."""
+    """The file METADATA. `numpy`: the version that the compiled part is built with;
+    a later major version has another ABI."""
     settings = tomllib.loads((SOURCE / "pyproject.toml").read_text(encoding="utf-8"))
     project, extras = settings["project"], settings["tool"]["yars"]["extras"]
     major = numpy.partition(".")[0]
     fitting = f"numpy<{int(major) + 1}" if major.isdigit() else "numpy"
-    lines = ["Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {version()}", f"Summary: {project['description']}",
-             f"Author: {project['authors'][0]['name']}", f"License: {project['license']['text']}", "License-File: LICENSE",
-             *(f"Classifier: {text}" for text in project["classifiers"]), f"Requires-Python: {project['requires-python']}"]
+    lines = ["Metadata-Version: 2.1", f"Name: {project['name']}", f"Version: {version()}",
+             f"Summary: {project['description']}", f"Author: {project['authors'][0]['name']}",
+             f"License: {project['license']['text']}", "License-File: LICENSE",
+             *(f"Classifier: {text}" for text in project["classifiers"]),
+             f"Requires-Python: {project['requires-python']}"]
     for extra, names in extras.items():
         lines.append(f"Provides-Extra: {extra}")
         lines += [f'Requires-Dist: {fitting if name == "numpy" else name}; extra == "{extra}"' for name in names]

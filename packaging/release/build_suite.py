@@ -16,7 +16,8 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 BUILD = SOURCE / "build/release"
 sys.path += [str(SOURCE / "packaging/pip"), str(SOURCE / "packaging/release")]
 # Program -> Debian package. dpkg-shlibdeps is quiet about what it lacks, so they are looked for first.
-TOOLS = {"cmake": "cmake", "cpack": "cmake", "ninja": "ninja-build", "dpkg-shlibdeps": "dpkg-dev", "dpkg-deb": "dpkg", "file": "file"}
+TOOLS = {"cmake": "cmake", "cpack": "cmake", "ninja": "ninja-build", "dpkg-shlibdeps": "dpkg-dev", "dpkg-deb": "dpkg",
+         "file": "file"}
 
 
 def run(*command):
@@ -31,8 +32,10 @@ def check_tools():
 
 
 def build(jobs, options):
-    """All parts: a release does not depend on what happens to be installed. Libraries lie where Debian's packages have them."""
-    triplet = subprocess.run(["dpkg-architecture", "-qDEB_HOST_MULTIARCH"], capture_output=True, text=True, check=True).stdout.strip()
+    """All parts: a release does not depend on what happens to be installed.
+    Libraries lie where Debian's packages have them."""
+    triplet = subprocess.run(["dpkg-architecture", "-qDEB_HOST_MULTIARCH"], capture_output=True, text=True,
+                             check=True).stdout.strip()
     run("cmake", "--preset", "release", "-DYARS_TESTS=OFF", "-DYARS_GDAL=ON", "-DYARS_GATEWAY=ON", "-DYARS_PYTHON=ON",
         f"-DCMAKE_INSTALL_LIBDIR=lib/{triplet}", *options)
     run("cmake", "--build", BUILD, "--parallel", jobs)
@@ -47,7 +50,8 @@ def main(out, jobs, *options):
     out = pathlib.Path(out)
     shutil.rmtree(out / "_CPack_Packages", ignore_errors=True)
     wheel = yars_backend.build_wheel(out, {"build-folder": str(BUILD)})
-    system = dict(line.split("=", 1) for line in pathlib.Path("/etc/os-release").read_text().splitlines() if "=" in line)
+    system = dict(line.split("=", 1) for line in pathlib.Path("/etc/os-release").read_text().splitlines()
+                  if "=" in line)
     parts = {package.name: debian_parts.parts_of(package) for package in sorted(out.glob("*.deb"))}
     about = {"system": f"{system.get('ID', 'unknown')}-{system.get('VERSION_ID', 'unknown')}".replace('"', ""),
              "wheel": wheel, "packages": parts}

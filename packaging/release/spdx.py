@@ -1,5 +1,5 @@
-"""The list of parts of a release in SPDX 2.3 (JSON): its files, the Debian packages that they depend on, the npm packages that
-build and test the pages of the station. Equal input gives equal text."""
+"""The list of parts of a release in SPDX 2.3 (JSON): its files, the Debian packages that they depend on, the npm
+packages that build and test the pages of the station. Equal input gives equal text."""
 import hashlib
 import json
 import re
@@ -39,7 +39,8 @@ def debian_package(part, system):
     if part["licences"]:
         more["licenseComments"] = "The package's copyright file names: " + "; ".join(part["licences"])
     if part["version"]:
-        more["externalRefs"] = reference("deb", f"{system.partition('-')[0]}/{part['name']}", part["version"], distro=system)
+        more["externalRefs"] = reference("deb", f"{system.partition('-')[0]}/{part['name']}", part["version"],
+                                         distro=system)
         more["sourceInfo"] = f"source package {part['source']} {part['source_version']}"
     return package(part["name"], part["version"], identifier("Debian", system, part["name"]), licence, **more)
 
@@ -62,7 +63,8 @@ def npm_faults(lock, licences):
         name = place.rpartition("node_modules/")[2]
         row = rows.get(name) or rows.get(name.partition("/")[0] + "/*")
         if name and row != (entry["version"], entry.get("license")):
-            yield f"{name}: expected {entry['version']}, {entry.get('license')} as in package-lock.json, found {row or 'no row'}"
+            yield (f"{name}: expected {entry['version']}, {entry.get('license')} as in package-lock.json, "
+                   f"found {row or 'no row'}")
 
 
 def relation(one, kind, other):
@@ -100,7 +102,8 @@ class PartsList:
     def text(self, version, commit, seconds):
         """The list as JSON. `seconds`: date of the commit."""
         document = {
-            "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT", "name": f"yars-{version}",
+            "spdxVersion": "SPDX-2.3", "dataLicense": "CC0-1.0", "SPDXID": "SPDXRef-DOCUMENT",
+            "name": f"yars-{version}",
             "documentNamespace": f"urn:uuid:{uuid.uuid5(uuid.NAMESPACE_OID, f'yars {version} {commit}')}",
             "creationInfo": {"created": time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(seconds)),
                              "creators": [f"Tool: yars-scripts-release-{version}"]},

@@ -5,9 +5,9 @@
     yars.plot                                  pictures by matplotlib
     yars.dataset                               training data by the million
 
-Each name is loaded at its first use: `import yars` needs neither NumPy nor the compiled part. What a name needs and does
-not find raises MissingPart, an Error and an ImportError, which says what to install. The names of yars.session, such as
-yars.Session, stand here, too. Usage: python.md among the documents of YARS.
+Each name is loaded at its first use: `import yars` needs neither NumPy nor the compiled part. What a name needs and
+does not find raises MissingPart, an Error and an ImportError, which says what to install. The names of yars.session,
+such as yars.Session, stand here, too. Usage: python.md among the documents of YARS.
 """
 import importlib
 import importlib.machinery
@@ -20,20 +20,21 @@ __version__ = "0.3.0"
 # Module of the package -> its names that are names of the package. Typed in __init__.pyi.
 _NAMES = {
     "results": ("Terrain", "Scene", "Radar", "Scan", "Patch", "Recording", "trade", "PATCH_ORDER", "MOVER"),
-    "session": ("Session", "YarsError", "UnknownField", "Record", "patch_map", "Event", "Power", "Mode", "Master", "ScanWidth",
-                "CursorFunction", "Navigator", "PointKind", "Recall", "SteeringLine", "SteeringCommand", "RadarFlags",
-                "SweepFlags", "ModelFlags", "OwnshipFlags", "NavFlags"),
+    "session": ("Session", "YarsError", "UnknownField", "Record", "patch_map", "Event", "Power", "Mode", "Master",
+                "ScanWidth", "CursorFunction", "Navigator", "PointKind", "Recall", "SteeringLine", "SteeringCommand",
+                "RadarFlags", "SweepFlags", "ModelFlags", "OwnshipFlags", "NavFlags"),
 }
 _MODULES = ("session", "plot", "dataset")
 _MODULE_OF = {name: module for module, names in _NAMES.items() for name in names}
 # Module of others -> its Debian package.
-_PACKAGES = {"numpy": "python3-numpy", "xarray": "python3-xarray", "matplotlib": "python3-matplotlib", "zarr": "python3-zarr",
-             "numcodecs": "python3-numcodecs", "yaml": "python3-yaml", "rasterio": "python3-rasterio",
-             "dask": "python3-dask", "distributed": "python3-distributed"}
+_PACKAGES = {"numpy": "python3-numpy", "xarray": "python3-xarray", "matplotlib": "python3-matplotlib",
+             "zarr": "python3-zarr", "numcodecs": "python3-numcodecs", "yaml": "python3-yaml",
+             "rasterio": "python3-rasterio", "dask": "python3-dask", "distributed": "python3-distributed"}
 
 
 class Error(RuntimeError):
-    """A file, session or package that is missing or cannot be used. The message says what was expected, found, and what to do."""
+    """A file, session or package that is missing or cannot be used.
+    The message says what was expected, found, and what to do."""
 
 
 class MissingPart(Error, ImportError):
@@ -47,7 +48,8 @@ def _require(name, purpose):
     except ImportError as problem:
         package = _PACKAGES.get(name.partition(".")[0])
         remedy = f"install the Debian package {package}" if package else "install it"
-        found = "none" if isinstance(problem, ModuleNotFoundError) and problem.name == name else f"one that fails: {problem}"
+        found = ("none" if isinstance(problem, ModuleNotFoundError) and problem.name == name
+                 else f"one that fails: {problem}")
         raise MissingPart(f"{purpose}: expected the Python module {name}, found {found}; {remedy}") from problem
 
 
@@ -70,8 +72,9 @@ def _fault_of_core(problem):
         return (f"expected _core{fitting[0]} in {folders[0]}, found none; install the Debian package python3-yars; of "
                 "a checkout build the target yars_python and put the folder python of its build into PYTHONPATH")
     if not any(name == "_core" + suffix for name in built for suffix in fitting):
-        return (f"expected _core{fitting[0]}, found {', '.join(built)} in {folders[0]}: it is for another Python than this one "
-                f"({platform.python_version()}); use /usr/bin/python3, or build the target yars_python for this one")
+        return (f"expected _core{fitting[0]}, found {', '.join(built)} in {folders[0]}: "
+                f"it is for another Python than this one ({platform.python_version()}); use /usr/bin/python3, "
+                "or build the target yars_python for this one")
     return f"expected {built[0]} in {folders[0]} to load, found: {problem}; install or build it again"
 
 
@@ -83,8 +86,8 @@ def _available():
         except ImportError:
             return False
 
-    needs = {"results": ("numpy", "._core", ".results"), "session": (".session",), "plot": ("numpy", "matplotlib", ".plot"),
-             "dataset": ("numpy", "._core", ".dataset")}
+    needs = {"results": ("numpy", "._core", ".results"), "session": (".session",),
+             "plot": ("numpy", "matplotlib", ".plot"), "dataset": ("numpy", "._core", ".dataset")}
     there = {module for module, others in needs.items() if all(map(found, others))}
     return ["Error", "MissingPart", *(name for name in _MODULES if name in there),
             *(name for name, module in _MODULE_OF.items() if module in there)]

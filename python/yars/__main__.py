@@ -1,5 +1,6 @@
-"""`python -m yars [--json]` prints what is installed: version and folder, the compiled part, the library of sessions, packages of
-others that are there or missing, programs that are found. Exit code 0 whatever is missing; 2 for an option that is not known."""
+"""`python -m yars [--json]` prints what is installed: version and folder, the compiled part, the library of sessions,
+packages of others that are there or missing, programs that are found.
+Exit code 0 whatever is missing; 2 for an option that is not known."""
 import importlib.metadata
 import importlib.util
 import json
@@ -51,7 +52,8 @@ def library_of_sessions():
 def version_of_program(path):
     """Output of a program's --version; "" if it fails."""
     try:
-        done = subprocess.run([path, "--version"], capture_output=True, text=True, timeout=30, stdin=subprocess.DEVNULL, check=False)
+        done = subprocess.run([path, "--version"], capture_output=True, text=True, timeout=30, stdin=subprocess.DEVNULL,
+                              check=False)
     except (OSError, subprocess.SubprocessError):
         return ""
     return done.stdout.strip() if done.returncode == 0 and len(done.stdout.split()) == 1 else ""
@@ -87,8 +89,10 @@ def lines(found):
         yield f"  {package['name']:<12} {state:<40} {package['for']}"
     yield "programs:"
     for one in found["programs"]:
-        differs = f", expected {found['version']}: install both of one version" if one["version"] not in ("", found["version"]) else ""
-        yield f"  {one['name']:<14} {(one['path'] or 'missing; Debian package yars')} {one['version']}".rstrip() + differs
+        differs = (f", expected {found['version']}: install both of one version"
+                   if one["version"] not in ("", found["version"]) else "")
+        yield (f"  {one['name']:<14} {(one['path'] or 'missing; Debian package yars')} {one['version']}".rstrip() +
+               differs)
 
 
 def main(arguments):

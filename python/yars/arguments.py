@@ -1,7 +1,7 @@
 """Arguments of the compiled part, and its messages in Python's words.
 
-What this module refuses is a TypeError for a wrong kind of value, and a ValueError for a wrong value. Each message names the
-function and the argument, and says what was expected and found.
+What this module refuses is a TypeError for a wrong kind of value, and a ValueError for a wrong value. Each message
+names the function and the argument, and says what was expected and found.
 """
 import difflib
 import math
@@ -24,7 +24,8 @@ def shown(value):
         return f"{kind} of shape {tuple(value.shape)}"
     try:
         text = ascii(value) if isinstance(value, str) else repr(value)
-    except Exception:  # a value's own repr may fail, as that of a number of too many digits  # pylint: disable=broad-except
+    except Exception:  # pylint: disable=broad-except
+        # A value's own repr may fail, as that of a number of too many digits.
         return kind
     return f"{kind} {text}" if len(text) <= _LONGEST else f"{kind} {text[:_LONGEST]}..."
 
@@ -47,7 +48,8 @@ def text(where, value, expected="a text"):
     try:
         value.encode()
     except UnicodeEncodeError:
-        raise ValueError(f"{where}: expected {expected}, found {shown(value)} with parts of characters (surrogates)") from None
+        raise ValueError(f"{where}: expected {expected}, "
+                         f"found {shown(value)} with parts of characters (surrogates)") from None
     if "\0" in value:
         raise ValueError(f"{where}: expected {expected}, found {shown(value)} with a zero character")
     return value
@@ -98,8 +100,8 @@ def whole(where, value, low, high, optional=False):
         return None
     limits = f"a whole number from {low} to {high}" + (" or None" if optional else "")
     if isinstance(value, bool) or not isinstance(value, numbers.Integral):
-        raise (ValueError(f"{where}: expected {limits}, found {shown(value)}") if isinstance(value, numbers.Real) and not isinstance(value, bool)
-               else kind_error(where, limits, value))
+        raise (ValueError(f"{where}: expected {limits}, found {shown(value)}")
+               if isinstance(value, numbers.Real) and not isinstance(value, bool) else kind_error(where, limits, value))
     if not low <= value <= high:
         raise ValueError(f"{where}: expected {limits}, found {shown(int(value))}")
     return int(value)
@@ -132,7 +134,8 @@ def _digits(where, value):
 
 
 class Request:
-    """Keyword arguments of a function that are the fields of a request (requests.idl). An older keyword gives a warning.
+    """Keyword arguments of a function that are the fields of a request (requests.idl).
+    An older keyword gives a warning.
 
     kind: the compiled class. rows: its fields, as the compiled part lists them.
     """
@@ -159,9 +162,11 @@ class Request:
         name = self.older.get(key)
         if name is None:
             near = difflib.get_close_matches(key, [*self.rows, *self.older], 1)
-            raise ValueError(f"{self.function}: expected arguments of {', '.join(self.rows)}, found {ascii(key)[:_LONGEST]}"
+            raise ValueError(f"{self.function}: expected arguments of {', '.join(self.rows)}, "
+                             f"found {ascii(key)[:_LONGEST]}"
                              + (f"; did you mean {near[0]}?" if near else f"; see help({self.function})"))
-        warnings.warn(f"{self.function}: {key} is an older word for {name}, and goes with the next version", DeprecationWarning, stacklevel=4)
+        warnings.warn(f"{self.function}: {key} is an older word for {name}, and goes with the next version",
+                      DeprecationWarning, stacklevel=4)
         return name
 
     @staticmethod
@@ -195,8 +200,8 @@ def number(where, value):
 class Options:
     """Keyword arguments of a function that are the options of a command.
 
-    flags: names that are True or False. lists: that take several values. optional: for which None is the default. paths: files
-    to write. commas: lists that become one text. Others take one value.
+    flags: names that are True or False. lists: that take several values. optional: for which None is the default.
+    paths: files to write. commas: lists that become one text. Others take one value.
     """
 
     def __init__(self, function, names, *, flags=(), lists=(), optional=(), paths=(), commas=()):
@@ -210,7 +215,8 @@ class Options:
             where = f"{self.function}: {name}"
             if name not in self.names:
                 near = difflib.get_close_matches(name, self.names, 1)
-                raise ValueError(f"{self.function}: expected arguments of {', '.join(self.names)}, found {ascii(name)[:_LONGEST]}"
+                raise ValueError(f"{self.function}: expected arguments of {', '.join(self.names)}, "
+                                 f"found {ascii(name)[:_LONGEST]}"
                                  + (f"; did you mean {near[0]}?" if near else f"; see help({self.function})"))
             option = "--" + name.replace("_", "-")
             if value is None and (name in self.optional or name in self.flags):
@@ -255,8 +261,8 @@ def in_python(message):
 
 
 class Said:
-    """with Said("yars.Radar.scan"): errors of the compiled part have Python's words and the function's name. `out`: the argument
-    that is the option --out."""
+    """with Said("yars.Radar.scan"): errors of the compiled part have Python's words and the function's name. `out`: the
+    argument that is the option --out."""
 
     def __init__(self, function, out="out"):
         self.function, self.out = function, out
@@ -278,8 +284,8 @@ class Said:
 
 
 class Held:
-    """Base of the classes that hold an object of the compiled part as `_core`. What makes it are the arguments of _make(), which
-    must have no relative paths: a pickle has them, and the attributes of a subclass."""
+    """Base of the classes that hold an object of the compiled part as `_core`. What makes it are the arguments of
+    _make(), which must have no relative paths: a pickle has them, and the attributes of a subclass."""
 
     def _made(self, *arguments):
         self._core = self._make(*arguments)
@@ -291,9 +297,10 @@ class Held:
     def __getattr__(self, name):
         kind = type(self)
         if name in ("_core", "_arguments"):
-            base = next(one.__name__ for one in kind.__mro__ if one.__module__ == __package__ or one.__module__.startswith("yars."))
-            raise TypeError(f"yars.{base}: expected an object whose __init__ has run, found one of {kind.__name__} without; call "
-                            "super().__init__() first")
+            base = next(one.__name__ for one in kind.__mro__
+                        if one.__module__ == __package__ or one.__module__.startswith("yars."))
+            raise TypeError(f"yars.{base}: expected an object whose __init__ has run, "
+                            f"found one of {kind.__name__} without; call super().__init__() first")
         raise AttributeError(f"{kind.__name__!r} object has no attribute {name!r}")
 
     def __getstate__(self):

@@ -6,8 +6,9 @@ import numpy
 from . import _core
 from .arguments import Held, Options, Said, absolute, instance, kind_error, path, plain, several, text
 
-_GENERATED_TERRAIN = Options("yars.Terrain.generate", ("south", "west", "cells_lat", "cells_lon", "level", "seed", "edge", "culture",
-                                                       "airfields", "sea", "threads"), flags=("culture", "sea"))
+_GENERATED_TERRAIN = Options("yars.Terrain.generate",
+                             ("south", "west", "cells_lat", "cells_lon", "level", "seed", "edge", "culture",
+                              "airfields", "sea", "threads"), flags=("culture", "sea"))
 _GENERATED_SCENE = Options("yars.Scene.generate", ("kind", "triangles", "seed", "origin"))
 
 
@@ -25,17 +26,18 @@ def _degrees(where, value):
     except (TypeError, ValueError):
         raise kind_error(where, "numbers of degrees", value) from None
     if given.dtype.kind not in "iuf":
-        raise TypeError(f"{where}: expected numbers of degrees, found {'text' if given.dtype.kind in 'US' else given.dtype.name}")
+        raise TypeError(f"{where}: expected numbers of degrees, "
+                        f"found {'text' if given.dtype.kind in 'US' else given.dtype.name}")
     return given.astype(float), masked
 
 
 class Terrain(Held):
     """Elevation, and the scenes in its folder.
 
-    Terrain(directory=None): folder of elevation cells (DTED, HGT, DED, packs, rasters), as str, bytes or os.PathLike; None: the
-    built-in hills. What has been read stays in memory for later scans and maps, up to 512 MiB for each use. The folder's path is
-    absolute from then on: os.chdir() changes nothing. A Terrain can be pickled; another process opens the folder again.
-    Errors: yars.Error for a folder that is missing or has no cell.
+    Terrain(directory=None): folder of elevation cells (DTED, HGT, DED, packs, rasters), as str, bytes or os.PathLike;
+    None: the built-in hills. What has been read stays in memory for later scans and maps, up to 512 MiB for each use.
+    The folder's path is absolute from then on: os.chdir() changes nothing. A Terrain can be pickled; another process
+    opens the folder again. Errors: yars.Error for a folder that is missing or has no cell.
 
     >>> terrain = yars.Terrain()
     >>> terrain
@@ -48,7 +50,8 @@ class Terrain(Held):
         folder = None
         if directory is not None:
             folder = absolute(path("yars.Terrain: directory", directory,
-                                          "a path (str, bytes or os.PathLike) of a folder, or None for the built-in hills"))
+                                          "a path (str, bytes or os.PathLike) of a folder, "
+                                          "or None for the built-in hills"))
         self._made(folder)
 
     def _make(self, *arguments):
@@ -63,8 +66,9 @@ class Terrain(Held):
     def elevation(self, latitude, longitude):
         """Elevation [m] above mean sea level at positions [deg], bilinear between posts of the finest level.
 
-        latitude, longitude: numbers or arrays that broadcast; result: float64 of their shape, NaN where void or masked. The north
-        and the east edge of the outermost cells belong to these. Positions outside count as sea, with a warning.
+        latitude, longitude: numbers or arrays that broadcast; result: float64 of their shape, NaN where void or masked.
+        The north and the east edge of the outermost cells belong to these.
+        Positions outside count as sea, with a warning.
         """
         where = "yars.Terrain.elevation"
         self._core  # an object without __init__ is the first fault  # pylint: disable=pointless-statement
@@ -73,9 +77,10 @@ class Terrain(Held):
         try:
             latitudes, longitudes = numpy.broadcast_arrays(latitudes, longitudes)
         except ValueError:
-            raise ValueError(f"{where}: expected latitude and longitude of shapes that broadcast, found {latitudes.shape} and "
-                             f"{longitudes.shape}") from None
-        masks = [numpy.broadcast_to(mask, latitudes.shape) for mask in (masked_latitudes, masked_longitudes) if mask is not None]
+            raise ValueError(f"{where}: expected latitude and longitude of shapes that broadcast, "
+                             f"found {latitudes.shape} and {longitudes.shape}") from None
+        masks = [numpy.broadcast_to(mask, latitudes.shape) for mask in (masked_latitudes, masked_longitudes)
+                 if mask is not None]
         if not any(mask.any() for mask in masks):
             with Said(where):
                 return self._core.elevation(latitudes, longitudes)
@@ -89,16 +94,17 @@ class Terrain(Held):
     def generate(directory, **options):
         """Writes a made-up landscape as DTED cells.
 
-        As `yars terrain generate`: options south, west [deg], cells_lat, cells_lon, level 0 to 2, seed, edge ("coast" or "cut"),
-        culture (False: none), airfields ("paved" or "soil"), sea, threads. Returns the directory. A folder with cells of another
-        area or another level is refused, so that a Terrain of it has no cells but these.
+        As `yars terrain generate`: options south, west [deg], cells_lat, cells_lon, level 0 to 2, seed, edge ("coast"
+        or "cut"), culture (False: none), airfields ("paved" or "soil"), sea, threads. Returns the directory. A folder
+        with cells of another area or another level is refused, so that a Terrain of it has no cells but these.
         Errors: ValueError for options, yars.Error for files that cannot be written.
         """
         where = "yars.Terrain.generate"
         folder = path(f"{where}: directory", directory)
         words = _GENERATED_TERRAIN.words(options)
         if "culture" in options:
-            words = [word for word in words if word != "--culture"] + ([] if plain(options["culture"]) else ["--no-culture"])
+            words = [word for word in words if word != "--culture"] + ([] if plain(options["culture"])
+                                                                       else ["--no-culture"])
         with Said(where, "directory"):
             _core.generate_terrain([*words, b"--out=" + folder])
         return os.fsdecode(folder)
@@ -110,9 +116,9 @@ class Terrain(Held):
 class Scene(Held):
     """Polygonal scenes on a terrain.
 
-    Scene(files, terrain, without=()): files, one or a list: FILE or FILE@LAT,LON,HDG (OpenFlight), or a folder of them; as str,
-    bytes or os.PathLike. without: names of objects or groups to leave out, with the wildcards * and ?. Paths are absolute from
-    then on. A Scene can be pickled; another process reads the files again.
+    Scene(files, terrain, without=()): files, one or a list: FILE or FILE@LAT,LON,HDG (OpenFlight), or a folder of them;
+    as str, bytes or os.PathLike. without: names of objects or groups to leave out, with the wildcards * and ?. Paths
+    are absolute from then on. A Scene can be pickled; another process reads the files again.
     Errors: ValueError for a text that is no scene, yars.Error for a file that cannot be read.
     """
 
@@ -123,7 +129,8 @@ class Scene(Held):
         given = several(files)
         if given is not None and not given:
             raise ValueError(f"{where}: files: expected {expected}, found an empty list")
-        paths = tuple(absolute(path(f"{where}: files", file, expected)) for file in ([files] if given is None else given))
+        paths = tuple(absolute(path(f"{where}: files", file, expected))
+                      for file in ([files] if given is None else given))
         names = [without] if isinstance(without, str) else several(without)
         if names is None:
             raise kind_error(f"{where}: without", "a name or a list of names", without)
@@ -148,9 +155,10 @@ class Scene(Held):
     def objects(self):
         """Structured array of all objects, shape (objects,).
 
-        name; latitude, longitude [deg] of the middle; base_msl_m [m MSL]; height_m; length_m, width_m of the box of least area
-        seen from above; heading_deg true of its longer side, [0, 180); material: DFAD code of most of its surface. The labels of
-        maps are indices into this array. The first object of each file has its faces outside objects, and no name.
+        name; latitude, longitude [deg] of the middle; base_msl_m [m MSL]; height_m; length_m, width_m of the box of
+        least area seen from above; heading_deg true of its longer side, [0, 180); material: DFAD code of most of its
+        surface. The labels of maps are indices into this array.
+        The first object of each file has its faces outside objects, and no name.
         """
         return self._core.objects
 

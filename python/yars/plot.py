@@ -1,10 +1,11 @@
 """Pictures of results by matplotlib: PPI of a scan, patch map, map with coast and footprints, front of a trade.
 
-    ax = yars.plot.ppi(radar.scan(terrain, latitude_deg=38.39, longitude_deg=-121.02, altitude_ft=15000, heading_deg=195, range_nm=40))
+    ax = yars.plot.ppi(radar.scan(terrain, latitude_deg=38.39, longitude_deg=-121.02, altitude_ft=15000,
+                                  heading_deg=195, range_nm=40))
     ax.figure.savefig("scan.png")
 
-Each function draws into `ax`, or into a figure of its own, and returns the Axes. Axes have units; values with a unit have a
-colour bar. No function chooses a backend or opens a window: matplotlib's Agg draws where there is no screen.
+Each function draws into `ax`, or into a figure of its own, and returns the Axes. Axes have units; values with a unit
+have a colour bar. No function chooses a backend or opens a window: matplotlib's Agg draws where there is no screen.
 What is drawn is any object with the arrays of yars.Scan and yars.Patch. Errors: ValueError.
 """
 from __future__ import annotations
@@ -26,14 +27,15 @@ _METRES = {"m": 1.0, "km": 1000.0, "NM": NM}
 # Array -> its words, its colours, range of its values; None: that of the data.
 _QUANTITIES = {
     "video": ("video", "gray", (0, 255)), "power": ("power", "gray", None), "shadow": ("shadow", "gray_r", (0, 1)),
-    "layover": ("layover", "gray_r", (0, 1)), "object": ("object", "tab20", None), "material": ("material", "tab20", None),
-    "height": ("height", "viridis", None), "slant_range": ("slant range", "viridis", None),
-    "ground_range": ("ground range", "viridis", None), "grazing_angle": ("grazing angle", "viridis", None),
-    "latitude": ("latitude", "viridis", None), "longitude": ("longitude", "viridis", None)}
+    "layover": ("layover", "gray_r", (0, 1)), "object": ("object", "tab20", None),
+    "material": ("material", "tab20", None), "height": ("height", "viridis", None),
+    "slant_range": ("slant range", "viridis", None), "ground_range": ("ground range", "viridis", None),
+    "grazing_angle": ("grazing angle", "viridis", None), "latitude": ("latitude", "viridis", None),
+    "longitude": ("longitude", "viridis", None)}
 _WITHOUT_UNIT = ("video", "shadow", "layover", "object", "material")
 _FOOTPRINTS = ("#c81e1e", "#1e5abe", "#823ca0", "#b46414", "#147d82")
-_FAMILIES = ("#c81e1e", "#1e5abe", "#1e8c46", "#b46414", "#823ca0", "#147d82", "#a0a01e", "#5a5a5a", "#be3c82", "#3c3cc8",
-             "#6e4b2d", "#28a078")
+_FAMILIES = ("#c81e1e", "#1e5abe", "#1e8c46", "#b46414", "#823ca0", "#147d82", "#a0a01e", "#5a5a5a", "#be3c82",
+             "#3c3cc8", "#6e4b2d", "#28a078")
 
 
 def ppi(scan: Any, ax: Axes | None = None, quantity: str = "video") -> Axes:
@@ -43,7 +45,8 @@ def ppi(scan: Any, ax: Axes | None = None, quantity: str = "video") -> Axes:
     values, style, label = _values(scan, quantity)
     azimuth_deg = numpy.unwrap(numpy.atleast_1d(numpy.asarray(scan.azimuth, float)), period=360.0)
     if azimuth_deg.shape != values.shape[:1]:
-        raise ValueError(f"scan: expected an azimuth for each of its {values.shape[0]} sweeps, found {azimuth_deg.shape}")
+        raise ValueError(f"scan: expected an azimuth for each of its {values.shape[0]} sweeps, "
+                         f"found {azimuth_deg.shape}")
     up_deg = 0.5 * (azimuth_deg.min() + azimuth_deg.max())
     range_nm = _filled(numpy.broadcast_to(scan.ground_range, values.shape) * _metres(scan, "ground_range") / NM)
     range_nm = numpy.maximum(_edges(_edges(range_nm, 1), 0), 0.0)
@@ -76,9 +79,9 @@ def patch(patch: Any, ax: Axes | None = None, quantity: str = "video") -> Axes:
 
 def map(terrain: Any, *results: Any, ax: Axes | None = None, bounds: tuple[float, float, float, float] | None = None,
         posts: int = 400) -> Axes:
-    """Elevation with the coast, a line between ground above 0 m MSL and the rest, and the outline of each scan or patch.
-    Water and ground at or below 0 m are blue, voids are gray. `bounds`: (south, west, north, east) [deg]; None: around
-    `results`. `posts`: rows and columns of the elevations that are read."""
+    """Elevation with the coast, a line between ground above 0 m MSL and the rest, and the outline of each scan or
+    patch. Water and ground at or below 0 m are blue, voids are gray. `bounds`: (south, west, north, east) [deg]; None:
+    around `results`. `posts`: rows and columns of the elevations that are read."""
     _check("yars.plot.map: terrain", terrain, "a yars.Terrain", ("elevation",))
     for result in results:
         _check("yars.plot.map", result, "scans and patch maps after the terrain", ("latitude", "longitude"))
@@ -95,8 +98,8 @@ def map(terrain: Any, *results: Any, ax: Axes | None = None, bounds: tuple[float
     ax = _axes(ax)
     ax.set_facecolor("#c8c8c8")
     land = numpy.ma.masked_where(elevation_m <= 0.0, elevation_m)
-    ax.pcolormesh(longitude, latitude, numpy.ma.masked_where(elevation_m > 0.0, elevation_m * 0.0), cmap="Blues", vmin=-1.0,
-                  vmax=2.0, shading="nearest", rasterized=True)
+    ax.pcolormesh(longitude, latitude, numpy.ma.masked_where(elevation_m > 0.0, elevation_m * 0.0), cmap="Blues",
+                  vmin=-1.0, vmax=2.0, shading="nearest", rasterized=True)
     mesh = ax.pcolormesh(longitude, latitude, land, cmap="YlGn_r", vmin=0.0, shading="nearest", rasterized=True)
     is_land = (elevation_m > 0.0).astype(float)
     if is_land.count() and is_land.min() < is_land.max():
@@ -105,8 +108,9 @@ def map(terrain: Any, *results: Any, ax: Axes | None = None, bounds: tuple[float
         _color_bar(ax, mesh, "elevation [m MSL]")
     for number, (result, (outline_latitude, outline_longitude)) in enumerate(zip(results, outlines)):
         kind = "scan" if hasattr(result, "azimuth") else "patch"
-        ax.plot(outline_longitude + 360.0 * round((0.5 * (west + east) - outline_longitude.mean()) / 360.0), outline_latitude,
-                color=_FOOTPRINTS[number % len(_FOOTPRINTS)], linewidth=1.5, label=f"{kind} {number + 1}" if results[1:] else kind)
+        ax.plot(outline_longitude + 360.0 * round((0.5 * (west + east) - outline_longitude.mean()) / 360.0),
+                outline_latitude, color=_FOOTPRINTS[number % len(_FOOTPRINTS)], linewidth=1.5,
+                label=f"{kind} {number + 1}" if results[1:] else kind)
     if results:
         ax.legend()
     ax.set_xlim(west, east)
@@ -120,8 +124,8 @@ def map(terrain: Any, *results: Any, ax: Axes | None = None, bounds: tuple[float
 
 
 def trade_front(rows: dict[str, Any], ax: Axes | None = None, error: str | None = None) -> Axes:
-    """Time against error of what yars.trade() or `yars trade --out FILE.json` found. A marker is the mean over the scenes,
-    an error bar ends at the worst scene; the thick gray line is the Pareto front.
+    """Time against error of what yars.trade() or `yars trade --out FILE.json` found. A marker is the mean over the
+    scenes, an error bar ends at the worst scene; the thick gray line is the Pareto front.
     `error`: column of the errors, such as "shadow_percent"; None: the first of rows["axes"]["errors"]."""
     if not isinstance(rows, dict) or not {"axes", "points"} <= set(rows):
         raise TypeError(f"yars.plot.trade_front: rows: expected the dict that yars.trade() gives, found {shown(rows)}")
@@ -136,7 +140,8 @@ def trade_front(rows: dict[str, Any], ax: Axes | None = None, error: str | None 
 def _check(where, value, expected, has, has_not=()):
     """Refuses an object without the attributes `has`, or with one of `has_not`."""
     kind = type(value)
-    if not all(hasattr(kind, name) or hasattr(value, name) for name in has) or any(hasattr(kind, name) or hasattr(value, name) for name in has_not):
+    if (not all(hasattr(kind, name) or hasattr(value, name) for name in has) or
+            any(hasattr(kind, name) or hasattr(value, name) for name in has_not)):
         raise TypeError(f"{where}: expected {expected}, found {shown(value)}")
 
 
@@ -205,11 +210,12 @@ def _filled(rows):
 
 
 def _edges(centres, axis):
-    """Edges of cells with these centres: one more along `axis`, half a step beyond the first and the last. A single sweep is 1
-    degree wide."""
+    """Edges of cells with these centres: one more along `axis`, half a step beyond the first and the last. A single
+    sweep is 1 degree wide."""
     centres = numpy.moveaxis(centres, axis, 0)
     if len(centres) < 2:
-        edges = numpy.stack([centres[0] - 0.5, centres[0] + 0.5]) if axis == 0 and centres.ndim == 1 else numpy.stack([centres[0]] * 2)
+        edges = (numpy.stack([centres[0] - 0.5, centres[0] + 0.5]) if axis == 0 and centres.ndim == 1
+                 else numpy.stack([centres[0]] * 2))
     else:
         middle = 0.5 * (centres[1:] + centres[:-1])
         edges = numpy.concatenate([[2.0 * centres[0] - middle[0]], middle, [2.0 * centres[-1] - middle[-1]]])
@@ -218,7 +224,8 @@ def _edges(centres, axis):
 
 def _pixel_m(patch, rows, columns):
     """[m] side of a pixel: ground range by row, down the middle column."""
-    distance_m = numpy.broadcast_to(patch.ground_range, (rows, columns))[:, columns // 2] * _metres(patch, "ground_range")
+    distance_m = (numpy.broadcast_to(patch.ground_range, (rows, columns))[:, columns // 2] *
+                  _metres(patch, "ground_range"))
     known = numpy.flatnonzero(numpy.isfinite(distance_m))
     if known.size < 2:
         raise ValueError("ground_range: expected at least two known rows, found fewer")
@@ -243,14 +250,15 @@ def _around(outlines):
         raise ValueError("bounds: expected (south, west, north, east) or a scan or patch to draw, found neither")
     for _, longitude in outlines:
         if numpy.ptp(longitude) > 180.0:
-            raise ValueError(f"bounds: expected a scan or patch that does not reach around a pole, found one that spans {numpy.ptp(longitude):.0f} "
-                             "degrees of longitude; give bounds=(south, -180, north, 180)")
+            raise ValueError("bounds: expected a scan or patch that does not reach around a pole, found one that spans "
+                             f"{numpy.ptp(longitude):.0f} degrees of longitude; give bounds=(south, -180, north, 180)")
     first = outlines[0][1].mean()
     latitude = numpy.concatenate([latitude for latitude, _ in outlines])
-    longitude = numpy.concatenate([longitude - 360.0 * numpy.round((longitude.mean() - first) / 360.0) for _, longitude in outlines])
+    longitude = numpy.concatenate([longitude - 360.0 * numpy.round((longitude.mean() - first) / 360.0)
+                                   for _, longitude in outlines])
     margin_deg = 0.1 * max(numpy.ptp(latitude), numpy.ptp(longitude) * math.cos(math.radians(latitude.mean())), 0.01)
-    return (max(latitude.min() - margin_deg, -90.0), longitude.min() - margin_deg, min(latitude.max() + margin_deg, 90.0),
-            longitude.max() + margin_deg)
+    return (max(latitude.min() - margin_deg, -90.0), longitude.min() - margin_deg,
+            min(latitude.max() + margin_deg, 90.0), longitude.max() + margin_deg)
 
 
 # ---- parts of the picture of a trade; plot_trade draws panels with them
@@ -281,8 +289,8 @@ def draw_front(rows: dict[str, Any], ax: Axes, error: str | None = None) -> list
     ax.set_xscale("log")
     ax.set_yscale("log")
     front = pareto_front([(x, max(mean, floor)) for x, mean, _, _ in points])
-    ax.plot([x for x, _ in front], [y for _, y in front], color="#c8c8c8", linewidth=7, solid_capstyle="round", zorder=1,
-            label="Pareto front")
+    ax.plot([x for x, _ in front], [y for _, y in front], color="#c8c8c8", linewidth=7, solid_capstyle="round",
+            zorder=1, label="Pareto front")
     labels = []
     for number, family in enumerate(families):
         mine = sorted((x, max(mean, floor), max(worst, floor), point["point"]) for x, mean, worst, point in points
@@ -291,12 +299,14 @@ def draw_front(rows: dict[str, Any], ax: Axes, error: str | None = None) -> list
             continue
         color = _FAMILIES[number % len(_FAMILIES)]
         xs, means, worsts, _ = zip(*mine)
-        ax.errorbar(xs, means, yerr=[[0] * len(xs), [w - m for w, m in zip(worsts, means)]], color=color, marker="o", markersize=6,
-                    linewidth=1 if family != "preset" else 0, elinewidth=1, capsize=3, label=family, zorder=2)
+        ax.errorbar(xs, means, yerr=[[0] * len(xs), [w - m for w, m in zip(worsts, means)]], color=color, marker="o",
+                    markersize=6, linewidth=1 if family != "preset" else 0, elinewidth=1, capsize=3, label=family,
+                    zorder=2)
         labels += [(x, mean, worst, name, color) for x, mean, worst, name in mine]
     if any(mean <= 0 for _, mean, _, _ in points):
         ax.axhline(floor, color="#888888", linestyle=":", linewidth=1, zorder=0)
-        ax.text(0.995, floor, "none", transform=ax.get_yaxis_transform(), fontsize=9, va="bottom", ha="right", color="#555555")
+        ax.text(0.995, floor, "none", transform=ax.get_yaxis_transform(), fontsize=9, va="bottom", ha="right",
+                color="#555555")
     ax.margins(x=0.12, y=0.12)
     ax.set_xlabel(time["title"])
     ax.set_ylabel(chosen["title"])
@@ -304,8 +314,10 @@ def draw_front(rows: dict[str, Any], ax: Axes, error: str | None = None) -> list
     return labels
 
 
-_OFFSETS = [(radius * math.cos(turn * math.pi / 8), radius * math.sin(turn * math.pi / 8))  # [pixels] of a name from its marker
-            for radius in (9, 16, 26, 40, 58, 80, 110, 150) for turn in (0, 8, 4, 12, 2, 6, 14, 10, 1, 7, 15, 9, 3, 5, 11, 13)]
+# Of a name from its marker [pixels].
+_OFFSETS = [(radius * math.cos(turn * math.pi / 8), radius * math.sin(turn * math.pi / 8))
+            for radius in (9, 16, 26, 40, 58, 80, 110, 150)
+            for turn in (0, 8, 4, 12, 2, 6, 14, 10, 1, 7, 15, 9, 3, 5, 11, 13)]
 
 
 def _best_box(at, size, frame, taken):
@@ -325,9 +337,10 @@ def _best_box(at, size, frame, taken):
     return best[1], best[2]
 
 
-def label_points(ax: Axes, labels: list[tuple[float, float, float, str, str]]) -> list[tuple[float, float, float, float]]:
-    """Puts a text beside each (x, y, worst, text, color); no text covers another one, a marker or an error bar while there is
-    room. The figure must have been drawn. The boxes [pixels] of the texts."""
+def label_points(ax: Axes,
+                 labels: list[tuple[float, float, float, str, str]]) -> list[tuple[float, float, float, float]]:
+    """Puts a text beside each (x, y, worst, text, color); no text covers another one, a marker or an error bar while
+    there is room. The figure must have been drawn. The boxes [pixels] of the texts."""
     frame = ax.get_window_extent()
     at = [ax.transData.transform((x, y)) for x, y, _, _, _ in labels]
     ends = [ax.transData.transform((x, worst)) for x, _, worst, _, _ in labels]
@@ -343,6 +356,7 @@ def label_points(ax: Axes, labels: list[tuple[float, float, float, str, str]]) -
         placed.append(one)
         middle = ((one[0] + one[2]) / 2, (one[1] + one[3]) / 2)
         line = {"arrowprops": {"arrowstyle": "-", "color": color, "lw": 0.5}} if distance > 20 else {}
-        ax.annotate(text, (x, y), xytext=ax.transData.inverted().transform(middle), fontsize=9, color=color, ha="center",
-                    va="center", bbox={"facecolor": "white", "alpha": 0.7, "pad": 0.5, "linewidth": 0}, **line)
+        ax.annotate(text, (x, y), xytext=ax.transData.inverted().transform(middle), fontsize=9, color=color,
+                    ha="center", va="center", bbox={"facecolor": "white", "alpha": 0.7, "pad": 0.5, "linewidth": 0},
+                    **line)
     return placed

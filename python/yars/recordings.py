@@ -13,11 +13,11 @@ def _ticks(first, last):
 class Recording(Held):
     """A file of `yars record`, as arrays.
 
-    Recording(file): path as str, bytes or os.PathLike. A file that was cut short is read to its last whole block; of a damaged
-    file what is whole is given. Both are warnings. The file's index is read at once, records when asked for. Ticks are 5 ms of
-    simulated time; they go back where a session was reset, so a range of ticks may have records of several runs (field `epoch`).
-    Arrays cannot be written. A Recording can be pickled; another process opens the file again.
-    Errors: yars.Error for a file that is missing or no recording.
+    Recording(file): path as str, bytes or os.PathLike. A file that was cut short is read to its last whole block; of a
+    damaged file what is whole is given. Both are warnings. The file's index is read at once, records when asked for.
+    Ticks are 5 ms of simulated time; they go back where a session was reset, so a range of ticks may have records of
+    several runs (field `epoch`). Arrays cannot be written. A Recording can be pickled; another process opens the file
+    again. Errors: yars.Error for a file that is missing or no recording.
     """
 
     def __init__(self, file):
@@ -60,9 +60,9 @@ class Recording(Held):
     def records(self, kind, first_tick=None, last_tick=None):
         """Records of one kind: a structured array, shape (records,), in the order of recording.
 
-        kind: such as "ModelTick", "RadarState"; one that the file lacks gives an empty array. first_tick, last_tick: limits, both
-        included; None: none. Records without a tick have that of the record before. Fields are those of records.idl, with their
-        offsets; a nested record is a nested structured type, text is bytes. Units: units(kind).
+        kind: such as "ModelTick", "RadarState"; one that the file lacks gives an empty array. first_tick, last_tick:
+        limits, both included; None: none. Records without a tick have that of the record before. Fields are those of
+        records.idl, with their offsets; a nested record is a nested structured type, text is bytes. Units: units(kind).
         Errors: ValueError for an unknown kind, with the list of kinds.
         """
         kind, ticks = text("yars.Recording.records: kind", kind, "the name of a kind"), _ticks(first_tick, last_tick)
@@ -71,7 +71,8 @@ class Recording(Held):
 
     @staticmethod
     def units(kind):
-        """Unit of each field of a kind by its name, "" for none; of nested records by names such as "ownship.latitude_deg"."""
+        """Unit of each field of a kind by its name, "" for none;
+        of nested records by names such as "ownship.latitude_deg"."""
         kind = text("yars.Recording.units: kind", kind, "the name of a kind")
         with Said("yars.Recording.units"):
             return _core.units_of(kind)
@@ -88,7 +89,8 @@ class Recording(Held):
     def maps(self, first_tick=None, last_tick=None):
         """Patch maps of a recording with --patches: headers (maps,) as records("PatchMap"), list of pictures.
 
-        A picture is uint8 (size, size), row 0 the far edge. first_tick, last_tick: of the tick at which a map was complete.
+        A picture is uint8 (size, size), row 0 the far edge.
+        first_tick, last_tick: of the tick at which a map was complete.
         """
         ticks = _ticks(first_tick, last_tick)
         with Said("yars.Recording.maps"):

@@ -1,5 +1,5 @@
-"""Python client of a running YARS session: calls libyars-client by ctypes. Needs Python 3.9+ and that library: no NumPy.
-Without a session: patch_map() makes a patch map by the command `yars patch`.
+"""Python client of a running YARS session: calls libyars-client by ctypes. Needs Python 3.9+ and that library: no
+NumPy. Without a session: patch_map() makes a patch map by the command `yars patch`.
 Inputs to the session: ownship, navigators, events. Outputs: radar state, outputs, sweeps, frames of the display.
 Errors: YarsError; MissingPart, an ImportError, if the library is not found. No error means only that a record was sent;
 `yars status` shows the refused ones.
@@ -324,7 +324,8 @@ def check_limits(what, limits, values):
             raise Refused(f"{what}: {name}: expected a number, found {value}")
         if not isinstance(value, (int, float)) or least <= value <= greatest or (may_be_nan and math.isnan(value)):
             continue  # pack() refuses other types
-        raise Refused(f"{what}: {name}: expected a number from {least} to {greatest}{', or NaN' if may_be_nan else ''}, found {value!r}")
+        raise Refused(f"{what}: {name}: expected a number from {least} to "
+                      f"{greatest}{', or NaN' if may_be_nan else ''}, found {value!r}")
 
 
 def unpack(fields, record):
@@ -372,13 +373,15 @@ class _Cursor(ctypes.Structure):  # yars_client_cursor
 
 @functools.cache
 def _library():
-    """libyars-client of this version: beside the package, in a build of the sources, in the prefix of the package, or where the
-    system looks. PyDLL keeps Python's other threads waiting: calls are short, and one session serves one thread at a time."""
+    """libyars-client of this version: beside the package, in a build of the sources, in the prefix of the package, or
+    where the system looks. PyDLL keeps Python's other threads waiting:
+    calls are short, and one session serves one thread at a time."""
     name = f"libyars-client.so.{__version__.rpartition('.')[0]}"
     here = pathlib.Path(__file__).absolute()  # in a build tree a link, which is not followed
     places = [here.with_name(name)]
     if here.parents[1].name == "python":
-        places += sorted((here.parents[2] / "build").glob(f"*/python/yars/{name}"), key=lambda path: path.parts[-4] != "release")
+        places += sorted((here.parents[2] / "build").glob(f"*/python/yars/{name}"),
+                         key=lambda path: path.parts[-4] != "release")
     if len(here.parents) > 3 and here.parents[3].name == "lib":
         places += [here.parents[3] / name, *sorted(here.parents[3].glob(f"*-linux-gnu/{name}"))]
     found = []
@@ -392,8 +395,8 @@ def _library():
         library.yars_client_sim_time_ns.restype = ctypes.c_int64
         library.yars_client_epoch.restype = ctypes.c_uint32
         return library
-    raise MissingPart(f"yars.session: expected the library {name}, found: {'; '.join(found)}; install the Debian package yars; of a "
-                      "checkout build the target yars_client_library")
+    raise MissingPart(f"yars.session: expected the library {name}, found: {'; '.join(found)}; "
+                      "install the Debian package yars; of a checkout build the target yars_client_library")
 
 
 class Session:
@@ -423,8 +426,8 @@ class Session:
         self.close()
 
     def close(self) -> None:
-        """Withdraws what was published, releases all lanes and detaches. The last process that detaches removes the segment. Other
-        methods are a ValueError from then on; a second close() does nothing."""
+        """Withdraws what was published, releases all lanes and detaches. The last process that detaches removes the
+        segment. Other methods are a ValueError from then on; a second close() does nothing."""
         _library().yars_client_detach(self._handle)
         self.__class__ = _ClosedSession
 
@@ -458,8 +461,8 @@ class Session:
 
     def publish_ownship(self, **values: typing.Any) -> None:
         """Publishes the record Ownship (fields: yars_records.h). Call it 20 to 100 times a second.
-        Defaults: radar_altitude_m NaN (no radar altimeter), epoch of the session, other fields 0. A number beyond the limits
-        of its field, or NaN elsewhere, is a ValueError."""
+        Defaults: radar_altitude_m NaN (no radar altimeter), epoch of the session, other fields 0. A number beyond the
+        limits of its field, or NaN elsewhere, is a ValueError."""
         self._needs(self.lane, "publish_ownship", "an ownship lane", "claim_ownship_lane(priority)")
         values = {"epoch": self.epoch(), "radar_altitude_m": math.nan, **values}
         check_limits("publish_ownship", OWNSHIP_LIMITS, values)
@@ -477,8 +480,10 @@ class Session:
         """Claims a free and empty input lane. `source`: name of the sender, at most 23 characters."""
         self.input_lane = self._call("claim_input", text_bytes("claim_input_lane: source", source, 24))
 
-    def push_event(self, kind: int, argument: int = 0, x: float = 0.0, y: float = 0.0, text: "str | bytes" = "") -> None:
-        """Sends an input event. `kind`: an Event, which names the argument. Example: push_event(Event.PUSH_BUTTON, 13)."""
+    def push_event(self, kind: int, argument: int = 0, x: float = 0.0, y: float = 0.0,
+                   text: "str | bytes" = "") -> None:
+        """Sends an input event. `kind`: an Event, which names the argument.
+        Example: push_event(Event.PUSH_BUTTON, 13)."""
         self._needs(self.input_lane, "push_event", "an input lane", "claim_input_lane(source)")
         values = {"x": x, "y": y, "kind": kind, "argument": argument, "text": text}
         self._call("push_event", pack("push_event", INPUT_EVENT, values))

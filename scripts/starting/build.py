@@ -69,7 +69,8 @@ def set_up_and_build(network, lock):
     is_set_up = all(subprocess.call(["scripts/setup", *words], pass_fds=[lock]) == 0 for words in options)
     expect(is_set_up, "setting up", "set-up failed")
     put(1, "Preparing the build ...")
-    targets = [*PROGRAMS, "yars_client_library", "yars_help", *["gateway"] * bool(network)]  # what the set runs, and no more
+    # What the set runs, and no more.
+    targets = [*PROGRAMS, "yars_client_library", "yars_help", *["gateway"] * bool(network)]
     with open(LOG, "wb") as log:
         process = subprocess.Popen(["sh", "-c", f"{BUILD} {' '.join(targets)}"], stdin=subprocess.DEVNULL,
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT, pass_fds=[lock])

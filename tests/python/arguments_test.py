@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Facts about arguments of the compiled part of the package yars: values, paths, messages; terrain and scenes that are made up.
+"""Facts about arguments of the compiled part of the package yars: values, paths, messages;
+terrain and scenes that are made up.
 
-usage: arguments_test.py BUILD     BUILD: a build folder with bin/yars and python/yars. Skipped (code 77) where it has no compiled part.
+usage: arguments_test.py BUILD     BUILD: a build folder with bin/yars and python/yars.
+    Skipped (code 77) where it has no compiled part.
 """
 import decimal
 import fractions
@@ -17,10 +19,13 @@ from core_helpers import PATCH, SCAN, Folder, command, np, yars
 class Arguments(Folder):
     def test_wrong_types(self):
         terrain, radar = yars.Terrain(), yars.Radar("draft")
-        for call in (lambda: radar.scan(None), lambda: radar.scan("hills"), lambda: radar.patch(None), lambda: radar.scan(terrain, "town.flt"),
-                     lambda: yars.Scene("x.flt", None), lambda: yars.Scene(3, terrain), lambda: yars.Terrain(3), lambda: radar.scan(),
-                     lambda: radar.patches(None, np.zeros(0, yars.PATCH_ORDER)), lambda: radar.patches(terrain, np.zeros(0, yars.PATCH_ORDER), 5),
-                     lambda: radar.patches(terrain, np.zeros(0, yars.PATCH_ORDER), threads=1.5), lambda: terrain.elevation(1)):
+        for call in (lambda: radar.scan(None), lambda: radar.scan("hills"), lambda: radar.patch(None),
+                     lambda: radar.scan(terrain, "town.flt"), lambda: yars.Scene("x.flt", None),
+                     lambda: yars.Scene(3, terrain), lambda: yars.Terrain(3), lambda: radar.scan(),
+                     lambda: radar.patches(None, np.zeros(0, yars.PATCH_ORDER)),
+                     lambda: radar.patches(terrain, np.zeros(0, yars.PATCH_ORDER), 5),
+                     lambda: radar.patches(terrain, np.zeros(0, yars.PATCH_ORDER), threads=1.5),
+                     lambda: terrain.elevation(1)):
             with self.assertRaises((TypeError, ValueError)):
                 call()
 
@@ -43,10 +48,13 @@ class Arguments(Folder):
 
     def test_radar(self):
         for call, pattern in ((lambda: yars.Radar("fast"), "1996, draft"), (lambda: yars.Radar(sample=3), "sample"),
-                              (lambda: yars.Radar(samples=-1), "samples"), (lambda: yars.Radar(samples=float("nan")), "nan|samples"),
+                              (lambda: yars.Radar(samples=-1), "samples"),
+                              (lambda: yars.Radar(samples=float("nan")), "nan|samples"),
                               (lambda: yars.Radar(map_size=10**9), "mapSize"), 
-                              (lambda: yars.Radar(settings="( Sea :state 99 )"), "state"), (lambda: yars.Radar(settings="( Sea"), "expected"),
-                              (lambda: yars.Radar(settings="( Nothing :a 1 )"), "Nothing"), (lambda: yars.Radar(name="x) ( Sea"), "name")):
+                              (lambda: yars.Radar(settings="( Sea :state 99 )"), "state"),
+                              (lambda: yars.Radar(settings="( Sea"), "expected"),
+                              (lambda: yars.Radar(settings="( Nothing :a 1 )"), "Nothing"),
+                              (lambda: yars.Radar(name="x) ( Sea"), "name")):
             self.refused(ValueError, pattern, call)
         for value in ([1], (1,), np.array([1]), 1j, b"1", None):
             self.refused(TypeError, "yars.Radar: samples: expected a number", lambda: yars.Radar(samples=value))
@@ -57,37 +65,43 @@ class Arguments(Folder):
         self.refused(yars.Error, "config: expected a text of GUF", lambda: yars.Radar(config=path))
         for value in (99, np.int32(99), np.array(99), 99.0, np.float32(99)):
             self.assertEqual(yars.Radar("fine", samples=value).samples, 99)
-        self.refused(ValueError, "subBeams, found the number 3.9", lambda: yars.Radar("standard", sub_beams=np.array(3.9)))
+        self.refused(ValueError, "subBeams, found the number 3.9",
+                     lambda: yars.Radar("standard", sub_beams=np.array(3.9)))
 
     def test_truth_values_of_numpy(self):
         terrain, radar = yars.Terrain(), yars.Radar("draft")
         steep = {**SCAN, "elevation_deg": -80.0}
-        self.assertEqual(radar.scan(terrain, **steep, force=np.bool_(True)).hash, radar.scan(terrain, **steep, force=True).hash)
+        self.assertEqual(radar.scan(terrain, **steep, force=np.bool_(True)).hash,
+                         radar.scan(terrain, **steep, force=True).hash)
         with self.assertRaises(ValueError):
             radar.scan(terrain, **steep, force=np.bool_(False))
 
     def test_elevation(self):
         terrain = yars.Terrain()
         for latitude, longitude in ((91, 0), (float("nan"), 0), (0, 181), (0, float("inf"))):
-            self.refused(ValueError, "(latitude|longitude)_deg: expected -(90|180) to (90|180) deg, found", lambda: terrain.elevation(latitude, longitude))
+            self.refused(ValueError, "(latitude|longitude)_deg: expected -(90|180) to (90|180) deg, found",
+                         lambda: terrain.elevation(latitude, longitude))
         for value in ("a", None, 1j, b"3", True, [["1"]], np.array(["1"]), np.array([None])):
             self.refused(TypeError, "latitude: expected numbers of degrees, found", lambda: terrain.elevation(value, 3))
         self.refused(ValueError, r"broadcast, found \(2,\) and \(3,\)", lambda: terrain.elevation([1, 2], [1, 2, 3]))
         masked = terrain.elevation(np.ma.array([37.5, 95.0, 37.5], mask=[False, True, False]), -122.5)
-        self.assertEqual((np.isnan(masked).tolist(), masked[0]), ([False, True, False], terrain.elevation(37.5, -122.5)))
+        self.assertEqual((np.isnan(masked).tolist(), masked[0]),
+                         ([False, True, False], terrain.elevation(37.5, -122.5)))
         self.assertEqual(terrain.elevation(np.zeros((0, 3)), 1.0).shape, (0, 3))
         self.assertEqual(terrain.elevation(37.5, -122.5).shape, ())
         grid = terrain.elevation(np.linspace(37, 38, 7)[:, None], np.linspace(-123, -122, 5))
         self.assertEqual(grid.shape, (7, 5))
         self.assertEqual(grid[3, 2], terrain.elevation(37.5, -122.5))
         whole = np.linspace(-90, 90, 37)
-        np.testing.assert_array_equal(terrain.elevation(whole, -180.0), [float(terrain.elevation(one, -180.0)) for one in whole])
+        np.testing.assert_array_equal(terrain.elevation(whole, -180.0),
+                                      [float(terrain.elevation(one, -180.0)) for one in whole])
 
     def test_made_up_terrain_and_scenes(self):
-        folder = yars.Terrain.generate(self.folder / "land", south=37, west=-123, cells_lat=1, cells_lon=1, level=0, culture=False)
+        folder = yars.Terrain.generate(self.folder / "land", south=37, west=-123, cells_lat=1, cells_lon=1, level=0,
+                                       culture=False)
         self.assertFalse(list(pathlib.Path(folder).rglob("*.smc.png")))
-        command("terrain", "generate", "--out", str(self.folder / "same"), "--south=37", "--west=-123", "--cells-lat=1", "--cells-lon=1",
-                "--level=0", "--no-culture", "--json")
+        command("terrain", "generate", "--out", str(self.folder / "same"), "--south=37", "--west=-123", "--cells-lat=1",
+                "--cells-lon=1", "--level=0", "--no-culture", "--json")
         files = sorted(path.relative_to(folder) for path in pathlib.Path(folder).rglob("*.dt0"))
         self.assertTrue(files)
         for file in files:
@@ -106,23 +120,32 @@ class Arguments(Folder):
             alone = [float(terrain.elevation(*one)) for one in zip(latitude, longitude)]
         np.testing.assert_array_equal(together, alone)
 
-        path = yars.Scene.generate(self.folder / "town.flt", kind="town", triangles=500, seed=np.int64(2), origin=(37.5, -122.5, 30))
-        command("scene", "generate", "--out", str(self.folder / "b.flt"), "--kind=town", "--triangles=500", "--seed=2", "--origin=37.5,-122.5,30",
-                "--json")
+        path = yars.Scene.generate(self.folder / "town.flt", kind="town", triangles=500, seed=np.int64(2),
+                                   origin=(37.5, -122.5, 30))
+        command("scene", "generate", "--out", str(self.folder / "b.flt"), "--kind=town", "--triangles=500", "--seed=2",
+                "--origin=37.5,-122.5,30", "--json")
         self.assertEqual(pathlib.Path(path).read_bytes(), (self.folder / "b.flt").read_bytes())
         scene = yars.Scene(path, terrain)
         self.assertEqual(len(pickle.loads(pickle.dumps(scene)).objects), len(scene.objects))
-        for call in (lambda: yars.Radar("draft").scan(yars.Terrain(), scene, **SCAN), lambda: yars.Radar("draft").patch(yars.Terrain(), scene, **PATCH),
+        for call in (lambda: yars.Radar("draft").scan(yars.Terrain(), scene, **SCAN),
+                     lambda: yars.Radar("draft").patch(yars.Terrain(), scene, **PATCH),
                      lambda: yars.Radar("draft").patches(yars.Terrain(), np.zeros(0, yars.PATCH_ORDER), scene)):
-            self.refused(ValueError, "expected a scene on the terrain of this call, the built-in hills, found one on '.*land'", call)
+            self.refused(ValueError, "expected a scene on the terrain of this call, the built-in hills, "
+                                     "found one on '.*land'", call)
         for call, pattern in ((lambda: yars.Scene.generate(self.folder / "a.png", origin=(1, 2)), "ends in .flt"),
-                              (lambda: yars.Scene.generate(self.folder / "a.flt", kind="city", origin=(1, 2)), "kind: expected airfield"),
-                              (lambda: yars.Scene.generate(self.folder / "a.flt", origin=(91, 2)), "origin: expected LATITUDE"),
-                              (lambda: yars.Scene.generate(self.folder / "a.flt", origin=(1,)), "origin: expected .latitude, longitude"),
+                              (lambda: yars.Scene.generate(self.folder / "a.flt", kind="city", origin=(1, 2)),
+                               "kind: expected airfield"),
+                              (lambda: yars.Scene.generate(self.folder / "a.flt", origin=(91, 2)),
+                               "origin: expected LATITUDE"),
+                              (lambda: yars.Scene.generate(self.folder / "a.flt", origin=(1,)),
+                               "origin: expected .latitude, longitude"),
                               (lambda: yars.Scene.generate(self.folder / "a.flt"), "expected origin"),
-                              (lambda: yars.Scene.generate(self.folder / "a.flt", origin=(1, 2), out="b.flt"), "found 'out'"),
-                              (lambda: yars.Terrain.generate(folder, south=37, west=-122, cells_lat=1, cells_lon=1, level=0), "without cells of another"),
-                              (lambda: yars.Terrain.generate(folder, south=37, west=-123, cells_lat=1, cells_lon=1, level=1), "without cells of another"),
+                              (lambda: yars.Scene.generate(self.folder / "a.flt", origin=(1, 2), out="b.flt"),
+                               "found 'out'"),
+                              (lambda: yars.Terrain.generate(folder, south=37, west=-122, cells_lat=1, cells_lon=1,
+                                                             level=0), "without cells of another"),
+                              (lambda: yars.Terrain.generate(folder, south=37, west=-123, cells_lat=1, cells_lon=1,
+                                                             level=1), "without cells of another"),
                               (lambda: yars.Scene(path + "@36,-121,1e308", terrain), "in degrees"),
                               (lambda: yars.Terrain.generate(self.folder / "a.png"), "folder"),
                               (lambda: yars.Terrain.generate(self.folder / "x", south=89, cells_lat=3), "north pole")):
@@ -133,34 +156,46 @@ class Arguments(Folder):
         terrain, radar = yars.Terrain(), yars.Radar("draft")
         wanted = radar.scan(terrain, **SCAN)
         for kind in (np.array, np.float64, lambda value: np.ma.array(value), fractions.Fraction, decimal.Decimal):
-            self.assertEqual(radar.scan(terrain, **{**SCAN, "latitude_deg": kind(SCAN["latitude_deg"])}).facts["latitude"], wanted.facts["latitude"])
-        for value in (np.array([37.8]), [37.8], (37.8,), np.zeros((1, 1)), 1j, b"37", None, True, False, np.bool_(True), terrain, "37.8"):
-            self.refused(TypeError, "yars.Radar.scan: latitude_deg: expected", lambda: radar.scan(terrain, **{**SCAN, "latitude_deg": value}))
+            self.assertEqual(
+                radar.scan(terrain, **{**SCAN, "latitude_deg": kind(SCAN["latitude_deg"])}).facts["latitude"],
+                wanted.facts["latitude"])
+        for value in (np.array([37.8]), [37.8], (37.8,), np.zeros((1, 1)), 1j, b"37", None, True, False, np.bool_(True),
+                      terrain, "37.8"):
+            self.refused(TypeError, "yars.Radar.scan: latitude_deg: expected",
+                         lambda: radar.scan(terrain, **{**SCAN, "latitude_deg": value}))
         for value in (10 ** 400, float("nan"), float("inf")):
-            self.refused(ValueError, "yars.Radar.scan: latitude_deg: expected", lambda: radar.scan(terrain, **{**SCAN, "latitude_deg": value}))
-        self.refused(ValueError, "gain: expected a whole number", lambda: radar.scan(terrain, **SCAN, gain=np.array(2.9)))
-        self.refused(ValueError, "seed: expected a whole number from 0 to 18446744073709551615", lambda: radar.scan(terrain, seed=2 ** 64))
+            self.refused(ValueError, "yars.Radar.scan: latitude_deg: expected",
+                         lambda: radar.scan(terrain, **{**SCAN, "latitude_deg": value}))
+        self.refused(ValueError, "gain: expected a whole number",
+                     lambda: radar.scan(terrain, **SCAN, gain=np.array(2.9)))
+        self.refused(ValueError, "seed: expected a whole number from 0 to 18446744073709551615",
+                     lambda: radar.scan(terrain, seed=2 ** 64))
         for value in (2, "no", [True], 1.0):
             self.refused(TypeError, "force: expected True or False", lambda: radar.scan(terrain, **SCAN, force=value))
         for name in ("alt", "help", "json", "lat-x", "\udcff", ""):
-            self.refused(ValueError, "yars.Radar.scan: expected arguments of latitude_deg, longitude_deg", lambda: radar.scan(terrain, **{name: 1}))
+            self.refused(ValueError, "yars.Radar.scan: expected arguments of latitude_deg, longitude_deg",
+                         lambda: radar.scan(terrain, **{name: 1}))
 
     def test_messages_are_in_words_of_python(self):
         terrain, radar = yars.Terrain(), yars.Radar("draft")
         self.refused(ValueError, r"give force=True", lambda: radar.scan(terrain, **{**SCAN, "elevation_deg": -80}))
-        self.refused(ValueError, "gain: expected a whole number from 0 to 3, found int 4", lambda: radar.scan(terrain, **{**SCAN, "gain": 4}))
+        self.refused(ValueError, "gain: expected a whole number from 0 to 3, found int 4",
+                     lambda: radar.scan(terrain, **{**SCAN, "gain": 4}))
         self.refused(yars.Error, r"make one with `yars terrain generate --out DIR`", lambda: yars.Terrain("/absent"))
         self.refused(ValueError, "found 1e\\+308", lambda: terrain.elevation(1e308, 0))
         self.refused(yars.Error, "expected a folder, found none", lambda: yars.trade(terrain, out="/absent/x.json"))
         path = yars.Scene.generate(self.folder / "a.flt", kind="town", triangles=500, origin=(37, -122))
         (self.folder / "cut.flt").write_bytes(pathlib.Path(path).read_bytes()[:5000])
         for _ in range(2):
-            self.refused(yars.Error, "cannot; because of .*cut.flt: expected a whole record", lambda: yars.Scene(self.folder / "cut.flt", terrain))
+            self.refused(yars.Error, "cannot; because of .*cut.flt: expected a whole record",
+                         lambda: yars.Scene(self.folder / "cut.flt", terrain))
 
     def test_the_north_and_east_edge_of_the_outermost_cells(self):
-        folder = yars.Terrain.generate(self.folder / "land", south=37, west=-123, cells_lat=1, cells_lon=1, level=0, edge="cut", sea=True)
+        folder = yars.Terrain.generate(self.folder / "land", south=37, west=-123, cells_lat=1, cells_lon=1, level=0,
+                                       edge="cut", sea=True)
         terrain = yars.Terrain(folder)
-        inside = np.array([terrain.elevation(38 - 1e-9, -122.5), terrain.elevation(37.5, -122 - 1e-9), terrain.elevation(38 - 1e-9, -122 - 1e-9)])
+        inside = np.array([terrain.elevation(38 - 1e-9, -122.5), terrain.elevation(37.5, -122 - 1e-9),
+                           terrain.elevation(38 - 1e-9, -122 - 1e-9)])
         with warnings.catch_warnings():
             warnings.simplefilter("error")  # the edges are no sea outside
             edges = terrain.elevation([38, 37.5, 38], [-122.5, -122, -122])
@@ -171,18 +206,21 @@ class Arguments(Folder):
                 self.assertEqual(terrain.elevation([37.5, 36.5, 38.5], -122.5)[1:].tolist(), [0, 0])
         self.assertEqual(["found 2 of 3 outside" in str(one.message) for one in caught], [True, True])
         self.assertEqual({one.filename for one in caught}, {__file__})
-        rows = command("terrain", "profile", "--terrain", folder, "--from", "38", "-122.5", "--to", "38", "-122.4", "--step=5000", text=True)
+        rows = command("terrain", "profile", "--terrain", folder, "--from", "38", "-122.5", "--to", "38", "-122.4",
+                       "--step=5000", text=True)
         self.assertAlmostEqual(float(rows.splitlines()[1].split(",")[3]), edges[0], 1)
 
     def test_names_of_files_have_any_bytes(self):
         folder = os.path.join(os.fsencode(self.folder), b"l\xffd")
-        self.assertEqual(yars.Terrain.generate(folder, south=37, west=-123, cells_lat=1, cells_lon=1, level=0), os.fsdecode(folder))
+        self.assertEqual(yars.Terrain.generate(folder, south=37, west=-123, cells_lat=1, cells_lon=1, level=0),
+                         os.fsdecode(folder))
         for given in (folder, os.fsdecode(folder), pathlib.Path(os.fsdecode(folder))):
             terrain = yars.Terrain(given)
             self.assertEqual(terrain.directory, os.fsdecode(folder))
             file = os.path.join(folder, b"a.flt")
             yars.Scene.generate(file, kind="bridge", triangles=100, origin=(37.5, -122.5, 0))
-            for files in (file, os.fsdecode(file), pathlib.Path(os.fsdecode(file)), [file], (os.fsdecode(file) + "@37.5,-122.5,10",)):
+            for files in (file, os.fsdecode(file), pathlib.Path(os.fsdecode(file)), [file],
+                          (os.fsdecode(file) + "@37.5,-122.5,10",)):
                 self.assertGreater(len(yars.Scene(files, terrain).objects), 1)
             repr(terrain).encode()
         self.refused(yars.Error, r"\\xff", lambda: yars.Terrain(b"/absent\xff"))
@@ -206,7 +244,8 @@ class Arguments(Folder):
         self.assertEqual(terrain.directory, str(self.folder / "land"))
         self.assertEqual(pickle.loads(pickle.dumps(terrain)).elevation(37.5, -122.5), wanted)
         self.assertEqual(len(pickle.loads(pickle.dumps(scene)).objects), len(scene.objects))
-        scan = [yars.Radar("draft").scan(one, scene, latitude_deg=37.4, longitude_deg=-122.5, range_nm=10, seed=1).hash for one in (terrain, other)]
+        scan = [yars.Radar("draft").scan(one, scene, latitude_deg=37.4, longitude_deg=-122.5, range_nm=10, seed=1).hash
+                for one in (terrain, other)]
         self.assertEqual(scan[0], scan[1])  # one folder, however spelled
 
 

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""Facts about calls of the compiled part of the package yars: threads, fork(), signals, memory, objects without __init__.
+"""Facts about calls of the compiled part of the package yars:
+threads, fork(), signals, memory, objects without __init__.
 
-usage: calls_test.py BUILD     BUILD: a build folder with bin/yars and python/yars. Skipped (code 77) where it has no compiled part.
+usage: calls_test.py BUILD     BUILD: a build folder with bin/yars and python/yars.
+    Skipped (code 77) where it has no compiled part.
 """
 import copy
 import os
@@ -55,15 +57,22 @@ class Threads(Folder):
         self.assertEqual(len({scan.hash for scan in kept}), 1)
 
     def test_a_child_of_fork_computes(self):
-        said = program("import os, numpy as np, yars\nradar, terrain = yars.Radar('draft', map_size=32), yars.Terrain()\n"
-                       f"orders = np.zeros(2, yars.PATCH_ORDER)\nfor name, value in {order_of(PATCH)!r}.items(): orders[name] = value\n"
-                       "first = radar.patches(terrain, orders, threads=3)['hash']\nread, write = os.pipe()\nchild = os.fork()\n"
-                       "if child == 0:\n    os.write(write, radar.patches(terrain, orders, threads=3)['hash'].tobytes())\n    raise SystemExit\n"
+        said = program("import os, numpy as np, yars\n"
+                       "radar, terrain = yars.Radar('draft', map_size=32), yars.Terrain()\n"
+                       "orders = np.zeros(2, yars.PATCH_ORDER)\n"
+                       f"for name, value in {order_of(PATCH)!r}.items(): orders[name] = value\n"
+                       "first = radar.patches(terrain, orders, threads=3)['hash']\n"
+                       "read, write = os.pipe()\n"
+                       "child = os.fork()\n"
+                       "if child == 0:\n"
+                       "    os.write(write, radar.patches(terrain, orders, threads=3)['hash'].tobytes())\n"
+                       "    raise SystemExit\n"
                        "_, status = os.waitpid(child, 0)\nprint(status, os.read(read, 16) == first.tobytes())")
         self.assertEqual(said, ("0 True\n", "", 0))
 
     def test_fork_while_another_thread_is_in_a_call(self):
-        folder = yars.Terrain.generate(self.folder / "land", south=37, west=-123, cells_lat=1, cells_lon=1, level=0, edge="cut")
+        folder = yars.Terrain.generate(self.folder / "land", south=37, west=-123, cells_lat=1, cells_lon=1, level=0,
+                                       edge="cut")
         said = program(f"""
 import os, signal, threading, time, numpy, yars
 terrain, stop = yars.Terrain({folder!r}), []
@@ -80,7 +89,8 @@ for turn in range(12):
     child = os.fork()
     if child == 0:
         signal.alarm(20)
-        same = terrain.elevation(37.5, -122.5) == wanted and yars.Radar("draft").scan(terrain, latitude_deg=37.5, longitude_deg=-122.5).shadow.any() in (True, False)
+        scan = yars.Radar("draft").scan(terrain, latitude_deg=37.5, longitude_deg=-122.5)
+        same = terrain.elevation(37.5, -122.5) == wanted and scan.shadow.any() in (True, False)
         os._exit(0 if same else 3)
     codes.append(os.waitpid(child, 0)[1])
 stop.append(1)
@@ -93,7 +103,8 @@ print(codes)
 class End(Folder):
     def test_python_ends_while_daemon_threads_compute(self):
         for preset in ("draft", "reference") * 4:
-            said = program(f"import threading, time, yars\nradar, terrain = yars.Radar({preset!r}, samples=200), yars.Terrain()\n"
+            said = program("import threading, time, yars\n"
+                           f"radar, terrain = yars.Radar({preset!r}, samples=200), yars.Terrain()\n"
                            "begun = threading.Semaphore(0)\n"
                            f"def compute():\n    begun.release()\n    while True: radar.scan(terrain, **{SCAN!r})\n"
                            "for _ in range(3): threading.Thread(target=compute, daemon=True).start()\n"
@@ -112,9 +123,12 @@ class Locales(Folder):
 
     def test_numbers_have_points(self):
         ascii_codes = "\n".join(f"<U{code:04X}> /x{code:02x} C{code}" for code in range(128))
-        (self.folder / "ascii").write_text(f"<code_set_name> ANSI_X3.4-1968\n<comment_char> %\n<escape_char> /\nCHARMAP\n{ascii_codes}\nEND CHARMAP\n")
-        (self.folder / "source").write_text('LC_NUMERIC\ndecimal_point ","\nthousands_sep ""\ngrouping -1\nEND LC_NUMERIC\n')
-        subprocess.run(["localedef", "-c", "-f", self.folder / "ascii", "-i", self.folder / "source", self.folder / "comma"],
+        (self.folder / "ascii").write_text("<code_set_name> ANSI_X3.4-1968\n<comment_char> %\n<escape_char> /\n"
+                                           f"CHARMAP\n{ascii_codes}\nEND CHARMAP\n")
+        (self.folder / "source").write_text('LC_NUMERIC\ndecimal_point ","\nthousands_sep ""\ngrouping -1\n'
+                                            'END LC_NUMERIC\n')
+        subprocess.run(["localedef", "-c", "-f", self.folder / "ascii", "-i", self.folder / "source",
+                        self.folder / "comma"],
                        capture_output=True, check=False)  # it warns of categories that are not there, with code 1
         before = "import locale; locale.setlocale(locale.LC_NUMERIC, 'comma'); assert locale.str(0.5) == '0,5'\n"
         text = (f"import yars\nterrain = yars.Terrain()\nradar = yars.Radar('draft', core_share=0.25)\n"
@@ -147,7 +161,8 @@ import os, signal, threading, time, numpy, yars
 folder, terrain = {str(self.folder)!r}, yars.Terrain()
 order = numpy.zeros(1, yars.PATCH_ORDER)
 for field, value in {order_of(PATCH)!r}.items(): order[field] = value
-scan = yars.Radar('reference', samples=2048).scan(terrain, altitude_ft=30000, range_nm=100) if {name!r} == 'shadow' else None
+if {name!r} == 'shadow':
+    scan = yars.Radar('reference', samples=2048).scan(terrain, altitude_ft=30000, range_nm=100)
 try:
     threading.Timer(0.1, os.kill, (os.getpid(), signal.SIGINT)).start()
     {call}
@@ -166,7 +181,8 @@ terrain, heights = yars.Terrain(), []
 signal.signal(signal.SIGINT, lambda *_: heights.append(float(terrain.elevation(37.5, -122.5))))
 threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)).start()
 first = yars.Radar('reference', samples=200).scan(terrain, altitude_ft=30000, range_nm=100, seed=1).hash
-print(len(heights) <= 1, first == yars.Radar('reference', samples=200).scan(terrain, altitude_ft=30000, range_nm=100, seed=1).hash)
+second = yars.Radar('reference', samples=200).scan(terrain, altitude_ft=30000, range_nm=100, seed=1).hash
+print(len(heights) <= 1, first == second)
 """)
         self.assertEqual(said, ("True True\n", "", 0))
 
@@ -177,8 +193,8 @@ class Whole(Folder):
     def test_objects_without_init(self):
         for kind in (yars.Terrain, yars.Scene, yars.Recording, yars.Radar, yars.Scan, yars.Patch):
             one = kind.__new__(kind)
-            arguments = {"elevation": (1, 2), "records": ("ModelTick",), "scan": (yars.Terrain(),), "patch": (yars.Terrain(),),
-                         "patches": (yars.Terrain(), np.zeros(0, yars.PATCH_ORDER))}
+            arguments = {"elevation": (1, 2), "records": ("ModelTick",), "scan": (yars.Terrain(),),
+                         "patch": (yars.Terrain(),), "patches": (yars.Terrain(), np.zeros(0, yars.PATCH_ORDER))}
             with self.assertRaisesRegex(TypeError, f"yars.{kind.__name__}: expected"):
                 repr(one)
             for name in dir(kind):
@@ -191,7 +207,8 @@ class Whole(Folder):
                 pickle.dumps(one)
         for call in (lambda: yars.Radar().scan(yars.Terrain.__new__(yars.Terrain)),
                      lambda: yars.Radar().scan(yars.Terrain(), yars.Scene.__new__(yars.Scene)),
-                     lambda: yars.trade(yars.Terrain.__new__(yars.Terrain)), lambda: yars.Scene("a.flt", yars.Terrain.__new__(yars.Terrain))):
+                     lambda: yars.trade(yars.Terrain.__new__(yars.Terrain)),
+                     lambda: yars.Scene("a.flt", yars.Terrain.__new__(yars.Terrain))):
             self.refused(TypeError, "whose __init__ has run", call)
 
     def test_classes_of_the_compiled_part(self):
@@ -209,7 +226,8 @@ class Whole(Folder):
                 except yars.Error:
                     repr(self)
 
-        self.refused(TypeError, "yars.Terrain: expected an object whose __init__ has run, found one of Failing", Failing)
+        self.refused(TypeError, "yars.Terrain: expected an object whose __init__ has run, found one of Failing",
+                     Failing)
         named = Named("hills")
         again = pickle.loads(pickle.dumps(named))
         self.assertEqual((type(again), again.name, again.directory), (Named, "hills", ""))

@@ -1,6 +1,7 @@
 """What the tests of the compiled part share: the build, the package of it, places of a scan and of a map, the commands.
 
-Import it first: it takes the build's folder of programs from the arguments, and ends the program (code 77) without a compiled part."""
+Import it first: it takes the build's folder of programs from the arguments,
+and ends the program (code 77) without a compiled part."""
 import json
 import os
 import pathlib
@@ -20,8 +21,10 @@ import numpy as np
 import yars
 
 YARS = str(BUILD / "bin/yars")
-SCAN = {"latitude_deg": 37.8, "longitude_deg": -122.5, "altitude_ft": 15000, "heading_deg": 30, "range_nm": 10, "seed": 7}
-PATCH = {"latitude_deg": 37.5, "longitude_deg": -122.5, "altitude_ft": 12000, "heading_deg": 350, "target_latitude_deg": 37.62, "target_longitude_deg": -122.4, "window_nm": 1.3, "seed": 3}
+SCAN = {"latitude_deg": 37.8, "longitude_deg": -122.5, "altitude_ft": 15000, "heading_deg": 30, "range_nm": 10,
+        "seed": 7}
+PATCH = {"latitude_deg": 37.5, "longitude_deg": -122.5, "altitude_ft": 12000, "heading_deg": 350,
+         "target_latitude_deg": 37.62, "target_longitude_deg": -122.4, "window_nm": 1.3, "seed": 3}
 
 
 KEYWORDS = {name: keyword for rows in (yars.Radar.scan.__globals__["_SCAN"], yars.Radar.scan.__globals__["_PATCH"])
@@ -39,7 +42,8 @@ def options(arguments):
 
 def command(*words, code=0, text=False):
     as_json = ["--json"] if words[0] in ("scan", "patch") and not text else []
-    done = subprocess.run([YARS, *words, *as_json], capture_output=True, text=True, timeout=300, env={**os.environ, "YARS_USER_CONFIG": ""})
+    done = subprocess.run([YARS, *words, *as_json], capture_output=True, text=True, timeout=300,
+                          env={**os.environ, "YARS_USER_CONFIG": ""})
     if done.returncode != code:
         raise AssertionError(f"yars {' '.join(words)}: {done.returncode}\n{done.stdout}{done.stderr}")
     if text:
@@ -49,8 +53,8 @@ def command(*words, code=0, text=False):
 
 def program(text, *, timeout=60, warnings="error"):
     """Output and messages of a Python program with this package, and its exit code."""
-    done = subprocess.run([sys.executable, "-W", warnings, "-c", text], capture_output=True, text=True, timeout=timeout, check=False,
-                          env={**os.environ, "PYTHONPATH": str(BUILD / "python")})
+    done = subprocess.run([sys.executable, "-W", warnings, "-c", text], capture_output=True, text=True, timeout=timeout,
+                          check=False, env={**os.environ, "PYTHONPATH": str(BUILD / "python")})
     return done.stdout, done.stderr, done.returncode
 
 
@@ -67,8 +71,10 @@ class Folder(unittest.TestCase):
 
 
 def order_of(patch):
-    return {"latitude": patch["latitude_deg"], "longitude": patch["longitude_deg"], "altitude_ft": patch["altitude_ft"], "heading": patch["heading_deg"], "speed_kt": 480.0,
-            "target_latitude": patch["target_latitude_deg"], "target_longitude": patch["target_longitude_deg"], "window_nm": patch["window_nm"], "looks": 1, "map": 1}
+    return {"latitude": patch["latitude_deg"], "longitude": patch["longitude_deg"], "altitude_ft": patch["altitude_ft"],
+            "heading": patch["heading_deg"], "speed_kt": 480.0,
+            "target_latitude": patch["target_latitude_deg"], "target_longitude": patch["target_longitude_deg"],
+            "window_nm": patch["window_nm"], "looks": 1, "map": 1}
 
 
 def orders_of(*patches):

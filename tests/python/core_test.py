@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Facts about the compiled part of the package yars: every array of scans and maps against the commands, trades.
 
-usage: core_test.py BUILD     BUILD: a build folder with bin/yars and python/yars. Skipped (code 77) where it has no compiled part.
+usage: core_test.py BUILD     BUILD: a build folder with bin/yars and python/yars.
+    Skipped (code 77) where it has no compiled part.
 """
 import csv
 import json
@@ -102,7 +103,8 @@ class Shapes(unittest.TestCase):
         self.assertEqual(set(data.data_vars), {"video"})
 
     def test_north_is_one_heading(self):
-        scans = [yars.Radar("draft").scan(yars.Terrain(), **{**SCAN, "heading_deg": heading}) for heading in (0, 360, -360, -0.0)]
+        scans = [yars.Radar("draft").scan(yars.Terrain(), **{**SCAN, "heading_deg": heading})
+                 for heading in (0, 360, -360, -0.0)]
         self.assertEqual(len({scan.hash for scan in scans}), 1)
         self.assertIn(f"hash {scans[0].hash:016x}>", repr(scans[0]))
 
@@ -133,15 +135,18 @@ class Commands(Folder):
                 rows = list(csv.reader(video.read_text().splitlines()))[1:]
                 np.testing.assert_array_equal(scan.video, np.array([row[5:] for row in rows], np.uint8))
                 edges = np.array([row[1:3] for row in rows], float)
-                self.assertLess(np.abs((scan.azimuth - edges.mean(axis=1) + 180) % 360 - 180)[np.abs(edges[:, 0] - edges[:, 1]) < 90].max(), 1e-6)
+                self.assertLess(np.abs((scan.azimuth - edges.mean(axis=1) + 180) % 360 - 180)
+                                [np.abs(edges[:, 0] - edges[:, 1]) < 90].max(), 1e-6)
                 rows = list(csv.DictReader(lit.read_text().splitlines()))
                 for column, name in (("ground_range_m", "ground_range"), ("latitude_deg", "latitude"),
                                      ("longitude_deg", "longitude"), ("elevation_m", "height")):
                     # Numbers as the command prints them; an empty field is NaN.
                     printed_ones = np.array([float(row[column] or "nan") for row in rows])
-                    np.testing.assert_allclose(getattr(scan, name).ravel(), printed_ones, rtol=2e-7, atol=1e-6, err_msg=column)
+                    np.testing.assert_allclose(getattr(scan, name).ravel(), printed_ones, rtol=2e-7, atol=1e-6,
+                                               err_msg=column)
                 ground = np.isfinite(scan.height.ravel())
-                np.testing.assert_array_equal(scan.shadow.ravel()[ground], np.array([row["lit"] == "0" for row in rows])[ground])
+                np.testing.assert_array_equal(scan.shadow.ravel()[ground],
+                                              np.array([row["lit"] == "0" for row in rows])[ground])
 
     def test_maps(self):
         for preset in PRESETS:
@@ -167,13 +172,15 @@ class Commands(Folder):
         command("patch", *options({**PATCH, "size": 96}), "--out", str(out))
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            np.testing.assert_array_equal(rasterio.open(out).read(1), yars.Radar().patch(yars.Terrain(), **PATCH, size=96).video)
+            np.testing.assert_array_equal(rasterio.open(out).read(1),
+                                          yars.Radar().patch(yars.Terrain(), **PATCH, size=96).video)
 
     def test_elevation(self):
         radar, terrain = yars.Radar("draft"), yars.Terrain()
         patch = radar.patch(terrain, **PATCH, size=64)
         seen = ~patch.shadow & ~patch.layover
-        self.assertLess(np.nanmedian(np.abs(patch.height - terrain.elevation(patch.latitude, patch.longitude))[seen]), 30.0)
+        self.assertLess(np.nanmedian(np.abs(patch.height - terrain.elevation(patch.latitude, patch.longitude))[seen]),
+                        30.0)
         scan = radar.scan(terrain, **SCAN)
         np.testing.assert_allclose(scan.height, terrain.elevation(scan.latitude, scan.longitude), atol=0.01)
 
@@ -181,11 +188,14 @@ class Commands(Folder):
         terrain, radar = yars.Terrain(), yars.Radar()
         nan, inf = float("nan"), float("inf")
         for name, call, faults in (
-                ("scan", radar.scan, [("latitude_deg", 91), ("latitude_deg", nan), ("heading_deg", inf), ("range_nm", -1), ("samples", 5000), ("samples", 0),
-                                      ("threads", 0), ("threads", 10**30), ("seed", -1), ("gain", 4), ("band", "Z"), ("width_deg", 121), ("elevation_deg", -80),
-                                      ("altitude_ft", -2000), ("time_s", nan), ("samples", 10.5)]),
-                ("patch", radar.patch, [("target_latitude_deg", 100), ("window_nm", 0), ("size", -1), ("size", 10**9), ("looks", 17), ("map", -1),
-                                        ("map", 2**32), ("speed_kt", nan), ("heading_deg", 33), ("heading_deg", 250), ("window_nm", 1.31),
+                ("scan", radar.scan, [("latitude_deg", 91), ("latitude_deg", nan), ("heading_deg", inf),
+                                      ("range_nm", -1), ("samples", 5000), ("samples", 0), ("threads", 0),
+                                      ("threads", 10**30), ("seed", -1), ("gain", 4), ("band", "Z"),
+                                      ("width_deg", 121), ("elevation_deg", -80), ("altitude_ft", -2000),
+                                      ("time_s", nan), ("samples", 10.5)]),
+                ("patch", radar.patch, [("target_latitude_deg", 100), ("window_nm", 0), ("size", -1), ("size", 10**9),
+                                        ("looks", 17), ("map", -1), ("map", 2**32), ("speed_kt", nan),
+                                        ("heading_deg", 33), ("heading_deg", 250), ("window_nm", 1.31),
                                         ("altitude_ft", -2000)])):
             for field, value in faults:
                 given = {**(SCAN if name == "scan" else PATCH), field: value}
@@ -203,11 +213,16 @@ class Commands(Folder):
                 self.assertTrue(text.startswith(f"yars.Radar.{name}: "), text)
                 self.assertRegex(text, "expected .*, found ")
                 if getattr(caught.exception, "code", "") == "limit":  # one message, in the words of each
-                    words = re.sub(r"`?\b(\w+)=(True|-?[0-9.]+)`?", lambda found: option(found[1]) + ("" if found[2] == "True" else f" {found[2]}"), text)
-                    words = re.sub(r"\b(\w+)\b", lambda found: option(found[1]) if found[1] in KEYWORDS or found[1] == "window_nm" else found[1], words)
+                    words = re.sub(r"`?\b(\w+)=(True|-?[0-9.]+)`?",
+                                   lambda found: option(found[1]) + ("" if found[2] == "True" else f" {found[2]}"),
+                                   text)
+                    words = re.sub(r"\b(\w+)\b",
+                                   lambda found: option(found[1]) if found[1] in KEYWORDS or found[1] == "window_nm"
+                                   else found[1], words)
                     self.assertEqual(words.partition(": ")[2], said.partition(": ")[2])
                 elif getattr(caught.exception, "code", "") == "range":
-                    self.assertEqual((caught.exception.field, caught.exception.low <= caught.exception.high), (field, True))
+                    self.assertEqual((caught.exception.field, caught.exception.low <= caught.exception.high),
+                                     (field, True))
                     self.assertIn(option(field), said)
                 else:  # refused before the call
                     self.assertIn(field, text)
@@ -226,21 +241,26 @@ class Trades(Folder):
     def test_layout_is_that_of_the_command(self):
         for maps, words, given in ((False, [], {"scene": ["37,-122,15000,60,10"]}),
                                    (True, ["maps"], {"view": ["37,-122,15000,37.2,-122,0.67"], "ruler_size": 32})):
-            rows = yars.trade(maps=maps, presets="1996,draft", knob=["samples=60,90" if not maps else "mapSize=32"], repeat=1,
-                              out=str(self.folder / "here.json"), **given)
+            rows = yars.trade(maps=maps, presets="1996,draft", knob=["samples=60,90" if not maps else "mapSize=32"],
+                              repeat=1, out=str(self.folder / "here.json"), **given)
             self.assertEqual(rows, json.loads((self.folder / "here.json").read_text()))
-            texts = [f"--{name.replace('_', '-')}={one}" for name, value in given.items() for one in (value if isinstance(value, list) else [value])]
-            command("trade", *words, "--presets=1996,draft", "--knob=" + ("samples=60,90" if not maps else "mapSize=32"), "--repeat=1", *texts,
+            texts = [f"--{name.replace('_', '-')}={one}" for name, value in given.items()
+                     for one in (value if isinstance(value, list) else [value])]
+            command("trade", *words, "--presets=1996,draft",
+                    "--knob=" + ("samples=60,90" if not maps else "mapSize=32"), "--repeat=1", *texts,
                     "--out", str(self.folder / "there.json"), "--json")
             there = json.loads((self.folder / "there.json").read_text())
             self.assertEqual((rows["axes"], rows["scenes"]), (there["axes"], there["scenes"]))
             for ours, theirs in zip(rows["points"], there["points"], strict=True):
                 times = {name for name in theirs if name.endswith("_ms") or name == "samples_per_second"}
-                self.assertEqual({k: v for k, v in ours.items() if k not in times}, {k: v for k, v in theirs.items() if k not in times})
+                self.assertEqual({k: v for k, v in ours.items() if k not in times},
+                                 {k: v for k, v in theirs.items() if k not in times})
 
     def test_errors(self):
-        for given, pattern in (({"presets": "nix"}, "presets: expected 1996"), ({"out": "a.png"}, "ends in .json"), ({"scene": "1,2"}, "scene: expected LAT,LON"),
-                               ({"presets": "none"}, "a preset or a knob"), ({"nonsense": 1}, "found 'nonsense'"), ({"repeat": 0}, "repeat: expected")):
+        for given, pattern in (({"presets": "nix"}, "presets: expected 1996"), ({"out": "a.png"}, "ends in .json"),
+                               ({"scene": "1,2"}, "scene: expected LAT,LON"),
+                               ({"presets": "none"}, "a preset or a knob"), ({"nonsense": 1}, "found 'nonsense'"),
+                               ({"repeat": 0}, "repeat: expected")):
             self.refused(ValueError, pattern, lambda: yars.trade(**given))
 
 

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The data set maker on Dask distributed: a scheduler and three workers, of which two die after 15 and 30 of 50 blocks, make the same files
-as one process. usage: dataset_dask_test.py BIN [unittest options]   (BIN: folder of `yars`)"""
+"""The data set maker on Dask distributed: a scheduler and three workers, of which two die after 15 and 30 of 50 blocks,
+make the same files as one process. usage: dataset_dask_test.py BIN [unittest options]   (BIN: folder of `yars`)"""
 import os
 import pathlib
 import shutil
@@ -56,12 +56,13 @@ class Cluster:
     def _start(self, program, *arguments):
         log = open(self._folder / f"{program}.log", "ab")
         with log:
-            return subprocess.Popen([sys.executable, "-m", f"distributed.cli.{program}", *arguments], env=self._environment, stdout=log,
-                                    stderr=log, cwd=self._folder)
+            return subprocess.Popen([sys.executable, "-m", f"distributed.cli.{program}", *arguments],
+                                    env=self._environment, stdout=log, stderr=log, cwd=self._folder)
 
     def add(self):
         self._count += 1
-        self.workers.append(self._start("dask_worker", self.address, "--nthreads", "1", "--no-dashboard", "--no-nanny", "--memory-limit", "0",
+        self.workers.append(self._start("dask_worker", self.address, "--nthreads", "1",
+                                        "--no-dashboard", "--no-nanny", "--memory-limit", "0",
                                         "--local-directory", str(self._folder / f"worker{self._count}")))
 
     def kill_when(self, due):
@@ -150,7 +151,8 @@ class Dask(Case):
         with socket.socket() as free:
             free.bind(("127.0.0.1", 0))
             port = free.getsockname()[1]
-        done = self.run_it("--dask", f"tcp://127.0.0.1:{port}", code=1, environment={"DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT": "1s"})
+        done = self.run_it("--dask", f"tcp://127.0.0.1:{port}", code=1,
+                           environment={"DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT": "1s"})
         self.assertIn("expected a scheduler", done.stderr)
         self.assertFalse(self.out.exists())
         self.assertNotIn("Traceback", done.stderr)

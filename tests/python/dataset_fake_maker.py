@@ -14,16 +14,18 @@ import numpy as np
 sys.path.append(str(pathlib.Path(__file__).resolve().parents[2] / "python"))
 
 OBJECT = np.dtype([("name", "U16"), ("latitude", "f8"), ("longitude", "f8"), ("height_m", "f4")])
-GEO = np.dtype([("origin_latitude", "f8"), ("origin_longitude", "f8"), ("plane_from_pixel", "f8", (6,)), ("up_deg", "f8")])
-TYPES = {"video": "u1", "power": "f4", "shadow": "u1", "layover": "u1", "object": "i4", "material": "u1", "height": "f4",
-         "grazing_angle": "f4"}
+GEO = np.dtype([("origin_latitude", "f8"), ("origin_longitude", "f8"), ("plane_from_pixel", "f8", (6,)),
+                ("up_deg", "f8")])
+TYPES = {"video": "u1", "power": "f4", "shadow": "u1", "layover": "u1", "object": "i4", "material": "u1",
+         "height": "f4", "grazing_angle": "f4"}
 
 
 class FakeMaker:
     def __init__(self, plan):
         self.plan = plan
-        self.objects = np.array([(f"house{number}" if number % 3 else f"car_{number}", 37.5 + number * 1e-3, -122.3, 5.0)
-                                 for number in range(12)], OBJECT)
+        self.objects = np.array(
+            [(f"house{number}" if number % 3 else f"car_{number}", 37.5 + number * 1e-3, -122.3, 5.0)
+             for number in range(12)], OBJECT)
 
     def elevation(self, latitude, longitude):
         return np.maximum(0.0, 400.0 * np.sin(50.0 * np.asarray(latitude)) * np.cos(50.0 * np.asarray(longitude)))
@@ -43,9 +45,11 @@ class FakeMaker:
             mine["order"] = 0
             text = orders[at].tobytes() + mine.tobytes() + settings.encode()
             seeds.append(int.from_bytes(hashlib.blake2b(text, digest_size=8).digest(), "little"))
-        words = np.array(seeds, np.uint64)[:, None, None] + np.arange(size * size, dtype=np.uint64).reshape(size, size) * np.uint64(0x9E3779B97F4A7C15)
+        words = (np.array(seeds, np.uint64)[:, None, None] +
+                 np.arange(size * size, dtype=np.uint64).reshape(size, size) * np.uint64(0x9E3779B97F4A7C15))
         words ^= words >> np.uint64(29)
-        result = {name: (words >> np.uint64(7 * number) & np.uint64(1 if name in ("shadow", "layover") else 7)).astype(TYPES[name])
+        result = {name: (words >> np.uint64(7 * number) &
+                         np.uint64(1 if name in ("shadow", "layover") else 7)).astype(TYPES[name])
                   for number, name in enumerate(self.plan.arrays)}
         result["hash"] = np.array(seeds, np.uint64)
         result["geo"] = np.zeros(count, GEO)

@@ -190,7 +190,8 @@ class Specification(Case):
 
     def test_the_message_names_the_keys(self):
         self.have_whole()
-        self.plan.write_text(self.plan.read_text().replace("count: 40", "count: 41").replace("uniform: [5, 18]", "uniform: [6, 18]"))
+        self.plan.write_text(
+            self.plan.read_text().replace("count: 40", "count: 41").replace("uniform: [5, 18]", "uniform: [6, 18]"))
         self.assertIn("different: count, geometry.range_nm.uniform)", self.run_it(code=1).stderr)
         self.plan.write_text(self.plan.read_text().replace("on: land", "on: sea"))
         self.assertIn("targets[0].on", self.run_it(code=1).stderr)
@@ -219,7 +220,8 @@ class Specification(Case):
         whole = self.have_whole()
         about = self.out / "dataset.json"
         other = about.read_text().replace('"size": 16', '"size": 17')
-        for change in (about.unlink, lambda: about.write_text("{"), lambda: about.write_bytes(b""), lambda: about.write_text(other)):
+        for change in (about.unlink, lambda: about.write_text("{"), lambda: about.write_bytes(b""),
+                       lambda: about.write_text(other)):
             change()
             done = self.run_it()
             self.assertIn("dataset.json is made again", done.stderr)
@@ -307,7 +309,8 @@ class FullDisk(Case):
     def test_a_small_file_system(self):
         small = self.folder / "small"
         small.mkdir()
-        if os.geteuid() or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=200k", "none", str(small)], capture_output=True, check=False).returncode:
+        if os.geteuid() or subprocess.run(["mount", "-t", "tmpfs", "-o", "size=200k", "none", str(small)],
+                                          capture_output=True, check=False).returncode:
             self.skipTest("needs the right to mount")
         self.addCleanup(subprocess.run, ["umount", "-l", str(small)], check=False)
         self.one_error(self.run_it(out=small / "out", code=1), "No space left on device")
@@ -320,7 +323,8 @@ class FullDisk(Case):
     def test_no_permission(self):
         if os.geteuid() == 0:
             self.out.mkdir()
-            if not shutil.which("chattr") or subprocess.run(["chattr", "+i", str(self.out)], capture_output=True, check=False).returncode != 0:
+            if not shutil.which("chattr") or subprocess.run(["chattr", "+i", str(self.out)], capture_output=True,
+                                                            check=False).returncode != 0:
                 self.skipTest("root may write everywhere")
             self.addCleanup(subprocess.run, ["chattr", "-i", str(self.out)], check=False)
         else:

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Data sets by the kernels of YARS: 96 chips of a town have the same bytes from one worker, two workers and three shards; the video's hash is
-that of `yars patch`. Needs yars._core. YARS_TEST_FULL, by scripts/test --full: 2,000 chips, seven shards, and three Dask workers, one of which
-is killed after each fifth of the blocks.
-usage: dataset_kernels_test.py BIN [unittest options]   (BIN: folder of `yars`; PYTHONPATH: folder of the built package)"""
+"""Data sets by the kernels of YARS: 96 chips of a town have the same bytes from one worker, two workers and three
+shards; the video's hash is that of `yars patch`. Needs yars._core. YARS_TEST_FULL, by scripts/test --full: 2,000 chips,
+seven shards, and three Dask workers, one of which is killed after each fifth of the blocks.
+usage: dataset_kernels_test.py BIN [unittest options]
+BIN: folder of `yars`. PYTHONPATH: folder of the built package."""
 import json
 import os
 import pathlib
@@ -34,7 +35,8 @@ targets: [{{scenes: all, north_m: {{uniform: [-200, 200]}}, east_m: {{uniform: [
 geometry: {{range_nm: {{uniform: [5, 12]}}, altitude_ft: {{uniform: [8000, 25000]}}, squint_deg: {{uniform: [10, 60]}}}}
 {more}output: {{block: 16}}
 """
-MORE = "movers: [{count: {uniform: [0, 2]}, north_m: {uniform: [-300, 300]}}]\nweather: {sea_state: {uniform: [0, 5]}}\n"
+MORE = ("movers: [{count: {uniform: [0, 2]}, north_m: {uniform: [-300, 300]}}]\n"
+        "weather: {sea_state: {uniform: [0, 5]}}\n")
 
 
 FULL = "YARS_TEST_FULL" in os.environ
@@ -45,11 +47,13 @@ class Kernels(Case):
 
     def write_spec(self, name="specification.yaml", **changes):
         path = self.folder / name
-        path.write_text(SPEC.format(count=self.count, size=self.size, triangles=self.triangles, more=self.more, **changes))
+        path.write_text(SPEC.format(count=self.count, size=self.size, triangles=self.triangles, more=self.more,
+                                    **changes))
         return path
 
     def command(self, *arguments, out=None, plan=None):
-        return [sys.executable, "-m", "yars.dataset", str(plan or self.plan), "--out", str(out or self.out), *map(str, arguments)]
+        return [sys.executable, "-m", "yars.dataset", str(plan or self.plan), "--out", str(out or self.out),
+                *map(str, arguments)]
 
 
 class EqualFiles(Kernels):
@@ -95,11 +99,12 @@ class Values(Kernels):
             order = data[item]["parameters"]["order"]
             scene = next((self.out / "scenes").glob("*.flt"))
             run = subprocess.run(
-                [limits.command(), "patch", "--json", "--terrain", str(self.out / "terrain"), "--scene", scene_text(scene, None), f"--lat={order['latitude']!r}",
-                 f"--lon={order['longitude']!r}", f"--alt-ft={order['altitude_ft']!r}", f"--heading={order['heading']!r}",
-                 f"--speed-kt={order['speed_kt']!r}", f"--target-lat={order['target_latitude']!r}", f"--target-lon={order['target_longitude']!r}",
-                 "--window-nm=0.67", f"--looks={order['looks']}", "--size=64", "--seed=5", f"--map={order['map']}"],
-                capture_output=True, text=True, check=False)
+                [limits.command(), "patch", "--json", "--terrain", str(self.out / "terrain"),
+                 "--scene", scene_text(scene, None), f"--lat={order['latitude']!r}", f"--lon={order['longitude']!r}",
+                 f"--alt-ft={order['altitude_ft']!r}", f"--heading={order['heading']!r}",
+                 f"--speed-kt={order['speed_kt']!r}", f"--target-lat={order['target_latitude']!r}",
+                 f"--target-lon={order['target_longitude']!r}", "--window-nm=0.67", f"--looks={order['looks']}",
+                 "--size=64", "--seed=5", f"--map={order['map']}"], capture_output=True, text=True, check=False)
             self.assertEqual(run.returncode, 0, run.stderr)
             self.assertEqual(f"{json.loads(run.stdout)['hash']:016x}", data[item]["parameters"]["hash"]["video"])
 

@@ -63,7 +63,8 @@ class Formats(Case):
         self.assertEqual(data.classes, ["car", "house"])
         self.assertEqual(data.objects[7]["name"], "house7")
         boxes = data[5]["boxes"]
-        self.assertEqual(boxes["object"].tolist(), [7, 2])  # as the radar gives them; the one without pixels is left out
+        # as the radar gives them; the one without pixels is left out
+        self.assertEqual(boxes["object"].tolist(), [7, 2])
         self.assertEqual([data.classes[number] for number in boxes["class"]], ["house", "house"])
         self.assertEqual(lines[5]["boxes"], 2)
         self.assertEqual(set(lines[5]["hash"]), {"video", "object", "shadow"})
@@ -81,7 +82,8 @@ class Formats(Case):
         self.assertEqual(len(coco["annotations"]), 42)
         self.assertEqual(coco["categories"], [{"id": 1, "name": "car"}, {"id": 2, "name": "house"}])
         first = coco["annotations"][0]
-        self.assertEqual((first["id"], first["image_id"], first["category_id"], first["bbox"], first["area"]), (1, 0, 2, [1, 1, 4, 2], 4))
+        self.assertEqual((first["id"], first["image_id"], first["category_id"], first["bbox"], first["area"]),
+                         (1, 0, 2, [1, 1, 4, 2], 4))
         line = json.loads((self.out / "manifest.jsonl").read_text().splitlines()[0])
         self.assertEqual(len(line["box_list"]), 2)
         try:
@@ -93,13 +95,15 @@ class Formats(Case):
 
     def test_coco_is_cut_off_at_the_picture(self):
         from yars.dataset import formats
-        self.assertEqual(formats.cut_off([[1.0, 1.0], [3.0, 1.0], [3.0, 2.0]], 16), [[1.0, 1.0], [3.0, 1.0], [3.0, 2.0]])
+        self.assertEqual(formats.cut_off([[1.0, 1.0], [3.0, 1.0], [3.0, 2.0]], 16),
+                         [[1.0, 1.0], [3.0, 1.0], [3.0, 2.0]])
         self.assertEqual(formats.cut_off([[-1.0, 1.0], [3.0, 1.0], [3.0, 2.0], [-1.0, 2.0]], 16),
                          [[0.0, 1.0], [3.0, 1.0], [3.0, 2.0], [0.0, 2.0]])
         self.assertEqual(len(formats.cut_off([[8.0, -6.0], [22.0, 8.0], [8.0, 22.0], [-6.0, 8.0]], 16)), 8)
         self.assertEqual(formats.cut_off([[17.0, 1.0], [20.0, 1.0], [20.0, 2.0]], 16), [])
         boxes = np.zeros(3, blocks.BOX)
-        boxes["corners"] = [[[-4, 2], [4, 2], [4, 6], [-4, 6]], [[20, 2], [24, 2], [24, 6], [20, 6]], [[2, 2], [4, 2], [4, 6], [2, 6]]]
+        boxes["corners"] = [[[-4, 2], [4, 2], [4, 6], [-4, 6]], [[20, 2], [24, 2], [24, 6], [20, 6]],
+                            [[2, 2], [4, 2], [4, 6], [2, 6]]]
         boxes["pixels"], boxes["item"] = [7, 5, 0], [0, 0, 1]
         lines = [json.loads(line) for line in formats._coco_lines(boxes, 16, 3)]
         self.assertEqual([(line["id"], line["image_id"], line["bbox"], line["area"]) for line in lines],
@@ -123,7 +127,8 @@ class Formats(Case):
 
 def collate(items):
     """Pictures as one array each; boxes and parameters, whose number differs, as lists. As docs/datasets.md has it."""
-    return {name: [item[name] for item in items] if name in ("boxes", "parameters") else np.stack([item[name] for item in items])
+    return {name: [item[name] for item in items] if name in ("boxes", "parameters")
+            else np.stack([item[name] for item in items])
             for name in items[0]}
 
 
@@ -171,7 +176,8 @@ class Reading(Case):
         self.plan.write_text(text)
         self.run_it(out=self.folder / "scenes")
         parameters = [line["parameters"] for line in map(Dataset(self.folder / "scenes").__getitem__, range(21))]
-        self.assertEqual([line["target_scene"] for line in parameters], [-1 if line["target"] == 0 else 0 for line in parameters])
+        self.assertEqual([line["target_scene"] for line in parameters],
+                         [-1 if line["target"] == 0 else 0 for line in parameters])
 
     def test_label_bounds(self):
         chip = self.data[4]
@@ -240,12 +246,14 @@ class Reading(Case):
         for name in ("dataset.json", "objects.json"):
             path = self.out / name
             data = path.read_bytes()
-            for content, word in ((None, f"found no {name}"), (b"{", "damaged"), (b"[]", "damaged"), (b"\xff", "damaged")):
+            for content, word in ((None, f"found no {name}"), (b"{", "damaged"), (b"[]", "damaged"),
+                                  (b"\xff", "damaged")):
                 path.unlink() if content is None else path.write_bytes(content)
                 with self.assertRaisesRegex(DatasetError, word):
                     Dataset(self.out)
                 path.write_bytes(data)
-        for name, item in (("chips.zarr/video/0.0.0", 1), ("boxes/0000/0000001.npy", 9), ("parts/0000/0000002.jsonl", 17)):
+        for name, item in (("chips.zarr/video/0.0.0", 1), ("boxes/0000/0000001.npy", 9),
+                           ("parts/0000/0000002.jsonl", 17)):
             path = self.out / name
             whole = path.read_bytes()
             for content in (None, b"", b"x" * 30, whole[:len(whole) // 2], whole[:20]):

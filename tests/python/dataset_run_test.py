@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""The data set maker with a made-up radar: equal files from any number of workers and shards; ends and faults that leave a
-folder which the same command completes. usage: dataset_run_test.py BIN [unittest options]   (BIN: folder of `yars`)"""
+"""The data set maker with a made-up radar: equal files from any number of workers and shards; ends and faults that
+leave a folder which the same command completes.
+usage: dataset_run_test.py BIN [unittest options]   (BIN: folder of `yars`)"""
 import hashlib
 import os
 import pathlib
@@ -39,7 +40,8 @@ output: {{block: {block}{output}}}
 
 def tree(folder):
     """{path: hash} of all files."""
-    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(folder.rglob("*")) if path.is_file()}
+    return {str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
+            for path in sorted(folder.rglob("*")) if path.is_file()}
 
 
 def descendants(pid):
@@ -76,8 +78,8 @@ def wait_for(condition, seconds=60.0):
 
 
 def call_in_child(function, environment, prepare=None):
-    """Calls a function, which returns an exit code, in a child of fork(): the child need not import what this process has imported.
-    prepare: called in the child first. Returns what subprocess.run does."""
+    """Calls a function, which returns an exit code, in a child of fork(): the child need not import what this process
+    has imported. prepare: called in the child first. Returns what subprocess.run does."""
     pipes = [os.pipe(), os.pipe()]
     sys.stdout.flush()
     sys.stderr.flush()
@@ -138,19 +140,21 @@ class Case(unittest.TestCase):
         return path
 
     def command(self, *arguments, out=None, plan=None):
-        return [sys.executable, str(FAKE_MAKER), str(plan or self.plan), "--out", str(out or self.out), *map(str, arguments)]
+        return [sys.executable, str(FAKE_MAKER), str(plan or self.plan), "--out", str(out or self.out),
+                *map(str, arguments)]
 
     def start(self, *arguments, environment=None, **options):
-        return subprocess.Popen(self.command(*arguments), env={**os.environ, **(environment or {})}, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                text=True, **options)
+        return subprocess.Popen(self.command(*arguments), env={**os.environ, **(environment or {})},
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, **options)
 
     def run_it(self, *arguments, code=0, out=None, plan=None, environment=None, prepare=None):
         command = self.command(*arguments, out=out, plan=plan)
         if command[1] == str(FAKE_MAKER) and "--dask" not in command and threading.active_count() == 1:
-            done = call_in_child(lambda: run.main(command[2:], maker="dataset_fake_maker:open_maker"), environment or {}, prepare)
+            done = call_in_child(lambda: run.main(command[2:], maker="dataset_fake_maker:open_maker"),
+                                 environment or {}, prepare)
         else:
-            done = subprocess.run(command, env={**os.environ, **(environment or {})}, capture_output=True, text=True, check=False, timeout=300,
-                                  preexec_fn=prepare)
+            done = subprocess.run(command, env={**os.environ, **(environment or {})}, capture_output=True, text=True,
+                                  check=False, timeout=300, preexec_fn=prepare)
         self.assertEqual(done.returncode, code, done.stderr + done.stdout)
         return done
 
@@ -278,7 +282,8 @@ class Ends(Case):
 
 class Arguments(Case):
     def test_wrong_ones(self):
-        for arguments, word in ((("--workers", "0"), "1 to 4096"), (("--shard", "7/7"), "0 to N - 1"), (("--shard", "x"), "i/N")):
+        for arguments, word in ((("--workers", "0"), "1 to 4096"), (("--shard", "7/7"), "0 to N - 1"),
+                                (("--shard", "x"), "i/N")):
             self.assertIn(word, self.run_it(*arguments, code=2).stderr)
 
     def test_no_specification(self):
@@ -293,11 +298,13 @@ class Arguments(Case):
     def test_unknown_class(self):
         text = self.plan.read_text().replace("objects: house", "objects: hause")
         self.plan.write_text(text)
-        self.assertIn("specification.yaml:7: expected a class of the scenes' objects (car, house)", self.run_it(code=1).stderr)
+        self.assertIn("specification.yaml:7: expected a class of the scenes' objects (car, house)",
+                      self.run_it(code=1).stderr)
 
     def test_no_boxes_is_a_warning(self):
         self.plan.write_text(self.plan.read_text().replace("[video, object, shadow]", "[video]"))
-        self.assertRegex(self.run_it().stderr, "^yars dataset: warning: .*specification.yaml:3: without object there are no boxes")
+        self.assertRegex(self.run_it().stderr,
+                         "^yars dataset: warning: .*specification.yaml:3: without object there are no boxes")
 
     def test_check(self):
         self.assertIn("good; 200 items in 25 blocks", self.run_it("--check").stdout)

@@ -29,7 +29,8 @@ targets:
   - {area: [37, -123, 38, -122], on: land}
   - {weight: 2, scenes: [1], north_m: {uniform: [-500, 500]}}
   - {objects: house, east_m: {normal: [0, 50]}}
-geometry: {range_nm: {log_uniform: [3, 18]}, altitude_ft: {uniform: [500, 25000]}, squint_deg: {uniform: [0, 70]}, speed_kt: {normal: [460, 30]}}
+geometry: {range_nm: {log_uniform: [3, 18]}, altitude_ft: {uniform: [500, 25000]}, squint_deg: {uniform: [0, 70]},
+           speed_kt: {normal: [460, 30]}}
 movers: [{count: {uniform: [0, 3]}, speed_kt: {uniform: [5, 40]}}, {count: 1}]
 radar: {settings: {Receiver: {frequency: {choice: [9.3, 9.6]}}}, every: 10}
 weather: {sea_state: {uniform: [0, 5]}, rain: {cells: {choice: [0, 2]}, area: [37, -123, 38, -122]}}
@@ -48,7 +49,8 @@ def sampler_of(text, ground=elevation):
     objects = np.array([("house", 37.51, -122.51), ("car", 37.52, -122.52), ("house", 37.53, -122.53)],
                        [("name", "U8"), ("latitude", "f8"), ("longitude", "f8")])
     centres = np.array([scene.at[:2] for scene in plan.scenes]).reshape(-1, 2)
-    return sampling.Sampler(plan, LIMITS, sampling.World(ground, centres, objects, [str(name) for name in objects["name"]]))
+    return sampling.Sampler(plan, LIMITS,
+                            sampling.World(ground, centres, objects, [str(name) for name in objects["name"]]))
 
 
 def kolmogorov(values, cumulative):
@@ -67,8 +69,10 @@ class Philox(unittest.TestCase):
         for counter, key, answer in (
                 ((0, 0, 0, 0), (0, 0), "6627e8d5 e169c58d bc57ac4c 9b00dbd8"),
                 ((ones,) * 4, (ones,) * 2, "408f276d 41c83b0e a20bc7c6 6d5451fd"),
-                ((0x243F6A88, 0x85A308D3, 0x13198A2E, 0x03707344), (0xA4093822, 0x299F31D0), "d16cfe09 94fdcceb 5001e420 24126ea1")):
-            words = distributions.philox4x32([np.array([word], np.uint64) for word in counter], [np.array([word], np.uint64) for word in key])
+                ((0x243F6A88, 0x85A308D3, 0x13198A2E, 0x03707344), (0xA4093822, 0x299F31D0),
+                 "d16cfe09 94fdcceb 5001e420 24126ea1")):
+            words = distributions.philox4x32([np.array([word], np.uint64) for word in counter],
+                                             [np.array([word], np.uint64) for word in key])
             self.assertEqual(" ".join(f"{int(word[0]):08x}" for word in words), answer)
 
     def test_fields_do_not_disturb_each_other(self):
@@ -123,28 +127,33 @@ class Distributions(unittest.TestCase):
 
     def test_normal_quantile_inverts_the_distribution_function(self):
         for x in np.linspace(-8.0, 5.0, 53):
-            self.assertAlmostEqual(float(distributions.normal_quantile(0.5 * math.erfc(-x / math.sqrt(2.0)))), x, delta=1e-9)
+            self.assertAlmostEqual(float(distributions.normal_quantile(0.5 * math.erfc(-x / math.sqrt(2.0)))), x,
+                                   delta=1e-9)
 
     def test_ends_of_the_draw(self):
         ends = np.array([0.0, 1.0 - 2.0**-53])
-        for law in (distributions.Uniform([(2.0, 5.0)]), distributions.LogUniform(2.0, 5.0), distributions.Normal(3.0, 1.0, 2.0, 5.0),
-                    distributions.Choice([2.0, 5.0]), distributions.Uniform([(2, 5)], True), distributions.Uniform([(3.0, 3.0)])):
+        for law in (distributions.Uniform([(2.0, 5.0)]), distributions.LogUniform(2.0, 5.0),
+                    distributions.Normal(3.0, 1.0, 2.0, 5.0),
+                    distributions.Choice([2.0, 5.0]), distributions.Uniform([(2, 5)], True),
+                    distributions.Uniform([(3.0, 3.0)])):
             values = law.sample(ends)
             self.assertTrue(np.isfinite(values).all() and values.min() >= 2 and values.max() <= 5)
 
 
 class Geodesy(unittest.TestCase):
     def test_known_geodesics(self):
-        # Vincenty's Flinders Peak to Buninyong is on GRS80, which equals WGS84 here to 0.1 mm (Geoscience Australia, GDA technical manual).
-        latitude, longitude, azimuth = sampling.direct(-(37 + 57 / 60 + 3.72030 / 3600), 144 + 25 / 60 + 29.52440 / 3600,
-                                                      306 + 52 / 60 + 5.37 / 3600, 54972.271)
+        # Vincenty's Flinders Peak to Buninyong is on GRS80, which equals WGS84 here to 0.1 mm (Geoscience Australia,
+        # GDA technical manual).
+        latitude, longitude, azimuth = sampling.direct(
+            -(37 + 57 / 60 + 3.72030 / 3600), 144 + 25 / 60 + 29.52440 / 3600, 306 + 52 / 60 + 5.37 / 3600, 54972.271)
         self.assertAlmostEqual(float(latitude), -(37 + 39 / 60 + 10.15610 / 3600), delta=2e-8)
         self.assertAlmostEqual(float(longitude), 143 + 55 / 60 + 35.38390 / 3600, delta=2e-8)
         self.assertAlmostEqual(float(azimuth) % 360, 127 + 10 / 60 + 25.07 / 3600 + 180, delta=1e-5)
 
     def test_there_and_back(self):
         rng = np.random.default_rng(1)
-        lat, lon, bearing, distance = rng.uniform(-85, 85, 500), rng.uniform(-180, 180, 500), rng.uniform(0, 360, 500), rng.uniform(1, 4e5, 500)
+        lat, lon, bearing, distance = (rng.uniform(-85, 85, 500), rng.uniform(-180, 180, 500),
+                                       rng.uniform(0, 360, 500), rng.uniform(1, 4e5, 500))
         there = sampling.direct(lat, lon, bearing, distance)
         back = sampling.direct(there[0], there[1], there[2] + 180.0, distance)
         self.assertLess(np.abs(back[0] - lat).max(), 1e-9)
@@ -159,7 +168,8 @@ class Items(unittest.TestCase):
             parts = [sampler_of(SPEC).draw(np.arange(first, min(first + size, 600))) for first in range(0, 600, size)]
             self.assertEqual(np.concatenate([part.orders for part in parts]).tobytes(), whole.orders.tobytes())
             self.assertEqual(np.concatenate([part.attempt for part in parts]).tolist(), whole.attempt.tolist())
-            self.assertEqual(np.concatenate([part.movers["latitude"] for part in parts]).tolist(), whole.movers["latitude"].tolist())
+            self.assertEqual(np.concatenate([part.movers["latitude"] for part in parts]).tolist(),
+                             whole.movers["latitude"].tolist())
         order = np.random.default_rng(2).permutation(600)
         self.assertEqual(sampler.draw(order).orders.tobytes(), whole.orders[order].tobytes())
 
@@ -169,7 +179,8 @@ class Items(unittest.TestCase):
         self.assertEqual(first.orders.tobytes(), second.orders.tobytes())
 
     def test_another_seed_gives_other_items(self):
-        first, second = sampler_of(SPEC).draw(np.arange(50)), sampler_of(SPEC.replace("seed: 11", "seed: 12")).draw(np.arange(50))
+        first, second = (sampler_of(SPEC).draw(np.arange(50)),
+                         sampler_of(SPEC.replace("seed: 11", "seed: 12")).draw(np.arange(50)))
         self.assertFalse((first.orders["heading"] == second.orders["heading"]).any())
 
     def test_every_item_is_possible(self):
@@ -202,16 +213,19 @@ class Items(unittest.TestCase):
         self.assertIsInstance(Settings.fields(sampler.plan), list)
 
     def test_an_impossible_item_is_one_clear_error(self):
-        sampler = sampler_of(SPEC.replace("[500, 25000]", "[500, 600]"), lambda latitude, longitude: np.full(np.shape(latitude), 5000.0))
+        sampler = sampler_of(SPEC.replace("[500, 25000]", "[500, 600]"),
+                             lambda latitude, longitude: np.full(np.shape(latitude), 5000.0))
         with self.assertRaisesRegex(DatasetError, "item 0 in 100 draws, found none: .*aircraft beneath the ground"):
             sampler.draw(np.arange(10))
 
     def test_values_on_a_limit(self):
         text = SPEC.replace("{log_uniform: [3, 18]}", "4.7").replace("{uniform: [0, 70]}", "{choice: [8, 60]}")
-        self.assertEqual(sampler_of(text, lambda latitude, longitude: np.full(np.shape(latitude), 1.0)).draw(np.arange(64)).attempt.sum(), 0)
+        self.assertEqual(sampler_of(text, lambda latitude, longitude: np.full(np.shape(latitude), 1.0))
+                         .draw(np.arange(64)).attempt.sum(), 0)
 
     def test_depression_gives_the_altitude(self):
-        text = SPEC.replace("altitude_ft: {uniform: [500, 25000]}", "depression_deg: 10").replace("{log_uniform: [3, 18]}", "10")
+        text = (SPEC.replace("altitude_ft: {uniform: [500, 25000]}", "depression_deg: 10")
+                .replace("{log_uniform: [3, 18]}", "10"))
         sample = sampler_of(text).draw(np.arange(64))
         ground = elevation(sample.orders["target_latitude"], sample.orders["target_longitude"])
         height = sample.orders["altitude_ft"] * 0.3048 - ground
@@ -220,7 +234,8 @@ class Items(unittest.TestCase):
     def test_pinned_values(self):
         """These values are part of every data set that was ever made: a change makes all of them unrepeatable."""
         sample = sampler_of(SPEC).draw(np.array([0, 1, 99999]))
-        found = [[round(float(order[name]), 6) for name in ("target_latitude", "target_longitude", "heading", "altitude_ft", "speed_kt")]
+        found = [[round(float(order[name]), 6)
+                  for name in ("target_latitude", "target_longitude", "heading", "altitude_ft", "speed_kt")]
                  for order in sample.orders]
         self.assertEqual(found, PINNED)
 

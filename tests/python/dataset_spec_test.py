@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Specifications of data sets: every fault is reported at its line. usage: dataset_spec_test.py BIN (folder of `yars`)"""
+"""Specifications of data sets: every fault is reported at its line.
+usage: dataset_spec_test.py BIN (folder of `yars`)"""
 import os
 import pathlib
 import re
@@ -43,7 +44,8 @@ class Faults(unittest.TestCase):
     def fault(self, text, line, *words, opened=False):
         faults = faults_of(text, opened)
         self.assertTrue(faults, "no fault found")
-        self.assertTrue(any(fault.startswith(f"{line}:") and all(word in fault for word in words) for fault in faults), faults)
+        self.assertTrue(any(fault.startswith(f"{line}:") and all(word in fault for word in words) for fault in faults),
+                        faults)
 
     def test_good(self):
         self.assertEqual(faults_of(GOOD, opened=True), [])
@@ -76,15 +78,18 @@ class Faults(unittest.TestCase):
         self.fault(GOOD.replace("{uniform: [5, 18]}", "{normal: [5, 1], cut: [900, 950]}"), 5, "next to none")
         self.fault(GOOD.replace("{uniform: [5, 18]}", "{weighted: [[5, 0]]}"), 5, "a weight above 0")
         self.fault(GOOD.replace("{uniform: [5, 18]}", "{choice: []}"), 5, "values in {choice: ...}")
-        self.fault(GOOD.replace("{uniform: [5, 18]}", "{log_uniform: [0.01, 5], uniform: [1, 2]}"), 5, "one distribution", "found 2")
+        self.fault(GOOD.replace("{uniform: [5, 18]}", "{log_uniform: [0.01, 5], uniform: [1, 2]}"), 5,
+                   "one distribution", "found 2")
         self.fault(GOOD + "chip: {looks: {log_uniform: [1, 2]}}\n", 7, "whole number chip.looks")
 
     def test_places(self):
-        self.fault(GOOD.replace("[37, -123, 38, -122]", "[38, -123, 37, -122]"), 3, "a south of 38 beyond a north of 37")
+        self.fault(GOOD.replace("[37, -123, 38, -122]", "[38, -123, 37, -122]"), 3,
+                   "a south of 38 beyond a north of 37")
         self.fault(GOOD.replace("[37, -123, 38, -122]", "[-123, 37, -122, 38]"), 3, "latitude comes first")
         self.fault(GOOD.replace("[37, -123, 38, -122]", "[37, -123]"), 3, "found 2 numbers")
         self.fault(GOOD.replace("{area: [37, -123, 38, -122]}", "{objects: house}"), 3, "scenes in the specification")
-        self.fault(GOOD.replace("{area: [37, -123, 38, -122]}", "{weight: 2}"), 3, "one of area, scenes and objects", "none")
+        self.fault(GOOD.replace("{area: [37, -123, 38, -122]}", "{weight: 2}"), 3, "one of area, scenes and objects",
+                   "none")
         self.fault(GOOD + "scenes: [{generate: town}]\n", 7, "the key at")
         self.fault(GOOD + "scenes: [{generate: castle, at: [1, 2]}]\n", 7, "one of airfield, harbour, bridge, town")
 
@@ -111,8 +116,10 @@ class Faults(unittest.TestCase):
         geometry("  squint_deg: 5\n  altitude_ft: 9000\n", "between blind zone and gimbal (8 to 60 deg)", "found 5")
         geometry("  squint_deg: {choice: [30, 80]}\n  altitude_ft: 9000\n", "found 80")
         geometry("  squint_deg: {uniform: [61, 90]}\n  altitude_ft: 9000\n", "found 61 to 90")
-        self.fault(GOOD.replace("[5, 18]", "[1, 4]").replace("15000", "9000\n  squint_deg: 40"), 5, "4.7 to", "found 1 to 4", opened=True)
-        self.fault(GOOD.replace("15000", "9000\n  squint_deg: 40") + "chip: {window_nm: 5}\n", 8, "windows of the radar (0.67,", opened=True)
+        self.fault(GOOD.replace("[5, 18]", "[1, 4]").replace("15000", "9000\n  squint_deg: 40"), 5, "4.7 to",
+                   "found 1 to 4", opened=True)
+        self.fault(GOOD.replace("15000", "9000\n  squint_deg: 40") + "chip: {window_nm: 5}\n", 8,
+                   "windows of the radar (0.67,", opened=True)
         self.fault(GOOD.replace("15000", "400000\n  squint_deg: 40"), 6, "a line of sight within 60 deg", opened=True)
 
     def test_force_lifts_the_radar_s_limits(self):
@@ -120,16 +127,19 @@ class Faults(unittest.TestCase):
         self.assertEqual(faults_of(text, opened=True), [])
 
     def test_settings_are_checked_by_yars_at_their_line(self):
-        self.fault(GOOD + "radar:\n  settings:\n    Sea:\n      state: {uniform: [0, 9]}\n", 10, "[0, 6] for :state", "9", opened=True)
+        self.fault(GOOD + "radar:\n  settings:\n    Sea:\n      state: {uniform: [0, 9]}\n", 10, "[0, 6] for :state",
+                   "9", opened=True)
         self.fault(GOOD + "radar:\n  settings:\n    Receiver: {freqency: 9}\n", 9, "freqency", opened=True)
         self.fault(GOOD + "radar:\n  knobs: {map_nose: 9}\n", 8,
                    'expected a knob for radar.knobs, found "map_nose"; did you mean "map_noise"?', opened=True)
         self.fault(GOOD + "radar:\n  config: none.guf\n", 8, "none.guf", opened=True)
-        self.fault(GOOD + "radar:\n  settings:\n    HighResolution: {blindZone: {choice: [3, 4]}}\n", 9, "one value", opened=True)
+        self.fault(GOOD + "radar:\n  settings:\n    HighResolution: {blindZone: {choice: [3, 4]}}\n", 9, "one value",
+                   opened=True)
 
 
     def test_all_faults_of_settings_at_once(self):
-        faults = faults_of(GOOD + "radar:\n  knobs: {map_nose: 9,\n    map_noise: 99}\n  settings:\n    Receiver: {freqency: 9, frequency: 99}\n"
+        faults = faults_of(GOOD + "radar:\n  knobs: {map_nose: 9,\n    map_noise: 99}\n  settings:\n"
+                                  "    Receiver: {freqency: 9, frequency: 99}\n"
                            "    Foo: {a: 1}\n    Sea: {state: 9}\n", True)
         self.assertEqual([fault.partition(":")[0] for fault in faults], ["8", "9", "11", "11", "12", "13"], faults)
         self.assertFalse([fault for fault in faults if "ignored" in fault or "mapNo" in fault])

@@ -72,7 +72,8 @@ class Installed(unittest.TestCase):
     def test_an_unknown_option_is_refused(self):
         done = run("--jsno")
         self.assertEqual((done.returncode, done.stdout), (2, ""))
-        self.assertEqual(done.stderr, "yars: expected --json or nothing, found '--jsno'; usage: python -m yars [--json]\n")
+        self.assertEqual(done.stderr,
+                         "yars: expected --json or nothing, found '--jsno'; usage: python -m yars [--json]\n")
         self.assertEqual(run("--help").returncode, 0)
 
 

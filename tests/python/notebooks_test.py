@@ -2,7 +2,8 @@
 """The notebooks in examples/ and the script of README run and make the pictures in docs/pictures; what lab/notebooks
 finds wrong with a picture.
 
-usage: notebooks_test.py BIN      BIN: folder of programs of a build. Skipped (code 77) where it has no compiled part of yars.
+usage: notebooks_test.py BIN      BIN: folder of programs of a build.
+    Skipped (code 77) where it has no compiled part of yars.
 """
 import importlib.machinery
 import importlib.util
@@ -82,7 +83,8 @@ class Pictures(unittest.TestCase):
         self.assertRegex(self.fault_of(self.pixels[:-1]), "expected the size")
 
     def test_a_picture_that_is_not_kept_is_a_fault(self):
-        self.assertRegex(self.fault_of(self.pixels, notebooks.PICTURES / "python_none.png"), "found none; run lab/notebooks")
+        self.assertRegex(self.fault_of(self.pixels, notebooks.PICTURES / "python_none.png"),
+                         "found none; run lab/notebooks")
 
 
 if __name__ == "__main__":

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""Facts about pip with the build backend of the tree: without a network, `pip install .` and `-e .` in an environment of the
-system's packages give the module of the build, and `pip wheel .` gives equal wheels with a right RECORD.
+"""Facts about pip with the build backend of the tree: without a network, `pip install .` and `-e .` in an environment
+of the system's packages give the module of the build, and `pip wheel .` gives equal wheels with a right RECORD.
 
-usage: pip_test.py BUILD/bin     The compiled part is that of BUILD. Skipped (code 77) without one, or without python3-venv.
+usage: pip_test.py BUILD/bin     The compiled part is that of BUILD.
+    Skipped (code 77) without one, or without python3-venv.
 """
 import base64
 import hashlib
@@ -27,21 +28,24 @@ try:
 except ImportError:
     print("python3-venv is not installed: skipped")
     sys.exit(77)
-ENVIRONMENT = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "YARS_BUILD_FOLDER": str(BUILD), "SOURCE_DATE_EPOCH": "1700000000",
-               "PIP_DISABLE_PIP_VERSION_CHECK": "1", "PIP_NO_CACHE_DIR": "1", "LC_ALL": "C.UTF-8"}
+ENVIRONMENT = {"PATH": "/usr/bin:/bin", "HOME": "/nonexistent", "YARS_BUILD_FOLDER": str(BUILD),
+               "SOURCE_DATE_EPOCH": "1700000000", "PIP_DISABLE_PIP_VERSION_CHECK": "1", "PIP_NO_CACHE_DIR": "1",
+               "LC_ALL": "C.UTF-8"}
 SCAN = """import yars
-scan = yars.Radar("draft").scan(yars.Terrain(), latitude_deg=37.8, longitude_deg=-122.5, altitude_ft=15000, heading_deg=30, range_nm=10, seed=7)
+scan = yars.Radar("draft").scan(yars.Terrain(), latitude_deg=37.8, longitude_deg=-122.5, altitude_ft=15000,
+                                heading_deg=30, range_nm=10, seed=7)
 print(scan.hash, yars.Radar(config="apg68.guf").name, yars.__file__, sep="\\n")
 """
 
 
 def run(*command, folder, **environment):
-    return subprocess.run([str(word) for word in command], cwd=folder, env={**ENVIRONMENT, **environment}, capture_output=True, text=True,
-                          timeout=600, check=False)
+    return subprocess.run([str(word) for word in command], cwd=folder, env={**ENVIRONMENT, **environment},
+                          capture_output=True, text=True, timeout=600, check=False)
 
 
 def cut_off():
-    """Words before a command that take its network away; [] where the system does not allow it: pip then has no index."""
+    """Words before a command that take its network away; [] where the system does not allow it:
+    pip then has no index."""
     words = ["unshare", "--net"] if os.geteuid() == 0 else ["unshare", "--map-root-user", "--net"]
     return words if run(*words, "true", folder="/").returncode == 0 else []
 
@@ -71,13 +75,15 @@ class Pip(unittest.TestCase):
         return scan.stdout.splitlines()
 
     def test_an_installation_makes_the_scan_of_the_build(self):
-        of_build = run("/usr/bin/python3", "-B", "-c", SCAN, folder=self.folder, PYTHONPATH=str(BUILD / "python")).stdout.splitlines()
+        of_build = run("/usr/bin/python3", "-B", "-c", SCAN, folder=self.folder,
+                       PYTHONPATH=str(BUILD / "python")).stdout.splitlines()
         self.assertEqual(of_build[2], str(BUILD / "python/yars/__init__.py"))
         package = self.folder / f"v/lib/python{sys.version_info[0]}.{sys.version_info[1]}/site-packages/yars"
         self.assertEqual(self.installed("."), [*of_build[:2], str(package / "__init__.py")])
         self.assertTrue((package / "share/yars/config/apg68.guf").is_file())
         self.assertEqual(run(self.folder / "v/bin/yars-plot-trade", "--help", folder=self.folder).returncode, 0)
-        library = run(self.python, "-c", "import yars.session; print(yars.session._library()._name)", folder=self.folder)
+        library = run(self.python, "-c", "import yars.session; print(yars.session._library()._name)",
+                      folder=self.folder)
         self.assertRegex(library.stdout, rf"^{package}/libyars-client\.so\.\d+\.\d+\n$", library.stderr)
         about = run(self.python, "-m", "yars", folder=self.folder)
         self.assertIn(f"compiled part: {package / f'_core{SUFFIX}'}\n", about.stdout)
@@ -108,10 +114,12 @@ class Pip(unittest.TestCase):
         tools.mkdir()
         for name in ("git", "unshare", "cmake"):
             (tools / name).symlink_to(f"/usr/bin/{name}")
-        for words, expected in (({"YARS_BUILD_FOLDER": str(self.folder)}, "build-folder: expected a build folder of cmake, found none at "),
+        for words, expected in (({"YARS_BUILD_FOLDER": str(self.folder)},
+                                 "build-folder: expected a build folder of cmake, found none at "),
                                 ({"PATH": str(tools)}, "expected the program ninja, found none; run "),
                                 ({"PATH": "/nonexistent"}, "expected the program cmake, found none; run ")):
-            done = run(self.python, "-m", "pip", "wheel", ".", "--no-deps", "--no-index", "--wheel-dir", self.folder / "none", folder=SOURCE, **words)
+            done = run(self.python, "-m", "pip", "wheel", ".", "--no-deps", "--no-index",
+                       "--wheel-dir", self.folder / "none", folder=SOURCE, **words)
             printed = done.stdout + done.stderr
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(f"yars: {expected}", printed)

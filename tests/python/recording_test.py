@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Facts about yars.Recording, by a recording of a short set in lockstep: against `yars replay --print`, cut short, damaged.
+"""Facts about yars.Recording, by a recording of a short set in lockstep:
+against `yars replay --print`, cut short, damaged.
 
 usage: recording_test.py BUILD     Skipped (code 77) where the build has no compiled part or lacks a program.
 """
@@ -41,8 +42,8 @@ def setUpModule():
              ["flight-model", "--session", session, "--source", f"route:{SOURCE}/config/routes/default.route", *plan],
              ["input-monitor", "--session", session, "--source", f"script:{script}", *plan],
              ["state-machine", "--session", session, *plan], ["radar-model", "--session", session, *plan]]
-    running = [subprocess.Popen([BUILD / "bin" / role[0], *role[1:]], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
-                                env={**os.environ, "YARS_USER_CONFIG": ""}) for role in roles]
+    running = [subprocess.Popen([BUILD / "bin" / role[0], *role[1:]], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                                text=True, env={**os.environ, "YARS_USER_CONFIG": ""}) for role in roles]
     for role, process in zip(roles, running):
         _, errors = process.communicate(timeout=200)
         assert process.returncode == 0, f"{role[0]}: {process.returncode}: {errors}"
@@ -61,17 +62,20 @@ class Whole(unittest.TestCase):
 
     def test_what_it_is(self):
         self.assertEqual((self.recording.first_tick, self.recording.last_tick), (0, TICKS - 1))
-        self.assertTrue({"ModelTick", "AppliedEvent", "RadarState", "Sweep", "PatchMap", "Outputs"} <= set(self.recording.kinds))
+        self.assertTrue({"ModelTick", "AppliedEvent", "RadarState", "Sweep", "PatchMap", "Outputs"}
+                        <= set(self.recording.kinds))
         self.assertEqual(set(self.recording.header), {"configuration", "terrain"})
         self.assertFalse(self.recording.cut_short)
 
     def test_fields_are_those_of_the_records(self):
-        layout = json.loads(subprocess.run([BUILD / "bin/yars", "status", "--layout"], capture_output=True, check=True).stdout)["records"]
-        for kind in ("ModelTick", "AppliedEvent", "RadarState", "ModelStatus", "Nav", "Ownship", "PatchMap", "Outputs", "RecorderStatus", "Traffic", "WorldState",
-                     "Sweep"):
+        layout = json.loads(subprocess.run([BUILD / "bin/yars", "status", "--layout"], capture_output=True,
+                                           check=True).stdout)["records"]
+        for kind in ("ModelTick", "AppliedEvent", "RadarState", "ModelStatus", "Nav", "Ownship", "PatchMap", "Outputs",
+                     "RecorderStatus", "Traffic", "WorldState", "Sweep"):
             record = self.recording.records(kind)
             fields = {name: offset for name, offset in layout[kind]["fields"].items() if name != "video"}
-            self.assertEqual({name: [at, kind.itemsize] for name, (kind, at) in record.dtype.fields.items()}, fields, kind)
+            self.assertEqual({name: [at, kind.itemsize] for name, (kind, at) in record.dtype.fields.items()}, fields,
+                             kind)
             if kind != "Sweep":
                 self.assertEqual(record.dtype.itemsize, layout[kind]["size"])
             self.assertEqual({name.partition(".")[0] for name in yars.Recording.units(kind)}, set(record.dtype.names))
@@ -81,24 +85,28 @@ class Whole(unittest.TestCase):
 
     def test_records_are_those_of_replay(self):
         printed = [json.loads(line) for line in
-                   subprocess.run([BUILD / "bin/yars", "replay", "--print", FILE], capture_output=True, check=True, text=True).stdout.splitlines()]
+                   subprocess.run([BUILD / "bin/yars", "replay", "--print", FILE], capture_output=True, check=True,
+                                  text=True).stdout.splitlines()]
         states = [one for one in printed if "state" in one]
         ours = self.recording.records("RadarState")
         self.assertEqual([one["tick"] for one in states], ours["tick"].tolist())
         for name in ours.dtype.names:
-            if ours.dtype[name].kind in "fiu" and ours.dtype[name].shape == () and all(type(one["state"].get(name)) in (int, float) for one in states):
+            if (ours.dtype[name].kind in "fiu" and ours.dtype[name].shape == () and
+                    all(type(one["state"].get(name)) in (int, float) for one in states)):
                 np.testing.assert_array_equal(ours[name], [one["state"][name] for one in states], err_msg=name)
         events = [one for one in printed if "event" in one]
         self.assertEqual(len(self.recording.records("AppliedEvent")), len(events))
         worlds, ours = [one["world"] for one in printed if "world" in one], self.recording.records("WorldState")
         self.assertGreaterEqual(len(ours), 1)
-        self.assertEqual([(one["edit"], one["tick"]) for one in worlds], list(zip(ours["edit"].tolist(), ours["tick"].tolist(), strict=True)))
+        self.assertEqual([(one["edit"], one["tick"]) for one in worlds],
+                         list(zip(ours["edit"].tolist(), ours["tick"].tolist(), strict=True)))
 
     def test_ticks(self):
         ticks = self.recording.records("ModelTick")["tick"]
         np.testing.assert_array_equal(ticks, np.arange(TICKS))
         self.assertEqual(self.recording.records("ModelTick", 100, 200)["tick"].tolist(), list(range(100, 201)))
-        self.assertEqual(self.recording.records("ModelTick", first_tick=np.int64(TICKS - 3))["tick"].tolist(), [TICKS - 3, TICKS - 2, TICKS - 1])
+        self.assertEqual(self.recording.records("ModelTick", first_tick=np.int64(TICKS - 3))["tick"].tolist(),
+                         [TICKS - 3, TICKS - 2, TICKS - 1])
         self.assertEqual(len(self.recording.records("ModelTick", 300, 200)), 0)
         state = self.recording.records("RadarState")
         some = self.recording.records("RadarState", 1000, 2000)
@@ -134,18 +142,24 @@ class Whole(unittest.TestCase):
             self.assertFalse(array.flags.writeable)
 
     def test_faults(self):
-        for call, pattern in ((lambda: self.recording.records("Ownships"), "kind: expected one of ModelTick, .*Traffic, WorldState, FlightSource, found 'Ownships'"),
+        for call, pattern in ((lambda: self.recording.records("Ownships"),
+                               "kind: expected one of ModelTick, .*Traffic, WorldState, FlightSource, "
+                               "found 'Ownships'"),
                               (lambda: yars.Recording.units(""), "kind: expected one of"),
                               (lambda: self.recording.records("Nav", 1.5), "first_tick: expected a whole number"),
                               (lambda: self.recording.sweeps(None, 2 ** 70), "last_tick: expected a whole number"),
                               (lambda: self.recording.records("\udcff"), "kind: expected the name of a kind")):
             self.assertRaisesRegex(ValueError, pattern, call)
-        for call in (lambda: self.recording.maps(True), lambda: self.recording.maps("1"), lambda: self.recording.records(3)):
+        for call in (lambda: self.recording.maps(True), lambda: self.recording.maps("1"),
+                     lambda: self.recording.records(3)):
             self.assertRaisesRegex(TypeError, "yars.Recording.*: expected ", call)
         self.assertEqual(len(self.recording.records("Nav")), 0)
-        self.assertRaisesRegex(yars.Error, "expected a recording made by yars record, found another kind of file", lambda: yars.Recording(__file__))
-        self.assertRaisesRegex(yars.Error, "expected a recording that can be read", lambda: yars.Recording(FILE.with_name("absent")))
-        self.assertRaisesRegex(yars.Error, "expected a recording in a regular file", lambda: yars.Recording(FILE.parent))
+        self.assertRaisesRegex(yars.Error, "expected a recording made by yars record, found another kind of file",
+                               lambda: yars.Recording(__file__))
+        self.assertRaisesRegex(yars.Error, "expected a recording that can be read",
+                               lambda: yars.Recording(FILE.with_name("absent")))
+        self.assertRaisesRegex(yars.Error, "expected a recording in a regular file",
+                               lambda: yars.Recording(FILE.parent))
         self.assertRaises(TypeError, lambda: yars.Recording(3))
 
 

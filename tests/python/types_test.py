@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Facts about types and documents of the compiled names: stubs against the objects, docstrings, doctests, and a user's program
-under mypy where Debian's mypy is installed; with YARS_TEST_FULL against NumPy's types, too.
+"""Facts about types and documents of the compiled names: stubs against the objects, docstrings, doctests, and a user's
+program under mypy where Debian's mypy is installed; with YARS_TEST_FULL against NumPy's types, too.
 
 usage: types_test.py BUILD     Skipped (code 77) where the build has no compiled part.
 """
@@ -38,11 +38,13 @@ height: NDArray[np.float64] = terrain.elevation([37.0, 37.5], -122.0)
 path: str = yars.Scene.generate("town.flt", kind="town", triangles=1000, seed=1, origin=(37.5, -122.3))
 scene = yars.Scene(path, terrain, without=["tower*"])
 radar = yars.Radar("draft", map_size=128, settings="( Sea :state 3 )")
-scan = radar.scan(terrain, scene, latitude_deg=37.8, longitude_deg=-122.5, altitude_ft=15000, heading_deg=30, range_nm=10, seed=1)
+scan = radar.scan(terrain, scene, latitude_deg=37.8, longitude_deg=-122.5, altitude_ft=15000,
+                  heading_deg=30, range_nm=10, seed=1)
 power: NDArray[np.float32] = scan.power
 shadow: NDArray[np.bool_] = scan.shadow
 unit: str = scan.units["power"]
-patch = radar.patch(terrain, latitude_deg=37.5, longitude_deg=-122.5, target_latitude_deg=37.6, target_longitude_deg=-122.4, window_nm=1.3)
+patch = radar.patch(terrain, latitude_deg=37.5, longitude_deg=-122.5, target_latitude_deg=37.6,
+                    target_longitude_deg=-122.4, window_nm=1.3)
 video: NDArray[np.uint8] = patch.video
 orders = np.zeros(3, yars.PATCH_ORDER)
 maps = radar.patches(terrain, orders, scene, arrays=("video", "object"), threads=2)
@@ -50,7 +52,8 @@ recording = yars.Recording("flight.yars")
 headers, sweeps = recording.sweeps(first_tick=100)
 rows = yars.trade(terrain, radar, presets="draft", repeat=1)
 '''
-FAULTS = ('yars.Radar("fast")', 'yars.Radar().scan("hills")', 'yars.Radar().scan(yars.Terrain(), range=3)', 'yars.Recording("f").records(3)')
+FAULTS = ('yars.Radar("fast")', 'yars.Radar().scan("hills")', 'yars.Radar().scan(yars.Terrain(), range=3)',
+          'yars.Recording("f").records(3)')
 FAULTS_OF_ARRAYS = ('yars.Radar().patches(yars.Terrain(), [1, 2])',)
 
 
@@ -70,7 +73,8 @@ def stubbed(name):
 def there(module, classes):
     names = set()
     for name, value in vars(module).items():
-        if name.startswith("_") or inspect.ismodule(value) or getattr(value, "__module__", module.__name__) != module.__name__:
+        if (name.startswith("_") or inspect.ismodule(value) or
+                getattr(value, "__module__", module.__name__) != module.__name__):
             continue
         names.add(name)
         if inspect.isclass(value) and name in classes:
@@ -84,21 +88,27 @@ class Stubs(unittest.TestCase):
         self.assertEqual(stubbed("_core.pyi"), {name for name in core})
         for module, classes in ((places, {"Terrain", "Scene"}), (recordings, {"Recording"})):
             self.assertEqual(stubbed(f"{module.__name__.rpartition('.')[2]}.pyi"), there(module, classes))
-        ours = {name for name in there(results, {"Radar"}) if not isinstance(getattr(results, name.partition(".")[0]), numpy.dtype)}
-        found = {name for name in stubbed("results.pyi") if name.partition(".")[0] not in ("Scan", "Patch")} | {"Scan", "Patch"}
+        ours = {name for name in there(results, {"Radar"})
+                if not isinstance(getattr(results, name.partition(".")[0]), numpy.dtype)}
+        found = ({name for name in stubbed("results.pyi") if name.partition(".")[0] not in ("Scan", "Patch")} |
+                 {"Scan", "Patch"})
         self.assertEqual(found, ours)
         for picture in (yars.Scan, yars.Patch):
             stub = ast.parse((BUILD / "python/yars/results.pyi").read_text())
-            named = {part.name for one in stub.body if isinstance(one, ast.ClassDef) and one.name in ("_Picture", picture.__name__)
+            named = {part.name for one in stub.body
+                     if isinstance(one, ast.ClassDef) and one.name in ("_Picture", picture.__name__)
                      for part in one.body if isinstance(part, ast.FunctionDef)}
             self.assertEqual(named | {"axes"}, {name for name in dir(picture) if not name.startswith("_")})
 
     def test_options_are_those_of_the_commands(self):
-        for kind, name, command, aside in ((ast.ClassDef, "scan", ["scan"], set()), (ast.ClassDef, "patch", ["patch"], set())):
-            said = subprocess.run([BUILD / "bin/yars", *command, "--help"], capture_output=True, text=True, check=True).stdout
-            options = {word[2:].replace("-", "_") for line in said.splitlines() for word in line.split()[:1] if word.startswith("--")}
-            options -= {"terrain", "scene", "scene_without", "fidelity", "repeat", "size" if name == "scan" else "", "color", "out", "shadow", "json",
-                        "pixels", "help"}
+        for kind, name, command, aside in ((ast.ClassDef, "scan", ["scan"], set()),
+                                           (ast.ClassDef, "patch", ["patch"], set())):
+            said = subprocess.run([BUILD / "bin/yars", *command, "--help"], capture_output=True, text=True,
+                                  check=True).stdout
+            options = {word[2:].replace("-", "_") for line in said.splitlines() for word in line.split()[:1]
+                       if word.startswith("--")}
+            options -= {"terrain", "scene", "scene_without", "fidelity", "repeat", "size" if name == "scan" else "",
+                        "color", "out", "shadow", "json", "pixels", "help"}
             stub = ast.parse((BUILD / "python/yars/results.pyi").read_text())
             radar = next(one for one in stub.body if isinstance(one, kind) and one.name == "Radar")
             method = next(part for part in radar.body if isinstance(part, ast.FunctionDef) and part.name == name)
@@ -115,10 +125,11 @@ class Stubs(unittest.TestCase):
             environment = {**os.environ, "MYPYPATH": str(BUILD / "python"), "MYPY_CACHE_DIR": folder}
             options, faults = ["--strict", "--follow-imports=silent"], FAULTS + FAULTS_OF_ARRAYS
             if "YARS_TEST_FULL" not in os.environ:  # NumPy's types take mypy seven times as long as all else
-                options += ["--no-site-packages", "--ignore-missing-imports", "--allow-subclassing-any", "--no-warn-return-any"]
+                options += ["--no-site-packages", "--ignore-missing-imports", "--allow-subclassing-any",
+                            "--no-warn-return-any"]
                 faults = FAULTS
-            done = subprocess.run([mypy, *options, "user.py"], cwd=folder, capture_output=True, text=True, timeout=300, env=environment,
-                                  check=False)
+            done = subprocess.run([mypy, *options, "user.py"], cwd=folder, capture_output=True, text=True, timeout=300,
+                                  env=environment, check=False)
             found = {int(line) for line in re.findall(r"^user\.py:(\d+): error", done.stdout, re.M)}
             first = PROGRAM.count("\n") + 1
             self.assertEqual(found, set(range(first, first + len(faults))), done.stdout + done.stderr)
@@ -142,8 +153,8 @@ class Documents(unittest.TestCase):
                 self.assertTrue(not unit or f"[{unit}]" in said, said)
 
     def test_errors_are_named(self):
-        for value in (yars.Terrain, yars.Scene, yars.Recording, yars.Radar, yars.trade, yars.Radar.patches, yars.Recording.records,
-                      yars.Scene.generate, yars.Terrain.generate):
+        for value in (yars.Terrain, yars.Scene, yars.Recording, yars.Radar, yars.trade, yars.Radar.patches,
+                      yars.Recording.records, yars.Scene.generate, yars.Terrain.generate):
             self.assertIn("Error", inspect.getdoc(value), value)
 
     def test_examples(self):

@@ -4,8 +4,8 @@
 usage: acceptance_test.py BIN [FOLDER]
 Scenes, terrain, archives, configurations, recordings and data-set specifications are found by their names; each other
 file is given to the readers of single files. Nothing is written into FOLDER. The rules are the functions that begin
-with `rule`. Without FOLDER: ../shared/data/acceptance with what its make.py writes, where the right values are known, too
-(exit 77: not there). Prints the faults, and how much was read; ends with 1 if there is a fault.
+with `rule`. Without FOLDER: ../shared/data/acceptance with what its make.py writes, where the right values are known,
+too (exit 77: not there). Prints the faults, and how much was read; ends with 1 if there is a fault.
 """
 import dataclasses
 import json
@@ -27,7 +27,8 @@ MOST_CELLS = 64  # of a folder that is converted
 LARGEST = 256 << 20  # [bytes] larger files of no known kind are not tried, but counted
 POSITION = (45.5, 5.5)  # of scenes, on the built-in hills
 RAW = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e]")
-INNARDS = re.compile(r"Traceback|terminate called|what\(\)|Assertion|std::|runtime error:|Sanitizer|json\.exception|YARS_REQUIRE")
+INNARDS = re.compile(
+    r"Traceback|terminate called|what\(\)|Assertion|std::|runtime error:|Sanitizer|json\.exception|YARS_REQUIRE")
 SCENES = {".flt"}
 CONFIGURATIONS = {".guf"}
 SPECIFICATIONS = {".yaml", ".yml"}
@@ -72,9 +73,11 @@ class Acceptance:
             self.fault(done.words, f"expected exit code 0, 1 or 2, found {done.code}: {done.err[-300:]!r}")
         for text in (done.out, done.err):
             if raw := RAW.search(text):
-                self.fault(done.words, f"expected printable text, found {raw[0]!r} in {text[max(0, raw.start() - 80):raw.end() + 20]!r}")
+                self.fault(done.words, "expected printable text, "
+                                       f"found {raw[0]!r} in {text[max(0, raw.start() - 80):raw.end() + 20]!r}")
             if inside := INNARDS.search(text):
-                self.fault(done.words, f"expected a message for users, found {text[max(0, inside.start() - 80):inside.end() + 200]!r}")
+                self.fault(done.words, "expected a message for users, "
+                                       f"found {text[max(0, inside.start() - 80):inside.end() + 200]!r}")
 
     def rule_one_message(self, done, names):
         """A failure says once, in its last line, what was expected and found; the message names the file."""
@@ -89,11 +92,13 @@ class Acceptance:
             self.fault(done.words, f"expected a message that names {names[-1]!r}, found {done.err[-600:]!r}")
 
     def facts(self, *words, names=()):
-        """The JSON object of a command, and its run; the text form ends with the same code and says what is left out."""
+        """The JSON object of a command, and its run; the text form ends with the same code,
+        and says what is left out."""
         found, done = self.run_json(*words, names=names)
         text = self.run(*words, names=names)
         if done.code != text.code:
-            self.fault(words, f"expected one exit code, found {done.code} with --json and {text.code} without: {text.err[-300:]!r}")
+            self.fault(words, f"expected one exit code, found {done.code} with --json and {text.code} without: "
+                              f"{text.err[-300:]!r}")
         self.rule_says_what_is_left_out(done, text, found)
         return found, done
 
@@ -117,34 +122,41 @@ class Acceptance:
         return shown
 
     def rule_all_read_a_scene(self, path, at, info, shown):
-        """What `scene info` reads, a map reads, too, with as many triangles and the same parts left out; so does a scan."""
+        """What `scene info` reads, a map reads, too, with as many triangles and the same parts left out;
+        so does a scan."""
         reach_nm = reach_of(shown) / 1852 if shown else 0.0
         if reach_nm > 8.0:
             return self.count("scenes too large for a map")
         window_nm = max(0.7, 2.2 * reach_nm + 0.2)
         ahead_deg = max(4.0, window_nm) / 60 * 1.5
         pose = ["--lat", POSITION[0] - ahead_deg, "--lon", POSITION[1], "--heading", 90, "--alt-ft", 20000]
-        patch, mapped = self.facts(*self.scene_words(path, at), "--force", *pose, "--target-lat", POSITION[0], "--target-lon", POSITION[1],
-                                   "--window-nm", f"{window_nm:.3f}", "--size", 16, "--fidelity", "draft", names=[path.name])
-        scan, scanned = self.facts("scan", "--scene", at, *pose, "--range-nm", math.ceil(ahead_deg * 60 + reach_nm + 1), "--samples", 16,
-                                   "--fidelity", "draft", names=[path.name])
+        patch, mapped = self.facts(*self.scene_words(path, at), "--force", *pose, "--target-lat", POSITION[0],
+                                   "--target-lon", POSITION[1],
+                                   "--window-nm", f"{window_nm:.3f}", "--size", 16, "--fidelity", "draft",
+                                   names=[path.name])
+        scan, scanned = self.facts("scan", "--scene", at, *pose, "--range-nm", math.ceil(ahead_deg * 60 + reach_nm + 1),
+                                   "--samples", 16, "--fidelity", "draft", names=[path.name])
         if not info.code == mapped.code == scanned.code:
-            self.fault([path], f"expected one exit code, found scene info {info.code}, patch {mapped.code}, scan {scanned.code}")
+            self.fault([path], f"expected one exit code, found scene info {info.code}, patch {mapped.code}, "
+                               f"scan {scanned.code}")
         if not shown:
             return
         left_out = sorted(f"{path}: {sentence}" for sentence in shown["left_out"])
         for name, facts in (("patch", patch), ("scan", scan)):
             if facts and sorted(facts["left_out"]) != left_out:
-                self.fault([path], f"expected what scene info leaves out, {left_out}, found {facts['left_out']} in {name}")
+                self.fault([path],
+                           f"expected what scene info leaves out, {left_out}, found {facts['left_out']} in {name}")
         if patch:
             self.rule_equal_triangles(path, shown["shown"]["triangles"], patch["triangles"])
 
     def scene_words(self, path, at):
-        """A map with the scene, by a configuration if its path can stand there. Without ground, no triangle is cut to follow it."""
+        """A map with the scene, by a configuration if its path can stand there.
+        Without ground, no triangle is cut to follow it."""
         if not quotable(path):
             return ["patch", "--scene", at]
         configuration = self.scratch / "scene.guf"
-        configuration.write_text(f'( Apg70 )\n( Scenes `( ( Scene "{path}" {POSITION[0]} {POSITION[1]} 0 :elevation seaLevel ) ) )\n')
+        configuration.write_text(
+            f'( Apg70 )\n( Scenes `( ( Scene "{path}" {POSITION[0]} {POSITION[1]} 0 :elevation seaLevel ) ) )\n')
         return ["patch", "--config", configuration]
 
     def rule_equal_triangles(self, path, known, found):
@@ -202,11 +214,13 @@ class Acceptance:
         if len(info["cells"]) > MOST_CELLS:
             self.count("terrain folders too large to convert")
             return used
-        converted, done = self.run_json("terrain", "convert", "--in", folder, "--out", out, "--to", "dted", "--level", 0, names=names)
+        converted, done = self.run_json("terrain", "convert", "--in", folder, "--out", out, "--to", "dted",
+                                        "--level", 0, names=names)
         if converted.get("cells") != len(info["cells"]) and done.code == 0:
             self.fault([folder], f"expected {len(info['cells'])} cells, found {converted} from convert with code 0")
         if (done.code == 0) != (listed.code == 0) and not has_empty_cell(info):
-            self.fault([folder], f"expected the exit code of info, {listed.code}, found {done.code} from convert: {done.err[-300:]!r}")
+            self.fault([folder], f"expected the exit code of info, {listed.code}, found {done.code} from convert: "
+                                 f"{done.err[-300:]!r}")
         return used
 
     def run_json(self, *words, names=()):
@@ -217,7 +231,8 @@ class Acceptance:
             self.fault(words, f"expected JSON, found {error}")
             return {}, done
         if done.code == 0 and (found.get("problems") or found.get("left_out")):
-            self.fault(done.words, f"expected an exit code other than 0, for {found.get('problems')} {found.get('left_out')}")
+            self.fault(done.words,
+                       f"expected an exit code other than 0, for {found.get('problems')} {found.get('left_out')}")
         return found, done
 
     def rule_all_see_the_same_cells(self, folder, names, info, listed):
@@ -230,21 +245,24 @@ class Acceptance:
             profile, done = self.run_json("terrain", "profile", "--terrain", folder, *across, names=names)
             if "none at" in done.err:
                 self.fault(done.words, f"expected the cell that info lists, found {done.err[-300:]!r}")
-            heights = [sample["elevation_m"] for sample in profile.get("samples", []) if sample["elevation_m"] is not None]
+            heights = [sample["elevation_m"] for sample in profile.get("samples", [])
+                       if sample["elevation_m"] is not None]
             low, high = (cell["lowest_m"], cell["highest_m"]) if cell["lowest_m"] is not None else (0, 0)
             if any(not low - 1 <= height <= high + 1 for height in heights):
-                self.fault(done.words, f"expected heights from {low} to {high} m, found {min(heights)} to {max(heights)} m")
+                self.fault(done.words,
+                           f"expected heights from {low} to {high} m, found {min(heights)} to {max(heights)} m")
             if not heights and cell["voids"] == 0 and done.code != 2:
                 self.fault(done.words, "expected heights in a cell without voids, found none")
             if cell["lowest_m"] is None and heights:
                 self.fault(done.words, "expected no heights in a cell that is void, found some")
-            scan, _ = self.run_json("scan", "--terrain", folder, "--lat", south + 0.5, "--lon", west + 0.5, "--alt-ft", 40000,
-                                    "--range-nm", 5, "--samples", 16, "--fidelity", "draft", names=names)
+            scan, _ = self.run_json("scan", "--terrain", folder, "--lat", south + 0.5, "--lon", west + 0.5, "--alt-ft",
+                                    40000, "--range-nm", 5, "--samples", 16, "--fidelity", "draft", names=names)
             for name, sentences in (("profile", profile.get("problems", [])), ("scan", scan.get("left_out", []))):
                 for sentence in sentences:
                     unused.add(bare(sentence))
                     if bare(sentence) not in known:
-                        self.fault([folder], f"expected the problems of info, {sorted(known)}, found {sentence!r} in {name}")
+                        self.fault([folder],
+                                   f"expected the problems of info, {sorted(known)}, found {sentence!r} in {name}")
             if profile.get("problems") and listed.code == 0:
                 self.fault([folder], f"expected exit code 1 of info, for {profile['problems']}")
         if listed.code != 0 and not info["problems"]:
@@ -255,7 +273,8 @@ class Acceptance:
         self.count("elevation files")
         out = self.scratch / "one"
         shutil.rmtree(out, ignore_errors=True)
-        converted, done = self.run_json("terrain", "convert", "--in", path, "--out", out, "--level", 0, names=[path.name])
+        converted, done = self.run_json("terrain", "convert", "--in", path, "--out", out, "--level", 0,
+                                        names=[path.name])
         if done.code == 0 and not converted.get("cells"):
             self.fault(done.words, f"expected cells, found {converted}")
 
@@ -271,10 +290,12 @@ class Acceptance:
             again.write_text(printed.out)
             twice = self.run("config", "print", again)
             if twice.out != printed.out:
-                self.fault(twice.words, f"expected the same configuration again, found another, or {twice.err[-300:]!r}")
+                self.fault(twice.words,
+                           f"expected the same configuration again, found another, or {twice.err[-300:]!r}")
         elif printed.code == 0 or checked.code == 0:
             if "Network" not in checked.err + printed.err:
-                self.fault([path], f"expected one answer of config check and print, found {checked.code} and {printed.code}")
+                self.fault([path],
+                           f"expected one answer of config check and print, found {checked.code} and {printed.code}")
 
     def recording(self, path):
         self.count("recordings")
@@ -312,7 +333,8 @@ class Acceptance:
                 elif TERRAIN.search(name):
                     rasters.append(path)
                     ground = path.parent
-                    grounds[ground.parent if re.fullmatch(r"[ew]\d{3}", ground.name.lower()) and ground != top else ground] = True
+                    grounds[ground.parent if re.fullmatch(r"[ew]\d{3}", ground.name.lower()) and ground != top
+                            else ground] = True
                 elif not path.is_file() or path.stat().st_size > LARGEST:
                     self.count("files not tried")
                 elif not re.search(r"\.(py|md|txt|xml|csv|pdf|shp|shx|dbf)$", name.lower()):
@@ -329,7 +351,8 @@ class Acceptance:
 
 def printable(text):
     """The form in which programs print a text from outside: control characters are escaped."""
-    return RAW.sub(lambda found: "".join(f"\\x{byte:02x}" for byte in found[0].encode()), str(text).encode("utf-8", "replace").decode())
+    return RAW.sub(lambda found: "".join(f"\\x{byte:02x}" for byte in found[0].encode()),
+                   str(text).encode("utf-8", "replace").decode())
 
 
 def bare(sentence):
@@ -357,7 +380,8 @@ def reach_of(shown):
 # of the formulas in make.py.
 SHOWN = {"header328.flt": ("triangles", 10), "r1660.flt": ("triangles", 10), "zeros_to_2048.flt": ("triangles", 10),
          "cdb_harbor_club_header328.flt": ("triangles", 556), "cdb_trailing_byte.flt": ("polygons", 224),
-         "nested/master/master.flt": ("polygons", 3), "node.flt": ("polygons", 5), "lodtown.flt": ("objects", 6), "dof.flt": ("polygons", 5)}
+         "nested/master/master.flt": ("polygons", 3), "node.flt": ("polygons", 5), "lodtown.flt": ("objects", 6),
+         "dof.flt": ("polygons", 5)}
 
 
 def check_known_scenes(acceptance, top, scenes):
@@ -404,7 +428,8 @@ def check_known_terrain(acceptance, out):
 def make_terrain(top, scratch):
     """Runs a copy of make.py. Returns the folder that it writes, or None and the reason."""
     python = "/usr/bin/python3"
-    if subprocess.run([python, "-c", "import numpy; from osgeo import gdal"], capture_output=True, check=False).returncode:
+    if subprocess.run([python, "-c", "import numpy; from osgeo import gdal"], capture_output=True,
+                      check=False).returncode:
         return None, "needs Debian's python3-numpy and python3-gdal for the terrain"
     copy = pathlib.Path(scratch, "made")
     copy.mkdir()
@@ -438,7 +463,8 @@ def main():
                 check_known_terrain(acceptance, out)
     for fault in acceptance.faults:
         print(fault)
-    print(f"{len(acceptance.faults)} faults; " + ", ".join(f"{number} {kind}" for kind, number in sorted(acceptance.counts.items())))
+    print(f"{len(acceptance.faults)} faults; " +
+          ", ".join(f"{number} {kind}" for kind, number in sorted(acceptance.counts.items())))
     return 1 if acceptance.faults else 0
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What docs/attach.md shows compiles: programs and parts of programs in C with warnings as errors, those in Python.
-A part is one that a function which has a session could hold. As C99 and as C++; also the parts with the libraries. usage: attach_doc_test.py CC CXX"""
+A part is one that a function which has a session could hold. As C99 and as C++; also the parts with the libraries.
+usage: attach_doc_test.py CC CXX"""
 import pathlib
 import re
 import subprocess
@@ -40,12 +41,13 @@ blocks = ["\n".join(line[4:] for line in block.splitlines()) + "\n"
 in_c = [block if "int main(void)" in block else PART % textwrap.indent(block, "  ")
         for block in blocks if re.search(r"\byars_(?!display|client)\w+\(", block)]
 # The parts with the headers of the libraries: what they include stands before them.
-of_libraries = [PART_OF_A_LIBRARY % ("\n".join(re.findall(r"^#.*", block, re.M)), re.sub(r"^#.*\n", "", block, flags=re.M))
+of_libraries = [PART_OF_A_LIBRARY % ("\n".join(re.findall(r"^#.*", block, re.M)),
+                                     re.sub(r"^#.*\n", "", block, flags=re.M))
                 for block in blocks if re.search(r"yars_(display|client)_attach\(", block)]
 in_python = [block for block in blocks if re.search(r"\bsession\.\w+\(", block)]
 if len(in_c) < 5 or len(in_python) < 4 or len(of_libraries) != 2:
-    sys.exit(f"docs/attach.md: expected 5 parts in C, 4 in Python and 2 of libraries, found {len(in_c)}, {len(in_python)} "
-             f"and {len(of_libraries)}")
+    sys.exit(f"docs/attach.md: expected 5 parts in C, 4 in Python and 2 of libraries, found {len(in_c)}, "
+             f"{len(in_python)} and {len(of_libraries)}")
 for block in in_python:
     compile(block, "docs/attach.md", "exec")
 failed = 0
@@ -61,11 +63,12 @@ with tempfile.TemporaryDirectory() as folder:
             failed |= subprocess.run(command).returncode
     pathlib.Path(folder, "yars").symlink_to(top / "display" / "library")  # as it is installed
     for block in of_libraries:
-        for compiler, name, more in ((sys.argv[1], "part.c", []), (sys.argv[2], "part.cpp", ["-Wno-missing-field-initializers"])):
+        for compiler, name, more in ((sys.argv[1], "part.c", []),
+                                     (sys.argv[2], "part.cpp", ["-Wno-missing-field-initializers"])):
             source = pathlib.Path(folder, name)
             source.write_text(block)
-            failed |= subprocess.run([compiler, "-Wall", "-Wextra", "-Werror", *more, f"-I{folder}", f"-I{top}", "-c", str(source), "-o",
-                                      str(source.with_suffix(".o"))]).returncode
+            failed |= subprocess.run([compiler, "-Wall", "-Wextra", "-Werror", *more, f"-I{folder}", f"-I{top}",
+                                      "-c", str(source), "-o", str(source.with_suffix(".o"))]).returncode
     # The name of a session is a part of a path.
     source = pathlib.Path(folder, "name.c")
     source.write_text(NAMES)

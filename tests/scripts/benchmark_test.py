@@ -1,4 +1,5 @@
-"""Facts about lab/benchmark, with a program that only prints what `yars` would: arguments, JSON, pairs, bad input. No time is asserted."""
+"""Facts about lab/benchmark, with a program that only prints what `yars` would: arguments, JSON, pairs, bad input.
+No time is asserted."""
 import json
 import os
 import pathlib
@@ -24,8 +25,8 @@ else:
     threads = int(words[words.index("--threads") + 1]) if "--threads" in words else 1
     ms = {factor} * (5.0 if "--config" in words else 2.0)
     ms /= threads
-    found = {{"kernel_ms": ms, "cpu_ms": ms, "sweep_ms": ms, "first_ms": 9.0, "sweeps": 182, "samples": 480, "hash": "{hash}",
-              "mean_ms": ms}}
+    found = {{"kernel_ms": ms, "cpu_ms": ms, "sweep_ms": ms, "first_ms": 9.0, "sweeps": 182, "samples": 480,
+              "hash": "{hash}", "mean_ms": ms}}
     {change}
     print(json.dumps(found))
 """
@@ -42,12 +43,14 @@ class Benchmark(unittest.TestCase):
     def build(self, name, factor=1.0, hash_="abc", change="pass"):
         (self.folder / name).mkdir()
         program = self.folder / name / "yars"
-        program.write_text(YARS.format(python=sys.executable, log=self.log, name=name, factor=factor, hash=hash_, change=change))
+        program.write_text(YARS.format(python=sys.executable, log=self.log, name=name, factor=factor, hash=hash_,
+                                       change=change))
         program.chmod(0o755)
         return program.parent
 
     def run_it(self, *words, code=0):
-        done = subprocess.run([sys.executable, str(BENCHMARK), "--bin", str(self.bin), "--data", str(self.folder / "world"), *map(str, words)],
+        done = subprocess.run([sys.executable, str(BENCHMARK), "--bin", str(self.bin),
+                               "--data", str(self.folder / "world"), *map(str, words)],
                               capture_output=True, text=True, timeout=300, check=False, stdin=subprocess.DEVNULL)
         self.assertEqual(done.returncode, code, done)
         return done
@@ -93,7 +96,8 @@ class Benchmark(unittest.TestCase):
         row = self.rows("--only", "scan-10", "--against", other)["scan-10"]
         self.assertEqual(row["against"]["ratio_to"], 0.5)
         self.assertFalse(row["against"]["same_hash"])
-        runs = [line.split()[0] for line in self.log.read_text().splitlines() if "--repeat" in line][1:]  # the first warms up
+        # The first warms up.
+        runs = [line.split()[0] for line in self.log.read_text().splitlines() if "--repeat" in line][1:]
         self.assertEqual(runs, ["one", "two", "two", "one", "one", "two"])
 
     def test_a_build_without_processor_time_is_compared_by_wall_time(self):

@@ -26,7 +26,11 @@ total=$(cat "$HOME/total")
 for ((step = 1; step <= $(cat "$HOME/steps"); step++)); do
   status "$step" "$total"; echo "Building CXX object $step.o"
 done
-[ ! -e "$HOME/hang" ] || { echo $$ >"$HOME/builder"; trap 'kill $!; echo "ninja: build stopped: interrupted by user."; exit 130' INT; sleep 600 & wait; }
+if [ -e "$HOME/hang" ]; then
+  echo $$ >"$HOME/builder"
+  trap 'kill $!; echo "ninja: build stopped: interrupted by user."; exit 130' INT
+  sleep 600 & wait
+fi
 [ "$step" -gt "$total" ] || { echo "error: no such thing"; exit 1; }
 '''
 
@@ -99,7 +103,8 @@ class BuildProgress(unittest.TestCase):
         ended = self.run_plainly()
         text = ended.stdout.decode()
         self.assertIn(b"built", ended.stderr)
-        self.assertRegex(text, r"Building 200 steps: (about \d+ min|under a minute) on \d+ cores?, \d+ MB of disk; the log")
+        self.assertRegex(text, r"Building 200 steps: (about \d+ min|under a minute) on \d+ cores?, "
+                               r"\d+ MB of disk; the log")
         self.assertEqual(len(re.findall(r"^\d+ %, step \d+ of 200(, \d+ min left)?$", text, re.MULTILINE)), 10, text)
         self.assertTrue(all(character == "\n" or character.isprintable() for character in text), repr(text))
 
@@ -136,7 +141,8 @@ class BuildProgress(unittest.TestCase):
         self.run_plainly()
         targets = (self.folder / "targets").read_text().split("--target ")[1].split()
         self.assertEqual(sorted(targets),
-                         ["flight-model", "input-monitor", "radar-display", "radar-model", "state-machine", "yars", "yars-station", "yars_client_library", "yars_help"])
+                         ["flight-model", "input-monitor", "radar-display", "radar-model", "state-machine", "yars",
+                          "yars-station", "yars_client_library", "yars_help"])
 
 
 if __name__ == "__main__":

@@ -22,7 +22,8 @@ CLEAN = {
     INTERFACE: '# Interface\n\n| PB |\n| --- |\n| <a id="pb-2"></a>2 |\n\n<a id="rule-5"></a>\n### Maps\n'
                f"[sea]({PHYSICS[5:]}#sea), [rule](#rule-5)\n",
     f"{DOCS}/terrain.md": "# Terrain\n\n## The `file` formats\n\n## Same\n\n## Same\n\n"
-                       "[a](#the-file-formats) [b](#same-1) [c](decisions/0001-first.md) [d](../lib) [e](https://x.org/y#z)\n"
+                       "[a](#the-file-formats) [b](#same-1) [c](decisions/0001-first.md) [d](../lib) "
+                       "[e](https://x.org/y#z)\n"
                        "```\n[f](nowhere.md)\n```\n`[g](nowhere.md)`\n",
     f"{DOCS}/decisions/0001-first.md": f"# 1. First\n[sea](../{PHYSICS[5:]}#sea)\n",
     f"{DOCS}/decisions/0002-second.md": "# 2. Second\n",
@@ -61,7 +62,8 @@ class CheckCitations(unittest.TestCase):
         self.finds("lib/sea.hpp", f"#pragma once\n// Source: {PHYSICS}#see\n", "2: citation", "the nearest is 'sea'")
 
     def test_a_page_that_is_not_there_is_found(self):
-        self.finds("lib/sea.hpp", f"// Source: {SPEC}/chemistry.md#sea\n", "1: citation", "not a file of the repository")
+        self.finds("lib/sea.hpp", f"// Source: {SPEC}/chemistry.md#sea\n", "1: citation",
+                   "not a file of the repository")
 
     def test_other_documents_are_cited_by_path_too(self):
         self.finds("lib/sea.hpp", f"// Source: {DOCS}/terrein.md\n", "1: citation")

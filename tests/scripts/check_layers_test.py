@@ -14,11 +14,13 @@ CLEAN = {
     "databuffer/messages/world_state.hpp": "#pragma once\n",
     "statemachine/machine.hpp": '#pragma once\n#include "databuffer/messages/world_state.hpp"\n',
     "display/symbology/symbology.hpp": "#pragma once\n",
-    "model/app/radar_model_main.cpp": '#include <chrono>\n#include <spdlog/spdlog.h>\n#include "databuffer/session/session.hpp"\n',
+    "model/app/radar_model_main.cpp": '#include <chrono>\n#include <spdlog/spdlog.h>\n'
+                                      '#include "databuffer/session/session.hpp"\n',
     "model/terrain/formats/dted.hpp": "#pragma once\n",
     "model/terrain/formats/dted.cpp": '#include "model/terrain/formats/dted.hpp"\n',
     "model/terrain/formats/cell_reading.hpp": "#pragma once\n",
-    "model/terrain/formats/cell_reading.cpp": '#include "model/terrain/formats/cell_reading.hpp"\nstd::ifstream open(const char* path);\n',
+    "model/terrain/formats/cell_reading.cpp": '#include "model/terrain/formats/cell_reading.hpp"\n'
+                                              'std::ifstream open(const char* path);\n',
     "README.md": "YARS\n",
 }
 # Pieced together, so that this file is not itself a finding.
@@ -63,7 +65,8 @@ class CheckLayers(unittest.TestCase):
                    '#include "model/terrain/formats/dted.hpp"\n#include <spdlog/spdlog.h>\n', "2: layer")
 
     def test_clocks_are_for_shells(self):
-        self.finds("statemachine/machine.hpp", "#pragma once\nauto now = std::chrono::steady_clock::now();\n", "2: clock")
+        self.finds("statemachine/machine.hpp", "#pragma once\nauto now = std::chrono::steady_clock::now();\n",
+                   "2: clock")
 
     def test_records_are_pure_though_they_live_below_databuffer(self):
         self.finds("databuffer/messages/world_state.hpp", "#pragma once\n#include <chrono>\n", "2: layer")
@@ -77,7 +80,8 @@ class CheckLayers(unittest.TestCase):
 
     def test_dds_stays_in_gateway_dds(self):
         self.finds("gateway/hosts.hpp", "#pragma once\n#include <dds/dds.h>\n", "2: layer")
-        output, status = check({"gateway/dds/participant.hpp": '#pragma once\n#include <dds/dds.h>\n#include "gateway/dds/yars_network.h"\n'})
+        output, status = check({"gateway/dds/participant.hpp": '#pragma once\n#include <dds/dds.h>\n'
+                                                               '#include "gateway/dds/yars_network.h"\n'})
         self.assertEqual(status, 0, output)
 
     def test_a_header_from_nowhere_needs_a_row(self):
@@ -95,7 +99,8 @@ class CheckLayers(unittest.TestCase):
             self.finds("tools/table_writer.hpp", f"#pragma once\n{text}\n", "2: writer")
 
     def test_a_comment_is_not_a_call(self):
-        _, status = check({"statemachine/machine.hpp": "#pragma once\n// std::ifstream\n/* fopen\n #include <chrono> */\n"})
+        _, status = check({"statemachine/machine.hpp": "#pragma once\n// std::ifstream\n/* fopen\n"
+                                                       " #include <chrono> */\n"})
         self.assertEqual(status, 0)
 
     def test_a_missing_header_is_found(self):
@@ -119,14 +124,16 @@ class CheckLayers(unittest.TestCase):
     def test_units_that_include_one_another_are_found(self):
         output, status = check({"statemachine/maps.hpp": '#pragma once\n#include "statemachine/modes.hpp"\n',
                                 "statemachine/modes.hpp": "#pragma once\n",
-                                "statemachine/modes.cpp": '#include "statemachine/modes.hpp"\n#include "statemachine/maps.hpp"\n'})
+                                "statemachine/modes.cpp": '#include "statemachine/modes.hpp"\n'
+                                                          '#include "statemachine/maps.hpp"\n'})
         self.assertEqual(status, 1, output)
         self.assertIn("cycle: units that include one another: statemachine/maps, statemachine/modes", output)
 
     def test_the_chapters_of_a_vector_source_belong_to_it(self):
         output, status = check({"model/rbm/sweep_simd.hpp": "#pragma once\n",
                                 "model/rbm/gain-inl.hpp": '#include "model/rbm/sweep_simd.hpp"\n',
-                                "model/rbm/sweep_simd.cpp": '#include "model/rbm/sweep_simd.hpp"\n#include "model/rbm/gain-inl.hpp"\n'})
+                                "model/rbm/sweep_simd.cpp": '#include "model/rbm/sweep_simd.hpp"\n'
+                                                            '#include "model/rbm/gain-inl.hpp"\n'})
         self.assertEqual(status, 0, output)
 
     def test_a_diagram_of_other_folders_is_found(self):

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Rules of all command lines: defaults in --help, words that are misspelled, values that are wrong, help of each command.
+"""Rules of all command lines: defaults in --help, words that are misspelled, values that are wrong,
+help of each command.
 
 usage: commands_test.py BIN
-Walks the programs, their commands and options by --help (packaging/help/help_text.py). Each wrong command line ends with exit
-code 2 and one line in the form "PROGRAM COMMAND: OPTION: expected ..., found ...; see PROGRAM COMMAND --help".
-YARS_TEST_FULL: each option is misspelled, without a value, and before --help; without, every fourth.
+Walks the programs, their commands and options by --help (packaging/help/help_text.py). Each wrong command line ends
+with exit code 2 and one line in the form "PROGRAM COMMAND: OPTION: expected ..., found ...; see PROGRAM COMMAND
+--help". YARS_TEST_FULL: each option is misspelled, without a value, and before --help; without, every fourth.
 """
 import concurrent.futures
 import os
@@ -20,14 +21,16 @@ import help_text  # noqa: E402
 
 BIN = pathlib.Path(sys.argv[1]).resolve()
 # Texts of CLI11 and of argparse, which are not in the form of the house.
-FOREIGN = re.compile(r"is required|not convert|not in range|were not expected|was not expected|requires|excludes|At Most"
-                     r"|Excludes|REQUIRED|At Least|not in \{|missing$|A subcommand|override|should not see|error:|usage:")
+FOREIGN = re.compile(r"is required|not convert|not in range|were not expected|was not expected|requires|excludes"
+                     r"|At Most|Excludes|REQUIRED|At Least|not in \{|missing$|A subcommand|override"
+                     r"|should not see|error:|usage:")
 # Commands that print facts; docs/commands.md#json has their fields.
-WITH_JSON = ["scan", "patch", "trade", "trade maps", "terrain generate", "terrain info", "terrain profile", "terrain reduce", "terrain convert",
-             "terrain pack", "scene generate", "scene info", "config check", "config user", "sim state", "sim freeze",
-             "sim run", "sim rate", "sim step", "sim reset", "sim reposition", "world", "world sea", "world wind", "world rain add",
-             "world rain move", "world rain remove", "world jammer add", "world jammer move", "world jammer remove", "world mover add",
-             "world mover move", "world mover remove", "world mover steer", "world point add", "world point change", "world point move",
+WITH_JSON = ["scan", "patch", "trade", "trade maps", "terrain generate", "terrain info", "terrain profile",
+             "terrain reduce", "terrain convert", "terrain pack", "scene generate", "scene info", "config check",
+             "config user", "sim state", "sim freeze", "sim run", "sim rate", "sim step", "sim reset", "sim reposition",
+             "world", "world sea", "world wind", "world rain add", "world rain move", "world rain remove",
+             "world jammer add", "world jammer move", "world jammer remove", "world mover add", "world mover move",
+             "world mover remove", "world mover steer", "world point add", "world point change", "world point move",
              "world point remove", "world reset", "inject", "status", "watch", "record", "recordings", "replay"]
 ALL = "YARS_TEST_FULL" in os.environ
 SESSION = f"commands-{os.getpid()}"
@@ -124,7 +127,8 @@ def cases_of(program, command):
     if command.below:
         for below in command.below:
             if len(below.words[-1]) >= 4:
-                yield [*command.words, misspelled(below.words[-1])], ["expected a command", f"did you mean '{below.words[-1]}'?"]
+                yield ([*command.words, misspelled(below.words[-1])],
+                       ["expected a command", f"did you mean '{below.words[-1]}'?"])
         yield [*command.words, "xyzzyx"], ["expected a command: ", command.below[-1].words[-1], "'xyzzyx'"]
     elif not any(entry.repeats for entry in command.arguments):
         words = ["1"] * len(command.arguments)
@@ -135,7 +139,8 @@ def check_defaults(command):
     """Each value has a default, or what holds without it, or is required."""
     for entry in command.options + command.arguments:
         if entry.count and not any(re.match("default |else |required", fact) for fact in entry.facts):
-            faults.append(f"{' '.join(command.words)} {entry.names[-1]}: expected a default in --help, found {entry.lines}")
+            faults.append(f"{' '.join(command.words)} {entry.names[-1]}: expected a default in --help, "
+                          f"found {entry.lines}")
         if not entry.lines:
             faults.append(f"{' '.join(command.words)} {entry.names[-1]}: expected what it is, found nothing")
         if entry.is_required and any(fact.startswith("default") for fact in entry.facts):
@@ -160,7 +165,8 @@ def check_fidelities(programs):
     """The presets of the start script are those of the programs."""
     found = {" ".join(command.words): entry.values for program in programs for command in program.walk()
              for entry in command.options if "--fidelity" in entry.names}
-    if len({tuple(values) for values in found.values()}) != 1 or not {"yars-start", "radar-model", "yars scan"} <= set(found):
+    if (len({tuple(values) for values in found.values()}) != 1 or
+            not {"yars-start", "radar-model", "yars scan"} <= set(found)):
         faults.append(f"--fidelity: expected the same presets everywhere, found {found}")
 
 
@@ -177,7 +183,8 @@ def check_wrong_help():
             (["yars", "stauts", "--help"], ["did you mean 'status'?"], None),
             (["yars", "help", "terrain", "inof"], ["did you mean 'info'?"], ["yars", "terrain"]),
             (["yars", "help", "scan", "more"], ["no further argument"], ["yars", "scan"]),
-            (["yars", "scan", "--lat", "1", "--lat", "2"], ["--lat: expected the option once", "2 times"], ["yars", "scan"]),
+            (["yars", "scan", "--lat", "1", "--lat", "2"], ["--lat: expected the option once", "2 times"],
+             ["yars", "scan"]),
             (["yars", "scan", "--rang-nm=40"], ["did you mean '--range-nm'?"], ["yars", "scan"]),
             (["yars", "--log-level", "off"], ["expected a command: ", "found none"], ["yars"]),
             (["yars", "scene", "image", "a", "--out", "a.png", "--window", "1", "2"], ["3 values", "found 2"],
@@ -191,11 +198,13 @@ def check_wrong_help():
 def check_events():
     """Words of `yars inject`; these fail before a session is looked for."""
     for words, part in ((["freze"], "did you mean 'freeze'?"), (["power oper"], "did you mean 'power opr'?"),
-                        (["powr opr"], "did you mean 'power opr'?"), (["xyzzyx"], "which begins with one of pb, tdc"), (["pb 21"], "pb 1..20"),
+                        (["powr opr"], "did you mean 'power opr'?"), (["xyzzyx"], "which begins with one of pb, tdc"),
+                        (["pb 21"], "pb 1..20"),
                         (["pb13"], "did you mean 'pb 13'? See"), (["pb 21"], "did you mean 'pb 20'?"),
                         (["power", "on"], "did you mean 'power opr'?"),
                         (["rage", "inc"], "the range is on buttons of the display: 'pb 13'"),
-                        (["pb", "thirteen"], "yars inject: expected pb 1..20, found \"pb thirteen\"; see yars inject --help")):
+                        (["pb", "thirteen"],
+                         "yars inject: expected pb 1..20, found \"pb thirteen\"; see yars inject --help")):
         done = run(["yars", "inject", *words])
         if done.returncode != 2 or part not in done.stderr or len(done.stderr.splitlines()) != 1:
             faults.append(f"inject {words}: expected {part}, found {done}")
@@ -207,7 +216,8 @@ def main():
     cases = [(words, parts, command.words) for program, command in commands
              for words, parts in cases_of(program, command)]
     if len(cases) < 700:
-        faults.append(f"expected at least 700 wrong command lines, found {len(cases)}: are the help texts read rightly?")
+        faults.append(f"expected at least 700 wrong command lines, found {len(cases)}: "
+                      "are the help texts read rightly?")
     with concurrent.futures.ThreadPoolExecutor(4) as pool:
         faults.extend(filter(None, pool.map(lambda case: refusal(case[0], *case[1], command=case[2]), cases)))
     for program, command in commands:

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Nothing from outside drives the terminal: names, headers, texts and arguments with control characters come out escaped.
+"""Nothing from outside drives the terminal: control characters of names, headers, texts and arguments come out
+escaped.
 
 usage: control_characters_test.py BIN
 """
@@ -95,7 +96,8 @@ def check_scripts(evil):
     recording = evil / f"{EVIL}.yars"
     recording.write_text("")
     start = str(top / "scripts/start")
-    words = [[start, "--record", str(recording)], [start, "--headless", EVIL], [start, "--bin", str(evil)], [start, EVIL],
+    words = [[start, "--record", str(recording)], [start, "--headless", EVIL], [start, "--bin", str(evil)],
+             [start, EVIL],
              [start, "--frames", EVIL, "--bin", "none"],
              [start, "--bin", str(BIN), "--session", "escapes", "--terrain", str(evil), "--config", str(evil / "a.guf"),
               "--log-dir", f"{recording}/x"],

@@ -50,7 +50,8 @@ class Pages(unittest.TestCase):
         settings = (ROOT / "docs" / "Doxyfile").read_text() + "".join(line + "\n" for line in (
             "HAVE_DOT = NO", "USE_MDFILE_AS_MAINPAGE =", "IMAGE_PATH =", "DOTFILE_DIRS =",
             f"INPUT_FILTER = {filter_of(cls.folder.name)} --filter"))
-        cls.run_ = subprocess.run(["doxygen", "-"], input=settings, cwd=source, capture_output=True, text=True, timeout=100)
+        cls.run_ = subprocess.run(["doxygen", "-"], input=settings, cwd=source, capture_output=True, text=True,
+                                  timeout=100)
         cls.pages = pathlib.Path(cls.folder.name) / "html"
 
     @classmethod
@@ -76,7 +77,8 @@ class Pages(unittest.TestCase):
             self.assertEqual([line for line in shown if line], [line for line in written if line])
 
     def test_a_headers_page_links_to_the_line_that_declares_and_the_one_that_defines(self):
-        page = self.page("tick__inputs_8hpp.html") + "".join(p.read_text() for p in self.pages.glob("namespaceyars*.html"))
+        page = self.page("tick__inputs_8hpp.html") + "".join(p.read_text()
+                                                             for p in self.pages.glob("namespaceyars*.html"))
         source = (ROOT / "model/kernel/tick_inputs.cpp").read_text().splitlines()
         line = next(i for i, text in enumerate(source, 1) if "pose_of(const" in text)
         self.assertIn(f"tick__inputs_8cpp_source.html#l{line:05d}", page)
@@ -87,7 +89,8 @@ class Pages(unittest.TestCase):
 
     def test_the_filter_keeps_the_number_of_every_line(self):
         for file in sorted((ROOT / "model").rglob("*.hpp"))[:40] + sorted((ROOT / "model").rglob("*.cpp"))[:40]:
-            out = subprocess.run([sys.executable, str(FILTER), "--filter", str(file)], capture_output=True, text=True, check=True)
+            out = subprocess.run([sys.executable, str(FILTER), "--filter", str(file)], capture_output=True, text=True,
+                                 check=True)
             before, after = file.read_text().splitlines(), out.stdout.splitlines()
             self.assertEqual(len(before), len(after), file)
             same = [i for i, line in enumerate(before) if line.startswith("#include")]
@@ -133,13 +136,16 @@ class Documents(unittest.TestCase):
             drawing = source / "docs" / "architecture.md"
             drawing.write_text(re.sub(r"\\dotfile \S+", "", drawing.read_text(encoding="utf-8")), encoding="utf-8")
             settings = (ROOT / "docs" / "Doxyfile").read_text() + f"HAVE_DOT = NO\nINPUT = {' '.join(documents)}\n"
-            run = subprocess.run(["doxygen", "-"], input=settings, cwd=source, capture_output=True, text=True, timeout=100)
+            run = subprocess.run(["doxygen", "-"], input=settings, cwd=source, capture_output=True, text=True,
+                                 timeout=100)
             self.assertEqual((run.returncode, run.stderr), (0, ""))
             html_folder = pathlib.Path(folder) / "html"
             rules = (html_folder / "md_docs_pilots_manual.html").read_text(encoding="utf-8")
             self.assertIn('id="docs_pilots_manual_rule-5"', rules)
-            self.assertIn("an open air-to-ground radar simulation", (html_folder / "index.html").read_text(encoding="utf-8"))
-            choices = (html_folder / "md_docs_decisions_0013_maps_under_the_pilots_hand.html").read_text(encoding="utf-8")
+            self.assertIn("an open air-to-ground radar simulation",
+                          (html_folder / "index.html").read_text(encoding="utf-8"))
+            choices = (html_folder / "md_docs_decisions_0013_maps_under_the_pilots_hand.html").read_text(
+                encoding="utf-8")
             self.assertIn('href="md_docs_pilots_manual.html#docs_pilots_manual_rule-5"', choices)
 
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A project of somebody else builds against an installed YARS, by pkg-config, and against the Debian packages, by
-find_package(yars) and `import yars`, and its programs run. With YARS_TEST_FULL each is built by each way. The packages are
-unpacked where no compiler looks.
+find_package(yars) and `import yars`, and its programs run. With YARS_TEST_FULL each is built by each way. The packages
+are unpacked where no compiler looks.
 
 usage: foreign_project_test.py CMAKE BUILD CC CXX FLAGS     FLAGS: of the compilers, such as those of the sanitizers
 """
@@ -75,17 +75,22 @@ def unpacked(folder):
     must(cpack, "-G", "DEB", "-B", folder, "-D", f"CPACK_COMPONENTS_ALL={';'.join(PARTS)}",
          "-D", "CPACK_DEBIAN_COMPRESSION_TYPE=none", folder=BUILD)  # compression takes longer than the rest
     packages = sorted(folder.glob("*.deb"))
-    expect("the packages", [path.name.partition("_")[0] for path in packages] == ["libyars-dev", "python3-yars", "yars"], packages)
+    expect("the packages",
+           [path.name.partition("_")[0] for path in packages] == ["libyars-dev", "python3-yars", "yars"], packages)
     for package in packages:
         must("dpkg-deb", "-x", package, folder / "root")
     development, python = (must("dpkg-deb", "-f", package) for package in packages[:2])
-    expect("python3-yars depends on the library of its own version", re.search(r"^Depends: .*yars \(= [\d.]+-1(~\w+)?\)", python, re.M), python)
-    expect("libyars-dev depends on the libraries of its own version", re.search(r"^Depends: yars \(= [\d.]+-1(~\w+)?\)$", development, re.M), development)
+    expect("python3-yars depends on the library of its own version",
+           re.search(r"^Depends: .*yars \(= [\d.]+-1(~\w+)?\)", python, re.M), python)
+    expect("libyars-dev depends on the libraries of its own version",
+           re.search(r"^Depends: yars \(= [\d.]+-1(~\w+)?\)$", development, re.M), development)
     package = packages[2]
     fields = must("dpkg-deb", "-f", package)
     files = must("dpkg-deb", "-c", package)
-    expect("the package yars has nothing of the others", not re.search(r"dist-packages|plot-trade|/include/|/cmake/yars/|\.pc$|\.a$|\.so ->", files, re.M), files)
-    expect("the package depends on what the library is linked with", "libepoxy0" in fields and "libspdlog" in fields, fields)
+    expect("the package yars has nothing of the others",
+           not re.search(r"dist-packages|plot-trade|/include/|/cmake/yars/|\.pc$|\.a$|\.so ->", files, re.M), files)
+    expect("the package depends on what the library is linked with", "libepoxy0" in fields and "libspdlog" in fields,
+           fields)
     control = must("dpkg-deb", "-I", package)
     expect("the package has ldconfig run", "triggers" in control and "shlibs" in control, control)
     return folder / "root/usr"
@@ -101,9 +106,11 @@ def check_radar(how, program, **environment):
     expect(f"{how}: first_picture runs", done.returncode == 0, done)
     for command in (["scan", "--range-nm", "20"], ["patch", "--window-nm", "1.3"]):
         wanted = json.loads(must(BUILD / "bin/yars", *command, "--json"))["hash"]
-        expect(f"{how}: first_picture has the hash of yars {command[0]}", f"hash {wanted}\n" in done.stdout, done.stdout)
+        expect(f"{how}: first_picture has the hash of yars {command[0]}", f"hash {wanted}\n" in done.stdout,
+               done.stdout)
     absent = run(program, "/nowhere", **environment)
-    expect(f"{how}: first_picture says what is wrong", absent.returncode == 1 and "/nowhere: expected a directory" in absent.stderr, absent)
+    expect(f"{how}: first_picture says what is wrong",
+           absent.returncode == 1 and "/nowhere: expected a directory" in absent.stderr, absent)
 
 
 def check_picture(how, path):
@@ -121,7 +128,8 @@ def check_picture(how, path):
 def check_programs(how, folder, prefix, **environment):
     """The embedding program makes the session; meanwhile the client in C and the one in Python take part in it."""
     alone = run(folder / "fly", SESSION, folder=folder)
-    expect(f"{how}: the client in C without a session", alone.returncode == 1 and "no such session" in alone.stderr, alone)
+    expect(f"{how}: the client in C without a session", alone.returncode == 1 and "no such session" in alone.stderr,
+           alone)
     # The library finds a configuration that came with YARS from where it lies itself.
     host = subprocess.Popen([folder / "host_display", SESSION, folder / "scene.ppm", "3", "apg68.guf"], text=True,
                             stderr=subprocess.PIPE, env={**ENVIRONMENT, **environment})
@@ -135,7 +143,8 @@ def check_programs(how, folder, prefix, **environment):
                     f"import yars; print(yars.Session('{SESSION}', 'foreign').set_runs())"):
         python = run(sys.executable, "-B", "-c", program, folder=folder, PYTHONPATH=modules)
         expect(f"{how}: the client in Python takes part", python.stdout == "False\n", python)
-    example = run(sys.executable, "-B", prefix / "share/doc/yars/examples/fly.py", SESSION, folder=folder, PYTHONPATH=modules)
+    example = run(sys.executable, "-B", prefix / "share/doc/yars/examples/fly.py", SESSION, folder=folder,
+                  PYTHONPATH=modules)
     expect(f"{how}: the example in Python takes part", example.returncode == 0, example)
     errors = host.communicate(timeout=240)[1]
     expect(f"{how}: the embedding program", host.returncode == 0, errors)
@@ -184,13 +193,15 @@ def by_pkg_config(folder, prefix, kind):
     must(CXX, *FLAGS, "-std=c++20", "-Wall", "-Wextra", "-Wpedantic", "-Werror", examples / "first_picture.cpp",
          *of("--cflags", "--libs", "yars-radar"), "-o", built / "first_picture")
     check_radar(f"{kind}, pkg-config", built / "first_picture", LD_LIBRARY_PATH=library)
-    static = ["-l:libyars-radar.a" if word == "-lyars-radar" else word for word in of("--static", "--cflags", "--libs", "yars-radar")]
+    static = ["-l:libyars-radar.a" if word == "-lyars-radar" else word
+              for word in of("--static", "--cflags", "--libs", "yars-radar")]
     must(CXX, *FLAGS, "-std=c++20", examples / "first_picture.cpp", *static, "-o", built / "static_picture")
     check_radar(f"{kind}, static", built / "static_picture")
     for compiler, name, more in ((CC, "strict.c", ["-std=c99", "-pedantic"]),
                                  (CXX, "strict.cpp", ["-std=c++11", "-Wno-missing-field-initializers"])):
         (built / name).write_text(STRICT)
-        must(compiler, *FLAGS, *more, "-Wall", "-Wextra", "-Werror", built / name, *display, *client_library, "-o", built / "strict")
+        must(compiler, *FLAGS, *more, "-Wall", "-Wextra", "-Werror", built / name, *display, *client_library,
+             "-o", built / "strict")
         strict = run(built / "strict", LD_LIBRARY_PATH=library)
         expect(f"{kind}: {name}", strict.returncode == 0, strict)
 
@@ -203,18 +214,23 @@ def check_symbols(prefix):
         declared = set(re.findall(rf"^YARS_{name.upper()}_API.*?(yars_{name}_\w+)\(", header, re.M))
         expect(f"functions of libyars-{name}", len(declared) > 10 and shown == declared, sorted(shown ^ declared)[:20])
     needed = re.findall(r"Shared library: \[(.*?)[.-]", must("readelf", "-d", library_of(prefix, "client")))
-    expect("libyars-client needs the C++ library alone", {"libc", "libstdc++"} <= set(needed) <= {"libc", "libstdc++", "libgcc_s", "libm", "ld"}, needed)
-    shown = {line.split(" ", 2)[-1] for line in must("nm", "-DC", "--defined-only", library_of(prefix, "radar")).splitlines()}
-    of_classes = {name for name in shown if re.match(r"(typeinfo.* for )?yars::(Error|Patch|Radar|Recording|Scan|Scene|Terrain)\b", name)}
+    expect("libyars-client needs the C++ library alone",
+           {"libc", "libstdc++"} <= set(needed) <= {"libc", "libstdc++", "libgcc_s", "libm", "ld"}, needed)
+    shown = {line.split(" ", 2)[-1]
+             for line in must("nm", "-DC", "--defined-only", library_of(prefix, "radar")).splitlines()}
+    of_classes = {name for name in shown
+                  if re.match(r"(typeinfo.* for )?yars::(Error|Patch|Radar|Recording|Scan|Scene|Terrain)\b", name)}
     expect("names of libyars-radar", len(shown) > 40 and shown == of_classes, sorted(shown - of_classes)[:20])
 
 
 def check_refusals(folder):
     """Where only the headers are installed, and another version."""
     prefix = installed(folder, PARTS[:1])
-    major, minor = re.search(r"VERSION (\d+)\.(\d+)", (SOURCE / "CMakeLists.txt").read_text().partition("project(")[2]).groups()
+    major, minor = re.search(r"VERSION (\d+)\.(\d+)",
+                             (SOURCE / "CMakeLists.txt").read_text().partition("project(")[2]).groups()
     for number, (wanted, good) in enumerate(((f"{major}.{minor} REQUIRED COMPONENTS client", True), ("REQUIRED", True),
-                                             (f"{major}.{minor} REQUIRED COMPONENTS display", False), ("0.1 REQUIRED", False),
+                                             (f"{major}.{minor} REQUIRED COMPONENTS display", False),
+                                             ("0.1 REQUIRED", False),
                                              ("1.0 REQUIRED", False))):
         project = folder / f"wants_{number}"
         project.mkdir()
@@ -228,17 +244,21 @@ def check_python(prefix):
     looks = run("/usr/bin/python3", "-c", "import sys; print(*sys.path, sep='\\n')").stdout.splitlines()
     at = [path for path in looks if (prefix.parent / path.lstrip("/") / "yars/session.py").is_file()]
     trade, value = prefix / "trade.json", {"mean": 1.0, "worst": 2.0}
-    trade.write_text(json.dumps({"axes": {"time": {"column": "ms", "title": "time"}, "errors": [{"column": "m", "title": "error"}] * 2},
-                                 "points": [{"point": "one", "family": "preset", "ms": value, "m": value}]}))
+    trade.write_text(json.dumps(
+        {"axes": {"time": {"column": "ms", "title": "time"}, "errors": [{"column": "m", "title": "error"}] * 2},
+         "points": [{"point": "one", "family": "preset", "ms": value, "m": value}]}))
     drawn = run("/usr/bin/python3", "-B", prefix / "bin/yars-plot-trade", trade, prefix / "trade.png")
-    expect("yars-plot-trade finds yars.plot beside it", (prefix / "trade.png").is_file() or "install the Debian package" in drawn.stderr, drawn)
-    by_itself = run("/usr/bin/python3", "-B", "-I", "-c", "import sys; sys.path.insert(0, sys.argv[1]); from yars.session import Session; "
+    expect("yars-plot-trade finds yars.plot beside it",
+           (prefix / "trade.png").is_file() or "install the Debian package" in drawn.stderr, drawn)
+    by_itself = run("/usr/bin/python3", "-B", "-I",
+                    "-c", "import sys; sys.path.insert(0, sys.argv[1]); from yars.session import Session; "
                     "print('numpy' in sys.modules)", prefix / "lib/python3/dist-packages")
     expect("the session client needs no NumPy", by_itself.stdout == "False\n", by_itself)
     expect("yars/session.py where Debian's python3 looks", at == ["/usr/lib/python3/dist-packages"], looks)
 
 
-expect("README has the example of the library", "```cpp\n" + (SOURCE / "examples/first_picture.cpp").read_text() + "```" in (SOURCE / "README.md").read_text())
+expect("README has the example of the library",
+       "```cpp\n" + (SOURCE / "examples/first_picture.cpp").read_text() + "```" in (SOURCE / "README.md").read_text())
 with tempfile.TemporaryDirectory(dir=BUILD) as top:
     top = pathlib.Path(top)
     for kind in ("tree", "deb", "headers"):

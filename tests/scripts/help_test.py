@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What bash, zsh and fish offer with the completions of this build, and what man shows of its pages. Shells that are not
-installed are left out.
+"""What bash, zsh and fish offer with the completions of this build, and what man shows of its pages. Shells that are
+not installed are left out.
 
 usage: help_test.py BUILD
 """
@@ -88,7 +88,8 @@ def zsh(line, folder):
       zpty -d one
     """
     for wait in ("0.5", "4"):  # on a loaded machine again
-        done = subprocess.run(["zsh", "-f", "-c", script.format(wait)], capture_output=True, text=True, timeout=120, cwd=folder)
+        done = subprocess.run(["zsh", "-f", "-c", script.format(wait)], capture_output=True, text=True, timeout=120,
+                              cwd=folder)
         words = {word.rstrip("/") for word in out.read_text().split("\n") if word}
         if words:
             break
@@ -99,12 +100,14 @@ def fish(line, folder):
     script = f"source {shlex.quote(str(HELP))}/fish/vendor_completions.d/{line.split()[0]}.fish; complete -C '{line}'"
     done = subprocess.run(["fish", "-c", script], capture_output=True, text=True, timeout=60, cwd=folder)
     # fish repeats the whole word: --out=a.guf, csv:a.guf.
-    return {re.sub("^(--[a-z]+=|[a-z]+:(?=.))", "", row.split("\t")[0]).rstrip("/") for row in done.stdout.splitlines()}, done
+    return {re.sub("^(--[a-z]+=|[a-z]+:(?=.))", "", row.split("\t")[0]).rstrip("/")
+            for row in done.stdout.splitlines()}, done
 
 
 def check_pages():
     """Each page is without a fault, and has the options of its program."""
-    for program, words in (("yars", ("yars scan", "range-nm")), ("radar-model", ("fidelity",)), ("yars-start", ("web",)), ("yars-station", ("port",))):
+    for program, words in (("yars", ("yars scan", "range-nm")), ("radar-model", ("fidelity",)),
+                           ("yars-start", ("web",)), ("yars-station", ("port",))):
         text = gzip.open(HELP / f"man/man1/{program}.1.gz", "rt").read()
         for word in words:
             if word not in text:
@@ -112,7 +115,8 @@ def check_pages():
     if shutil.which("mandoc"):
         for page in sorted(HELP.rglob("man/*/*.gz")):
             text = gzip.open(page, "rt").read()
-            done = subprocess.run(["mandoc", "-T", "lint", "-W", "error"], input=text, capture_output=True, text=True, timeout=60, check=False)
+            done = subprocess.run(["mandoc", "-T", "lint", "-W", "error"], input=text, capture_output=True, text=True,
+                                  timeout=60, check=False)
             if done.returncode:
                 faults.append(f"{page.name}: {done.stdout[:500]}")
 
@@ -129,8 +133,8 @@ def main():
             for line, offered, absent in CASES:
                 found, done = shell(line, folder)
                 if not offered <= found or absent & found:
-                    faults.append(f"{shell.__name__}: {line!r}: expected {offered} without {absent}, found {sorted(found)[:20]}"
-                                  f" {done.stderr[-300:]}")
+                    faults.append(f"{shell.__name__}: {line!r}: expected {offered} without {absent}, "
+                                  f"found {sorted(found)[:20]} {done.stderr[-300:]}")
     print("\n".join(faults) or f"{len(CASES)} lines in {', '.join(shell.__name__ for shell in shells)}")
     return 1 if faults else 0
 

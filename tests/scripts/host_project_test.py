@@ -40,7 +40,8 @@ with tempfile.TemporaryDirectory() as folder:
     (folder / "mine.c").write_text(CLIENT)
     run(CMAKE, "-G", "Ninja", "-S", folder, "-B", folder / "build", f"-DCMAKE_CXX_COMPILER={CXX}")
     targets = run("ninja", "-C", folder / "build", "-t", "targets", "all")
-    objects = [line.split(":")[0] for line in targets.splitlines() if "host_display.cpp.o:" in line or "mine.c.o:" in line]
+    objects = [line.split(":")[0] for line in targets.splitlines() if "host_display.cpp.o:" in line or
+               "mine.c.o:" in line]
     run("ninja", "-C", folder / "build", *objects)
     # Tests, installation and package of this tree are no business of a host's.
     if "test_endtoend" in targets or "compressed_documents" in targets:

@@ -19,7 +19,8 @@ faults = []
 
 
 def run(*command, folder):
-    return subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True, timeout=300, check=False)
+    return subprocess.run([str(word) for word in command], cwd=folder, capture_output=True, text=True, timeout=300,
+                          check=False)
 
 
 def expect(what, good, found=""):
@@ -39,10 +40,12 @@ def start(prefix, elsewhere):
     expect("yars-start flies and draws", begun.returncode == 0 and len(frames) >= 3, begun)
     expect("yars-start keeps logs", (elsewhere / "logs/radar-model.log").is_file(), begun)
     unknown = run(prefix / "bin/yars-start", "--nonsense", folder=elsewhere)
-    expect("yars-start says its own name", unknown.returncode == 2 and unknown.stderr.startswith("yars-start: "), unknown)
+    expect("yars-start says its own name", unknown.returncode == 2 and unknown.stderr.startswith("yars-start: "),
+           unknown)
     for unit in ("yars.service", "yars@.service"):
         text = (prefix / "lib/systemd/user" / unit).read_text()
-        expect(f"{unit} starts what is installed", "exec yars-start --session" in text and "YARS_HOME" not in text, text)
+        expect(f"{unit} starts what is installed", "exec yars-start --session" in text and "YARS_HOME" not in text,
+               text)
 
 
 def check(prefix, elsewhere):
@@ -68,12 +71,14 @@ def check(prefix, elsewhere):
     other_radar = run(prefix / "bin/yars", "--config", "apg68.guf", "config", "print", folder=elsewhere)
     expect("a configuration by its bare name", '"APG-68"' in other_radar.stdout, other_radar.stderr)
     network = run(prefix / "bin/yars", "config", "print", "network.guf", folder=elsewhere)
-    expect("config print has the network of a file", "( Network\n" in network.stdout and '"10.77.0.2"' in network.stdout, network)
+    expect("config print has the network of a file",
+           "( Network\n" in network.stdout and '"10.77.0.2"' in network.stdout, network)
     expect("a file without the form has no network", "( Network\n" not in other_radar.stdout)
     checked = run(prefix / "bin/yars", "config", "check", "apg68.guf", folder=elsewhere)
     expect("config check finds what --config finds", checked.returncode == 0 and "valid" in checked.stdout, checked)
     absent = run(prefix / "bin/yars", "--config", "absent.guf", "config", "print", folder=elsewhere)
-    expect("an absent configuration keeps its name", absent.returncode == 1 and "yars: absent.guf:" in absent.stderr, absent)
+    expect("an absent configuration keeps its name", absent.returncode == 1 and "yars: absent.guf:" in absent.stderr,
+           absent)
     route = run(prefix / "bin/flight-model", "--session", f"installed-{os.getpid()}", "--source", "route:default.route",
                 "--lockstep", "flight-model@3", folder=elsewhere)
     expect("a route by its bare name", route.returncode == 0, route.stderr)

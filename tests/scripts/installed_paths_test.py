@@ -22,7 +22,8 @@ LINK = re.compile(r"\]\(([^)\s#]+)(?:#[^)\s]*)?\)")
 # Who made a file is a fact about the sources.
 PROVENANCE = re.compile(r"[Gg]enerated by|Made by|^\s*(?:#|\.\\\"|;|//) ?(?:begin|end): ", re.M)
 OF_SOURCES = re.compile(r"SOURCES/((?:[\w*@-]|[./](?=[\w*@-]))*)")
-BELOW_PREFIX = re.compile(r"(?<![\w./<~$=-])(?:/usr/(?=[\w./-]*yars))?((?:share|libexec|include|lib/(?:systemd|cmake|pkgconfig|python3))"
+BELOW_PREFIX = re.compile(
+    r"(?<![\w./<~$=-])(?:/usr/(?=[\w./-]*yars))?((?:share|libexec|include|lib/(?:systemd|cmake|pkgconfig|python3))"
                           r"/(?:[\w@-]|[./](?=[\w@-]))*)")
 HEADER = re.compile(r"(?<![\w/])<?yars/(yars\w*\.h)\b")
 PAGE = re.compile(r"^\.Xr ([\w.-]+) (\d)", re.M)
@@ -32,7 +33,8 @@ def texts(prefix):
     """(path below the prefix, text) of all that is no program, picture or library."""
     for path in sorted(path for path in prefix.rglob("*") if path.is_file()):
         place = path.relative_to(prefix)
-        if place.parts[0] in ("bin", "libexec") or path.suffix in (".png", ".webp", ".ico", ".a") or ".so." in path.name or path.suffix == ".so":
+        if (place.parts[0] in ("bin", "libexec") or path.suffix in (".png", ".webp", ".ico", ".a") or
+                ".so." in path.name or path.suffix == ".so"):
             continue
         opened = gzip.open(path, "rt", encoding="utf-8") if path.suffix == ".gz" else open(path, encoding="utf-8")
         with opened as file:

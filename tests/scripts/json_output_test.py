@@ -25,8 +25,8 @@ def expect(what, good, found=""):
 
 
 def run(*words, code=0):
-    done = subprocess.run([str(BIN / "yars"), "--session", SESSION, *words], capture_output=True, text=True, timeout=300,
-                          stdin=subprocess.DEVNULL)
+    done = subprocess.run([str(BIN / "yars"), "--session", SESSION, *words], capture_output=True, text=True,
+                          timeout=300, stdin=subprocess.DEVNULL)
     expect(words, done.returncode == code, done)
     return done
 
@@ -53,7 +53,8 @@ def offline():
     made = object_of("terrain", "generate", "--out", "cells", "--south", "36", "--west", "-124", "--cells-lat", "1",
                      "--cells-lon", "1", "--level", "0", "--json")
     expect("terrain generate", made.get("files") == 1, made)
-    by_option, by_argument = (object_of("terrain", "info", *words, "--json") for words in (["--terrain", "cells"], ["cells"]))
+    by_option, by_argument = (object_of("terrain", "info", *words, "--json")
+                              for words in (["--terrain", "cells"], ["cells"]))
     expect("terrain info", by_option == by_argument and by_option.get("total", {}).get("cells") == 1, by_option)
     expect("terrain info", by_option["cells"][0]["file"].startswith("cells/"), by_option)
     packed = object_of("terrain", "pack", "--in", "cells", "--out", "packed", "--json")
@@ -74,14 +75,16 @@ def offline():
     place = ["--terrain", "cells", "--lat", "36.5", "--lon", "-123.5"]
     scan = object_of("scan", *place, "--samples", "32", "--json")
     expect("scan", scan.get("samples") == 32, scan)
-    patch = ["patch", *place, "--target-lat", "36.6", "--target-lon", "-123.3", "--heading", "30", "--size", "32", "--force"]
+    patch = ["patch", *place, "--target-lat", "36.6", "--target-lon", "-123.3", "--heading", "30", "--size", "32",
+             "--force"]
     expect("patch", object_of(*patch, "--json").get("cpu_ms", 0) > 0)
     before = sorted(os.listdir("."))
     nothing = object_of("scan", *place, "--samples", "32", "--out", "none", "--shadow", "none", "--json")
     expect("scan --out none", nothing["hash"] == scan["hash"] and nothing["cpu_ms"] > 0, nothing)
     object_of(*patch, "--out", "none", "--json")
     expect("--out none", sorted(os.listdir(".")) == before, os.listdir("."))
-    for words, begin, facts in ((["scan", *place, "--samples", "32"], "scan    ", scan), (patch, "map     ", object_of(*patch, "--json"))):
+    for words, begin, facts in ((["scan", *place, "--samples", "32"], "scan    ", scan),
+                                (patch, "map     ", object_of(*patch, "--json"))):
         shown = run(*words).stdout
         expect(words[:1], shown.startswith(begin) and f"hash    {facts['hash']}\n" in shown and " % " in shown, shown)
     object_of("trade", *place[:2], "--presets", "draft", "--repeat", "1", "--ruler-samples", "16", "--json")
@@ -105,8 +108,8 @@ def progress():
     command = [str(BIN / "yars"), "terrain", "convert", "--in", "cells", "--out", "shown"]
     piped = subprocess.run(command, capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL)
     expect("a pipe", "1/1" not in piped.stdout + piped.stderr and "\x1b" not in piped.stdout + piped.stderr, piped)
-    shown = subprocess.run(["script", "-qec", shlex.join(command), "/dev/null"], capture_output=True, text=True, timeout=120,
-                           stdin=subprocess.DEVNULL)
+    shown = subprocess.run(["script", "-qec", shlex.join(command), "/dev/null"], capture_output=True, text=True,
+                           timeout=120, stdin=subprocess.DEVNULL)
     expect("a terminal", "1/1  shown/w124/n36.dt0" in shown.stdout, shown)
     info = shlex.join([str(BIN / "yars"), "terrain", "info", "cells", "--json"])
     for terminal, escapes in (("xterm", True), ("dumb", False)):
@@ -125,11 +128,13 @@ def world():
             time.sleep(0.05)
         configured = object_of("world", "--json")
         expect("world", configured["configured"] and configured["sea_state"] is None, configured)
-        for words in (["sea", "3"], ["wind", "20", "90"], ["rain", "add", "37", "-122"], ["jammer", "add", "37", "-122"],
-                      ["mover", "add", "37", "-122"], ["mover", "steer", "3", "5", "90"]):
+        for words in (["sea", "3"], ["wind", "20", "90"], ["rain", "add", "37", "-122"],
+                      ["jammer", "add", "37", "-122"], ["mover", "add", "37", "-122"],
+                      ["mover", "steer", "3", "5", "90"]):
             changed = object_of("world", *words, "--json")
         for kind in ("rain", "jammers", "movers"):
-            expect("world", len(changed[kind]) == 1 and all(f"`{field}`" in DOCUMENT.read_text() for field in changed[kind][0]), changed)
+            expect("world", len(changed[kind]) == 1 and
+                   all(f"`{field}`" in DOCUMENT.read_text() for field in changed[kind][0]), changed)
         expect("world", (changed["edit"], changed["sea_state"], changed["movers"][0]["id"]) == (6, 3, 3), changed)
         expect("world reset", object_of("world", "reset", "--json")["rain"] == [])
     finally:
@@ -139,7 +144,8 @@ def world():
 
 def session():
     """Commands of a session, with the state machine alone."""
-    pathlib.Path("route.guf").write_text('( Apg70 )\n( Route :points `( ( Point "1" 37 -122 0 ) ( Point "3.01" 38 -122 0 ) ) )\n')
+    pathlib.Path("route.guf").write_text('( Apg70 )\n'
+                                         '( Route :points `( ( Point "1" 37 -122 0 ) ( Point "3.01" 38 -122 0 ) ) )\n')
     machine = subprocess.Popen([str(BIN / "state-machine"), "--session", SESSION, "--config", "route.guf"],
                                stderr=subprocess.PIPE, text=True)
     try:

@@ -92,7 +92,8 @@ class Program:
         end = time.monotonic() + WATCHDOG_S
         while text not in self.shown[self.seen:]:
             if time.monotonic() > end or not self.read(0.2):
-                raise AssertionError(f"expected {text!r} in:\n{self.shown[self.seen:]}\nafter:\n{self.shown[:self.seen]}")
+                raise AssertionError(f"expected {text!r} in:\n{self.shown[self.seen:]}\nafter:\n"
+                                     f"{self.shown[:self.seen]}")
         self.seen = self.shown.index(text, self.seen) + len(text)
 
     def type(self, keys):
@@ -235,8 +236,8 @@ class Learn(unittest.TestCase):
         self.assertNotIn("unplugged", program.shown)
 
     def test_letters_on_lines_without_a_terminal(self):
-        process = subprocess.Popen([str(BIN / "input-monitor"), "--learn", str(self.device.path)], stdin=subprocess.PIPE,
-                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen([str(BIN / "input-monitor"), "--learn", str(self.device.path)],
+                                   stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
         self.addCleanup(lambda: process.poll() is None and process.kill())
         self.device.open()
         self.device.press(0x120)

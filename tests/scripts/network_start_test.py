@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""`--roles` and `--network` of the start script: which programs start, in which order, with which arguments, and how they end.
+"""`--roles` and `--network` of the start script: which programs start, in which order, with which arguments,
+and how they end.
 
 usage: network_start_test.py
 The command runs as it is installed, with programs that stand in for the real ones: each writes down
-its arguments when it starts and its name when it ends. `yars status` says that the gateway has joined, of a degraded set, when a file is there.
+its arguments when it starts and its name when it ends.
+`yars status` says that the gateway has joined, of a degraded set, when a file is there.
 """
 import pathlib
 import re
@@ -28,7 +30,9 @@ while [ "${1#--}" != "$1" ]; do shift 2; done
 case "$1 $2" in
   "config user"|"config check") ;;
   "config print") cat "$3" ;;
-  "status --json") [ -e "$YARS_TEST_LOG.joined" ] && grep -q ^gateway "$YARS_TEST_LOG" && { echo '{"network": {"joined": true}}'; exit 3; } ;;
+  "status --json")
+    [ -e "$YARS_TEST_LOG.joined" ] && grep -q ^gateway "$YARS_TEST_LOG" &&
+      { echo '{"network": {"joined": true}}'; exit 3; } ;;
   *) exit 1 ;;
 esac
 """
@@ -74,10 +78,12 @@ class Place(tour_start_test.Place):
 
 def the_gateway_is_first_and_last(place):
     text = place.run_until(3, "--roles", "radar-model,state-machine")
-    assert place.begun()[0] == "gateway" and sorted(place.begun()) == ["gateway", "radar-model", "state-machine"], place.begun()
+    assert (place.begun()[0] == "gateway" and
+            sorted(place.begun()) == ["gateway", "radar-model", "state-machine"]), place.begun()
     assert place.ended()[-1] == "gateway" and len(place.ended()) == 3, place.ended()
     gateway = place.lines("gateway")[0]
-    assert f"--network {place.folder}/network.guf" in gateway and f"--terrain {place.folder}/terrain" in gateway, gateway
+    assert (f"--network {place.folder}/network.guf" in gateway and
+            f"--terrain {place.folder}/terrain" in gateway), gateway
     for role in ("radar-model", "state-machine"):
         assert "--standby" in place.lines(role)[0], place.lines(role)
     assert "no frames; they run until they are interrupted" in text and "Frames go to" not in text, text
@@ -144,7 +150,8 @@ def lockstep_names_the_roles_of_all_computers(place):
 
 
 def what_is_refused(place):
-    for words, part in ((["--roles", "radar"], "--roles: expected some of flight-model, "), (["--roles", ""], "found ''"),
+    for words, part in ((["--roles", "radar"], "--roles: expected some of flight-model, "),
+                        (["--roles", ""], "found ''"),
                         (["--roles", "radar-model,"], "found radar-model,"),
                         (["--roles", "radar-model", "--frames", "x"], "--frames: expected radar-display among --roles"),
                         (["--network", "absent"], "--network: expected a file that can be read"),

@@ -2,8 +2,8 @@
 """Sets of one session that start at once: one lives, the others end with code 1 and start nothing.
 
 usage: one_set_test.py
-With the stand-ins for the programs of tour_start_test.py, which take part in no session: nothing but the set's lock keeps
-one from the other.
+With the stand-ins for the programs of tour_start_test.py, which take part in no session: nothing but the set's lock
+keeps one from the other.
 """
 import os
 import pathlib

@@ -21,17 +21,19 @@ def value(mean, worst=None):
 
 def crowd():
     """Sixteen points in one place, as knobs that cost nothing give, and the exact one far off."""
-    points = [{"point": f"knob{i % 4}={i}", "family": f"knob{i % 4}", "ms": value(2.5 + 0.01 * i), "gray": value(12.0 + 0.1 * i, 20.0),
-               "shadow": value(1.4, 3.2)} for i in range(16)]
+    points = [{"point": f"knob{i % 4}={i}", "family": f"knob{i % 4}", "ms": value(2.5 + 0.01 * i),
+               "gray": value(12.0 + 0.1 * i, 20.0), "shadow": value(1.4, 3.2)} for i in range(16)]
     points.append({"point": "1996", "family": "preset", "ms": value(0.7), "gray": value(130.0), "shadow": value(None)})
-    points.append({"point": "reference", "family": "preset", "ms": value(2300.0), "gray": value(0.0), "shadow": value(0.0)})
+    points.append({"point": "reference", "family": "preset", "ms": value(2300.0), "gray": value(0.0),
+                   "shadow": value(0.0)})
     return {"axes": {"time": {"column": "ms", "title": "time"}, "errors": [{"column": "gray", "title": "gray"},
                                                                          {"column": "shadow", "title": "shadow"}]},
             "scenes": ["one"], "points": points}
 
 
 def run(*arguments):
-    done = subprocess.run([sys.executable, str(PLOT), *arguments], capture_output=True, text=True, timeout=120, check=False)
+    done = subprocess.run([sys.executable, str(PLOT), *arguments], capture_output=True, text=True, timeout=120,
+                          check=False)
     return done.returncode, done.stderr
 
 
@@ -46,7 +48,8 @@ class PlotTrade(unittest.TestCase):
                     self.assertTrue(apart, (one, other))
 
     def test_the_front_is_what_no_other_point_beats_in_both(self):
-        self.assertEqual(plot_trade.drawing().pareto_front([(2, 5), (1, 9), (3, 6), (4, 1), (2, 7)]), [(1, 9), (2, 5), (4, 1)])
+        self.assertEqual(plot_trade.drawing().pareto_front([(2, 5), (1, 9), (3, 6), (4, 1), (2, 7)]),
+                         [(1, 9), (2, 5), (4, 1)])
 
     def test_a_picture_is_written(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -64,7 +67,8 @@ class PlotTrade(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             broken = pathlib.Path(folder, "broken.json")
             broken.write_text('{"points": [1]}')
-            for arguments in ([], ["a.json"], ["a.json", "a.txt"], [str(pathlib.Path(folder, "none.json")), "a.png"], [str(broken), "a.png"]):
+            for arguments in ([], ["a.json"], ["a.json", "a.txt"], [str(pathlib.Path(folder, "none.json")), "a.png"],
+                              [str(broken), "a.png"]):
                 status, said = run(*arguments)
                 self.assertEqual(status, 1)
                 self.assertEqual(said.count("\n"), 1, said)

@@ -14,7 +14,8 @@ sys.dont_write_bytecode = True
 PACKAGE = pathlib.Path(__file__).resolve().parents[2] / "python"
 sys.path.insert(0, str(PACKAGE))
 if importlib.util.find_spec("numpy") is None or importlib.util.find_spec("matplotlib") is None:
-    print("python_plot_test: skipped: python3-numpy or python3-matplotlib is not installed; scripts/setup --python brings them")
+    print("python_plot_test: skipped: python3-numpy or python3-matplotlib is not installed; "
+          "scripts/setup --python brings them")
     sys.exit(77)
 import matplotlib  # noqa: E402
 import numpy  # noqa: E402
@@ -24,8 +25,8 @@ from matplotlib import pyplot  # noqa: E402
 
 from yars import plot  # noqa: E402
 
-UNITS = {"power": "1", "height": "m MSL", "slant_range": "m", "ground_range": "m", "azimuth": "deg", "latitude": "deg", "longitude": "deg",
-         "grazing_angle": "deg"}
+UNITS = {"power": "1", "height": "m MSL", "slant_range": "m", "ground_range": "m", "azimuth": "deg", "latitude": "deg",
+         "longitude": "deg", "grazing_angle": "deg"}
 DEGREE_M = 111195.0  # [m] of latitude
 APEX = (37.0, -122.0)
 
@@ -33,9 +34,10 @@ APEX = (37.0, -122.0)
 def with_arrays(shape, **more):
     """A result with every array that scans and patches have."""
     ramp = numpy.linspace(0.0, 1.0, shape[0] * shape[1]).reshape(shape)
-    arrays = {"power": (ramp + 1e-3).astype("f4"), "video": (255 * ramp).astype("u1"), "shadow": (ramp > 0.5).astype("u1"),
-              "layover": (ramp < 0.1).astype("u1"), "height": ramp * 900, "grazing_angle": 90 * ramp, "slant_range": 1000 * ramp,
-              "object": numpy.full(shape, -1, "i4"), "material": numpy.zeros(shape, "u1"), "units": dict(UNITS)}
+    arrays = {"power": (ramp + 1e-3).astype("f4"), "video": (255 * ramp).astype("u1"),
+              "shadow": (ramp > 0.5).astype("u1"), "layover": (ramp < 0.1).astype("u1"), "height": ramp * 900,
+              "grazing_angle": 90 * ramp, "slant_range": 1000 * ramp, "object": numpy.full(shape, -1, "i4"),
+              "material": numpy.zeros(shape, "u1"), "units": dict(UNITS)}
     return types.SimpleNamespace(**{**arrays, **more})
 
 
@@ -97,7 +99,8 @@ class Ppi(Pictures):
         ax = self.drawn(plot.ppi(made_up_scan()))
         corners = ax.collections[0].get_coordinates()
         self.assertEqual(corners.shape, (102, 81, 2))
-        self.assertTrue(numpy.allclose(corners[:, 0], 0.0, atol=1e-9))  # the unknown nearest samples reach to the aircraft
+        # the unknown nearest samples reach to the aircraft
+        self.assertTrue(numpy.allclose(corners[:, 0], 0.0, atol=1e-9))
         far = corners[:, -1]
         self.assertTrue(numpy.allclose(numpy.hypot(*far.T), 40.0, rtol=1e-6))
         self.assertAlmostEqual(far[0, 0], -40.0 * math.sin(math.radians(50.5)), places=6)
@@ -141,10 +144,13 @@ class Ppi(Pictures):
     def test_bad_arguments_are_value_errors(self):
         scan = made_up_scan()
         for bad, said in ((lambda: plot.ppi(scan, quantity="colour"), "expected one of video, power"),
-                          (lambda: plot.ppi(types.SimpleNamespace(**{**vars(scan), "azimuth": scan.azimuth[1:]})), "each of its 101 sweeps"),
-                          (lambda: plot.ppi(types.SimpleNamespace(**{**vars(scan), "ground_range": scan.ground_range * numpy.nan})),
+                          (lambda: plot.ppi(types.SimpleNamespace(**{**vars(scan), "azimuth": scan.azimuth[1:]})),
+                           "each of its 101 sweeps"),
+                          (lambda: plot.ppi(types.SimpleNamespace(
+                              **{**vars(scan), "ground_range": scan.ground_range * numpy.nan})),
                            "a sweep with at least two known samples"),
-                          (lambda: plot.ppi(types.SimpleNamespace(**{**vars(scan), "units": {"ground_range": "ft"}})), "found 'ft'")):
+                          (lambda: plot.ppi(types.SimpleNamespace(**{**vars(scan), "units": {"ground_range": "ft"}})),
+                           "found 'ft'")):
             with self.assertRaises(ValueError) as caught:
                 bad()
             self.assertIn(said, str(caught.exception))
@@ -191,7 +197,8 @@ class Map(Pictures):
         water, land = plot.map(Terrain(), bounds=(36.0, -123.0, 37.0, -121.0), posts=101).collections[:2]
         void = numpy.zeros((101, 101), bool)
         void[:35] = True
-        self.assertTrue((water.get_array().mask.reshape(101, 101) & land.get_array().mask.reshape(101, 101) == void).all())
+        self.assertTrue(
+            (water.get_array().mask.reshape(101, 101) & land.get_array().mask.reshape(101, 101) == void).all())
 
     def test_open_sea_has_no_coast(self):
         with warnings.catch_warnings():
@@ -217,10 +224,12 @@ class TradeFront(Pictures):
         def value(mean):
             return {"mean": mean, "worst": mean if mean is None else 2 * mean}
 
-        points = [{"point": name, "family": "preset", "ms": value(ms), "gray": value(gray), "shadow": value(shadow)} for name, ms, gray, shadow
-                  in (("1996", 1.0, 100.0, None), ("draft", 2.0, 30.0, 5.0), ("slow", 3.0, 40.0, 6.0), ("reference", 99.0, 0.0, 0.0))]
-        return {"axes": {"time": {"column": "ms", "title": "time (ms)"}, "errors": [{"column": "gray", "title": "gray levels"},
-                                                                                  {"column": "shadow", "title": "shadow (%)"}]},
+        points = [{"point": name, "family": "preset", "ms": value(ms), "gray": value(gray), "shadow": value(shadow)}
+                  for name, ms, gray, shadow in (("1996", 1.0, 100.0, None), ("draft", 2.0, 30.0, 5.0),
+                                                 ("slow", 3.0, 40.0, 6.0), ("reference", 99.0, 0.0, 0.0))]
+        return {"axes": {"time": {"column": "ms", "title": "time (ms)"},
+                         "errors": [{"column": "gray", "title": "gray levels"},
+                                    {"column": "shadow", "title": "shadow (%)"}]},
                 "scenes": ["one"], "points": points}
 
     def test_axes_have_the_titles_of_the_columns(self):
@@ -240,9 +249,10 @@ class TradeFront(Pictures):
 
 class Backend(unittest.TestCase):
     def test_no_screen_is_needed(self):
-        done = subprocess.run([sys.executable, "-B", "-c", "import yars; ax = yars.plot._axes(None); print(ax.figure.canvas.__class__.__name__)"],
-                              env={"PYTHONPATH": str(PACKAGE), "PATH": "/usr/bin:/bin", "MPLCONFIGDIR": tempfile.gettempdir()},
-                              capture_output=True, text=True, timeout=120)
+        done = subprocess.run([sys.executable, "-B", "-c", "import yars; ax = yars.plot._axes(None); "
+                                                           "print(ax.figure.canvas.__class__.__name__)"],
+                              env={"PYTHONPATH": str(PACKAGE), "PATH": "/usr/bin:/bin",
+                                   "MPLCONFIGDIR": tempfile.gettempdir()}, capture_output=True, text=True, timeout=120)
         self.assertEqual((done.returncode, done.stdout), (0, "FigureCanvasAgg\n"), done.stderr)
 
 

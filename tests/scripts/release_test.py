@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Facts about scripts/release without its build: what it refuses, the source archive, the list of parts, the notes; and about
-texts that name the version.
+"""Facts about scripts/release without its build: what it refuses, the source archive, the list of parts, the notes; and
+about texts that name the version.
 
 usage: release_test.py
 """
@@ -21,8 +21,10 @@ import changelog  # noqa: E402  modules of another folder
 import debian_parts  # noqa: E402
 import spdx  # noqa: E402
 
-VERSION = re.search(r"^project\(yars VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"), re.M)[1]
-PART = {"name": "libpng16-16", "version": "1.6.39-2", "source": "libpng1.6", "source_version": "1.6.39-2", "licences": ["Expat", "libpng"]}
+VERSION = re.search(r"^project\(yars VERSION ([\d.]+)", (SOURCE / "CMakeLists.txt").read_text(encoding="utf-8"),
+                    re.M)[1]
+PART = {"name": "libpng16-16", "version": "1.6.39-2", "source": "libpng1.6", "source_version": "1.6.39-2",
+        "licences": ["Expat", "libpng"]}
 
 
 class Refusals(unittest.TestCase):
@@ -35,13 +37,15 @@ class Refusals(unittest.TestCase):
         for name in ("scripts/release", "CMakeLists.txt", "station/web/LICENCES.md", "station/web/package-lock.json"):
             (self.tree / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(SOURCE / name, self.tree / name)
-        shutil.copytree(SOURCE / "packaging/release", self.tree / "packaging/release", ignore=shutil.ignore_patterns("__pycache__"))
+        shutil.copytree(SOURCE / "packaging/release", self.tree / "packaging/release",
+                        ignore=shutil.ignore_patterns("__pycache__"))
         self.edit("CHANGELOG.md", lambda text: f"# Changelog\n\n## [{VERSION}] - 2026-01-02\n\n- A fact.\n")
         self.git("init", "--quiet")
         self.commit()
 
     def git(self, *words):
-        return subprocess.run(["git", "-C", self.tree, "-c", "user.name=t", "-c", "user.email=t@localhost", *words], check=True, capture_output=True)
+        return subprocess.run(["git", "-C", self.tree, "-c", "user.name=t", "-c", "user.email=t@localhost", *words],
+                              check=True, capture_output=True)
 
     def commit(self):
         self.git("add", "--all")
@@ -52,7 +56,8 @@ class Refusals(unittest.TestCase):
         path.write_text(change(path.read_text(encoding="utf-8") if path.exists() else ""), encoding="utf-8")
 
     def refused(self, expected, *words, code=1):
-        done = subprocess.run([sys.executable, self.tree / "scripts/release", *words], capture_output=True, text=True, timeout=60, check=False)
+        done = subprocess.run([sys.executable, self.tree / "scripts/release", *words], capture_output=True, text=True,
+                              timeout=60, check=False)
         self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (code, "", 1), done.stderr)
         self.assertIn(expected, done.stderr)
 
@@ -80,8 +85,8 @@ class Refusals(unittest.TestCase):
         self.refused("unrecognized arguments: --nonsense; see --help", VERSION, "--nonsense", code=2)
 
     def test_a_root_that_is_none_leaves_no_folder(self):
-        self.refused("--root /nonexistent: expected the root of a Debian system" if os.geteuid() == 0 else "expected root for --root",
-                     VERSION, "--root", "/nonexistent")
+        self.refused("--root /nonexistent: expected the root of a Debian system" if os.geteuid() == 0
+                         else "expected root for --root", VERSION, "--root", "/nonexistent")
         self.assertFalse((self.tree / "build").exists())
 
 
@@ -90,7 +95,9 @@ class Parts(unittest.TestCase):
         parts = spdx.PartsList("1.2.3")
         file_id = parts.add_file("yars_1.2.3-1~deb12u1_amd64.deb", b"content", "1.2.3")
         unknown = {"name": "libc6", "version": "", "source": "", "source_version": "", "licences": []}
-        parts.add_debian(file_id, {"Depends": [PART, unknown], "Recommends": [dict(PART, name="libgdal32", licences=["Expat"])], "Suggests": []}, "debian-12")
+        parts.add_debian(file_id, {"Depends": [PART, unknown],
+                                   "Recommends": [dict(PART, name="libgdal32", licences=["Expat"])],
+                                   "Suggests": []}, "debian-12")
         parts.add_npm(json.loads((SOURCE / "station/web/package-lock.json").read_text(encoding="utf-8")))
         return parts.text("1.2.3", "abc", 1700000000)
 
@@ -107,19 +114,24 @@ class Parts(unittest.TestCase):
 
     def test_a_debian_part_has_version_licence_and_address(self):
         parts = {one["name"]: one for one in json.loads(self.made())["packages"]}
-        self.assertEqual((parts["libgdal32"]["licenseDeclared"], parts["libpng16-16"]["licenseDeclared"]), ("MIT", "NOASSERTION"))
+        self.assertEqual((parts["libgdal32"]["licenseDeclared"], parts["libpng16-16"]["licenseDeclared"]),
+                         ("MIT", "NOASSERTION"))
         self.assertIn("Expat; libpng", parts["libpng16-16"]["licenseComments"])
-        self.assertEqual(parts["libpng16-16"]["externalRefs"][0]["referenceLocator"], "pkg:deb/debian/libpng16-16@1.6.39-2?distro=debian-12")
+        self.assertEqual(parts["libpng16-16"]["externalRefs"][0]["referenceLocator"],
+                         "pkg:deb/debian/libpng16-16@1.6.39-2?distro=debian-12")
         self.assertNotIn("versionInfo", parts["libc6"])
 
     def test_the_npm_packages_of_the_station_are_in_it(self):
-        found = {reference["referenceLocator"] for one in json.loads(self.made())["packages"] for reference in one.get("externalRefs", [])}
+        found = {reference["referenceLocator"] for one in json.loads(self.made())["packages"]
+                 for reference in one.get("externalRefs", [])}
         lock = json.loads((SOURCE / "station/web/package-lock.json").read_text(encoding="utf-8"))
         for name in ("typescript", "@esbuild/linux-x64"):
-            self.assertIn(f"pkg:npm/{name.replace('@', '%40')}@{lock['packages']['node_modules/' + name]['version']}", found)
+            self.assertIn(f"pkg:npm/{name.replace('@', '%40')}@{lock['packages']['node_modules/' + name]['version']}",
+                          found)
 
     def test_licences_of_a_copyright_file(self):
-        text = ("Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\n\nFiles: *\n .\nLicense: Expat\n\n"
+        text = ("Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/\n\nFiles: *\n .\n"
+                "License: Expat\n\n"
                 "Files: debian/*\nLicense: GPL-3+\n\nLicense: Expat\n The text.\n")
         self.assertEqual(debian_parts.licences(text), ["Expat"])
         self.assertEqual(debian_parts.licences("Anything else. License: Expat"), [])

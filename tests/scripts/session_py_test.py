@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Compares the records of python/yars/session.py with `yars status --layout`, and lets it take part in a made-up session: its
-errors, its sweeps, the end of a set. usage: session_py_test.py YARS"""
+"""Compares the records of python/yars/session.py with `yars status --layout`, and lets it take part in a made-up
+session: its errors, its sweeps, the end of a set. usage: session_py_test.py YARS"""
 import fcntl
 import json
 import os
@@ -78,7 +78,8 @@ class MadeUpSession:
         """The bytes of a container's newest value."""
         part = parts[name]
         version = struct.unpack("<Q", self.read(offsets[name], 8))[0] >> 1
-        return self.read(offsets[name] + part["slots"] + version % part["slot_count"] * part["slot_stride"] + part["slot_words"], size)
+        return self.read(offsets[name] + part["slots"] + version % part["slot_count"] * part["slot_stride"] +
+                             part["slot_words"], size)
 
     def lock(self, byte, kind):
         fcntl.fcntl(self.file, fcntl.F_OFD_SETLK, struct.pack("@hhqqi0q", kind, os.SEEK_SET, byte, 1, 0))
@@ -112,8 +113,10 @@ def what_cannot_be_done_is_an_error(session, made_up):
     refuses("found 'lattitude_deg'; did you mean 'latitude_deg'?", session.publish_ownship, lattitude_deg=36.5)
     refuses("found 'wingspan'; see yars_records.h", session.publish_ownship, wingspan=13.0)
     refuses("latitude_deg: expected a number, found '36.5'", session.publish_ownship, latitude_deg="36.5")
-    refuses("latitude_deg: expected a number from -90 to 90, found nan", session.publish_ownship, latitude_deg=float("nan"))
-    refuses("heading_deg: expected a number from 0 to 360, found inf", session.publish_ownship, heading_deg=float("inf"))
+    refuses("latitude_deg: expected a number from -90 to 90, found nan", session.publish_ownship,
+            latitude_deg=float("nan"))
+    refuses("heading_deg: expected a number from 0 to 360, found inf", session.publish_ownship,
+            heading_deg=float("inf"))
     refuses("ins_latitude_deg: expected a number from -90 to 90, found 91", session.publish_nav, ins_latitude_deg=91)
     refuses("latitude_deg: expected a number, found True", session.publish_ownship, latitude_deg=True)
     refuses("source: expected a text of at most 15", session.publish_ownship, source="sixteen letters!")
@@ -140,14 +143,16 @@ def what_cannot_be_done_is_an_error(session, made_up):
     event = yars.unpack(yars.INPUT_EVENT, made_up.read(lane + parts["input"]["records"], 56))
     same("event", (event["kind"], event["text"].rstrip(b"\0"), event["number"]), (14, b"2.01", 1))
     own = yars.unpack(yars.OWNSHIP, made_up.latest("ownship", 144))
-    same("ownship", (own["latitude_deg"], own["source"].rstrip(b"\0"), own["radar_altitude_m"] > 0), (36.5, b"mine", False))
+    same("ownship", (own["latitude_deg"], own["source"].rstrip(b"\0"), own["radar_altitude_m"] > 0),
+         (36.5, b"mine", False))
     same("radar altitude is NaN", own["radar_altitude_m"] != own["radar_altitude_m"], True)
 
 
 def a_caption_is_there_while_its_tour_runs(session, made_up):
     lines = b"Range down: key E.".ljust(48, b"\0") + b"Then once more.".ljust(48, b"\0") + bytes(48)
-    record = struct.pack(yars.code_of(yars.CAPTION), *({"step": 3, "steps": 27, "waiting": 1, "title": b"A tour", "lines": lines}.get(
-        name, b"" if code.endswith("s") else 0) for name, code in yars.CAPTION))
+    record = struct.pack(yars.code_of(yars.CAPTION),
+                         *({"step": 3, "steps": 27, "waiting": 1, "title": b"A tour", "lines": lines}
+                           .get(name, b"" if code.endswith("s") else 0) for name, code in yars.CAPTION))
     made_up.publish("caption", record)
     same("caption without a tour", session.caption(), None)
     tour = os.open(made_up.path, os.O_RDWR)
@@ -206,8 +211,8 @@ def nothing_works_after_close(name_of_session):
     session = yars.Session(name_of_session)
     session.close()
     session.close()
-    for name in ("set_runs", "heartbeat", "sim_time_ns", "epoch", "radar_state", "outputs", "clock", "sweeps", "caption", "newest_frame",
-                 "publish_ownship", "publish_nav", "__enter__"):
+    for name in ("set_runs", "heartbeat", "sim_time_ns", "epoch", "radar_state", "outputs", "clock", "sweeps",
+                 "caption", "newest_frame", "publish_ownship", "publish_nav", "__enter__"):
         try:
             getattr(session, name)()
             faults.append(f"session.{name}() was taken after close()")
@@ -249,7 +254,8 @@ def a_map_is_that_of_the_command():
     refuses("expected the path of the program yars, found 3", yars.patch_map, 3)
     refuses("a command line can have", yars.patch_map, sys.argv[1], terrain="a\0b")
     refuses("yars patch: --size", yars.patch_map, sys.argv[1], size=True)
-    refuses("yars patch: --size: expected a whole number from 16 to 4096, found '0'", yars.patch_map, sys.argv[1], size=0)
+    refuses("yars patch: --size: expected a whole number from 16 to 4096, found '0'", yars.patch_map, sys.argv[1],
+            size=0)
     same("options that are not given", yars.patch_map(sys.argv[1], size=64, force=False, scene=None)[0]["size"], 64)
 
 

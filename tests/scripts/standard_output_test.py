@@ -74,8 +74,8 @@ def check_closed_pipe(words, sigpipe):
     reader, writer = os.pipe()
     os.close(reader)
     previous = signal.signal(signal.SIGPIPE, sigpipe)
-    done = subprocess.run([str(BIN / words[0])] + words[1:], stdout=writer, stderr=subprocess.PIPE, text=True, timeout=120,
-                          stdin=subprocess.DEVNULL, restore_signals=False)
+    done = subprocess.run([str(BIN / words[0])] + words[1:], stdout=writer, stderr=subprocess.PIPE, text=True,
+                          timeout=120, stdin=subprocess.DEVNULL, restore_signals=False)
     signal.signal(signal.SIGPIPE, previous)
     os.close(writer)
     if done.returncode not in (0, -signal.SIGPIPE) or "standard output" in done.stderr:

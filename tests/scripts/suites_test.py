@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""A suite of packages that YARS is not meant for is refused before anything is downloaded, by scripts/setup and scripts/check_fresh;
---any-suite goes on. Programs that download are stand-ins here, and so is /etc/os-release, in a mount namespace.
-What scripts/setup installs on Ubuntu 24.04 is in packaging/ubuntu-24.04.tsv; where CMake states a least version, it is that or later.
+"""A suite of packages that YARS is not meant for is refused before anything is downloaded, by scripts/setup and
+scripts/check_fresh; --any-suite goes on. Programs that download are stand-ins here, and so is /etc/os-release, in a
+mount namespace.
+What scripts/setup installs on Ubuntu 24.04 is in packaging/ubuntu-24.04.tsv;
+where CMake states a least version, it is that or later.
 
 usage: suites_test.py       ends with 77 and a word where it may not mount
 """
@@ -29,8 +31,8 @@ def run(folder, suite, *command):
     (folder / "dpkg-query").write_text('#!/bin/sh\nfor word; do echo "installed $word s390x"; done\n')
     (folder / "dpkg-query").chmod(0o755)
     script = 'mount --bind "$0/os-release" /etc/os-release && PATH="$0:$PATH" exec "$@"'
-    done = subprocess.run(["unshare", "--mount", "sh", "-c", script, folder, *map(str, command)], capture_output=True, text=True, timeout=60,
-                          check=False)
+    done = subprocess.run(["unshare", "--mount", "sh", "-c", script, folder, *map(str, command)], capture_output=True,
+                          text=True, timeout=60, check=False)
     return done.returncode, done.stdout + done.stderr, log.read_text() if log.exists() else ""
 
 
@@ -47,7 +49,8 @@ def check_ubuntu(installed):
     versions = {name: number(version) for name, version, _, _ in rows}
     assert len(versions) == len(rows) and list(versions) == sorted(versions), "expected each name once, in order"
     differing = (versions.keys() ^ installed) - {"npm"}  # which is not installed beside a Node.js of one's own
-    assert not differing, f"expected the packages of scripts/setup in {UBUNTU.name}, found in one of the two alone: {differing}"
+    assert not differing, (f"expected the packages of scripts/setup in {UBUNTU.name}, "
+                           f"found in one of the two alone: {differing}")
     lists = (TOP / "CMakeLists.txt").read_text()
     cmake = re.search(r"cmake_minimum_required\(VERSION ([\d.]+)\)", lists).group(1)
     boost = re.search(r"find_package\(Boost ([\d.]+)", lists).group(1)
@@ -69,7 +72,8 @@ def main():
             assert code == 1 and calls == "" and "found bullseye" in text, (code, text, calls)
             assert all(suite in text for suite in ("bookworm", "trixie", "noble", "--any-suite")), text
             code, text, calls = run(folder, "bullseye", setup, "--any-suite", *words)
-            assert code == 0 and "apt-get" in calls and "install" in calls and "libboost-dev" in calls, (code, text, calls)
+            assert (code == 0 and "apt-get" in calls and "install" in calls and
+                    "libboost-dev" in calls), (code, text, calls)
         for suite in ("bookworm", "trixie", "noble"):
             code, text, calls = run(folder, suite, setup)
             assert code == 0 and "install" in calls, (suite, code, text, calls)

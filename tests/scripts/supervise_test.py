@@ -41,22 +41,27 @@ class Set:
     def __init__(self, folder, *roles, redirection=""):
         self.session = f"supervise-{os.getpid()}"
         self.log = pathlib.Path(folder, "log")
-        program = [f"import sys; sys.path.insert(0, {str(HOME / 'scripts')!r})", "from starting import roles as r, supervisor",
-                   f"roles = [r.Role(name, command) for name, *command in {[[str(word) for word in role] for role in roles]}]",
+        program = [f"import sys; sys.path.insert(0, {str(HOME / 'scripts')!r})",
+                   "from starting import roles as r, supervisor",
+                   "roles = [r.Role(name, command) "
+                   f"for name, *command in {[[str(word) for word in role] for role in roles]}]",
                    f"sys.exit(supervisor.run_sets([r.Set({str(BIN)!r}, {self.session!r}, roles)]))"]
         words = [sys.executable, "-B", "-c", "\n".join(program)]
-        self.process = subprocess.Popen(["bash", "-c", f"exec {shlex.join(map(str, words))} {redirection or f'2>{self.log}'}"],
-                                        stdin=subprocess.DEVNULL, cwd=folder, env={**os.environ, "YARS_USER_CONFIG": ""})
+        self.process = subprocess.Popen(
+            ["bash", "-c", f"exec {shlex.join(map(str, words))} {redirection or f'2>{self.log}'}"],
+            stdin=subprocess.DEVNULL, cwd=folder, env={**os.environ, "YARS_USER_CONFIG": ""})
 
     def await_line(self, pattern):
         deadline = time.monotonic() + WATCHDOG_S
         while not (found := re.search(pattern, self.log.read_text() if self.log.exists() else "")):
-            assert self.process.poll() is None and time.monotonic() < deadline, f"{pattern} not found in\n{self.log.read_text()}"
+            assert self.process.poll() is None and time.monotonic() < deadline, (
+                f"{pattern} not found in\n{self.log.read_text()}")
             time.sleep(0.1)
         return found
 
     def present(self):
-        done = subprocess.run([BIN / "yars", "--session", self.session, "watch", "--once", "--json"], capture_output=True, text=True, check=False)
+        done = subprocess.run([BIN / "yars", "--session", self.session, "watch", "--once", "--json"],
+                              capture_output=True, text=True, check=False)
         return {name: int(pid) for name, pid in re.findall(r'"([\w -]+)":\s*\{[^{}]*"pid":\s*(\d+)', done.stdout)}
 
     def await_present(self, name):
@@ -88,7 +93,8 @@ def a_role_that_hangs_is_started_again(folder):
     tested.await_line(r"hanging was killed by SIGKILL; starting it again \(1 of 5")
     tested.await_present("hanging")
     # Who is stopped on purpose, as in a debugger, stays.
-    assert tested.present()["flight-model"] == stopped and "flight-model has sent" not in tested.log.read_text(), tested.log.read_text()
+    assert tested.present()["flight-model"] == stopped and "flight-model has sent" not in tested.log.read_text(), (
+        tested.log.read_text())
     os.kill(stopped, signal.SIGCONT)
     tested.end()
 
@@ -124,12 +130,14 @@ def what_roles_leave_that_had_to_be_killed_is_removed(folder):
     for somebody_stays in (True, False):
         tested = Set(folder, role("state-machine", session))
         machine = tested.await_present("state-machine")
-        other = subprocess.Popen([sys.executable, "-c", JOINED, HOME / "python", session], stdout=subprocess.PIPE) if somebody_stays else None
+        other = (subprocess.Popen([sys.executable, "-c", JOINED, HOME / "python", session], stdout=subprocess.PIPE)
+                 if somebody_stays else None)
         if other:
             assert other.stdout.readline() == b"joined\n"
         os.kill(machine, signal.SIGSTOP)
         code = tested.end()
-        assert code == 1 and "state-machine was killed by SIGKILL when the set ended" in tested.log.read_text(), tested.log.read_text()
+        assert code == 1 and "state-machine was killed by SIGKILL when the set ended" in tested.log.read_text(), (
+            tested.log.read_text())
         assert segment.exists() == somebody_stays
         if other:
             other.kill()
@@ -137,7 +145,8 @@ def what_roles_leave_that_had_to_be_killed_is_removed(folder):
 
 
 def main():
-    for test in (a_role_that_hangs_is_started_again, a_set_needs_no_standard_streams, what_roles_leave_that_had_to_be_killed_is_removed):
+    for test in (a_role_that_hangs_is_started_again, a_set_needs_no_standard_streams,
+                 what_roles_leave_that_had_to_be_killed_is_removed):
         with tempfile.TemporaryDirectory() as folder:
             test(folder)
         print(f"{test.__name__}: ok", flush=True)

@@ -71,8 +71,9 @@ class Place:
         environment.update(self.environment, YARS_TEST_CODE=code)
         if not keep_log:
             self.log.unlink(missing_ok=True)
-        return subprocess.Popen([self.folder / "bin/yars-start", *(options or self.options), *arguments], env=environment, text=True,
-                                start_new_session=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        return subprocess.Popen([self.folder / "bin/yars-start", *(options or self.options), *arguments],
+                                env=environment, text=True, start_new_session=True, stdin=subprocess.DEVNULL,
+                                stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
 
     def run(self, *arguments, code="0"):
         process = self.start(*arguments, code=code)
@@ -80,7 +81,8 @@ class Place:
         return process.returncode, text
 
     def lines(self, role):
-        return [line for line in self.log.read_text().splitlines() if line.startswith(role + " ")] if self.log.exists() else []
+        return ([line for line in self.log.read_text().splitlines() if line.startswith(role + " ")]
+                if self.log.exists() else [])
 
 
 def tour_seconds(file):
@@ -156,11 +158,15 @@ def a_fidelity_reaches_the_radar_model_alone(place):
 
 def a_wrong_fidelity_is_refused_with_the_list(place):
     place.options = ["--log-dir", ""]  # --frames belongs to the display
-    for words, expected in ((["--fidelity", "drat"], "expected one of 1996, draft, standard, fine, reference, found 'drat'; did you mean 'draft'?"),
-                            (["--fidelity", ""], "found an empty text"), (["--fidelity"], "expected a value, found nothing"),
+    for words, expected in ((["--fidelity", "drat"],
+                             "expected one of 1996, draft, standard, fine, reference, found 'drat'; "
+                             "did you mean 'draft'?"),
+                            (["--fidelity", ""], "found an empty text"),
+                            (["--fidelity"], "expected a value, found nothing"),
                             (["--fidelity", "fine", "--roles", "flight-model"], "expected radar-model among --roles")):
         code, text = place.run(*words)
-        assert code == 2 and "yars-start: --fidelity: " in text and expected in text and text.count("\n") == 1, (words, text)
+        assert (code == 2 and "yars-start: --fidelity: " in text and expected in text and
+                text.count("\n") == 1), (words, text)
         assert not place.log.exists(), words
 
 

@@ -36,8 +36,8 @@ class Home:
         program = words[0] if "/" in words[0] else str(BIN / words[0])
         base = {name: value for name, value in os.environ.items() if not name.startswith(("YARS_", "XDG_"))}
         base.update(HOME=str(self.folder), XDG_CONFIG_HOME=str(self.folder / "config"), ASAN_OPTIONS="detect_leaks=0")
-        return subprocess.run([program, *words[1:]], capture_output=True, text=True, timeout=120, stdin=subprocess.DEVNULL,
-                              env={**base, **environment}, cwd=self.folder)
+        return subprocess.run([program, *words[1:]], capture_output=True, text=True, timeout=120,
+                              stdin=subprocess.DEVNULL, env={**base, **environment}, cwd=self.folder)
 
 
 def expect(what, good, found=""):
@@ -62,7 +62,8 @@ def values_are_defaults(home):
     ignored = home.run("yars", "terrain", "info", YARS_USER_CONFIG="")
     expect("an empty YARS_USER_CONFIG ignores it", ignored.returncode == 2 and "found none" in ignored.stderr, ignored)
     shown = json.loads(home.run("yars", "config", "user", "--json").stdout)
-    expect("config user", shown["exists"] and shown["file"] == str(home.file) and shown["values"]["size"] == "300", shown)
+    expect("config user", shown["exists"] and shown["file"] == str(home.file) and shown["values"]["size"] == "300",
+           shown)
     for program, option in (("radar-display", "default 300"), ("radar-model", f"default {home.folder}/cells"),
                             ("state-machine", f"default {home.folder}/logs"), ("flight-model", "default error")):
         helped = home.run(program, "--help")
@@ -70,19 +71,22 @@ def values_are_defaults(home):
     # A recording is played over its own terrain, and --size of other commands is another size.
     for words in (["replay"], ["patch"]):
         helped = home.run("yars", *words, "--help").stdout
-        expect(f"{words} has its own", (f"{home.folder}/cells" in helped) == (words == ["patch"]) and "default 300" not in helped, helped)
+        expect(f"{words} has its own",
+               (f"{home.folder}/cells" in helped) == (words == ["patch"]) and "default 300" not in helped, helped)
 
 
 def bad_lines_are_refused(home):
-    for text, message in (("sesion = a\n", ":1: expected one of session, config, terrain, log-dir, log-level, size, found "
+    for text, message in (("sesion = a\n",
+                           ":1: expected one of session, config, terrain, log-dir, log-level, size, found "
                                            "'sesion'; did you mean 'session'?"),
                           ("\nsize = big\n", ":2: --size: expected a whole number from 120 to 4096, found 'big'"),
-                          ("log-level = loud\n", ":1: --log-level: expected trace, debug, info, warning, error or off")):
+                          ("log-level = loud\n",
+                           ":1: --log-level: expected trace, debug, info, warning, error or off")):
         program = "radar-display" if "size" in text else "yars"
         words = [program] + (["config", "print"] if program == "yars" else [])
         done = home.run(*words, text=text)
-        expect(f"{text!r}", done.returncode == 1 and done.stderr.count("\n") == 1 and f"{home.file}{message}" in done.stderr,
-               done)
+        expect(f"{text!r}",
+               done.returncode == 1 and done.stderr.count("\n") == 1 and f"{home.file}{message}" in done.stderr, done)
         expect(f"help with {text!r}", home.run(program, "--help").returncode == 0)
     done = home.run("yars", "watch", text="session = a/b\n")
     expect("a name that is no session", done.returncode == 2 and "1 to 40 letters" in done.stderr, done)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""`--web` of the start script: it lasts until it is interrupted, counts the pictures of its own run, and hands its options to
-yars-station, whose addresses stand on lines of their own.
+"""`--web` of the start script: it lasts until it is interrupted, counts the pictures of its own run, and hands its
+options to yars-station, whose addresses stand on lines of their own.
 
 usage: web_start_test.py
 The command runs as it is installed, with programs that stand in for the real ones.
@@ -47,12 +47,13 @@ class Place(tour_start_test.Place):
 
     def of_station(self):
         """Options that yars-station got and others did not."""
-        return {word for word in self.lines("yars-station")[0].split() if "=" in word or word.startswith("--without-") or word == "--behind-proxy"}
+        return {word for word in self.lines("yars-station")[0].split()
+                if "=" in word or word.startswith("--without-") or word == "--behind-proxy"}
 
     @contextlib.contextmanager
     def running(self, *arguments):
-        """The set's process and the arguments of radar-display; afterwards `text` is what it printed. Without options of the
-        station's own, with --web."""
+        """The set's process and the arguments of radar-display; afterwards `text` is what it printed. Without options
+        of the station's own, with --web."""
         is_said = any(str(word).startswith("--web-") for word in arguments)
         process = self.start(*([] if is_said else ["--web"]), *arguments)
         try:
@@ -68,7 +69,8 @@ class Place(tour_start_test.Place):
 
 
 def without_a_screen_it_lasts_until_it_is_interrupted(place):
-    with place.running("--script", "/dev/null") as (process, display):  # without power-on, from which the time would run
+    # Without power-on, from which the time would run.
+    with place.running("--script", "/dev/null") as (process, display):
         time.sleep(1)
         assert process.poll() is None, process.communicate()[0]
         assert "--headless" in display and "--publish" in display and "--frames" not in display, display
@@ -98,10 +100,14 @@ def pictures_of_earlier_runs_are_not_counted(place):
 def options_of_the_station_are_handed_to_it(place):
     with place.running("--web-port", "8100"):
         assert place.of_station() == {"--port=8100", place.tokens}, place.lines("yars-station")
-    with place.running("--web-listen", "0.0.0.0", "--web-names", "radar.example,radar", "--web-tokens", place.folder / "tokens",
-                       "--web-certificate", "/a/certificate.pem", "--web-key", "/a/key.pem", "--web-port", "1", "--web-port", "0"):
-        assert place.of_station() == {"--listen=0.0.0.0", "--names=radar.example,radar", f"--tokens={place.folder}/tokens",
-                                      "--certificate=/a/certificate.pem", "--key=/a/key.pem", "--port=0"}, place.lines("yars-station")
+    with place.running("--web-listen", "0.0.0.0", "--web-names", "radar.example,radar",
+                       "--web-tokens", place.folder / "tokens",
+                       "--web-certificate", "/a/certificate.pem", "--web-key", "/a/key.pem", "--web-port", "1",
+                       "--web-port", "0"):
+        assert place.of_station() == {"--listen=0.0.0.0", "--names=radar.example,radar",
+                                      f"--tokens={place.folder}/tokens",
+                                      "--certificate=/a/certificate.pem", "--key=/a/key.pem",
+                                      "--port=0"}, place.lines("yars-station")
     with contextlib.chdir(place.folder), place.running("--web-without-tls", "--web-tokens", "tokens"):
         assert place.of_station() == {"--without-tls", f"--tokens={place.folder}/tokens"}, place.lines("yars-station")
     with place.running():
@@ -122,7 +128,8 @@ def values_that_are_missing_are_refused_at_once(place):
     for option, expected in (("--web-listen", "a value"), ("--web-names", "a value"), ("--web-tokens", "a value"),
                              ("--web-certificate", "a value"), ("--web-key", "a value"), ("--web-port", "a value")):
         code, text = place.run(option)
-        assert code == 2 and text == f"yars-start: {option}: expected {expected}, found nothing; see yars-start --help\n", (code, text)
+        message = f"yars-start: {option}: expected {expected}, found nothing; see yars-start --help\n"
+        assert code == 2 and text == message, (code, text)
     code, text = place.run("--web-tokens", "")
     assert code == 2 and "--web-tokens: expected a path, found an empty text" in text, (code, text)
     code, text = place.run("--web-listen", "0.0.0.0", "--lockstep", "--headless", "1")

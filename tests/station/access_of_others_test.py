@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""A station and who connects to it: tokens, rights, TLS, limits, its end, a radar-model that is away. usage: access_of_others_test.py BIN (folder of the programs)"""
+"""A station and who connects to it: tokens, rights, TLS, limits, its end, a radar-model that is away.
+usage: access_of_others_test.py BIN (folder of the programs)"""
 import base64
 import http.client
 import http.cookiejar
@@ -23,13 +24,15 @@ BIN = pathlib.Path(sys.argv.pop(1)).resolve()
 
 
 class Station:
-    """A running yars-station. `addresses`: as it printed them. Without tokens unless options name some. It ends without a fault."""
+    """A running yars-station. `addresses`: as it printed them. Without tokens unless options name some.
+    It ends without a fault."""
 
     def __init__(self, folder, *options):
         options = (*options, *([] if "--tokens" in options or "--with-tokens" in options else ["--without-tokens"]))
         options = [option for option in options if option != "--with-tokens"]
         self.session = f"access{os.getpid()}"
-        self.process = subprocess.Popen([BIN / "yars-station", "--session", self.session, "--port", "0", "--log-level", "warning", *options],
+        self.process = subprocess.Popen([BIN / "yars-station", "--session", self.session, "--port", "0",
+                                         "--log-level", "warning", *options],
                                         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=folder)
         self.addresses = [self.process.stdout.readline().strip() for _ in range(2)]
         self.port = int(re.search(r":(\d+)/", self.addresses[0]).group(1)) if all(self.addresses) else 0
@@ -46,8 +49,8 @@ class Station:
 
 def refusal(*options):
     with tempfile.TemporaryDirectory() as folder:
-        done = subprocess.run([BIN / "yars-station", "--session", f"refused{os.getpid()}", "--port", "0", *options], capture_output=True,
-                              text=True, check=False, timeout=60, cwd=folder)
+        done = subprocess.run([BIN / "yars-station", "--session", f"refused{os.getpid()}", "--port", "0", *options],
+                              capture_output=True, text=True, check=False, timeout=60, cwd=folder)
     return done.returncode, done.stderr
 
 
@@ -60,8 +63,10 @@ class SocketOfPage:
             self.socket = context.wrap_socket(self.socket, server_hostname="localhost")
         scheme = "https" if context else "http"
         key = base64.b64encode(os.urandom(16)).decode()
-        self.socket.sendall((f"GET {path} HTTP/1.1\r\nHost: {host}:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-                             f"Origin: {scheme}://{host}:{port}\r\nSec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n"
+        self.socket.sendall((f"GET {path} HTTP/1.1\r\nHost: {host}:{port}\r\nUpgrade: websocket\r\n"
+                             "Connection: Upgrade\r\n"
+                             f"Origin: {scheme}://{host}:{port}\r\nSec-WebSocket-Key: {key}\r\n"
+                             "Sec-WebSocket-Version: 13\r\n"
                              + (f"Cookie: {cookie}\r\n" if cookie else "") + "\r\n").encode())
         self.data = b""
         while b"\r\n\r\n" not in self.data:
@@ -140,7 +145,8 @@ class Browser:
     def __init__(self, port):
         self.port = port
         self.jar = http.cookiejar.CookieJar()
-        self.opener = urllib.request.build_opener(urllib.request.ProxyHandler({}), urllib.request.HTTPCookieProcessor(self.jar))
+        self.opener = urllib.request.build_opener(urllib.request.ProxyHandler({}),
+                                                  urllib.request.HTTPCookieProcessor(self.jar))
 
     def open(self, address):
         """Status of the page that the address leads to."""
@@ -167,7 +173,8 @@ class Options(unittest.TestCase):
 
     def test_what_cannot_be_used_is_named(self):
         for options, words in [(("--certificate", "x.pem"), "--key"),
-                               (("--certificate", "x.pem", "--key", "y.pem"), "x.pem: expected a file that can be read"),
+                               (("--certificate", "x.pem", "--key", "y.pem"),
+                                "x.pem: expected a file that can be read"),
                                (("--listen", "nowhere", "--tokens", "t", "--without-tls"), "an address in numbers"),
                                (("--pages", "/nowhere"), "display.html"), (("--terrain", "/nowhere"), "/nowhere"),
                                (("--source", "route:/nowhere"), "/nowhere")]:
@@ -186,11 +193,13 @@ class Options(unittest.TestCase):
             tokens, key = pathlib.Path(folder, "tokens"), pathlib.Path(folder, "key.pem")
             tokens.write_text("instructor 0123456789abcdef\nviewer fedcba9876543210\n")
             key.write_text("a key")
-            for file, mode, options in ((tokens, 0o640, ("--tokens", tokens)), (key, 0o604, ("--certificate", key, "--key", key))):
+            for file, mode, options in ((tokens, 0o640, ("--tokens", tokens)),
+                                        (key, 0o604, ("--certificate", key, "--key", key))):
                 file.chmod(mode)
                 code, text = refusal(*map(str, options))
                 self.assertEqual(code, 1, text)
-                self.assertIn(f"expected a file that other users cannot read, found mode {mode:04o}; chmod 600 {file}", text)
+                self.assertIn(f"expected a file that other users cannot read, found mode {mode:04o}; chmod 600 {file}",
+                              text)
 
     def test_a_file_without_tokens_is_refused(self):
         with tempfile.NamedTemporaryFile("w") as file:
@@ -206,10 +215,12 @@ class Tokens(unittest.TestCase):
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
         cls.file = pathlib.Path(cls.folder.name) / "tokens"
-        cls.station = Station(cls.folder.name, "--listen", "0.0.0.0", "--tokens", str(cls.file), "--without-tls", "--names", "radar.example")
+        cls.station = Station(cls.folder.name, "--listen", "0.0.0.0", "--tokens", str(cls.file), "--without-tls",
+                              "--names", "radar.example")
         cls.port = cls.station.port
         cls.tokens = [re.search(r"token=(\w+)", address).group(1) for address in cls.station.addresses]
-        cls.cookies = [f"yars_station_{cls.port}_{right}={token}" for right, token in zip(("viewer", "instructor"), cls.tokens)]
+        cls.cookies = [f"yars_station_{cls.port}_{right}={token}"
+                       for right, token in zip(("viewer", "instructor"), cls.tokens)]
 
     @classmethod
     def tearDownClass(cls):
@@ -222,11 +233,14 @@ class Tokens(unittest.TestCase):
             self.assertEqual([re.search(r"token=(\w+)", address).group(1) for address in again.addresses], self.tokens)
 
     def test_printed_addresses_have_the_first_name_of_this_computer(self):
-        self.assertTrue(self.station.addresses[0].startswith(f"http://radar.example:{self.port}/display.html?"), self.station.addresses)
-        self.assertTrue(self.station.addresses[1].startswith(f"http://radar.example:{self.port}/instructor.html?"), self.station.addresses)
+        self.assertTrue(self.station.addresses[0].startswith(f"http://radar.example:{self.port}/display.html?"),
+                        self.station.addresses)
+        self.assertTrue(self.station.addresses[1].startswith(f"http://radar.example:{self.port}/instructor.html?"),
+                        self.station.addresses)
 
     def test_without_a_token_there_is_nothing_of_the_session(self):
-        for path in ("/display.html", "/instructor.html", "/theatre.json", "/map/0/0/0.png", "/patch/x/1.png", "/nothing"):
+        for path in ("/display.html", "/instructor.html", "/theatre.json", "/map/0/0/0.png", "/patch/x/1.png",
+                     "/nothing"):
             self.assertEqual(get(self.port, path)[0], 401, path)
             self.assertEqual(get(self.port, path, cookie=f"yars_station_{self.port}_instructor=wrong")[0], 401, path)
         self.assertEqual(status_of(self.port, "/socket"), 401)
@@ -300,7 +314,8 @@ class Tokens(unittest.TestCase):
     def test_only_sessions_of_the_station_are_shown(self):
         self.assertEqual(status_of(self.port, "/socket?session=other", self.cookies[1]), 404)
         self.assertEqual(status_of(self.port, "/other", self.cookies[1]), 404)
-        self.assertFalse(any(path.name.endswith(".other") for path in pathlib.Path("/dev/shm").iterdir()), "no session comes into being")
+        self.assertFalse(any(path.name.endswith(".other") for path in pathlib.Path("/dev/shm").iterdir()),
+                         "no session comes into being")
 
 
 class Limits(unittest.TestCase):
@@ -357,7 +372,8 @@ class Limits(unittest.TestCase):
             one.close()
 
     def test_what_is_no_request_is_answered(self):
-        for request, status in ((b"no request\r\n\r\n", 400), (b"GET / HTTP/9.9\r\n\r\n", 400), (b"\x16\x03\x01\r\n\r\n", 400),
+        for request, status in ((b"no request\r\n\r\n", 400), (b"GET / HTTP/9.9\r\n\r\n", 400),
+                                (b"\x16\x03\x01\r\n\r\n", 400),
                                 (b"GET / HTTP/1.1\r\nX: " + b"x" * 20_000 + b"\r\n\r\n", 431),
                                 (b"POST / HTTP/1.1\r\nContent-Length: 5\r\n\r\n12345", 413)):
             with socket.create_connection(("127.0.0.1", self.port), timeout=20) as asking:
@@ -377,7 +393,8 @@ class Places(unittest.TestCase):
         self.addCleanup(self.station.__exit__)
 
     def viewers(self, count, address):
-        pages = [SocketOfPage(self.station.port, cookie=self.cookies[0] + f"\r\nX-Forwarded-For: {address}") for _ in range(count)]
+        pages = [SocketOfPage(self.station.port, cookie=self.cookies[0] + f"\r\nX-Forwarded-For: {address}")
+                 for _ in range(count)]
         for page in pages:
             self.addCleanup(page.close)
         return [page.status for page in pages]
@@ -401,7 +418,8 @@ class Places(unittest.TestCase):
 
     def test_a_proxy_says_where_its_visitors_are(self):
         with socket.create_connection(("127.0.0.1", self.station.port), timeout=20) as asking:
-            asking.sendall((f"GET /display.html?token={self.cookies[0].partition('=')[2]} HTTP/1.1\r\nHost: inner:1\r\nConnection: close\r\n"
+            asking.sendall((f"GET /display.html?token={self.cookies[0].partition('=')[2]} HTTP/1.1\r\nHost: inner:1\r\n"
+                            "Connection: close\r\n"
                             "X-Forwarded-Host: localhost:9443\r\nX-Forwarded-Proto: https\r\n\r\n").encode())
             answer = asking.makefile("rb").read().decode()
         self.assertIn(" 303 ", answer.splitlines()[0])
@@ -411,7 +429,8 @@ class Places(unittest.TestCase):
 class End(unittest.TestCase):
     def test_a_station_ends_in_order_while_browsers_are_connected(self):
         with tempfile.TemporaryDirectory() as folder, Station(folder) as station:  # its end is looked at
-            pages = [SocketOfPage(station.port, f"/socket?page={kind}") for kind in ("display", "instructor", "display")]
+            pages = [SocketOfPage(station.port, f"/socket?page={kind}")
+                     for kind in ("display", "instructor", "display")]
             visit = socket.create_connection(("127.0.0.1", station.port), timeout=20)
             self.assertEqual([page.status for page in pages], [101] * 3)
             pages[1].send({"do": "freeze", "id": 1})
@@ -433,7 +452,8 @@ class World(unittest.TestCase):
     def radar_model(self):
         self.log = pathlib.Path(self.folder.name, "radar-model.log")
         with self.log.open("a") as log:
-            model = subprocess.Popen([BIN / "radar-model", "--session", self.station.session], cwd=self.folder.name, stderr=log)
+            model = subprocess.Popen([BIN / "radar-model", "--session", self.station.session], cwd=self.folder.name,
+                                     stderr=log)
         self.addCleanup(model.wait)
         self.addCleanup(model.terminate)
         return model
@@ -455,7 +475,8 @@ class World(unittest.TestCase):
     def test_radar_model_says_a_change_of_fidelity_once(self):
         model = self.radar_model()
         self.await_done({"do": "run"})
-        for command in ({"do": "fidelity", "preset": "draft"}, {"do": "sea", "state": 2}, {"do": "sea", "state": 4}, {"do": "fidelity", "preset": "1996"}):
+        for command in ({"do": "fidelity", "preset": "draft"}, {"do": "sea", "state": 2}, {"do": "sea", "state": 4},
+                        {"do": "fidelity", "preset": "1996"}):
             self.await_done(command)
             # Until radar-model has latched it.
             next(text for text in self.page.texts() if text.get("instructor", {}).get("world", {}).get("tick"))
@@ -560,16 +581,20 @@ class Scarcity(unittest.TestCase):
             said = station.process.communicate()[1]
         lines = [line for line in said.splitlines() if "could not be taken" in line]
         self.assertGreater(len(lines), 0, said)
-        # One each 0.1 s at most, where a loop without a pause has thousands; repeated lines are counted in the last one.
-        self.assertLess(len(lines) + sum(int(count) for count in re.findall(r"and (\d+) more suppressed", said)), 200, said)
+        # One each 0.1 s at most, where a loop without a pause has thousands;
+        # repeated lines are counted in the last one.
+        self.assertLess(len(lines) + sum(int(count) for count in re.findall(r"and (\d+) more suppressed", said)), 200,
+                        said)
 
 
 @unittest.skipUnless(shutil.which("openssl"), "expected openssl, found none")
 class Tls(unittest.TestCase):
     def test_pages_come_over_tls_with_the_given_certificate(self):
         with tempfile.TemporaryDirectory() as folder:
-            subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", "key.pem", "-out", "certificate.pem", "-days", "2",
-                            "-subj", "/CN=localhost", "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1"], cwd=folder, check=True, capture_output=True)
+            subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", "key.pem",
+                            "-out", "certificate.pem", "-days", "2",
+                            "-subj", "/CN=localhost", "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1"],
+                           cwd=folder, check=True, capture_output=True)
             with Station(folder, "--certificate", "certificate.pem", "--key", "key.pem") as station:
                 self.assertTrue(station.addresses[0].startswith("https://"))
                 context = ssl.create_default_context(cafile=f"{folder}/certificate.pem")

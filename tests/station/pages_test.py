@@ -3,7 +3,8 @@
 usage: pages_test.py BIN SCRIPT    (BIN: folder of the programs; SCRIPT: pages.mjs or instructor.mjs).
 Exit code 77: no npm, no Chromium, or no packages of npm.
 
-With pages.mjs it also checks that station/web/dist is what the sources give, and that no page loads more than 500 KB."""
+With pages.mjs it also checks that station/web/dist is what the sources give,
+and that no page loads more than 500 KB."""
 import filecmp
 import os
 import pathlib
@@ -33,7 +34,8 @@ def install(folder):
     mark = folder / "installed"
     lock = (WEB / "package-lock.json").read_text()
     if not mark.exists() or mark.read_text() != lock:
-        done = subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=folder, check=False, capture_output=True, text=True)
+        done = subprocess.run(["npm", "ci", "--ignore-scripts", "--no-audit", "--no-fund"], cwd=folder, check=False,
+                              capture_output=True, text=True)
         if done.returncode:
             skip(f"npm ci: {done.stderr.strip().splitlines()[:1]}")
         mark.write_text(lock)
@@ -83,13 +85,15 @@ def main():
         log = pathlib.Path(name) / "log"
         with log.open("w") as out:
             terrain = pathlib.Path(name) / "terrain"
-            subprocess.run([binaries / "yars", "terrain", "generate", "--out", terrain, "--south=36", "--west=-123", "--level=0"], check=True,
-                           stdout=subprocess.DEVNULL)
-            process = subprocess.Popen([TOP / "scripts/start", "--bin", binaries, "--session", session, "--terrain", terrain, "--headless", "600",
-                                        "--no-frames", "--no-input", "--log-dir", "", "--web", "--web-port", str(port), "--web-without-tokens"],
-                                       stdout=out, stderr=subprocess.STDOUT, cwd=name)
+            subprocess.run([binaries / "yars", "terrain", "generate", "--out", terrain, "--south=36", "--west=-123",
+                            "--level=0"], check=True, stdout=subprocess.DEVNULL)
+            process = subprocess.Popen([TOP / "scripts/start", "--bin", binaries, "--session", session,
+                                        "--terrain", terrain, "--headless", "600",
+                                        "--no-frames", "--no-input", "--log-dir", "", "--web", "--web-port", str(port),
+                                        "--web-without-tokens"], stdout=out, stderr=subprocess.STDOUT, cwd=name)
         try:
-            done = subprocess.run(["node", script, address(log, process), binaries / "yars", session], cwd=folder, check=False, timeout=480)
+            done = subprocess.run(["node", script, address(log, process), binaries / "yars", session], cwd=folder,
+                                  check=False, timeout=480)
         finally:
             process.terminate()
             code = process.wait()

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
-"""A station behind a mapped port, a tunnel of ssh, and nginx at /radar/. usage: proxy_test.py BIN (folder of the programs)
+"""A station behind a mapped port, a tunnel of ssh, and nginx at /radar/.
+usage: proxy_test.py BIN (folder of the programs)
 
-The tests of ssh and nginx are skipped where these programs are not installed. Both run for this test alone, with their own files.
+The tests of ssh and nginx are skipped where these programs are not installed.
+Both run for this test alone, with their own files.
 """
 import contextlib
 import getpass
@@ -19,13 +21,15 @@ import unittest
 
 from access_of_others_test import SocketOfPage, Station, get
 
-SSHD, NGINX = (shutil.which(name, path="/usr/sbin:/usr/bin:/usr/local/sbin") or shutil.which(name) for name in ("sshd", "nginx"))
+SSHD, NGINX = (shutil.which(name, path="/usr/sbin:/usr/bin:/usr/local/sbin") or shutil.which(name)
+               for name in ("sshd", "nginx"))
 WATCHDOG_S = 60
 NGINX_CONFIGURATION = """
 daemon off; pid {folder}/nginx.pid; error_log {folder}/error.log; worker_processes 1;
 events {{ worker_connections 64; }}
 http {{
-  access_log off; client_body_temp_path {folder}/b; proxy_temp_path {folder}/p; fastcgi_temp_path {folder}/f; uwsgi_temp_path {folder}/u; scgi_temp_path {folder}/s;
+  access_log off; client_body_temp_path {folder}/b; proxy_temp_path {folder}/p;
+  fastcgi_temp_path {folder}/f; uwsgi_temp_path {folder}/u; scgi_temp_path {folder}/s;
   server {{
     listen 127.0.0.1:{port} ssl; ssl_certificate {folder}/certificate.pem; ssl_certificate_key {folder}/key.pem;
     location /radar/ {{
@@ -57,7 +61,8 @@ def await_port(port, process):
 
 
 class MappedPort:
-    """Hands connections on, as a tunnel or the mapped port of a container does: the browser's port is another than the station's."""
+    """Hands connections on, as a tunnel or the mapped port of a container does:
+    the browser's port is another than the station's."""
 
     def __init__(self, port):
         self.target = port
@@ -118,25 +123,32 @@ class Proxies(unittest.TestCase):
         self.works_at(mapped.port, station)
         mapped.server.close()
 
-    @unittest.skipUnless(SSHD and shutil.which("ssh") and shutil.which("ssh-keygen"), "expected ssh and sshd, found none")
+    @unittest.skipUnless(SSHD and shutil.which("ssh") and shutil.which("ssh-keygen"),
+                         "expected ssh and sshd, found none")
     def test_a_tunnel_of_ssh(self):
         station, port, mapped = self.station(), free_port(), free_port()
         for name in ("host", "user"):
             subprocess.run(["ssh-keygen", "-q", "-t", "ed25519", "-N", "", "-f", self.folder / name], check=True)
         shutil.copy(self.folder / "user.pub", self.folder / "authorized")
-        (self.folder / "sshd").write_text(f"Port {port}\nListenAddress 127.0.0.1\nHostKey {self.folder}/host\nPidFile none\nStrictModes no\nUsePAM no\n"
+        (self.folder / "sshd").write_text(f"Port {port}\nListenAddress 127.0.0.1\nHostKey {self.folder}/host\n"
+                                          "PidFile none\nStrictModes no\nUsePAM no\n"
                                           f"AuthorizedKeysFile {self.folder}/authorized\nPermitRootLogin yes\n")
         await_port(port, self.process(SSHD, "-D", "-e", "-f", self.folder / "sshd"))
-        tunnel = self.process("ssh", "-N", "-F", "none", "-p", port, "-i", self.folder / "user", "-o", "StrictHostKeyChecking=no", "-o", "UserKnownHostsFile=/dev/null",
-                              "-o", "ExitOnForwardFailure=yes", "-L", f"{mapped}:127.0.0.1:{station.port}", f"{getpass.getuser()}@127.0.0.1")
+        tunnel = self.process("ssh", "-N", "-F", "none", "-p", port, "-i", self.folder / "user",
+                              "-o", "StrictHostKeyChecking=no", "-o", "UserKnownHostsFile=/dev/null",
+                              "-o", "ExitOnForwardFailure=yes", "-L", f"{mapped}:127.0.0.1:{station.port}",
+                              f"{getpass.getuser()}@127.0.0.1")
         await_port(mapped, tunnel)
         self.works_at(mapped, station)
 
     def nginx(self, station, headers):
         port = free_port()
-        subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", "key.pem", "-out", "certificate.pem", "-days", "2",
-                        "-subj", "/CN=localhost", "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1"], cwd=self.folder, check=True, capture_output=True)
-        (self.folder / "nginx").write_text(NGINX_CONFIGURATION.format(folder=self.folder, port=port, station=station.port, headers=headers))
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-keyout", "key.pem",
+                        "-out", "certificate.pem", "-days", "2",
+                        "-subj", "/CN=localhost", "-addext", "subjectAltName=DNS:localhost,IP:127.0.0.1"],
+                       cwd=self.folder, check=True, capture_output=True)
+        (self.folder / "nginx").write_text(
+            NGINX_CONFIGURATION.format(folder=self.folder, port=port, station=station.port, headers=headers))
         await_port(port, self.process(NGINX, "-c", self.folder / "nginx", "-p", self.folder))
         return port
 
@@ -147,7 +159,8 @@ class Proxies(unittest.TestCase):
                 station = self.station(*options)
                 port = self.nginx(station, headers)
                 context = ssl.create_default_context(cafile=f"{self.folder}/certificate.pem")
-                status, given, _ = get(port, f"/radar/display.html?token={self.tokens[1]}", context=context, host="localhost")
+                status, given, _ = get(port, f"/radar/display.html?token={self.tokens[1]}", context=context,
+                                       host="localhost")
                 self.assertEqual((status, given["Location"]), (303, "display.html"))
                 self.assertEqual("; Secure" in given["Set-Cookie"], headers == BY_FORWARDED)
                 cookie = given["Set-Cookie"].split(";")[0]
@@ -167,7 +180,8 @@ class Proxies(unittest.TestCase):
         port = self.nginx(station, "")
         context = ssl.create_default_context(cafile=f"{self.folder}/certificate.pem")
         connection = http.client.HTTPSConnection("127.0.0.1", port, context=context, timeout=20)
-        connection.request("GET", "/radar/socket", headers={"Host": f"localhost:{port}", "Origin": f"https://localhost:{port}"})
+        connection.request("GET", "/radar/socket",
+                           headers={"Host": f"localhost:{port}", "Origin": f"https://localhost:{port}"})
         answer = connection.getresponse()
         self.assertEqual(answer.status, 403)
         self.assertIn("--behind-proxy", answer.read().decode())

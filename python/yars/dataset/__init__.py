@@ -1,6 +1,7 @@
 """Data sets of radar chips: made by `python3 -m yars.dataset SPEC --out DIR`, read by `Dataset(DIR)`.
 
-Inputs: a specification (YAML), terrain, scenes. Outputs: arrays with labels, oriented boxes, a manifest. docs/datasets.md."""
+Inputs: a specification (YAML), terrain, scenes. Outputs: arrays with labels, oriented boxes, a manifest.
+docs/datasets.md."""
 __all__ = ["Dataset", "DatasetError", "SpecError", "main", "read_spec"]
 
 

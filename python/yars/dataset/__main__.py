@@ -7,6 +7,7 @@ except ModuleNotFoundError as problem:
     package = {"yaml": "python3-yaml", "numpy": "python3-numpy"}.get(problem.name)
     if package is None:
         raise
-    sys.exit(f"yars dataset: expected the Python module {problem.name}, found none; install the Debian package {package}")
+    sys.exit(f"yars dataset: expected the Python module {problem.name}, found none; "
+             f"install the Debian package {package}")
 if __name__ == "__main__":
     sys.exit(main())

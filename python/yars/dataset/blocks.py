@@ -11,7 +11,8 @@ from .sampling import Sample
 
 BOX = np.dtype([("item", "<i8"), ("object", "<i4"), ("class", "<i4"), ("pixels", "<i4"), ("aspect_deg", "<f4"),
                 ("corners", "<f4", (4, 2))])
-# Boxes as the radar makes them: `order` where BOX has `item`, and room for `class`. So they are completed and stored where they are.
+# Boxes as the radar makes them: `order` where BOX has `item`, and room for `class`.
+# So they are completed and stored where they are.
 _OF_RADAR = ("item", "object", "pixels", "aspect_deg", "corners")
 RADAR_BOX = np.dtype({"names": ["order", *_OF_RADAR[1:]], "formats": [BOX[name] for name in _OF_RADAR],
                       "offsets": [BOX.fields[name][1] for name in _OF_RADAR], "itemsize": BOX.itemsize})
@@ -22,8 +23,8 @@ def slice_sample(sample, first, last):
     low, high = np.searchsorted(sample.movers["order"], (first, last))
     movers = sample.movers[low:high].copy()
     movers["order"] -= first
-    return Sample(sample.items[first:last], sample.orders[first:last], movers, sample.entry[first:last], sample.scene[first:last],
-                  sample.object[first:last], sample.attempt[first:last])
+    return Sample(sample.items[first:last], sample.orders[first:last], movers, sample.entry[first:last],
+                  sample.scene[first:last], sample.object[first:last], sample.attempt[first:last])
 
 
 # A row of a structured array as JSON is made by one format: it takes half the time of json.dumps on a dict.
@@ -32,7 +33,8 @@ _NOT_FINITE = re.compile(r"(?<=[:,\[])-?(?:nan|inf)\b")
 
 def _template(kind):
     """Format of a row of numbers: %r for each number of _flat."""
-    parts = (f'"{name}":' + ("[" + ",".join(["%r"] * kind[name].shape[0]) + "]" if kind[name].shape else "%r") for name in kind.names)
+    parts = (f'"{name}":' + ("[" + ",".join(["%r"] * kind[name].shape[0]) + "]" if kind[name].shape else "%r")
+             for name in kind.names)
     return "{" + ",".join(parts) + "}"
 
 
@@ -51,7 +53,8 @@ class BlockMaker:
         self._class_ids = np.asarray(class_ids, np.int32)
         self._ignores = bool((self._class_ids < 0).any())
         self._types = formats.types(len(maker.objects))
-        self._encoders = {name: formats.codec(plan.compression, name) for name in plan.arrays} if plan.format == "zarr" else {}
+        self._encoders = ({name: formats.codec(plan.compression, name) for name in plan.arrays} if plan.format == "zarr"
+                          else {})
         self._drawn = sampler.settings.drawn()
         if plan.geotiff:
             import rasterio  # noqa: F401  loaded before the fork: shared by all workers
@@ -79,10 +82,12 @@ class BlockMaker:
                 put(f"chips.zarr/{name}/{block}.0.0", formats.zarr_chunk(array, self.plan.block, self._encoders[name]))
         if self.plan.format == "zarr" and boxes is not None:
             put(self.store.boxes_name(block), formats.npy_head(BOX, len(boxes)), boxes.view(np.uint8))
-        edges = np.searchsorted(boxes["item"], sample.items[0] + np.arange(len(sample.items) + 1)) if boxes is not None else None
+        edges = (np.searchsorted(boxes["item"], sample.items[0] + np.arange(len(sample.items) + 1)) if boxes is not None
+                 else None)
         self._write_items(sample, arrays, geo, boxes, edges, put)
         lines = self._lines(sample, geo, hashes, boxes, edges)
-        head = dump({"block": block, "dataset": self.store.mark, "files": names, "lines": f"{self.store.hash(lines):016x}"})
+        head = dump({"block": block, "dataset": self.store.mark, "files": names,
+                     "lines": f"{self.store.hash(lines):016x}"})
         files.write(self.store.path(self.store.part_name(block)), head.encode() + b"\n", lines)
         return len(sample.items), int(sample.attempt.sum())
 
@@ -104,7 +109,8 @@ class BlockMaker:
         for name in self.plan.arrays:
             arrays[name] = np.ascontiguousarray(joined(name), self._types[name])
             if arrays[name].shape != shape:
-                raise DatasetError(f"expected the array {name} with the shape {shape}, found {arrays[name].shape}; this is a fault of YARS")
+                raise DatasetError(f"expected the array {name} with the shape {shape}, found {arrays[name].shape}; "
+                                   "this is a fault of YARS")
         boxes = (found[0] if len(found) == 1 else np.concatenate(found)) if found else None
         return arrays, joined("hash").tolist(), joined("geo"), boxes
 
@@ -142,8 +148,10 @@ class BlockMaker:
     def _lines(self, sample, geo, hashes, boxes, edges):
         """One line of JSON for each item."""
         names = list(hashes)
-        form = ('{"item":%r,"hash":{' + ",".join(f'"{name}":"%016x"' for name in names) + '},"order":' + _template(sample.orders.dtype) +
-                ',"target":%r,"target_scene":%r,"target_object":%r,"redraws":%r,"geo":' + _template(geo.dtype) + ',"boxes":%r,"movers":')
+        form = ('{"item":%r,"hash":{' + ",".join(f'"{name}":"%016x"' for name in names) + '},"order":' +
+                _template(sample.orders.dtype) +
+                ',"target":%r,"target_scene":%r,"target_object":%r,"redraws":%r,"geo":' + _template(geo.dtype) +
+                ',"boxes":%r,"movers":')
         mover_names = sample.movers.dtype.names[1:]
         movers = [[] for _ in sample.items]
         for row in sample.movers.tolist():
@@ -153,8 +161,8 @@ class BlockMaker:
         counts = np.diff(edges).tolist() if edges is not None else [0] * len(runs)
         lines = []
         for at, (item, checks, order, entry, scene, thing, redraws, place, count) in enumerate(zip(
-                sample.items.tolist(), zip(*hashes.values()), _flat(sample.orders), sample.entry.tolist(), sample.scene.tolist(),
-                sample.object.tolist(), sample.attempt.tolist(), _flat(geo), counts)):
+                sample.items.tolist(), zip(*hashes.values()), _flat(sample.orders), sample.entry.tolist(),
+                sample.scene.tolist(), sample.object.tolist(), sample.attempt.tolist(), _flat(geo), counts)):
             line = form % (item, *checks, *order, entry, scene, thing, redraws, *place, count)
             if "nan" in line or "inf" in line:
                 line = _NOT_FINITE.sub("null", line)
@@ -162,7 +170,8 @@ class BlockMaker:
             if settings:
                 more["settings"] = settings[runs[at]]
             if self.plan.manifest_boxes and boxes is not None:
-                more["box_list"] = [dict(zip(BOX.names[1:], _plain(box)[1:])) for box in boxes[edges[at]:edges[at + 1]].tolist()]
+                more["box_list"] = [dict(zip(BOX.names[1:], _plain(box)[1:]))
+                                    for box in boxes[edges[at]:edges[at + 1]].tolist()]
             lines.append(line + (dump(movers[at]) if movers[at] else "[]") + ("," + dump(more)[1:] if more else "}"))
         return ("\n".join(lines) + "\n").encode()
 

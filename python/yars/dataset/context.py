@@ -1,6 +1,7 @@
 """Opens a data set for work: checks the specification against the radar, makes what it wants made, opens the maker.
 
-`prepare` runs once in the coordinator and reads no terrain; `load` runs in the host process, before workers are forked."""
+`prepare` runs once in the coordinator and reads no terrain;
+`load` runs in the host process, before workers are forked."""
 import importlib
 import json
 import os
@@ -26,7 +27,8 @@ FIRST_ITEMS = 1024  # drawn by --check
 
 
 def open_store(spec_path, folder):
-    """(plan, limits, store) of a specification, with all checks that need no terrain. Raises SpecError, DatasetError."""
+    """(plan, limits, store) of a specification, with all checks that need no terrain.
+    Raises SpecError, DatasetError."""
     plan = read_spec(spec_path)
     settings = Settings(plan, Streams(plan.seed, Settings.fields(plan)))
     limits = read_limits(plan, settings.checked_lines())
@@ -52,22 +54,26 @@ def _made_name(number, scene):
 
 
 def make_inputs(plan, store, read=True):
-    """Makes made-up scenes and terrain that are absent, or with `read` those with other contents than they were made with."""
+    """Makes made-up scenes and terrain that are absent; with `read` also those whose contents have changed."""
     for number, scene in enumerate(plan.scenes):
         if scene.generate:
             origin = ",".join(f"{value:.12g}" for value in scene.at)
             _made(store, _made_name(number, scene), f"{plan.path}:{scene.line}", read, [
-                "scene", "generate", "--kind", scene.generate, "--triangles", str(scene.triangles), "--seed", str(scene.seed), f"--origin={origin}"])
+                "scene", "generate", "--kind", scene.generate, "--triangles", str(scene.triangles),
+                "--seed", str(scene.seed), f"--origin={origin}"])
     if plan.terrain_generate:
         _made(store, "terrain", plan.where("terrain"), read, ["terrain", "generate"] + [
-            f"--{name.replace('_', '-')}={value}" for name, value in plan.terrain_generate.items()] + ["--airfields=soil"])
+            f"--{name.replace('_', '-')}={value}" for name, value in plan.terrain_generate.items()] +
+              ["--airfields=soil"])
 
 
 def _made(store, name, where, read, arguments):
-    """Makes a file or folder by `yars ARGUMENTS`, if it is not there or not as it was made. Its sizes and hashes are noted afterwards."""
+    """Makes a file or folder by `yars ARGUMENTS`, if it is not there or not as it was made.
+    Its sizes and hashes are noted afterwards."""
     subject, of, path = os.path.basename(name), " ".join(arguments), store.path(name)
     known = store.noted(subject, of)
-    reason = store.unfit(subject, read, of) or (read and known.keys() != set(_names_of(store, name)) and "there are other files")
+    reason = store.unfit(subject, read, of) or (read and known.keys() != set(_names_of(store, name)) and
+                                                "there are other files")
     if not reason:
         return
     temporary = files.temporary_name(path)
@@ -76,7 +82,8 @@ def _made(store, name, where, read, arguments):
         new = {made: store.size_and_hash(temporary + made[len(name):] if made != name else temporary)
                for made in (_names_of(store, name, temporary))}
         if known and known != new and store.has_blocks():
-            raise DatasetError(f"{path}: expected what the items there were made with, found that this YARS ({version()}) makes another; use the "
+            raise DatasetError(f"{path}: expected what the items there were made with, "
+                               f"found that this YARS ({version()}) makes another; use the "
                                "version that dataset.json names, or choose another --out")
         if known:
             warnings.warn(f"{path} is made again: {reason}")
@@ -118,7 +125,8 @@ def _generate(where, path, temporary, arguments):
     if run.returncode:
         text = run.stderr.strip().replace(temporary, path)
         raise DatasetError(f"{where}: {as_keys(text)}" if text else
-                           f"{path}: expected to make it by `yars {' '.join(arguments[:2])}`, found it ended by {files.end_of(run.returncode)}")
+                           f"{path}: expected to make it by `yars {' '.join(arguments[:2])}`, "
+                           f"found it ended by {files.end_of(run.returncode)}")
 
 
 def _centre(scene, path, where):
@@ -134,12 +142,12 @@ def _centre(scene, path, where):
 
 
 def load(spec_path, folder, maker_name=MAKER, mark=None, warm=True):
-    """BlockMaker of a prepared folder. Reads terrain and scenes; with `warm`, those of items from the whole set. `mark`: the
-    fingerprint that the coordinator found."""
+    """BlockMaker of a prepared folder. Reads terrain and scenes; with `warm`, those of items from the whole set.
+    `mark`: the fingerprint that the coordinator found."""
     plan, limits, store = open_store(spec_path, folder)
     if mark and mark != store.mark:
-        raise DatasetError(f"{spec_path}: expected the specification, terrain and scenes that the run began with (fingerprint {mark}), found others "
-                           f"({store.mark}); have all computers see the same files")
+        raise DatasetError(f"{spec_path}: expected the specification, terrain and scenes that the run began with "
+                           f"(fingerprint {mark}), found others ({store.mark}); have all computers see the same files")
     paths = scene_paths(plan, folder)
     terrain = store.path("terrain") if plan.terrain_generate else plan.terrain
     module, _, function = maker_name.partition(":")
@@ -152,7 +160,8 @@ def load(spec_path, folder, maker_name=MAKER, mark=None, warm=True):
     centres = []
     if any(target.scenes for target in plan.targets):
         centres = [_centre(scene, path, f"{plan.path}:{scene.line}") for scene, path in zip(plan.scenes, paths)]
-    sampler = Sampler(plan, limits, World(maker.elevation, np.array(centres, float).reshape(-1, 2), maker.objects, labels))
+    sampler = Sampler(plan, limits,
+                      World(maker.elevation, np.array(centres, float).reshape(-1, 2), maker.objects, labels))
     store.describe(_objects_text(maker.objects, labels, classes), formats.types(len(maker.objects)))
     if warm:
         step = max(1, plan.count // WARM_ITEMS)
@@ -161,8 +170,8 @@ def load(spec_path, folder, maker_name=MAKER, mark=None, warm=True):
 
 
 def try_out(spec_path, maker_name=MAKER):
-    """Makes the first items of a specification in a temporary folder, with its terrain and scenes, and some of the whole set. Raises
-    SpecError, DatasetError."""
+    """Makes the first items of a specification in a temporary folder, with its terrain and scenes,
+    and some of the whole set. Raises SpecError, DatasetError."""
     with tempfile.TemporaryDirectory(prefix="yars-dataset-") as folder:
         plan, store = prepare(spec_path, folder)
         made = load(spec_path, folder, maker_name, store.mark)
@@ -173,6 +182,7 @@ def _objects_text(objects, labels, classes):
     """objects.json: classes, and a line for each object, in the order of the array `object`."""
     rows = []
     for row, label in zip(objects.tolist(), labels):
-        values = {name: value.decode() if isinstance(value, bytes) else value for name, value in zip(objects.dtype.names, row)}
+        values = {name: value.decode() if isinstance(value, bytes) else value
+                  for name, value in zip(objects.dtype.names, row)}
         rows.append(dump({"class": label, **values}))
     return f'{{"classes":{dump(classes)},\n"objects":[\n' + ",\n".join(rows) + "\n]}\n"

@@ -1,7 +1,7 @@
 """Blocks made by the workers of Dask distributed (https://distributed.dask.org): one task a block.
 
-Each Dask worker keeps one host process with as many forked workers as it has threads. Specification and folder have the same
-paths on all computers. A task whose worker dies runs again elsewhere: blocks are idempotent."""
+Each Dask worker keeps one host process with as many forked workers as it has threads. Specification and folder have the
+same paths on all computers. A task whose worker dies runs again elsewhere: blocks are idempotent."""
 import asyncio
 import concurrent.futures
 import itertools
@@ -21,7 +21,8 @@ ANSWER_WITHIN_S = 30   # of a task that has ended
 SCHEDULER_BACK_S = 5.0  # a scheduler that is gone for so long ends the run
 TASKS_PER_THREAD = 4  # that wait at the scheduler
 
-_LOST = (OSError, RuntimeError, TimeoutError, concurrent.futures.TimeoutError, concurrent.futures.CancelledError, asyncio.CancelledError)
+_LOST = (OSError, RuntimeError, TimeoutError, concurrent.futures.TimeoutError, concurrent.futures.CancelledError,
+         asyncio.CancelledError)
 
 _lock = threading.Lock()
 _host = None
@@ -78,7 +79,8 @@ class SharedHost:
 
 
 def make_block(run, plan, folder, maker, mark, block):
-    """Task: makes a block on this Dask worker. Returns the answer of its host; an error is an answer, too. `run`: name of the run."""
+    """Task: makes a block on this Dask worker. Returns the answer of its host; an error is an answer, too.
+    `run`: name of the run."""
     global _host  # pylint: disable=global-statement
     from distributed import get_worker
     key = plan, folder, maker, mark
@@ -109,18 +111,21 @@ def connect(address):
     try:
         import distributed
     except ImportError:
-        raise DatasetError("expected the Python package distributed for --dask, found none; install python3-distributed") from None
+        raise DatasetError("expected the Python package distributed for --dask, found none; "
+                           "install python3-distributed") from None
     logging.disable(logging.CRITICAL)  # Dask's log of this process: what matters of it becomes an error here
     try:
-        client = distributed.Client(address)  # waits as long as Dask's own settings say (distributed.comm.timeouts.connect)
+        # waits as long as Dask's own settings say (distributed.comm.timeouts.connect)
+        client = distributed.Client(address)
     except (OSError, ValueError, TimeoutError) as error:
-        raise DatasetError(f"--dask: expected a scheduler at {address}, found none: {error}; start dask-scheduler, or check the "
-                           "address") from None
+        raise DatasetError(f"--dask: expected a scheduler at {address}, found none: {error}; start dask-scheduler, "
+                           "or check the address") from None
     try:
         client.wait_for_workers(1, timeout=WORKERS_WITHIN_S)
     except (OSError, TimeoutError, distributed.TimeoutError):
         disconnect(client)
-        raise DatasetError(f"--dask: expected workers at {address}, found none in {WORKERS_WITHIN_S} s; start dask-worker") from None
+        raise DatasetError(f"--dask: expected workers at {address}, found none in {WORKERS_WITHIN_S} s; "
+                           "start dask-worker") from None
     return client
 
 
@@ -157,7 +162,8 @@ def _submit_all(client, arguments, blocks, progress, address):
 
     def submit(block):
         tries[block] = tries.get(block, 0) + 1
-        future = client.submit(make_block, *arguments, block, pure=False, key=f"yars-{arguments[0][:8]}-{block}-{tries[block]}")
+        future = client.submit(make_block, *arguments, block, pure=False,
+                               key=f"yars-{arguments[0][:8]}-{block}-{tries[block]}")
         flying[future.key] = block, future
         future.add_done_callback(lambda ended: done.put(ended.key))
     most = max(16, TASKS_PER_THREAD * sum(client.nthreads().values()))
@@ -174,11 +180,11 @@ def _submit_all(client, arguments, blocks, progress, address):
             for more in itertools.islice(blocks, 1):
                 submit(more)
         elif isinstance(error, ModuleNotFoundError):
-            raise DatasetError(f"--dask: expected the package yars on the workers, found: {error}; install python3-yars there, or set "
-                               "PYTHONPATH for dask-worker")
+            raise DatasetError(f"--dask: expected the package yars on the workers, found: {error}; "
+                               "install python3-yars there, or set PYTHONPATH for dask-worker")
         elif tries[block] >= MOST_TRIES:
-            raise DatasetError(f"block {block}: expected its files, found {tries[block]} failures; the last: {error or type(error).__name__}; "
-                               "see the log of dask-worker")
+            raise DatasetError(f"block {block}: expected its files, found {tries[block]} failures; "
+                               f"the last: {error or type(error).__name__}; see the log of dask-worker")
         else:
             _check_scheduler(client, address)
             submit(block)
@@ -195,8 +201,8 @@ def _result(future):
 
 
 def _gone(address):
-    return DatasetError(f"--dask: expected the scheduler at {address}, found it gone; start dask-scheduler and dask-worker again, then run "
-                        "the same command again: what is written stays")
+    return DatasetError(f"--dask: expected the scheduler at {address}, found it gone; start dask-scheduler and "
+                        "dask-worker again, then run the same command again: what is written stays")
 
 
 def _next(client, done, address, progress):

@@ -1,14 +1,15 @@
-"""Uniform draws by counters, and the distributions of a specification. Each turns one uniform draw of [0, 1) into a value by
-its inverse distribution function, for whole arrays. `low` and `high` are the ends of what it can give."""
+"""Uniform draws by counters, and the distributions of a specification. Each turns one uniform draw of [0, 1) into a
+value by its inverse distribution function, for whole arrays. `low` and `high` are the ends of what it can give."""
 import hashlib
 import math
 import statistics
 
 import numpy as np
 
-# Philox4x32-10, the counter-based generator of Salmon et al., "Parallel Random Numbers: As Easy as 1, 2, 3" (2011), over whole arrays of
-# counters. A draw is a function of (seed, name of the field, item, attempt, number of the draw) and of nothing else: fields do not disturb
-# each other, and neither order nor block size changes a value. The test compares Random123's known answers.
+# Philox4x32-10, the counter-based generator of Salmon et al., "Parallel Random Numbers: As Easy as 1, 2, 3" (2011),
+# over whole arrays of counters. A draw is a function of (seed, name of the field, item, attempt, number of the draw)
+# and of nothing else: fields do not disturb each other, and neither order nor block size changes a value.
+# The test compares Random123's known answers.
 _MULTIPLY = (np.uint64(0xD2511F53), np.uint64(0xCD9E8D57))
 _WEYL = (0x9E3779B9, 0xBB67AE85)
 _LOW, _SHIFT = np.uint64(0xFFFFFFFF), np.uint64(32)
@@ -51,7 +52,8 @@ class Streams:
         return ((high >> np.uint64(5)) * 67108864.0 + (low >> np.uint64(6))) / 9007199254740992.0
 
 
-# Wichura, Algorithm AS 241 (PPND16), Applied Statistics 37 (1988) 477-484: numerators and denominators, highest power first.
+# Wichura, Algorithm AS 241 (PPND16), Applied Statistics 37 (1988) 477-484:
+# numerators and denominators, highest power first.
 _MIDDLE = np.array(([2509.0809287301226727, 33430.575583588128105, 67265.770927008700853, 45921.953931549871457,
             13731.693765509461125, 1971.5909503065514427, 133.14166789178437745, 3.387132872796366608],
            [5226.495278852854561, 28729.085735721942674, 39307.89580009271061, 21213.794301586595867,
@@ -60,10 +62,11 @@ _NEAR = np.array(([7.7454501427834140764e-4, 0.0227238449892691845833, 0.2417807
           3.64784832476320460504, 5.7694972214606914055, 4.6303378461565452959, 1.42343711074968357734],
          [1.05075007164441684324e-9, 5.475938084995344946e-4, 0.0151986665636164571966, 0.14810397642748007459,
           0.68976733498510000455, 1.6763848301838038494, 2.05319162663775882187, 1.0]))
-_FAR = np.array(([2.01033439929228813265e-7, 2.71155556874348757815e-5, 0.0012426609473880784386, 0.026532189526576123093,
-         0.29656057182850489123, 1.7848265399172913358, 5.4637849111641143699, 6.6579046435011037772],
-        [2.04426310338993978564e-15, 1.4215117583164458887e-7, 1.8463183175100546818e-5, 7.868691311456132591e-4,
-         0.0148753612908506148525, 0.13692988092273580531, 0.59983220655588793769, 1.0]))
+_FAR = np.array(
+    ([2.01033439929228813265e-7, 2.71155556874348757815e-5, 0.0012426609473880784386, 0.026532189526576123093,
+      0.29656057182850489123, 1.7848265399172913358, 5.4637849111641143699, 6.6579046435011037772],
+     [2.04426310338993978564e-15, 1.4215117583164458887e-7, 1.8463183175100546818e-5, 7.868691311456132591e-4,
+      0.0148753612908506148525, 0.13692988092273580531, 0.59983220655588793769, 1.0]))
 
 
 def _ratio(polynomials, x):

@@ -24,7 +24,8 @@ _ACTIONS = {errno.ENOSPC: "free some space, then run the same command again: wha
 
 _SIGNALS = {signal.SIGXFSZ: "raise the limit of a file's size (ulimit -f)",
             signal.SIGKILL: "is memory short? Try fewer --workers, or a smaller output.block",
-            signal.SIGXCPU: "raise the limit of processor time (ulimit -t)", signal.SIGBUS: "is the disk full, or was a file cut off?"}
+            signal.SIGXCPU: "raise the limit of processor time (ulimit -t)",
+            signal.SIGBUS: "is the disk full, or was a file cut off?"}
 
 
 def end_of(code):
@@ -130,15 +131,16 @@ def _runs(pid):
 
 
 def remove_leftovers(folder):
-    """Removes temporary files and folders of writers that no longer run: those of this host by their process, those of others by
-    their age. Returns their number."""
+    """Removes temporary files and folders of writers that no longer run: those of this host by their process, those of
+    others by their age. Returns their number."""
     count = 0
     for place, folders, names in os.walk(folder):
         for name in names + folders:
             match = _TEMPORARY.match(name)
             path = os.path.join(place, name)
             try:
-                if match and (not _runs(match.group(2)) if match.group(1) == _HOST else time.time() - os.stat(path).st_mtime > _OLD_S):
+                if match and (not _runs(match.group(2)) if match.group(1) == _HOST
+                              else time.time() - os.stat(path).st_mtime > _OLD_S):
                     shutil.rmtree(path) if name in folders else os.unlink(path)
                     count += 1
             except OSError:

@@ -1,4 +1,5 @@
-"""Encodings of arrays, with the same bytes for the same values: Zarr chunks, NPZ, PNG, GeoTIFF; JSON; and annotations for COCO readers."""
+"""Encodings of arrays, with the same bytes for the same values: Zarr chunks, NPZ, PNG, GeoTIFF, JSON,
+and annotations for COCO readers."""
 import io
 import json
 
@@ -11,10 +12,12 @@ _TYPES = {"video": "|u1", "power": "<f4", "shadow": "|u1", "layover": "|u1", "ob
          "height": "<f4", "grazing_angle": "<f4"}
 # Blosc's: 1 by bytes for floats, 2 by bits for flags and codes.
 _SHUFFLES = {"power": 1, "height": 1, "grazing_angle": 1, "shadow": 2, "layover": 2, "material": 2}
-UNITS = {"video": "1", "power": "1", "shadow": "1", "layover": "1", "object": "1", "material": "1", "height": "m", "grazing_angle": "deg"}
+UNITS = {"video": "1", "power": "1", "shadow": "1", "layover": "1", "object": "1", "material": "1", "height": "m",
+         "grazing_angle": "deg"}
 _INT16_OBJECTS = 32767  # indices up to 32766 and -1
 MEANINGS = {"video": "0 black to 255 white", "power": "gamma of level ground, before speckle and noise",
-            "shadow": "1: no surface that the radar sees returns here", "layover": "1: two or more visible surfaces at this slant range",
+            "shadow": "1: no surface that the radar sees returns here",
+            "layover": "1: two or more visible surfaces at this slant range",
             "object": "index into objects.json of the strongest surface; -1: ground or none",
             "material": "surface material code; 0: land without culture", "height": "above mean sea level",
             "grazing_angle": "between line of sight and surface"}
@@ -42,15 +45,16 @@ def types(objects):
 
 
 def codec(name, array):
-    """Encoder of an array's chunks: None for uncompressed ones. The order of bytes before compression is the fastest of each kind."""
+    """Encoder of an array's chunks: None for uncompressed ones.
+    The order of bytes before compression is the fastest of each kind."""
     if name == "none":
         return None
     try:
         import numcodecs
         import numcodecs.blosc
     except ImportError:
-        raise DatasetError("expected the Python package numcodecs for output.compression, found none; install python3-numcodecs, or "
-                           "write compression: none") from None
+        raise DatasetError("expected the Python package numcodecs for output.compression, found none; "
+                           "install python3-numcodecs, or write compression: none") from None
     numcodecs.blosc.use_threads = False  # one process a core; and bytes do not depend on threads
     return numcodecs.Blosc(cname=name, clevel=1, shuffle=_SHUFFLES.get(array, numcodecs.Blosc.NOSHUFFLE))
 
@@ -68,8 +72,10 @@ def zarr_metadata(plan, kinds):
         files[f"{name}/.zarray"] = {
             "zarr_format": 2, "shape": [plan.count, plan.size, plan.size], "chunks": [plan.block, plan.size, plan.size],
             "dtype": kind.str, "compressor": encoder and _config(encoder), "order": "C", "filters": None,
-            "fill_value": "NaN" if kind.kind == "f" else None}  # xarray takes a fill value for absent ones: 0 would be NaN
-        files[f"{name}/.zattrs"] = {"_ARRAY_DIMENSIONS": ["item", "row", "column"], "units": UNITS[name], "long_name": MEANINGS[name]}
+            # xarray takes a fill value for absent ones: 0 would be NaN
+            "fill_value": "NaN" if kind.kind == "f" else None}
+        files[f"{name}/.zattrs"] = {"_ARRAY_DIMENSIONS": ["item", "row", "column"], "units": UNITS[name],
+                                    "long_name": MEANINGS[name]}
     files[".zmetadata"] = {"metadata": dict(files), "zarr_consolidated_format": 1}
     return {path: json.dumps(value, indent=1, sort_keys=True) + "\n" for path, value in files.items()}
 
@@ -84,7 +90,8 @@ def zarr_chunk(array, block, encoder):
 def npy_head(kind, count):
     """Begin of the .npy file of an array of one axis. The bytes of the array follow it."""
     head = io.BytesIO()
-    np.lib.format.write_array_header_1_0(head, {"descr": np.lib.format.dtype_to_descr(kind), "fortran_order": False, "shape": (count,)})
+    np.lib.format.write_array_header_1_0(head, {"descr": np.lib.format.dtype_to_descr(kind), "fortran_order": False,
+                                                "shape": (count,)})
     return head.getvalue()
 
 
@@ -111,13 +118,16 @@ def geotiff(picture, geo):
     try:
         import rasterio
     except ImportError:
-        raise DatasetError("expected the Python package rasterio for output.geotiff, found none; install python3-rasterio") from None
+        raise DatasetError("expected the Python package rasterio for output.geotiff, found none; "
+                           "install python3-rasterio") from None
     x0, x_column, x_row, y0, y_column, y_row = (float(number) for number in geo["plane_from_pixel"])
-    plane = (f"+proj=aeqd +lat_0={float(geo['origin_latitude'])!r} +lon_0={float(geo['origin_longitude'])!r} +datum=WGS84 "
-             "+units=m +no_defs")
+    plane = (f"+proj=aeqd +lat_0={float(geo['origin_latitude'])!r} +lon_0={float(geo['origin_longitude'])!r} "
+             "+datum=WGS84 +units=m +no_defs")
     with rasterio.MemoryFile() as memory:
-        with memory.open(driver="GTiff", width=picture.shape[1], height=picture.shape[0], count=1, dtype=picture.dtype.name, crs=plane,
-                         transform=rasterio.Affine(x_column, x_row, x0, y_column, y_row, y0), compress="deflate") as raster:
+        with memory.open(driver="GTiff", width=picture.shape[1], height=picture.shape[0], count=1,
+                         dtype=picture.dtype.name, crs=plane,
+                         transform=rasterio.Affine(x_column, x_row, x0, y_column, y_row, y0),
+                         compress="deflate") as raster:
             raster.write(picture, 1)
         return memory.read()
 
@@ -125,8 +135,8 @@ def geotiff(picture, geo):
 # annotations.json in the form of COCO (https://cocodataset.org/#format-data)
 
 def coco(store):
-    """Parts of annotations.json, as bytes. Categories count from 1; ids of images are items, ids of annotations count from 1. A box is cut
-    off at the picture's edges; one without any area there is left out."""
+    """Parts of annotations.json, as bytes. Categories count from 1; ids of images are items, ids of annotations count
+    from 1. A box is cut off at the picture's edges; one without any area there is left out."""
     plan = store.plan
     with open(store.path("objects.json"), "rb") as file:
         classes = json.load(file)["classes"]
@@ -156,12 +166,13 @@ def _boxes_of(store, block):
     """Boxes of a block as blocks.BOX."""
     if store.plan.format == "zarr":
         return np.load(store.path(store.boxes_name(block)))
-    return np.concatenate([np.load(store.path(store.item_name("items", item, ".npz")))["boxes"] for item in range(*store.items(block))])
+    return np.concatenate([np.load(store.path(store.item_name("items", item, ".npz")))["boxes"]
+                           for item in range(*store.items(block))])
 
 
 def cut_off(corners, size):
-    """Corners (columns, rows) of the part of a convex polygon within [0, size]^2; fewer than three: none. Sutherland and Hodgman,
-    "Reentrant Polygon Clipping", Communications of the ACM 17 (1974)."""
+    """Corners (columns, rows) of the part of a convex polygon within [0, size]^2; fewer than three: none. Sutherland
+    and Hodgman, "Reentrant Polygon Clipping", Communications of the ACM 17 (1974)."""
     for axis, sign, edge in ((0, -1.0, 0.0), (0, 1.0, size), (1, -1.0, 0.0), (1, 1.0, size)):
         inside, result = [sign * (corner[axis] - edge) <= 0.0 for corner in corners], []
         for at, corner in enumerate(corners):
@@ -179,9 +190,11 @@ def cut_off(corners, size):
 
 def _coco_lines(boxes, size, number):
     lines = []
-    for item, thing, label, pixels, aspect, corners in boxes[["item", "object", "class", "pixels", "aspect_deg", "corners"]].tolist():
+    for item, thing, label, pixels, aspect, corners in boxes[["item", "object", "class", "pixels", "aspect_deg",
+                                                              "corners"]].tolist():
         outline = [[round(value, 3) for value in corner] for corner in cut_off(corners.tolist(), size)]
-        outline = [corner for at, corner in enumerate(outline) if corner != outline[at - 1]]  # edges through a corner of the picture
+        # Edges through a corner of the picture.
+        outline = [corner for at, corner in enumerate(outline) if corner != outline[at - 1]]
         if len(outline) < 3:
             continue
         columns, rows = zip(*outline)
@@ -189,6 +202,6 @@ def _coco_lines(boxes, size, number):
         if box[2] <= 0.0 or box[3] <= 0.0:
             continue
         lines.append(dump({"id": number + len(lines), "image_id": item, "category_id": label + 1, "bbox": box,
-                           "segmentation": [[value for corner in outline for value in corner]], "area": pixels, "iscrowd": 0,
-                           "aspect_deg": round(aspect, 3), "object": thing}))
+                           "segmentation": [[value for corner in outline for value in corner]], "area": pixels,
+                           "iscrowd": 0, "aspect_deg": round(aspect, 3), "object": thing}))
     return lines

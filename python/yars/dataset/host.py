@@ -1,8 +1,9 @@
 """The host process of a computer: reads terrain and scenes once, forks workers that share them, hands out blocks.
 
-It is started as `python3 -m yars.dataset.host SPEC DIR WORKERS MAKER MARK WITH_PARENT` and speaks JSON lines. Input: {"blocks": [b, ...]}, a
-batch for one worker. Output: {"ready": n}; {"block": b, "items": n, "redraws": r}; {"error": text}; {"lost": b, "reason": text}.
-At the end of its input it ends, and its workers with it. WITH_PARENT 1: it ends, too, when the thread that started it ends."""
+It is started as `python3 -m yars.dataset.host SPEC DIR WORKERS MAKER MARK WITH_PARENT` and speaks JSON lines. Input:
+{"blocks": [b, ...]}, a batch for one worker. Output: {"ready": n}; {"block": b, "items": n, "redraws": r}; {"error":
+text}; {"lost": b, "reason": text}. At the end of its input it ends, and its workers with it.
+WITH_PARENT 1: it ends, too, when the thread that started it ends."""
 import collections
 import ctypes
 import gc
@@ -87,8 +88,8 @@ def work(maker, commands, results):
             except DatasetError as error:
                 write_all(results, json.dumps({"error": str(error)}) + "\n")
             except MemoryError:
-                write_all(results, json.dumps({"error": "expected memory for a block, found none left; use fewer workers or a smaller "
-                                                        "output.block"}) + "\n")
+                write_all(results, json.dumps({"error": "expected memory for a block, found none left; "
+                                                        "use fewer workers or a smaller output.block"}) + "\n")
             except Exception:  # pylint: disable=broad-except
                 write_all(results, json.dumps({"error": fault_text()}) + "\n")
         if end:
@@ -107,7 +108,8 @@ class Worker:
                 die_with_parent(parent)
                 signal.signal(signal.SIGTERM, signal.SIG_DFL)
                 warnings.simplefilter("ignore")  # the host has shown those of items from the whole set
-                for file in [0, self.commands, result_read] + [file for worker in others for file in (worker.commands, worker.results.file)]:
+                for file in [0, self.commands, result_read] + [file for worker in others
+                                                               for file in (worker.commands, worker.results.file)]:
                     os.close(file)
                 os.dup2(2, 1)  # what a library prints must not get into the host's answers
                 work(maker, command_read, results)
@@ -145,7 +147,8 @@ class Host:
 
     def run(self, output):
         source = Lines(0)
-        write_all(output, json.dumps({"ready": len(self._workers), "pids": [worker.pid for worker in self._workers]}) + "\n")
+        write_all(output,
+                  json.dumps({"ready": len(self._workers), "pids": [worker.pid for worker in self._workers]}) + "\n")
         while True:
             ready, _, _ = select.select([0] + [worker.results.file for worker in self._workers], [], [])
             if 0 in ready:
@@ -196,7 +199,8 @@ class HostProcess:
         self.process = subprocess.Popen(
             [sys.executable, "-m", "yars.dataset.host", str(plan), str(folder), str(workers), maker, mark,
              str(os.getpid() if with_parent else 0)],
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0, start_new_session=True, env={**os.environ, "PYTHONPATH": paths})
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, bufsize=0, start_new_session=True,
+            env={**os.environ, "PYTHONPATH": paths})
         self.lines = Lines(self.process.stdout.fileno())
 
     def give(self, blocks):
@@ -223,7 +227,8 @@ def check_answer(answer):
     if "error" in answer:
         raise DatasetError(answer["error"])
     if "lost" in answer:
-        raise DatasetError(f"block {answer['lost']}: expected its files, found its worker ended each time by {answer['reason']}")
+        raise DatasetError(f"block {answer['lost']}: expected its files, "
+                           f"found its worker ended each time by {answer['reason']}")
 
 
 def main(arguments):

@@ -1,5 +1,5 @@
-"""Limits of a radar for patch maps, read from its configuration: blind zone, gimbal, ranges of each window. Geometry that no draw can
-make possible is found by them when a specification is read. Source: `yars config print`;
+"""Limits of a radar for patch maps, read from its configuration: blind zone, gimbal, ranges of each window. Geometry
+that no draw can make possible is found by them when a specification is read. Source: `yars config print`;
 docs/pilots_manual.md#rule-2, #rule-3 and #rule-4."""
 import dataclasses
 import functools
@@ -40,8 +40,8 @@ def command():
     """The program `yars`."""
     found = programs.path_of("yars")
     if not found:
-        raise DatasetError("expected the command yars, found none; install the package yars, or set YARS_BIN to the folder "
-                           "of the programs")
+        raise DatasetError("expected the command yars, found none; install the package yars, "
+                           "or set YARS_BIN to the folder of the programs")
     return found
 
 
@@ -58,7 +58,8 @@ def limits_of(text):
 
 def _run(verb, path):
     """(exit code, output, messages) of `yars config VERB`."""
-    run = subprocess.run([command(), "config", verb] + ([str(path)] if path else []), capture_output=True, text=True, check=False)
+    run = subprocess.run([command(), "config", verb] + ([str(path)] if path else []), capture_output=True, text=True,
+                         check=False)
     return run.returncode, run.stdout, run.stderr
 
 
@@ -72,29 +73,34 @@ def printed(path):
 
 
 def as_keys(text):
-    """A message of a command or of the module, with keys of a specification in place of options and without the program's name."""
+    """A message of a command or of the module, with keys of a specification in place of options and without the
+    program's name."""
     names = {"origin": "at", "kind": "generate", "scene": "scenes"}
     text = re.sub(r"^yars[a-z_. ]*: ", "", str(text), flags=re.M | re.I)
     return re.sub(r"--([a-z][a-z-]*)", lambda match: names.get(match.group(1), match.group(1).replace("-", "_")), text)
 
 
 def _fault_text(text, key):
-    """A message of `yars config check` about a line of settings, for a run that is refused. `key`: path of a knob, or None."""
-    text = re.sub(r"the form (\S+) has no slot :(\S+); the slot is ignored; nearest name: :(\S+)", r'expected a slot of \1, found "\2"; '
+    """A message of `yars config check` about a line of settings, for a run that is refused.
+    `key`: path of a knob, or None."""
+    text = re.sub(r"the form (\S+) has no slot :(\S+); the slot is ignored; nearest name: :(\S+)",
+                  r'expected a slot of \1, found "\2"; '
                   r'did you mean "\3"?', text)
-    text = re.sub(r"the form (\S+) has no slot :(\S+); the slot is ignored", r'expected a slot of \1, found "\2"; `yars config print --defaults` '
+    text = re.sub(r"the form (\S+) has no slot :(\S+); the slot is ignored",
+                  r'expected a slot of \1, found "\2"; `yars config print --defaults` '
                   "explains every slot", text)
     text = re.sub(r"the form (\S+) is unknown and ignored", r'expected the name of a form, found "\1"; '
                   "`yars config print --defaults` shows all", text)
     if key:
-        text = re.sub(r'(?<=for ):(\w+)|(?<=")(\w+)(?=")', lambda match: re.sub("[A-Z]", lambda big: "_" + big.group().lower(),
-                                                                              match.group(1) or match.group(2)), text)
+        text = re.sub(r'(?<=for ):(\w+)|(?<=")(\w+)(?=")', lambda match: re.sub(
+            "[A-Z]", lambda big: "_" + big.group().lower(), match.group(1) or match.group(2)), text)
         return text.replace("a slot of Fidelity", "a knob for radar.knobs")
     return text
 
 
 def _faults_of(text, lines, plan, path):
-    """Faults of lines of GUF after a configuration. The check ends at the first error, so it is done again without that line."""
+    """Faults of lines of GUF after a configuration.
+    The check ends at the first error, so it is done again without that line."""
     left, faults, first = list(lines), {}, text.count("\n") + 1
     while len(faults) < MOST_FAULTS:
         path.write_text(text + "".join(line + "\n" for line, _, _ in left))
@@ -113,8 +119,9 @@ def _faults_of(text, lines, plan, path):
 
 
 def read_limits(plan, lines):
-    """Limits of the specification's radar. `lines`: (GUF text of one line, line of the specification, path of its knob or None) of knobs
-    and settings, which are checked here. Raises SpecError with all faults at the specification's lines."""
+    """Limits of the specification's radar. `lines`: (GUF text of one line, line of the specification, path of its knob
+    or None) of knobs and settings, which are checked here.
+    Raises SpecError with all faults at the specification's lines."""
     try:
         text = printed(plan.config)
     except DatasetError as error:
@@ -180,21 +187,23 @@ def check(plan, limits):
     windows = windows_of(plan, limits)
     if not plan.geometry["force"]:
         known = ", ".join(f"{window:g}" for window in limits.windows)
-        unknown = ["an interval"] if windows is None else [f"{window:g}" for window in windows if window not in limits.windows]
+        unknown = ["an interval"] if windows is None else [f"{window:g}" for window in windows
+                                                           if window not in limits.windows]
         if unknown:
-            fault("chip.window_nm", f"windows of the radar ({known} NM)", ", ".join(unknown), f"choose from them, {forced}")
+            fault("chip.window_nm", f"windows of the radar ({known} NM)", ", ".join(unknown),
+                  f"choose from them, {forced}")
             windows = []
         outside = impossible(plan.geometry["squint_deg"], squint_intervals(limits))
         if outside:
             low, high = (squint_intervals(limits) or [(0, 0)])[0]
-            fault("geometry.squint_deg", f"angles off the track between blind zone and gimbal ({low:g} to {high:g} deg)", outside,
-                  f"give others, {forced}")
+            fault("geometry.squint_deg", f"angles off the track between blind zone and gimbal ({low:g} to "
+                                         f"{high:g} deg)", outside, f"give others, {forced}")
     for window in windows if windows is not None else [plan.window_nm.ends()[-1]]:
         low, high = range_intervals(plan, limits, window)[0]
         outside = impossible(plan.geometry["range_nm"], [(low, high)])
         if outside:
-            fault("geometry.range_nm", f"ranges at which the window of {window:g} NM can be mapped ({low:g} to {high:g} NM)", outside,
-                  f"give others, {forced}")
+            fault("geometry.range_nm", f"ranges at which the window of {window:g} NM can be mapped ({low:g} "
+                                       f"to {high:g} NM)", outside, f"give others, {forced}")
     _check_heights(plan, limits, fault)
     if faults:
         raise SpecError("\n".join(faults))
@@ -207,7 +216,8 @@ def _check_heights(plan, limits, fault):
     if "depression_deg" in geometry:
         outside = impossible(geometry["depression_deg"], [(0.0, limits.elevation_deg)])
         if outside:
-            fault("geometry.depression_deg", f"angles within the gimbal ({limits.elevation_deg:g} deg)", outside, "give others")
+            fault("geometry.depression_deg", f"angles within the gimbal ({limits.elevation_deg:g} deg)", outside,
+                  "give others")
         return
     lowest_m = max(min(geometry["altitude_ft"].ends()) * FOOT_M - HIGHEST_GROUND_M, 0.0)
     farthest_m = max(geometry["range_nm"].ends()) * MILE_M

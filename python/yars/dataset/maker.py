@@ -1,8 +1,8 @@
 """What makes the arrays: the compiled part of YARS. Tests put another maker in its place.
 
 A maker has `objects` (structured: name, latitude, longitude, ...), `elevation(latitudes, longitudes)` [m MSL],
-`patches(orders, movers, settings)` -> dict of arrays, `boxes` of the type blocks.RADAR_BOX among them, and `warm(sample)`, which reads
-what workers are to share."""
+`patches(orders, movers, settings)` -> dict of arrays, `boxes` of the type blocks.RADAR_BOX among them, and
+`warm(sample)`, which reads what workers are to share."""
 import functools
 import hashlib
 
@@ -15,8 +15,8 @@ OBJECT = np.dtype([("name", "U64"), ("latitude", "f8"), ("longitude", "f8")])
 
 
 def hasher():
-    """(name, function buffers -> 64-bit hash of their bytes, function array -> list of the hashes of its items): XXH3 of the compiled
-    part, else BLAKE2b."""
+    """(name, function buffers -> 64-bit hash of their bytes, function array -> list of the hashes of its items): XXH3
+    of the compiled part, else BLAKE2b."""
     try:
         from yars._core import xxh3, xxh3_items
         return "XXH3-64", xxh3, xxh3_items
@@ -50,7 +50,8 @@ class YarsMaker:
         import yars
         self._yars, self._spec = yars, plan
         try:
-            yars.Terrain  # raises MissingPart, an Error, without the compiled part  # pylint: disable=pointless-statement
+            # Without the compiled part this raises MissingPart, an Error.
+            yars.Terrain  # pylint: disable=pointless-statement
             where = plan.where("terrain")
             self._terrain = yars.Terrain(terrain) if terrain else yars.Terrain()
             where = plan.where("scenes")

@@ -1,7 +1,8 @@
 """Reads a data set: `Dataset(DIR)[k]` is a dict of arrays, boxes and parameters of item k.
 
-It has the two methods of a map-style data set of PyTorch, __len__ and __getitem__, and may be given to its DataLoader. Files are opened
-at each use, so that an object may be shared by forked processes; sent to another process it goes without what it has read."""
+It has the two methods of a map-style data set of PyTorch, __len__ and __getitem__, and may be given to its DataLoader.
+Files are opened at each use, so that an object may be shared by forked processes;
+sent to another process it goes without what it has read."""
 import bisect
 import collections
 import json
@@ -36,7 +37,8 @@ class Dataset:
         try:
             data = files.read(path)
         except DatasetError as error:
-            raise DatasetError(f"{path}: expected {what}, found: {str(error).partition('found: ')[2] or error}") from None
+            raise DatasetError(f"{path}: expected {what}, "
+                               f"found: {str(error).partition('found: ')[2] or error}") from None
         if data is None:
             action = "check the path" if name == "dataset.json" else "run `yars dataset` again: it makes the file"
             raise DatasetError(f"{self.folder}: expected {what}, found no {name}; {action}")
@@ -46,7 +48,8 @@ class Dataset:
                 return table
         except (ValueError, TypeError):
             pass
-        raise DatasetError(f"{path}: expected {what} as JSON, found a damaged file; run `yars dataset` again: it makes the file")
+        raise DatasetError(f"{path}: expected {what} as JSON, found a damaged file; run `yars dataset` again: "
+                           "it makes the file")
 
     def __getstate__(self):
         return {**vars(self), "_kept": collections.OrderedDict(), "_kinds": {}, "_touched": None}
@@ -61,15 +64,15 @@ class Dataset:
         try:
             number = operator.index(item)
         except TypeError:
-            raise TypeError(f"Dataset: expected the number of an item, found {type(item).__name__}; write a whole number, or "
-                            "[data[k] for k in range(0, 10)] for several") from None
+            raise TypeError(f"Dataset: expected the number of an item, found {type(item).__name__}; "
+                            "write a whole number, or [data[k] for k in range(0, 10)] for several") from None
         if not -self.count <= number < self.count:
             raise IndexError(f"expected an item from {-self.count} to {self.count - 1}, found {number}")
         return number % self.count
 
     def __getitem__(self, item):
-        """{array name: (rows, columns), "boxes": structured array, "parameters": line of the manifest}. Arrays are copies, which may be
-        written to. `boxes` is there if `object` is among the arrays."""
+        """{array name: (rows, columns), "boxes": structured array, "parameters": line of the manifest}. Arrays are
+        copies, which may be written to. `boxes` is there if `object` is among the arrays."""
         item = self._number(item)
         block, at = divmod(item, self.block)
         if self._npz:
@@ -98,11 +101,12 @@ class Dataset:
         return boxes[first:bisect.bisect_left(items, item + 1, first)].copy()
 
     def label_bounds(self, item):
-        """Bounds of the pixels that bear each box's object as label: (boxes, 4) of left, top, right, bottom in pixels from the upper left
-        corner, right and bottom behind the last pixel. Zeros: no pixel does."""
+        """Bounds of the pixels that bear each box's object as label: (boxes, 4) of left, top, right, bottom in pixels
+        from the upper left corner, right and bottom behind the last pixel. Zeros: no pixel does."""
         chip = item if isinstance(item, dict) else self[item]
         if "boxes" not in chip:
-            raise DatasetError(f"{self.folder}: expected the array object, found {', '.join(self.arrays)}; add object to chip.arrays")
+            raise DatasetError(f"{self.folder}: expected the array object, found {', '.join(self.arrays)}; "
+                               "add object to chip.arrays")
         numbers = chip["boxes"]["object"]
         order = np.argsort(numbers)
         rows, columns = np.nonzero(chip["object"] >= 0)
@@ -111,7 +115,8 @@ class Dataset:
         known = numbers[order[place]] == labels if len(numbers) else np.zeros(len(labels), bool)
         at, rows, columns = order[place[known]] if len(numbers) else place[known], rows[known], columns[known]
         bounds = np.tile(np.array([self.size, self.size, 0, 0]), (len(numbers), 1))
-        for column, function, values in ((0, np.minimum, columns), (1, np.minimum, rows), (2, np.maximum, columns + 1), (3, np.maximum, rows + 1)):
+        for column, function, values in ((0, np.minimum, columns), (1, np.minimum, rows), (2, np.maximum, columns + 1),
+                                         (3, np.maximum, rows + 1)):
             function.at(bounds[:, column], at, values)
         bounds[bounds[:, 2] == 0] = 0
         return bounds
@@ -123,13 +128,15 @@ class Dataset:
 
     def _check_chunk(self, name, block):
         if self._npz:
-            raise DatasetError(f"{self.folder}: expected a data set with format: zarr for chunks, found npz; read its items one by one")
+            raise DatasetError(f"{self.folder}: expected a data set with format: zarr for chunks, found npz; "
+                               "read its items one by one")
         if name not in self.arrays:
-            raise DatasetError(f"{self.folder}: expected one of the arrays {', '.join(self.arrays)}, found {name!r}; name another, or add it to "
-                               "chip.arrays of the specification")
+            raise DatasetError(f"{self.folder}: expected one of the arrays {', '.join(self.arrays)}, found {name!r}; "
+                               "name another, or add it to chip.arrays of the specification")
         blocks = -(-self.count // self.block)
         if isinstance(block, bool) or not isinstance(block, (int, np.integer)):
-            raise TypeError(f"Dataset.chunk: expected the number of a block, found {type(block).__name__}; write a whole number from 0")
+            raise TypeError(f"Dataset.chunk: expected the number of a block, found {type(block).__name__}; "
+                            "write a whole number from 0")
         if not 0 <= block < blocks:
             raise IndexError(f"expected a block from 0 to {blocks - 1}, found {block}")
 
@@ -145,8 +152,8 @@ class Dataset:
         return self._kinds[name]
 
     def _chip(self, name, block, at):
-        """(rows, columns) of an item. Of a block that is touched for the first time only this item is decoded, where numcodecs
-        can: from version 0.16 on it decodes whole chunks only."""
+        """(rows, columns) of an item. Of a block that is touched for the first time only this item is decoded, where
+        numcodecs can: from version 0.16 on it decodes whole chunks only."""
         decoder = self._kind(name)[1]
         decodes_items = decoder is None or hasattr(decoder, "decode_partial")
         if not decodes_items or (name, block) in self._kept or self._touched == block:
@@ -162,7 +169,8 @@ class Dataset:
             data = self._mapped(path, block)
             whole = self.block * pixels * kind.itemsize
             # The header of Blosc has both sizes; it would read beyond the end of a file that was cut off.
-            sizes = (int.from_bytes(data[4:8], "little"), int.from_bytes(data[12:16], "little")) if decoder else (len(data), len(data))
+            sizes = ((int.from_bytes(data[4:8], "little"), int.from_bytes(data[12:16], "little")) if decoder
+                     else (len(data), len(data)))
             if sizes != (whole, len(data)):
                 raise self._damaged(path, "its size differs from what it says")
             if at is None:
@@ -183,9 +191,11 @@ class Dataset:
             with open(path, "rb") as file:
                 return mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ)
         except FileNotFoundError:
-            raise DatasetError(f"{path}: expected block {block}, found none; run `yars dataset` again: it completes the data set") from None
+            raise DatasetError(f"{path}: expected block {block}, found none; run `yars dataset` again: "
+                               "it completes the data set") from None
         except ValueError:
-            raise DatasetError(f"{path}: expected block {block}, found an empty file; run `yars dataset` again: it makes it again") from None
+            raise DatasetError(f"{path}: expected block {block}, found an empty file; run `yars dataset` again: "
+                               "it makes it again") from None
         except OSError as error:
             raise files.failure(path, error, "to read") from None
 
@@ -196,13 +206,15 @@ class Dataset:
             with np.load(path) as archive:
                 return {name: archive[name] for name in [*self.arrays, "boxes"] if name in archive}
         except FileNotFoundError:
-            raise DatasetError(f"{path}: expected item {item}, found none; run `yars dataset` again: it completes the data set") from None
+            raise DatasetError(f"{path}: expected item {item}, found none; run `yars dataset` again: "
+                               "it completes the data set") from None
         except Exception as error:  # pylint: disable=broad-except  zipfile and NumPy have many
             raise self._damaged(path, error) from None
 
     @staticmethod
     def _damaged(path, error):
-        return DatasetError(f"{path}: expected a file of the data set, found a damaged one ({error}); run `yars dataset --verify`: it makes it again")
+        return DatasetError(f"{path}: expected a file of the data set, found a damaged one ({error}); "
+                            "run `yars dataset --verify`: it makes it again")
 
     def _lines(self, block):
         """Lines of the items of a block."""

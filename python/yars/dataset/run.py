@@ -1,7 +1,8 @@
 """The command `yars dataset`: reads its arguments, finds what is to be made, has workers make it, shows progress.
 
     python3 -m yars.dataset SPEC --out DIR [--workers N] [--shard i/N] [--dask ADDRESS] [--verify]
-Exit codes: 0 done; 1 an error; 2 wrong arguments; 130, 143 ended by Ctrl-C or SIGTERM. The same command goes on where a run ended."""
+Exit codes: 0 done; 1 an error; 2 wrong arguments; 130, 143 ended by Ctrl-C or SIGTERM.
+The same command goes on where a run ended."""
 import argparse
 import collections
 import itertools
@@ -118,7 +119,8 @@ def run_local(options, mark, blocks, count, progress):
             if end and flying:
                 code, restarts = host.close(), restarts + 1
                 if restarts > MOST_RESTARTS:
-                    raise DatasetError(f"expected a host process that runs, found it dead {restarts} times: {files.end_of(code)}")
+                    raise DatasetError(f"expected a host process that runs, found it dead {restarts} times: "
+                                       f"{files.end_of(code)}")
                 again.extendleft([block] for block in sorted(flying, reverse=True))
                 flying.clear()
                 host = HostProcess(options.plan, options.out, workers, options.maker, mark)
@@ -127,7 +129,8 @@ def run_local(options, mark, blocks, count, progress):
 
 
 def load_once(options, mark):
-    """Has a host process read terrain and scenes and write what it writes then: objects.json and the metadata of the arrays."""
+    """Has a host process read terrain and scenes and write what it writes then:
+    objects.json and the metadata of the arrays."""
     host = HostProcess(options.plan, options.out, 0, options.maker, mark)
     try:
         end, ready = False, False
@@ -156,17 +159,21 @@ def count_of(text):
 
 
 def parser():
-    result = argparse.ArgumentParser(prog="yars dataset", description="make radar chips with labels by a specification file")
+    result = argparse.ArgumentParser(prog="yars dataset",
+                                     description="make radar chips with labels by a specification file")
     result.add_argument("plan", metavar="SPEC", nargs="?", help="specification, a YAML file (docs/datasets.md)")
     result.add_argument("--out", metavar="DIR", help="folder of the data set; an interrupted one is completed")
     result.add_argument("--workers", metavar="N", type=count_of, default=len(os.sched_getaffinity(0)),
                         help="number of processes (default: one for each core of this process)")
-    result.add_argument("--shard", metavar="i/N", type=shard_of, default=(0, 1), help="make only blocks i, i + N, ... with i from 0")
-    result.add_argument("--dask", metavar="ADDRESS", help="scheduler of Dask distributed, such as tcp://host:8786; its workers make the blocks")
+    result.add_argument("--shard", metavar="i/N", type=shard_of, default=(0, 1),
+                        help="make only blocks i, i + N, ... with i from 0")
+    result.add_argument("--dask", metavar="ADDRESS", help="scheduler of Dask distributed, such as tcp://host:8786; "
+                                                          "its workers make the blocks")
     result.add_argument("--verify", action="store_true", help="read all files that are there and compare their hashes")
     result.add_argument("--merge", action="store_true", help="only join the parts of all shards")
     result.add_argument("--check", action="store_true",
-                        help="only check SPEC: makes and reads terrain and scenes in a temporary folder, and draws the first items")
+                        help="only check SPEC: makes and reads terrain and scenes in a temporary folder, "
+                             "and draws the first items")
     result.add_argument("--keys", action="store_true", help="print all keys of a specification as tables")
     return result
 
@@ -178,7 +185,8 @@ def main(arguments=None, maker=context.MAKER):
         print(keys.markdown())
         return 0
     if not options.plan or not (options.out or options.check):
-        parser().error("expected SPEC" + (", found none; give a specification file" if not options.plan else " and --out DIR, found no --out"))
+        parser().error("expected SPEC" + (", found none; give a specification file" if not options.plan
+                                          else " and --out DIR, found no --out"))
     options.maker = maker
     options.plan = os.path.abspath(options.plan) if options.dask else options.plan
     options.out = os.path.abspath(options.out) if options.out and options.dask else options.out
@@ -207,13 +215,15 @@ def guarded(options):
 def run(options):
     plan, _, store = context.open_store(options.plan, options.out or os.curdir)
     if "object" not in plan.arrays:
-        warnings.warn(f"{plan.where('chip.arrays')}: without object there are no boxes; add object to chip.arrays for them")
+        warnings.warn(f"{plan.where('chip.arrays')}: without object there are no boxes; "
+                      "add object to chip.arrays for them")
     if options.check:
         context.try_out(options.plan, options.maker)
         print(f"{options.plan}: good; {plan.count:,} items in {plan.blocks:,} block{'s' * (plan.blocks > 1)}")
         return 0
     if options.merge and not os.path.isdir(options.out):
-        raise DatasetError(f"{options.out}: expected the folder of a data set for --merge, found none; check the path, or run the shards first")
+        raise DatasetError(f"{options.out}: expected the folder of a data set for --merge, found none; check the path, "
+                           "or run the shards first")
     client = None
     if options.dask:
         from . import dask_engine
@@ -282,10 +292,11 @@ def join(options, store, made):
     """Joins the parts if all are there. Returns True if they are."""
     if not store.complete():
         if options.merge:
-            print(f"yars dataset: {options.out}: expected the parts of all blocks, found some absent; run the other shards first", file=sys.stderr)
+            print(f"yars dataset: {options.out}: expected the parts of all blocks, found some absent; "
+                  "run the other shards first", file=sys.stderr)
         return False
     broken = store.merge(made or options.merge, options.verify)
     if broken:
-        raise DatasetError(f"{options.out}: expected whole parts, found damaged ones, the first of block {broken[0]}; run the "
-                           "command again without --merge and --shard")
+        raise DatasetError(f"{options.out}: expected whole parts, found damaged ones, the first of block {broken[0]}; "
+                           "run the command again without --merge and --shard")
     return True

@@ -15,7 +15,8 @@ from .settings import Settings
 
 # As yars.PATCH_ORDER and yars.MOVER.
 ORDER = np.dtype([("latitude", "f8"), ("longitude", "f8"), ("altitude_ft", "f8"), ("heading", "f8"), ("speed_kt", "f8"),
-                  ("target_latitude", "f8"), ("target_longitude", "f8"), ("window_nm", "f8"), ("looks", "i4"), ("map", "u4"),
+                  ("target_latitude", "f8"), ("target_longitude", "f8"), ("window_nm", "f8"), ("looks", "i4"),
+                  ("map", "u4"),
                   ("time_s", "f8")])
 MOVER = np.dtype([("order", "i4"), ("latitude", "f8"), ("longitude", "f8"), ("heading", "f8"), ("speed_kt", "f8"),
                   ("cross_section_m2", "f8"), ("height_m", "f8")])
@@ -84,7 +85,8 @@ class Sampler:
         """Sample of the items. Raises DatasetError if an item stays impossible."""
         items = np.asarray(items, np.int64)
         sample = Sample(items, np.zeros(len(items), ORDER), None, np.zeros(len(items), np.int32),
-                        np.full(len(items), -1, np.int32), np.full(len(items), -1, np.int32), np.zeros(len(items), np.int32))
+                        np.full(len(items), -1, np.int32), np.full(len(items), -1, np.int32),
+                        np.zeros(len(items), np.int32))
         left, most = np.arange(len(items)), self.plan.geometry["attempts"]
         begin, width = 0, 1
         kept = self._kept.uniform(items)
@@ -92,11 +94,13 @@ class Sampler:
             # Later rounds draw several attempts of the few items that are left at once, and take the first possible.
             width = min(width, most - begin)
             tries = np.tile(np.arange(begin, begin + width), len(left))
-            orders, (entry, scene, thing), problem = self._attempt(np.repeat(items[left], width), tries, np.repeat(kept[:, left], width, axis=1))
+            orders, (entry, scene, thing), problem = self._attempt(np.repeat(items[left], width), tries,
+                                                                   np.repeat(kept[:, left], width, axis=1))
             table = problem.reshape(len(left), width)
             first = np.where((table == 0).any(axis=1), np.argmax(table == 0, axis=1), width - 1)
             row = np.arange(len(left)) * width + first
-            sample.orders[left], sample.entry[left], sample.scene[left], sample.object[left] = orders[row], entry[row], scene[row], thing[row]
+            sample.orders[left], sample.entry[left], sample.scene[left], sample.object[left] = (
+                orders[row], entry[row], scene[row], thing[row])
             sample.attempt[left] = begin + first
             if not problem[row].any():
                 sample.movers = self._draw_movers(sample)
@@ -108,11 +112,13 @@ class Sampler:
         """Message about items for which no draw was possible."""
         most = self.plan.geometry["attempts"]
         first = left[0]
-        problem = self._attempt(np.full(most, items[first]), np.arange(most), np.repeat(kept[:, [first]], most, axis=1))[2]
+        problem = self._attempt(np.full(most, items[first]), np.arange(most),
+                                np.repeat(kept[:, [first]], most, axis=1))[2]
         counts = collections.Counter(_REASONS[code] for code in problem).most_common()
         text = ", ".join(f"{reason} {number} times" for reason, number in counts)
-        return (f"{self.plan.where('geometry')}: expected a possible geometry for item {items[first]} in {most} draws, found none: {text} "
-                f"({len(left)} of {len(items)} items drawn together have none); change geometry or targets, or raise geometry.attempts")
+        return (f"{self.plan.where('geometry')}: expected a possible geometry for item {items[first]} in {most} draws, "
+                f"found none: {text} ({len(left)} of {len(items)} items drawn together have none); "
+                "change geometry or targets, or raise geometry.attempts")
 
     def _attempt(self, items, attempt, kept):
         u = dict(zip(self._streams.names + self._kept.names, [*self._streams.uniform(items, attempt), *kept]))
@@ -130,7 +136,8 @@ class Sampler:
         own_latitude, own_longitude, away = direct(latitude, longitude, back, range_nm * MILE_M)
         right = {"right": True, "left": False}.get(geometry["side"], u["geometry.side"] < 0.5)
         heading = (away + 180.0 - np.where(right, squint, -squint)) % 360.0
-        ground = self.world.elevation(np.concatenate([latitude, own_latitude]), np.concatenate([longitude, own_longitude]))
+        ground = self.world.elevation(np.concatenate([latitude, own_latitude]),
+                                      np.concatenate([longitude, own_longitude]))
         ground = np.nan_to_num(np.asarray(ground, float))
         target_m, beneath_m = ground[:len(items)], ground[len(items):]
         if "depression_deg" in drawn:
@@ -162,8 +169,8 @@ class Sampler:
             if target.area:
                 south, west, north, east = target.area
                 sines = np.sin(np.radians([south, north]))
-                base = np.degrees(np.arcsin(sines[0] + first * (sines[1] - sines[0]))), west + u["target.second"][at] * (
-                    (east - west) % 360.0 or (360.0 if east != west else 0.0))
+                base = (np.degrees(np.arcsin(sines[0] + first * (sines[1] - sines[0]))),
+                        west + u["target.second"][at] * ((east - west) % 360.0 or (360.0 if east != west else 0.0)))
             else:
                 picks = self._picks[number]
                 pick = picks[np.minimum((first * len(picks)).astype(np.int64), len(picks) - 1)]
@@ -217,7 +224,8 @@ class Sampler:
             value = {name: group[name].sample(u[1 + row]) for row, name in enumerate(_MOVER)}
             part = np.empty(len(order), MOVER)
             base = sample.orders[order]
-            latitude, longitude = offset(base["target_latitude"], base["target_longitude"], value["north_m"], value["east_m"])
+            latitude, longitude = offset(base["target_latitude"], base["target_longitude"], value["north_m"],
+                                         value["east_m"])
             part["order"] = order
             part["latitude"], part["longitude"] = np.round(latitude, ANGLE_DIGITS), np.round(longitude, ANGLE_DIGITS)
             part["heading"] = np.round(value["heading_deg"] % 360.0, ANGLE_DIGITS)
@@ -228,8 +236,8 @@ class Sampler:
         return movers[np.argsort(movers["order"], kind="stable")]
 
 
-_REASONS = ("possible", "range beyond the window's limits", "blind zone", "azimuth beyond the gimbal", "elevation beyond the gimbal",
-            "aircraft beneath the ground", "centre not on land or sea as wanted")
+_REASONS = ("possible", "range beyond the window's limits", "blind zone", "azimuth beyond the gimbal",
+            "elevation beyond the gimbal", "aircraft beneath the ground", "centre not on land or sea as wanted")
 
 
 def _moved_inside(value, low, high, margin):
@@ -238,7 +246,8 @@ def _moved_inside(value, low, high, margin):
     return np.where(np.abs(value - high) < margin, high - margin, value)
 
 
-# Geodesics on WGS84 for whole arrays: Vincenty, "Direct and Inverse Solutions of Geodesics on the Ellipsoid with Application of Nested
+# Geodesics on WGS84 for whole arrays: Vincenty,
+# "Direct and Inverse Solutions of Geodesics on the Ellipsoid with Application of Nested
 # Equations", Survey Review 23 (1975). Accuracy: 1 mm, up to 2,000 km. Angles in degrees.
 _MAJOR_M, _FLATTENING = 6378137.0, 1.0 / 298.257223563
 _MINOR_M = _MAJOR_M * (1.0 - _FLATTENING)
@@ -263,7 +272,8 @@ def direct(latitude, longitude, azimuth, distance_m):
         middle = np.cos(2.0 * sigma1 + sigma)
         sin_sigma, cos_sigma = np.sin(sigma), np.cos(sigma)
         sigma = first + b * sin_sigma * (middle + b / 4.0 * (
-            cos_sigma * (2.0 * middle**2 - 1.0) - b / 6.0 * middle * (4.0 * sin_sigma**2 - 3.0) * (4.0 * middle**2 - 3.0)))
+            cos_sigma * (2.0 * middle**2 - 1.0) -
+            b / 6.0 * middle * (4.0 * sin_sigma**2 - 3.0) * (4.0 * middle**2 - 3.0)))
     sin_sigma, cos_sigma, middle = np.sin(sigma), np.cos(sigma), np.cos(2.0 * sigma1 + sigma)
     across = sin_u1 * sin_sigma - cos_u1 * cos_sigma * cos_alpha1
     latitude2 = np.arctan2(sin_u1 * cos_sigma + cos_u1 * sin_sigma * cos_alpha1,
@@ -277,7 +287,8 @@ def direct(latitude, longitude, azimuth, distance_m):
 
 def offset(latitude, longitude, north_m, east_m):
     """(latitude, longitude) of a point north_m and east_m away."""
-    latitude, longitude, _ = direct(latitude, longitude, np.degrees(np.arctan2(east_m, north_m)), np.hypot(north_m, east_m))
+    latitude, longitude, _ = direct(latitude, longitude, np.degrees(np.arctan2(east_m, north_m)),
+                                    np.hypot(north_m, east_m))
     return latitude, longitude
 
 

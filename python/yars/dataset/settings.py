@@ -53,7 +53,8 @@ class Settings:
         for form, slot, value in self._slots:
             if is_drawn(value):
                 drawn = value.sample(u[self._streams.row[f"radar.{form}.{slot}"]])[0]
-                result[f"{form}.{slot}"] = drawn if isinstance(drawn, (str, np.str_, np.bool_)) else round(float(drawn), 9)
+                result[f"{form}.{slot}"] = (drawn if isinstance(drawn, (str, np.str_, np.bool_))
+                                            else round(float(drawn), 9))
         return {name: value.item() if hasattr(value, "item") else value for name, value in result.items()}
 
     def rain(self, run):
@@ -78,11 +79,13 @@ class Settings:
             forms.setdefault(form, []).append(f":{slot} {guf(value)}")
         lines = [f"( {form} {' '.join(slots)} )" for form, slots in forms.items()]
         if self.plan.rain:
-            lines.append("( Rain `( " + " ".join(f"( RainCell {' '.join(map(guf, cell))} )" for cell in self.rain(run)) + " ) )")
+            lines.append("( Rain `( " +
+                         " ".join(f"( RainCell {' '.join(map(guf, cell))} )" for cell in self.rain(run)) + " ) )")
         return " ".join([f"( Noise :seed {self.plan.seed} )"] + lines)
 
     def checked_lines(self):
-        """[(GUF, line of the specification, path of a knob or None)]: each end that a setting can have, for a check by YARS."""
+        """[(GUF, line of the specification, path of a knob or None)]:
+        each end that a setting can have, for a check by YARS."""
         where = self.plan.lines
         lines = [(f"( Fidelity :preset {self.plan.preset} )", where["radar.preset"], None)] if self.plan.preset else []
         for name, value in self.plan.knobs.items():

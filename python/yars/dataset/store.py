@@ -28,7 +28,8 @@ FORMAT = 2  # of the folder; part of the fingerprint
 PARTS = 1000  # blocks of a folder of parts
 _BITS_AT_ONCE = 1 << 20
 # What is in a folder: files of the blocks, which go when the folder gets another specification; and the others.
-_OF_BLOCKS = ("chips.zarr", "boxes", "items", "png", "geotiff", "parts", "objects.json", "manifest.jsonl", "annotations.json")
+_OF_BLOCKS = ("chips.zarr", "boxes", "items", "png", "geotiff", "parts", "objects.json", "manifest.jsonl",
+              "annotations.json")
 _OTHERS = ("dataset.json", "specification.yaml", "checks", "scenes", "terrain")
 
 
@@ -44,13 +45,15 @@ def inputs_of(plan, scene_paths):
             continue
         data = None if os.path.isdir(path) else files.read(path)
         if data is None:
-            raise DatasetError(f"{plan.path}:{scene.line}: expected an OpenFlight file, found none: {path}; check the path")
+            raise DatasetError(f"{plan.path}:{scene.line}: expected an OpenFlight file, found none: {path}; "
+                               "check the path")
         result[f"scenes[{number}].file"] = _hash_of(data)
     if plan.config:
         result["radar.config"] = _hash_of(limits.printed(plan.config).encode())
     if plan.terrain:
         if not os.path.isdir(plan.terrain):
-            raise DatasetError(f"{plan.where('terrain')}: expected a folder of elevation cells, found none: {plan.terrain}; check the path")
+            raise DatasetError(f"{plan.where('terrain')}: expected a folder of elevation cells, found none: "
+                               f"{plan.terrain}; check the path")
         sizes = (f"{name} {os.path.getsize(os.path.join(plan.terrain, name))}" for name in files.below(plan.terrain))
         result["terrain"] = _hash_of("\n".join(sizes).encode())
     return result
@@ -61,7 +64,8 @@ def different_keys(before, after, path=""):
     if isinstance(before, dict) and isinstance(after, dict):
         return [key for name in dict.fromkeys([*before, *after])
                 for key in different_keys(before.get(name), after.get(name), f"{path}.{name}".lstrip("."))]
-    if isinstance(before, list) and isinstance(after, list) and len(before) == len(after) and any(isinstance(item, dict) for item in after):
+    if (isinstance(before, list) and isinstance(after, list) and len(before) == len(after) and
+            any(isinstance(item, dict) for item in after)):
         return [key for at, pair in enumerate(zip(before, after)) for key in different_keys(*pair, f"{path}[{at}]")]
     return [] if before == after else [path or "all"]
 
@@ -104,12 +108,12 @@ class Store:
     # The folder
 
     def begin(self):
-        """Makes the folder and its general files, or checks that it belongs to this specification. A folder without any block
-        takes another specification."""
+        """Makes the folder and its general files, or checks that it belongs to this specification. A folder without any
+        block takes another specification."""
         plan = self.plan
-        about = {"format": FORMAT, "yars": limits.version(), "fingerprint": self.mark, "inputs": self.inputs, "count": plan.count,
-                 "block": plan.block, "seed": plan.seed, "size": plan.size, "arrays": list(plan.arrays), "files": plan.format,
-                 "hash": self.hash_name}
+        about = {"format": FORMAT, "yars": limits.version(), "fingerprint": self.mark, "inputs": self.inputs,
+                 "count": plan.count, "block": plan.block, "seed": plan.seed, "size": plan.size,
+                 "arrays": list(plan.arrays), "files": plan.format, "hash": self.hash_name}
         try:
             os.makedirs(self.folder, exist_ok=True)
         except OSError as error:
@@ -118,8 +122,8 @@ class Store:
         there = _json_object(text)
         if there is not None and {**there, "yars": None} == {**about, "yars": None}:
             if there.get("yars") != about["yars"]:
-                warnings.warn(f"{self.folder}: begun by YARS {there.get('yars')}, this is {about['yars']}: items made now may differ from those "
-                              "that are there; make all of them by one version")
+                warnings.warn(f"{self.folder}: begun by YARS {there.get('yars')}, this is {about['yars']}: "
+                              "items made now may differ from those that are there; make all of them by one version")
         else:
             self._change(text, there)
             files.remove(self.path("specification.yaml"))
@@ -127,7 +131,8 @@ class Store:
         self._keep_specification()
 
     def _keep_specification(self):
-        """Copies the specification where there is no whole copy. Another copy may be whole: of the same meaning, with other comments."""
+        """Copies the specification where there is no whole copy.
+        Another copy may be whole: of the same meaning, with other comments."""
         name = "specification.yaml"
         fault = self.unfit("specification", True)
         if not fault:
@@ -153,15 +158,18 @@ class Store:
         return mark
 
     def _change(self, text, there):
-        """Clears the folder for this specification, or raises DatasetError. `text`, `there`: dataset.json, None if absent or broken."""
+        """Clears the folder for this specification, or raises DatasetError.
+        `text`, `there`: dataset.json, None if absent or broken."""
         mark = self._first_mark()
         if mark == self.mark:
-            warnings.warn(f"{self.path('dataset.json')} is made again: it was {'absent' if text is None else 'damaged'}")
+            warnings.warn(f"{self.path('dataset.json')} is made again: "
+                          f"it was {'absent' if text is None else 'damaged'}")
         elif mark is None and text is None:
             ours = files.read(self.path("specification.yaml")) == self._given()
             made = {"terrain"} if self.plan.terrain_generate else set()
             made |= {"scenes"} if any(scene.generate for scene in self.plan.scenes) else set()
-            known = {*_OF_BLOCKS, *_OTHERS} if ours else {"scenes", "terrain", "dataset.json", "specification.yaml"} - made
+            known = ({*_OF_BLOCKS, *_OTHERS} if ours else {"scenes", "terrain", "dataset.json", "specification.yaml"} -
+                     made)
             other = sorted(name for name in os.listdir(self.folder) if name not in known and not name.startswith("."))
             if other and not os.path.exists(self.path("dataset.json")):  # another shard may have begun
                 raise DatasetError(f"{self.folder}: expected a new or empty folder, or a data set, found other files: "
@@ -171,11 +179,13 @@ class Store:
                 files.remove(self.path(name))
         elif there is None:
             found = "none" if text is None else "one that is no JSON"
-            raise DatasetError(f"{self.path('dataset.json')}: expected the description of a data set, found {found}, and blocks of another "
-                               f"specification than {self.plan.path}; run with the specification that they were made by ("
-                               f"{self.path('specification.yaml')} is its copy), with the same files: then it is made again and no item is lost")
+            raise DatasetError(f"{self.path('dataset.json')}: expected the description of a data set, found {found}, "
+                               f"and blocks of another specification than {self.plan.path}; run with the "
+                               f"specification that they were made by ({self.path('specification.yaml')} is its copy), "
+                               "with the same files: then it is made again and no item is lost")
         else:
-            raise DatasetError(f"{self.folder}: expected the data set of {self.plan.path}, found one of another specification (different: "
+            raise DatasetError(f"{self.folder}: expected the data set of {self.plan.path}, "
+                               "found one of another specification (different: "
                                f"{', '.join(self._differences(there))}); choose another --out, or remove this folder")
 
     def _differences(self, there):
@@ -200,7 +210,8 @@ class Store:
         """Writes objects.json and the metadata of the Zarr arrays where they differ. `kinds`: types of the arrays."""
         contents = {"objects.json": objects_text.encode()}
         if self.plan.format == "zarr":
-            contents.update({f"chips.zarr/{name}": text.encode() for name, text in formats.zarr_metadata(self.plan, kinds).items()})
+            contents.update(
+                {f"chips.zarr/{name}": text.encode() for name, text in formats.zarr_metadata(self.plan, kinds).items()})
         for name, content in contents.items():
             if files.read(self.path(name)) != content:
                 files.write(self.path(name), content)
@@ -299,11 +310,13 @@ class Store:
 
     def _parts_of(self, number):
         """Blocks with a part in a folder of parts, ascending."""
-        names = map(re.compile(r"(\d+)\.jsonl$").match, os.listdir(os.path.dirname(self.path(self.part_name(number * PARTS)))))
+        names = map(re.compile(r"(\d+)\.jsonl$").match,
+                    os.listdir(os.path.dirname(self.path(self.part_name(number * PARTS)))))
         return sorted(block for block in (int(match.group(1)) for match in names if match) if block < self.plan.blocks)
 
     def whole_blocks(self, shard, shards, full, damaged):
-        """(bits, number): one bit for each block, set for the whole ones of a shard. Calls damaged(block, reason) for others with a part."""
+        """(bits, number): one bit for each block, set for the whole ones of a shard.
+        Calls damaged(block, reason) for others with a part."""
         # Zeros of NumPy take no memory before something else is written there.
         there, number = np.zeros(-(-self.plan.blocks // _BITS_AT_ONCE) * (_BITS_AT_ONCE // 8), np.uint8), 0
         for block in itertools.chain.from_iterable(map(self._parts_of, self._part_folders())):
@@ -326,8 +339,9 @@ class Store:
         return sum(len(self._parts_of(number)) for number in self._part_folders()) == self.plan.blocks
 
     def merge(self, again, full):
-        """Joins the parts to manifest.jsonl, and annotations.json if wanted. Several shards may do it at once: they write
-        the same bytes. Without `again` only what is absent or does not fit. Returns blocks that are not whole, at most 20."""
+        """Joins the parts to manifest.jsonl, and annotations.json if wanted. Several shards may do it at once: they
+        write the same bytes. Without `again` only what is absent or does not fit.
+        Returns blocks that are not whole, at most 20."""
         if again or self.unfit("manifest", full):
             broken = []
 

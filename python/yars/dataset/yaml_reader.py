@@ -18,7 +18,8 @@ MISSING = object()
 def shown(text):
     """A part of a message, which may have texts of the file: cut where it is long, and without control characters."""
     cut = text[:LONGEST_SHOWN] + "..." if len(text) > LONGEST_SHOWN else text
-    return "".join(letter if letter.isprintable() else letter.encode("unicode_escape", "backslashreplace").decode() for letter in cut)
+    return "".join(letter if letter.isprintable() else letter.encode("unicode_escape", "backslashreplace").decode()
+                   for letter in cut)
 
 
 def found(node):
@@ -43,7 +44,8 @@ class Reader:
         except yaml.MarkedYAMLError as error:
             mark = error.problem_mark or error.context_mark
             line = mark.line + 1 if mark else 1
-            raise SpecError(f"{self.path}:{line}: expected YAML, found a fault: {error.problem or error.context}") from None
+            raise SpecError(f"{self.path}:{line}: expected YAML, found a fault: "
+                            f"{error.problem or error.context}") from None
         except yaml.YAMLError as error:
             raise SpecError(f"{self.path}: expected YAML, found a fault: {' '.join(str(error).split())}") from None
         except RecursionError:
@@ -117,8 +119,11 @@ class Reader:
             self.fault(node, expected)
             return None
         if not least <= value <= most:
-            self.fault(node, expected, action=f"give one {'above' if value < least else 'below'} that end" if math.isinf(least + most) else
-                       f"the {'least' if value < least else 'greatest'} is {number_text(least if value < least else most)}")
+            self.fault(node, expected,
+                       action=(f"give one {'above' if value < least else 'below'} that end"
+                               if math.isinf(least + most) else
+                               f"the {'least' if value < least else 'greatest'} is "
+                               f"{number_text(least if value < least else most)}"))
             return None
         return value
 
@@ -162,7 +167,8 @@ class Reader:
     def drawn(self, node, key, scalar=None):
         """A distribution: a plain value, or a section with one of DISTRIBUTIONS. `scalar` reads one value."""
         scalar = scalar or self.key_number
-        expected = f"{value_text(key)} for {key.path}, or one of " + ", ".join(f"{{{name}: ...}}" for name in DISTRIBUTIONS)
+        expected = f"{value_text(key)} for {key.path}, or one of " + ", ".join(f"{{{name}: ...}}"
+                                                                               for name in DISTRIBUTIONS)
         if isinstance(node, yaml.ScalarNode):
             value = scalar(node, key)
             return None if value is None else Fixed(value)
@@ -235,7 +241,8 @@ class Reader:
             return None
         law = Normal(*pair, *cut)
         if law.mass < 1e-6:
-            self.fault(node, f"a normal distribution for {key.path} with values in [{cut[0]:g}, {cut[1]:g}]", "next to none there")
+            self.fault(node, f"a normal distribution for {key.path} with values in [{cut[0]:g}, {cut[1]:g}]",
+                       "next to none there")
             return None
         return law
 

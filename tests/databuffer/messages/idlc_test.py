@@ -46,7 +46,8 @@ def main():
                 return 1
         # That silence says something: a fault is told.
         faulty = pathlib.Path(folder, "faulty.idl")
-        faulty.write_text("module yars { struct Place { @range(min=1.0, max=0.0) double latitude_deg; }; };\n", encoding="utf-8")
+        faulty.write_text("module yars { struct Place { @range(min=1.0, max=0.0) double latitude_deg; }; };\n",
+                          encoding="utf-8")
         if idlc(faulty, folder)[0] == 0:
             print("idlc: expected a fault for a wrong range, found none")
             return 1

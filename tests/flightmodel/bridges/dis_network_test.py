@@ -34,7 +34,8 @@ def reports(name, exercise=1):
 class Flown(unittest.TestCase):
     def flight_model(self, source):
         """Starts it, and reads its log in the background."""
-        process = subprocess.Popen([BIN / "flight-model", "--session", f"dis{os.getpid()}", "--source", source], stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen([BIN / "flight-model", "--session", f"dis{os.getpid()}", "--source", source],
+                                   stderr=subprocess.PIPE, text=True)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.terminate)
@@ -51,7 +52,8 @@ class Flown(unittest.TestCase):
     def await_line(self, pattern, process, send=lambda: None):
         deadline = time.monotonic() + WATCHDOG_S
         while not (found := re.search(pattern, self.log)):
-            self.assertTrue(process.poll() is None and time.monotonic() < deadline, f"{pattern} not found in\n{self.log}")
+            self.assertTrue(process.poll() is None and time.monotonic() < deadline,
+                            f"{pattern} not found in\n{self.log}")
             send()
             time.sleep(0.05)
         return found
@@ -64,7 +66,8 @@ class Flown(unittest.TestCase):
             if option:
                 sender.setsockopt(*option)
             several = datagrams or reports("air.bin")
-            self.await_line("the aircraft is flown by dis", process, lambda: sender.sendto(next(several), (address, port)))
+            self.await_line("the aircraft is flown by dis", process,
+                            lambda: sender.sendto(next(several), (address, port)))
 
     def test_loopback(self):
         self.flies("dis:0", socket.AF_INET, "127.0.0.1")
@@ -106,9 +109,11 @@ class Flown(unittest.TestCase):
         port = int(self.await_line(r"listens for dis on \S+:(\d+)", process)[1])
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
             first, second = reports("air.bin"), reports("air.bin", exercise=2)
-            self.await_line("exercise 1 is heard too and left out", process, lambda: sender.sendto(next(first), ("127.0.0.1", port)))
+            self.await_line("exercise 1 is heard too and left out", process,
+                            lambda: sender.sendto(next(first), ("127.0.0.1", port)))
             self.assertNotIn("the aircraft is flown", self.log)
-            self.await_line("the aircraft is flown by dis", process, lambda: sender.sendto(next(second), ("127.0.0.1", port)))
+            self.await_line("the aircraft is flown by dis", process,
+                            lambda: sender.sendto(next(second), ("127.0.0.1", port)))
 
 
 if __name__ == "__main__":

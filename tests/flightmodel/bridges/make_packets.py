@@ -4,7 +4,8 @@
 usage: make_packets.py [FOLDER]
 flightgear/: native FDM, big-endian, versions 24 and 25. xplane/: an RREF reply, little-endian. dis/: Entity State PDUs
 (IEEE 1278.1), their orientation by products of rotation matrices. The files flightgear/jsbsim_turn.bin and
-jsbsim/*.txt beside them are recorded from JSBSim itself (as in FlightGear 2020.3.16) by jsbsim/record_jsbsim.py. The numbers below are those that the tests expect.
+jsbsim/*.txt beside them are recorded from JSBSim itself (as in FlightGear 2020.3.16) by jsbsim/record_jsbsim.py.
+The numbers below are those that the tests expect.
 """
 import math
 import pathlib
@@ -90,7 +91,8 @@ SHIP = dict(kind=1, domain=3, latitude=36.7, longitude=-122.1, height_m=0.0, att
 PACKETS = {
     "flightgear/v24.bin": flightgear(24, 408, **FLIGHT),
     "flightgear/v25.bin": flightgear(25, 552, **FLIGHT),
-    "flightgear/south_east.bin": flightgear(24, 408, **{**FLIGHT, "latitude": -33.9, "longitude": 151.2, "heading": 359.5}),
+    "flightgear/south_east.bin": flightgear(24, 408,
+                                            **{**FLIGHT, "latitude": -33.9, "longitude": 151.2, "heading": 359.5}),
     # latitude, longitude, elevation, vx (east), vy (up), vz (south) at the reference point, that point, true psi,
     # theta, phi, P, Q, R
     "xplane/level.bin": xplane([36.5, -122.0, 3000.0, 100.0, 2.0, -200.0, 36.5, -122.0, 26.6, 1.5, 0.0, 0, 0, 0]),

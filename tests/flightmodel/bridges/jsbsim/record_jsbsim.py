@@ -39,12 +39,13 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         options = []
         for name, content, port in (("text", directives, text),
-                                    ("native", '<output name="localhost" type="FLIGHTGEAR" port="@PORT@" protocol="UDP" rate="25"/>', native)):
+                                    ("native", '<output name="localhost" type="FLIGHTGEAR" port="@PORT@" '
+                                               'protocol="UDP" rate="25"/>', native)):
             path = pathlib.Path(scratch, name + ".xml")
             path.write_text(content.replace("@PORT@", str(port.getsockname()[1])))
             options.append(f"--logdirectivefile={path}")
-        subprocess.run([jsbsim, f"--root={HERE.resolve()}", "--script=scripts/coast.xml", "--end=20", "--nohighlight", *options],
-                       check=True, stdout=subprocess.DEVNULL)
+        subprocess.run([jsbsim, f"--root={HERE.resolve()}", "--script=scripts/coast.xml", "--end=20",
+                        "--nohighlight", *options], check=True, stdout=subprocess.DEVNULL)
     lines, packets = take_all(text), take_all(native)
     (folder / "jsbsim").mkdir(exist_ok=True)
     (folder / "jsbsim" / "flight.txt").write_bytes(b"".join(lines))
