@@ -1,6 +1,7 @@
-# yars_module(NAME [SUBFOLDERS ... | FOLDERS ...] [SHELLS] [LIGHT] [SOURCES ...] [DEPENDS ...]): a library from the sources of this
-# folder and of the subfolders named, or of FOLDERS alone. Left out are *_main.cpp and *_command.cpp, which belong to programs,
-# and *_shell.cpp, which see segment, log and clock, unless SHELLS is said. LIGHT: it computes little (cmake/precompiled.cmake).
+# yars_module(NAME [SUBFOLDERS ... | FOLDERS ...] [SHELLS] [LIGHT] [SOURCES ...] [DEPENDS ...]): a library from the
+# sources of this folder and of the subfolders named, or of FOLDERS alone. Left out are *_main.cpp and *_command.cpp,
+# which belong to programs, and *_shell.cpp, which see segment, log and clock, unless SHELLS is said.
+# LIGHT: it computes little (cmake/precompiled.cmake).
 function(yars_module name)
   cmake_parse_arguments(ARG "SHELLS;LIGHT" "" "DEPENDS;SOURCES;SUBFOLDERS;FOLDERS" ${ARGN})
   set(folders ${ARG_FOLDERS})
@@ -43,8 +44,8 @@ function(yars_app name)
   endif()
 endfunction()
 
-# yars_program(NAME [LIGHT] [PRECOMPILED NAME] SOURCES ... DEPENDS ...): an executable in build/PRESET/bin, installed with the
-# others. PRECOMPILED: headers of its own (yars_precompiled), for other flags than those of the build.
+# yars_program(NAME [LIGHT] [PRECOMPILED NAME] SOURCES ... DEPENDS ...): an executable in build/PRESET/bin, installed
+# with the others. PRECOMPILED: headers of its own (yars_precompiled), for other flags than those of the build.
 function(yars_program name)
   cmake_parse_arguments(ARG "LIGHT" "PRECOMPILED" "DEPENDS;SOURCES" ${ARGN})
   add_executable(${name} ${ARG_SOURCES})
@@ -55,17 +56,18 @@ function(yars_program name)
   install(TARGETS ${name} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
 endfunction()
 
-# yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [SUITES] [LOCK name] [LONG filter] [COMPUTES] [OPENGL] [SEPARATE] [SUPPORT sources]
-#   [PROGRAMS it runs] DEPENDS ...): one gtest binary from tests/FOLDER/*_test.cpp, those of its subfolders named, and its
-# support sources. ctest runs it as one test named FOLDER; with SUITES as one test FOLDER.SUITE for each suite.
-# ALONE: it has the machine to itself. LOCK: one at a time of the tests with this lock, beside others: those that run sets.
-# LONG: tests that only scripts/test --full runs, as FOLDER.long with the label long; a filter of gtest, which knows * and ?
-# but no sets of letters.
-# COMPUTES: its own code takes long to run, so it is compiled with YARS_COMPUTING_TEST_FLAGS. SEPARATE: each source stays a
-# unit of its own with YARS_UNITY, because names in its sources are the same. OPENGL: it draws, so leaks are not looked for
-# (the search crashes now and then beside the threads of llvmpipe).
+# yars_test(FOLDER [SUBFOLDERS ...] [ALONE] [SUITES] [LOCK name] [LONG filter] [COMPUTES] [OPENGL] [SEPARATE]
+#   [SUPPORT sources] [PROGRAMS it runs] DEPENDS ...): one gtest binary from tests/FOLDER/*_test.cpp, those of its
+# subfolders named, and its support sources. ctest runs it as one test named FOLDER; with SUITES as one test
+# FOLDER.SUITE for each suite. ALONE: it has the machine to itself. LOCK: one at a time of the tests with this lock,
+# beside others: those that run sets. LONG: tests that only scripts/test --full runs, as FOLDER.long with the label
+# long; a filter of gtest, which knows * and ? but no sets of letters.
+# COMPUTES: its own code takes long to run, so it is compiled with YARS_COMPUTING_TEST_FLAGS. SEPARATE: each source
+# stays a unit of its own with YARS_UNITY, because names in its sources are the same. OPENGL: it draws, so leaks are not
+# looked for (the search crashes now and then beside the threads of llvmpipe).
 function(yars_test folder)
-  cmake_parse_arguments(ARG "ALONE;SUITES;COMPUTES;OPENGL;SEPARATE" "TIMEOUT;LOCK;LONG" "DEPENDS;LABELS;SUBFOLDERS;SUPPORT;PROGRAMS" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE;SUITES;COMPUTES;OPENGL;SEPARATE" "TIMEOUT;LOCK;LONG"
+    "DEPENDS;LABELS;SUBFOLDERS;SUPPORT;PROGRAMS" ${ARGN})
   set(patterns ${PROJECT_SOURCE_DIR}/tests/${folder}/*_test.cpp)
   foreach(subfolder IN LISTS ARG_SUBFOLDERS)
     list(APPEND patterns ${PROJECT_SOURCE_DIR}/tests/${folder}/${subfolder}/*_test.cpp)
@@ -93,7 +95,8 @@ function(yars_test folder)
   if(NOT ARG_SEPARATE)
     yars_unite(${target})
   endif()
-  target_compile_definitions(${target} PRIVATE YARS_SOURCE_DIR="${PROJECT_SOURCE_DIR}" YARS_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
+  target_compile_definitions(${target} PRIVATE YARS_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    YARS_BIN_DIR="${PROJECT_BINARY_DIR}/bin")
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 900)  # a hang, also on a machine that is four times overloaded
   endif()
@@ -101,14 +104,17 @@ function(yars_test folder)
     set(ARG_LABELS ${folder})
   endif()
   # A filter that selects nothing is a mistake.
-  set(properties TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_ALONE} FAIL_REGULAR_EXPRESSION "0 tests from 0 test suites ran")
+  set(properties TIMEOUT ${ARG_TIMEOUT} RUN_SERIAL ${ARG_ALONE}
+    FAIL_REGULAR_EXPRESSION "0 tests from 0 test suites ran")
   if(ARG_OPENGL)
     list(APPEND properties ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
   endif()
   if(ARG_LOCK)
-    list(APPEND properties RESOURCE_LOCK ${ARG_LOCK} COST 1000)  # they begin first: one after the other they take longest
+    # They begin first: one after the other they take longest.
+    list(APPEND properties RESOURCE_LOCK ${ARG_LOCK} COST 1000)
   endif()
-  # One run of the program, or of each suite: a process for each of three thousand tests takes longer than what they test.
+  # One run of the program, or of each suite: a process for each of three thousand tests takes longer than what they
+  # test.
   set(runs)
   if(ARG_SUITES)
     foreach(source IN LISTS sources)

@@ -1,7 +1,7 @@
 # `cpack -G DEB` in the build folder of the release preset makes the packages yars, libyars-dev and python3-yars, each
 # NAME_VERSION-REVISION_ARCHITECTURE.deb: docs/packaging.md.
-# The revision names the suite as Debian's own backports do: 1~deb12u1 sorts before 1~deb13u1, so a package follows an upgrade
-# of the system, and behind every revision of an earlier version.
+# The revision names the suite as Debian's own backports do: 1~deb12u1 sorts before 1~deb13u1, so a package follows an
+# upgrade of the system, and behind every revision of an earlier version.
 function(suite_of_this_system result)
   set(ID)
   if(EXISTS /etc/os-release)
@@ -21,10 +21,12 @@ function(suite_of_this_system result)
 endfunction()
 suite_of_this_system(suite)
 set(YARS_DEBIAN_REVISION "1${suite}" CACHE STRING "revision of the Debian packages, behind the version and a hyphen")
-set(YARS_MAINTAINER "The YARS developers <yars@localhost>" CACHE STRING "maintainer of the Debian packages: NAME <ADDRESS>")
+set(YARS_MAINTAINER "The YARS developers <yars@localhost>" CACHE STRING
+  "maintainer of the Debian packages: NAME <ADDRESS>")
 set(YARS_HOMEPAGE "" CACHE STRING "address of the project's page in the Debian packages; empty: none")
 if(NOT YARS_MAINTAINER MATCHES "^[^<>]+ <[^<> ]+@[^<> ]+>$")
-  message(FATAL_ERROR "YARS_MAINTAINER: expected NAME <ADDRESS>, found '${YARS_MAINTAINER}'; give it as -DYARS_MAINTAINER=...")
+  message(FATAL_ERROR "YARS_MAINTAINER: expected NAME <ADDRESS>, found '${YARS_MAINTAINER}'; "
+    "give it as -DYARS_MAINTAINER=...")
 endif()
 set(full_version ${PROJECT_VERSION}-${YARS_DEBIAN_REVISION})
 
@@ -83,13 +85,15 @@ of the display in an OpenGL context of yours, and of scans and patch maps in
 C++20, with files for CMake and pkg-config, and a static library of the radar.")
 set(CPACK_DEBIAN_LIBYARS-DEV_PACKAGE_DEPENDS "yars (= ${full_version})")
 set(CPACK_DEBIAN_LIBYARS-DEV_PACKAGE_RECOMMENDS "libexpected-dev")
-set(static_parts libgeographic-dev libspdlog-dev libfmt-dev libpng-dev libopenjp2-7-dev libzip-dev libzstd-dev zlib1g-dev libhwy-dev)
+set(static_parts libgeographic-dev libspdlog-dev libfmt-dev libpng-dev libopenjp2-7-dev libzip-dev libzstd-dev
+  zlib1g-dev libhwy-dev)
 list(JOIN static_parts ", " static_parts)
 set(CPACK_DEBIAN_LIBYARS-DEV_PACKAGE_SUGGESTS "${static_parts}")
 set(CPACK_DEBIAN_LIBYARS-DEV_PACKAGE_BREAKS "yars (<< ${full_version})")
 set(CPACK_DEBIAN_LIBYARS-DEV_PACKAGE_REPLACES "yars (<< ${full_version})")
 
-# The session client needs libyars-client, which is in the package yars. The compiled part needs the Python that it is built for, and NumPy.
+# The session client needs libyars-client, which is in the package yars. The compiled part needs the Python that it is
+# built for, and NumPy.
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_NAME python3-yars)
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON3-YARS_DESCRIPTION "air-to-ground radar simulation after the APG-70 (Python 3)
@@ -97,7 +101,8 @@ The module yars computes real beam maps and patch maps of an airborne radar
 from digital terrain and scenes as NumPy arrays, with labels for training data.
 yars.plot draws them by matplotlib. yars.session is the client of a running
 session: ownship and events in, sweeps and pictures out.")
-set(recommended "python3-matplotlib, python3-xarray, python3-zarr, python3-numcodecs, python3-yaml, python3-dask, python3-distributed")
+string(JOIN ", " recommended python3-matplotlib python3-xarray python3-zarr python3-numcodecs python3-yaml python3-dask
+  python3-distributed)
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_RECOMMENDS "${recommended}${also_rasters}")
 set(CPACK_DEBIAN_PYTHON3-YARS_PACKAGE_SUGGESTS "python3-rasterio, python3-pil")
 # Compiles the module's sources when it is installed, as Debian's own packages do.
@@ -133,7 +138,9 @@ endforeach()
 string(TIMESTAMP day "%a, %d %b %Y 00:00:00 +0000" UTC)
 foreach(name yars libyars-dev python3-yars)
   file(WRITE ${PROJECT_BINARY_DIR}/install/changelog_of_${name}
-    "${name} (${full_version}) unstable; urgency=medium\n\n  * Made by CPack from YARS ${PROJECT_VERSION}.\n\n -- ${CPACK_PACKAGE_CONTACT}  ${day}\n")
+    "${name} (${full_version}) unstable; urgency=medium\n\n"
+    "  * Made by CPack from YARS ${PROJECT_VERSION}.\n\n"
+    " -- ${CPACK_PACKAGE_CONTACT}  ${day}\n")
 endforeach()
 compressed(${PROJECT_BINARY_DIR}/install/changelog_of_yars changelog.Debian ${documents} Unspecified)
 set(developer_documents ${CMAKE_INSTALL_DATADIR}/doc/libyars-dev)

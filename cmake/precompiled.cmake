@@ -10,8 +10,8 @@ option(YARS_PRECOMPILED "precompile headers of the standard library and googlete
 set(yars_precompiled_standard <algorithm> <array> <cmath> <cstdint> <filesystem> <fstream> <functional> <map> <memory>
   <optional> <span> <string> <string_view> <utility> <variant> <vector>)
 
-# yars_precompiled(NAME [FLAGS ...] [HEADERS ...] [DEPENDS ...]): a target whose precompiled headers those compiled with the
-# same flags use.
+# yars_precompiled(NAME [FLAGS ...] [HEADERS ...] [DEPENDS ...]): a target whose precompiled headers those compiled with
+# the same flags use.
 function(yars_precompiled name)
   cmake_parse_arguments(ARG "" "" "FLAGS;HEADERS;DEPENDS" ${ARGN})
   file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/generated/precompiled.cpp CONTENT "")  # written once
@@ -21,8 +21,8 @@ function(yars_precompiled name)
   target_precompile_headers(${name} PRIVATE ${yars_precompiled_standard} ${ARG_HEADERS})
 endfunction()
 
-# Flags of LIGHT targets in release. They compute little: text, options, JSON, single pictures. Their templates take a third
-# less time to compile.
+# Flags of LIGHT targets in release. They compute little: text, options, JSON, single pictures. Their templates take a
+# third less time to compile.
 set(yars_light_flags)
 if(CMAKE_BUILD_TYPE STREQUAL "Release")
   set(yars_light_flags -O1)
@@ -55,16 +55,16 @@ function(yars_set_weight target light)
   yars_use_precompiled(${target} ${headers})
 endfunction()
 
-# yars_unite(TARGET): with YARS_UNITY, compiles eight sources of TARGET as one unit, so that their headers are read once.
-# Sources that Highway compiles once for each instruction set stay units of their own.
+# yars_unite(TARGET): with YARS_UNITY, compiles eight sources of TARGET as one unit, so that their headers are read
+# once. Sources that Highway compiles once for each instruction set stay units of their own.
 option(YARS_UNITY "compile several sources as one unit: a faster first build, slower later ones" OFF)
 function(yars_unite target)
   if(NOT YARS_UNITY)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
-  # A local name may equal a file-scope name of another source of the same unit: only locals are held against each other,
-  # which Clang cannot.
+  # A local name may equal a file-scope name of another source of the same unit: only locals are held against each
+  # other, which Clang cannot.
   target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-shadow$<SEMICOLON>-Wshadow=local>
     $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-shadow>)
   get_target_property(sources ${target} SOURCES)

@@ -1,5 +1,5 @@
-# Packs the packages of CPack again by dpkg-deb: without the scripts that call ldconfig, which the trigger does, and with the
-# dates, the order and the compression of Debian's own packages, so that equal files give equal packages.
+# Packs the packages of CPack again by dpkg-deb: without the scripts that call ldconfig, which the trigger does, and
+# with the dates, the order and the compression of Debian's own packages, so that equal files give equal packages.
 find_program(DPKG_DEB dpkg-deb)
 if(NOT DPKG_DEB)
   message(FATAL_ERROR "expected dpkg-deb, found none; install the Debian package dpkg")
@@ -17,6 +17,7 @@ foreach(package IN LISTS CPACK_PACKAGE_FILES)
       endif()
     endif()
   endforeach()
-  execute_process(COMMAND ${DPKG_DEB} --root-owner-group -Zxz --threads-max=1 --build ${folder} ${package} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND ${DPKG_DEB} --root-owner-group -Zxz --threads-max=1 --build ${folder} ${package}
+    OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
   file(REMOVE_RECURSE ${folder})
 endforeach()
