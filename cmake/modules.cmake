@@ -113,8 +113,7 @@ function(yars_test folder)
     # They begin first: one after the other they take longest.
     list(APPEND properties RESOURCE_LOCK ${ARG_LOCK} COST 1000)
   endif()
-  # One run of the program, or of each suite: a process for each of three thousand tests takes longer than what they
-  # test.
+  # One run of the program, or of each suite: a process for each of three thousand tests takes longer than the tests.
   set(runs)
   if(ARG_SUITES)
     foreach(source IN LISTS sources)

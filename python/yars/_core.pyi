@@ -1,5 +1,5 @@
-# The compiled part, which results.py, places.py and recordings.py wrap. Its classes are made by its functions alone. Words are those of
-# a command line.
+# The compiled part, which results.py, places.py and recordings.py wrap. Its classes are made by its functions alone.
+# Words are those of a command line.
 from typing import Any
 
 import numpy as np
