@@ -1,4 +1,5 @@
-// Displays of two sessions beside each other: beside.html?left=SESSION&right=SESSION. Without a name: the station's own.
+// Displays of two sessions beside each other: beside.html?left=SESSION&right=SESSION.
+// Without a name: the station's own.
 import { Connection } from "./connection";
 import { element } from "./page";
 import { Picture } from "./picture";
@@ -13,7 +14,8 @@ for (const side of ["left", "right"] as const) {
   new Connection({
     frame: (frame) => picture.show(frame),
     state: ({ watch }) => {
-      element(`${side}_words`).textContent = `${watch.sim_time.toFixed(1)} s · ${watch.power} · ${watch.mode}${watch.running ? "" : " · time stands"}`;
+      element(`${side}_words`).textContent =
+        `${watch.sim_time.toFixed(1)} s · ${watch.power} · ${watch.mode}${watch.running ? "" : " · time stands"}`;
       document.body.dataset.state = "shown";
     },
     connected: (is) => {

@@ -23,7 +23,8 @@ export class Connection {
   private closed = false;
 
   // `session`: empty for the station's own.
-  constructor(private readonly receiver: Receiver, private readonly page: "display" | "instructor", private readonly session = "") {
+  constructor(private readonly receiver: Receiver, private readonly page: "display" | "instructor",
+    private readonly session = "") {
     this.open();
   }
 
@@ -66,7 +67,8 @@ export class Connection {
   }
 
   private take(text: string): void {
-    const message = JSON.parse(text) as Partial<State> & { instructor?: InstructorState; sets?: SetEntry[]; right?: Right } & Partial<Answer>;
+    const message = JSON.parse(text) as Partial<State> &
+      { instructor?: InstructorState; sets?: SetEntry[]; right?: Right } & Partial<Answer>;
     if (message.watch !== undefined) this.receiver.state?.(message as State);
     else if (message.instructor !== undefined) this.receiver.instructor?.(message.instructor);
     else if (message.sets !== undefined) this.receiver.sets?.(message.sets);

@@ -10,8 +10,8 @@ const ARROWS: Record<string, string> = { "^": "up arrow", v: "down arrow" }; // 
 const SIDES = ["left", "bottom", "right_side", "top"] as const; // of PB 1-5, 6-10, 11-15, 16-20
 
 // Keys that the browser would act on itself. Others with Ctrl, Alt or Meta stay the browser's.
-const SENT = new Set(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Enter", "Tab", "PageUp", "PageDown", " ", "F4", "F5", "F6", "F7",
-  "[", "]"]);
+const SENT = new Set(["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Enter", "Tab", "PageUp", "PageDown", " ",
+  "F4", "F5", "F6", "F7", "[", "]"]);
 
 class DisplayPage {
   private readonly picture = new Picture(element<HTMLCanvasElement>("picture"));
@@ -90,7 +90,8 @@ class DisplayPage {
       const boxed = watch.boxed.includes(number);
       button.classList.toggle("boxed", boxed);
       button.classList.toggle("dead", legend === "");
-      const name = [`PB ${number}`, ARROWS[legend] ?? legend, boxed ? "on" : ""].filter((text) => text !== "").join(", ");
+      const name = [`PB ${number}`, ARROWS[legend] ?? legend, boxed ? "on" : ""]
+        .filter((text) => text !== "").join(", ");
       const label = `${name}: ${does}`;
       if (button.getAttribute("aria-label") !== label) button.setAttribute("aria-label", label);
       const words = `PB ${number}${key ? `, key ${key}` : ""}: ${does}`;
@@ -101,7 +102,8 @@ class DisplayPage {
     }
     const roles = ["state-machine", "radar-model", "radar-display"].filter((role) => !(role in watch.processes));
     element("set").textContent = [
-      `power ${watch.power}`, watch.mode, watch.running ? (watch.rate === 1 ? "" : `rate ${watch.rate}`) : "time stands",
+      `power ${watch.power}`, watch.mode,
+      watch.running ? (watch.rate === 1 ? "" : `rate ${watch.rate}`) : "time stands",
       roles.length > 0 ? `not running: ${roles.join(", ")}` : "", watch.message, watch.remedy,
     ].filter((text) => text !== "").join(" · ");
     const heartbeat_ms = watch.processes["radar-display"]?.heartbeat_ms;
@@ -130,8 +132,12 @@ class DisplayPage {
     const alive = this.display_ms !== undefined && now_ms - this.display_ms < STALE_MS;
     const drawn = this.lastFrame_ms !== 0;
     document.body.classList.toggle("stale", !alive || !drawn);
-    if (!drawn) this.age.textContent = alive ? "no picture: radar-display does not publish its frames (--publish)" : "no picture yet";
-    else this.age.textContent = alive ? "" : `picture ${((now_ms - (this.display_ms ?? this.lastFrame_ms)) / 1000).toFixed(0)} s old`;
+    if (!drawn)
+      this.age.textContent =
+        alive ? "no picture: radar-display does not publish its frames (--publish)" : "no picture yet";
+    else
+      this.age.textContent =
+        alive ? "" : `picture ${((now_ms - (this.display_ms ?? this.lastFrame_ms)) / 1000).toFixed(0)} s old`;
   }
 
   private listenToKeys(): void {
@@ -162,7 +168,8 @@ class DisplayPage {
     const put = (event: PointerEvent) => {
       const box = canvas.getBoundingClientRect();
       const inside = (value: number) => Math.min(1, Math.max(0, value)).toFixed(4);
-      this.connection.event(`cursor ${inside((event.clientX - box.left) / box.width)} ${inside((event.clientY - box.top) / box.height)}`);
+      this.connection.event(`cursor ${inside((event.clientX - box.left) / box.width)} ${
+        inside((event.clientY - box.top) / box.height)}`);
     };
     canvas.addEventListener("pointerdown", (event) => {
       if (event.button !== 0) return;
@@ -185,7 +192,8 @@ class DisplayPage {
       if (!this.pointing) return;
       this.pointing = false;
       const box = canvas.getBoundingClientRect();
-      const inside = event.clientX >= box.left && event.clientX <= box.right && event.clientY >= box.top && event.clientY <= box.bottom;
+      const inside = event.clientX >= box.left && event.clientX <= box.right &&
+        event.clientY >= box.top && event.clientY <= box.bottom;
       if (inside) this.connection.event("tdc release"); // beside the picture it designates nothing, as in the window
     });
     canvas.addEventListener("pointercancel", () => { this.pointing = false; });

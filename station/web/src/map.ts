@@ -18,7 +18,8 @@ const ABOVE_BASELINE_PX = 12, BELOW_BASELINE_PX = 3; // of a label
 export interface Position { lat: number; lon: number }
 export const LISTS = ["rain", "jammers", "movers", "points"] as const; // of the world
 export type Kind = "aircraft" | typeof LISTS[number];
-export const WORDS: Record<Kind, string> = { aircraft: "aircraft", rain: "rain", jammers: "jammer", movers: "mover", points: "point" };
+export const WORDS: Record<Kind, string> =
+  { aircraft: "aircraft", rain: "rain", jammers: "jammer", movers: "mover", points: "point" };
 export interface Thing extends Position { kind: Kind; id: number; name: string }
 type Box = [number, number, number, number]; // left, top, right, bottom [pixels]
 interface Label { x: number; y: number; text: string; colour: string; radius: number; first: boolean }
@@ -43,7 +44,8 @@ export function pointFrom(from: Position, bearing_deg: number, distance_m: numbe
   const angle = distance_m / (M_PER_DEG / DEG);
   const lat1 = from.lat * DEG, bearing = bearing_deg * DEG;
   const lat2 = Math.asin(Math.sin(lat1) * Math.cos(angle) + Math.cos(lat1) * Math.sin(angle) * Math.cos(bearing));
-  const east = Math.atan2(Math.sin(bearing) * Math.sin(angle) * Math.cos(lat1), Math.cos(angle) - Math.sin(lat1) * Math.sin(lat2));
+  const east = Math.atan2(Math.sin(bearing) * Math.sin(angle) * Math.cos(lat1),
+    Math.cos(angle) - Math.sin(lat1) * Math.sin(lat2));
   return { lat: lat2 / DEG, lon: wrap(from.lon + east / DEG) };
 }
 
@@ -74,7 +76,10 @@ export class TheatreMap {
     canvas.addEventListener("pointerdown", (event) => this.press(event));
     canvas.addEventListener("pointermove", (event) => this.drags(event));
     canvas.addEventListener("pointerup", (event) => this.release(event));
-    canvas.addEventListener("pointercancel", (event) => { this.pointers.delete(event.pointerId); this.drag = undefined; });
+    canvas.addEventListener("pointercancel", (event) => {
+      this.pointers.delete(event.pointerId);
+      this.drag = undefined;
+    });
     canvas.addEventListener("wheel", (event) => {
       event.preventDefault();
       this.zoom(Math.exp(-0.0015 * event.deltaY), this.pointOf(event));
@@ -94,9 +99,11 @@ export class TheatreMap {
     this.epoch = state.clock.epoch;
     if (state.aircraft) {
       const last = this.trail[this.trail.length - 1];
-      if (!last || Math.hypot(last.lat - state.aircraft.lat, last.lon - state.aircraft.lon) > 1e-3) this.trail.push({ lat: state.aircraft.lat, lon: state.aircraft.lon });
+      if (!last || Math.hypot(last.lat - state.aircraft.lat, last.lon - state.aircraft.lon) > 1e-3)
+        this.trail.push({ lat: state.aircraft.lat, lon: state.aircraft.lon });
       if (this.trail.length > TRAIL_POINTS) this.trail.shift();
-      if (first && this.follow) this.pixelsPerDeg = this.height() / (2.6 * Math.max(10, state.scan?.range_nm ?? 40) / 60);
+      if (first && this.follow)
+        this.pixelsPerDeg = this.height() / (2.6 * Math.max(10, state.scan?.range_nm ?? 40) / 60);
       if (this.follow && !this.drag) this.centre = { lat: state.aircraft.lat, lon: state.aircraft.lon };
     }
     this.redraw();
@@ -117,7 +124,8 @@ export class TheatreMap {
     this.pixelsPerDeg = Math.min(600000, Math.max(4, this.pixelsPerDeg * factor));
     if (before && about) {
       const after = this.positionAt(about.x, about.y);
-      this.centre = { lat: this.centre.lat + before.lat - after.lat, lon: wrap(this.centre.lon + before.lon - after.lon) };
+      this.centre = {
+        lat: this.centre.lat + before.lat - after.lat, lon: wrap(this.centre.lon + before.lon - after.lon) };
     }
     this.redraw();
   }
@@ -126,9 +134,11 @@ export class TheatreMap {
   things(): Thing[] {
     const { state } = this;
     if (!state) return [];
-    const list: Thing[] = state.aircraft ? [{ kind: "aircraft", id: 0, name: "aircraft", lat: state.aircraft.lat, lon: state.aircraft.lon }] : [];
+    const list: Thing[] = state.aircraft
+      ? [{ kind: "aircraft", id: 0, name: "aircraft", lat: state.aircraft.lat, lon: state.aircraft.lon }] : [];
     for (const kind of LISTS)
-      for (const entry of state.world?.[kind] ?? []) list.push({ kind, id: entry.id, name: nameOf(kind, entry), lat: entry.latitude_deg, lon: entry.longitude_deg });
+      for (const entry of state.world?.[kind] ?? [])
+        list.push({ kind, id: entry.id, name: nameOf(kind, entry), lat: entry.latitude_deg, lon: entry.longitude_deg });
     return list;
   }
 
@@ -172,7 +182,9 @@ export class TheatreMap {
     const before = this.pointers.get(event.pointerId);
     if (before && this.pointers.size === 2) { // two fingers zoom
       const other = [...this.pointers].find(([id]) => id !== event.pointerId)?.[1];
-      if (other) this.zoom(Math.hypot(x - other.x, y - other.y) / Math.max(1, Math.hypot(before.x - other.x, before.y - other.y)), other);
+      if (other)
+        this.zoom(Math.hypot(x - other.x, y - other.y) /
+          Math.max(1, Math.hypot(before.x - other.x, before.y - other.y)), other);
     }
     if (before) this.pointers.set(event.pointerId, { x, y });
     const { drag } = this;
@@ -205,11 +217,13 @@ export class TheatreMap {
 
   private key(event: KeyboardEvent): void {
     const step = 60 / this.pixelsPerDeg;
-    const shifts: Record<string, [number, number]> = { ArrowUp: [step, 0], ArrowDown: [-step, 0], ArrowLeft: [0, -step], ArrowRight: [0, step] };
+    const shifts: Record<string, [number, number]> =
+      { ArrowUp: [step, 0], ArrowDown: [-step, 0], ArrowLeft: [0, -step], ArrowRight: [0, step] };
     if (event.key === "+" || event.key === "-") this.zoom(event.key === "+" ? 1.5 : 1 / 1.5);
     else if (event.key in shifts) {
       this.follow = false;
-      this.centre = { lat: this.centre.lat + shifts[event.key][0], lon: wrap(this.centre.lon + shifts[event.key][1] / this.eastScale()) };
+      this.centre = { lat: this.centre.lat + shifts[event.key][0],
+        lon: wrap(this.centre.lon + shifts[event.key][1] / this.eastScale()) };
       this.redraw();
     } else return;
     event.preventDefault();
@@ -251,9 +265,11 @@ export class TheatreMap {
     const wanted = Math.log2((TILE_DEG * this.pixelsPerDeg) / TILE_PIXELS);
     const level = Math.min(MAX_LEVEL, Math.max(0, Math.round(wanted)));
     const edge = TILE_DEG / 2 ** level, columns = 360 / edge;
-    const halfLat = this.height() / 2 / this.pixelsPerDeg, halfLon = this.width() / 2 / (this.pixelsPerDeg * this.eastScale());
+    const halfLat = this.height() / 2 / this.pixelsPerDeg;
+    const halfLon = this.width() / 2 / (this.pixelsPerDeg * this.eastScale());
     if (halfLon > 180) return;
-    const first = Math.floor((this.centre.lon - halfLon + 180) / edge), last = Math.floor((this.centre.lon + halfLon + 180) / edge);
+    const first = Math.floor((this.centre.lon - halfLon + 180) / edge);
+    const last = Math.floor((this.centre.lon + halfLon + 180) / edge);
     const bottom = Math.max(0, Math.floor((this.centre.lat - halfLat + 90) / edge));
     const top = Math.min(180 / edge - 1, Math.floor((this.centre.lat + halfLat + 90) / edge));
     for (let row = bottom; row <= top; ++row)
@@ -269,7 +285,8 @@ export class TheatreMap {
   private drawTile(level: number, row: number, column: number, left: number, up: number, edge: number): void {
     for (let coarser = 0; coarser <= Math.min(level, 4); ++coarser) {
       const parts = 2 ** coarser;
-      const tile = this.tiles.get(`map/${level - coarser}/${Math.floor(row / parts)}/${Math.floor(column / parts)}.png`);
+      const tile = this.tiles.get(
+        `map/${level - coarser}/${Math.floor(row / parts)}/${Math.floor(column / parts)}.png`);
       if (!tile?.complete || tile.naturalWidth === 0) continue;
       const part = TILE_PIXELS / parts;
       this.context.drawImage(tile, (column % parts) * part, (parts - 1 - (row % parts)) * part, part, part,
@@ -321,7 +338,8 @@ export class TheatreMap {
   private outline(corners: [number, number][], colour: string, dashes: number[] = []): void {
     const { context } = this;
     context.beginPath();
-    corners.forEach(([lat, lon], at) => (at === 0 ? context.moveTo(...this.xy({ lat, lon })) : context.lineTo(...this.xy({ lat, lon }))));
+    corners.forEach(([lat, lon], at) =>
+      (at === 0 ? context.moveTo(...this.xy({ lat, lon })) : context.lineTo(...this.xy({ lat, lon }))));
     context.closePath();
     context.setLineDash(dashes);
     context.lineWidth = 1.5;
@@ -341,11 +359,12 @@ export class TheatreMap {
     context.setLineDash([]);
   }
 
-  // A label of what is at a position, drawn when all symbols are. `radius`: what its symbol covers [pixels]. `first`: it
-  // has room before all others.
+  // A label of what is at a position, drawn when all symbols are. `radius`: what its symbol covers [pixels].
+  // `first`: it has room before all others.
   private label(position: Position, text: string, colour: string, radius: number, first = false): void {
     const [x, y] = this.xy(position);
-    if (x >= 0 && y >= 0 && x <= this.width() && y <= this.height()) this.labels.push({ x, y, text, colour, radius, first });
+    if (x >= 0 && y >= 0 && x <= this.width() && y <= this.height())
+      this.labels.push({ x, y, text, colour, radius, first });
   }
 
   // Room that a symbol takes: no label lies on it.
@@ -354,8 +373,8 @@ export class TheatreMap {
     this.taken.push([x - radius, y - radius, x + radius, y + radius]);
   }
 
-  // Each label lies at the first side of its symbol that is free of symbols and labels. One without such a side comes with
-  // a nearer view.
+  // Each label lies at the first side of its symbol that is free of symbols and labels.
+  // One without such a side comes with a nearer view.
   private drawLabels(): void {
     const { context, taken } = this;
     context.font = "12px system-ui, sans-serif";
@@ -365,12 +384,15 @@ export class TheatreMap {
       const half = context.measureText(text).width / 2 + 2;
       const beside = radius + half + 1, diagonal = 0.7 * radius + half;
       const below = radius + ABOVE_BASELINE_PX + 1, above = -radius - BELOW_BASELINE_PX - 1;
-      const sides: [number, number][] = [[0, below], [beside, 4], [-beside, 4], [0, above], [diagonal, below], [-diagonal, below], [diagonal, above], [-diagonal, above]];
+      const sides: [number, number][] = [[0, below], [beside, 4], [-beside, 4], [0, above],
+        [diagonal, below], [-diagonal, below], [diagonal, above], [-diagonal, above]];
       if (radius === 0) sides.unshift([0, 4]);
       for (const [right, down] of sides) {
-        const box: Box = [x + right - half, y + down - ABOVE_BASELINE_PX, x + right + half, y + down + BELOW_BASELINE_PX];
+        const box: Box = [x + right - half, y + down - ABOVE_BASELINE_PX,
+          x + right + half, y + down + BELOW_BASELINE_PX];
         const outside = box[0] < 0 || box[1] < 0 || box[2] > this.width() || box[3] > this.height();
-        if (outside || taken.some((other) => other[0] < box[2] && box[0] < other[2] && other[1] < box[3] && box[1] < other[3])) continue;
+        if (outside || taken.some((other) => other[0] < box[2] && box[0] < other[2] &&
+          other[1] < box[3] && box[1] < other[3])) continue;
         taken.push(box);
         context.lineWidth = 3;
         context.strokeStyle = "#000c";
@@ -389,8 +411,16 @@ export class TheatreMap {
     context.beginPath();
     if (shape === "circle") context.arc(x, y, size, 0, 2 * Math.PI);
     else if (shape === "square") context.rect(x - size, y - size, 2 * size, 2 * size);
-    else if (shape === "triangle") { context.moveTo(x, y - size - 1); context.lineTo(x + size, y + size); context.lineTo(x - size, y + size); }
-    else { context.moveTo(x, y - size); context.lineTo(x + size, y); context.lineTo(x, y + size); context.lineTo(x - size, y); }
+    else if (shape === "triangle") {
+      context.moveTo(x, y - size - 1);
+      context.lineTo(x + size, y + size);
+      context.lineTo(x - size, y + size);
+    } else {
+      context.moveTo(x, y - size);
+      context.lineTo(x + size, y);
+      context.lineTo(x, y + size);
+      context.lineTo(x - size, y);
+    }
     context.closePath();
     context.fillStyle = colour;
     context.fill();
@@ -404,7 +434,10 @@ export class TheatreMap {
     const { theatre } = this;
     if (!theatre) return;
     this.line(theatre.route.map(([lat, lon]) => ({ lat, lon })), "#ffffffb0", 1.5, [8, 5]);
-    for (const beacon of theatre.beacons) { this.dot(beacon, "#c9a6ff", "diamond"); this.label(beacon, beacon.name || `beacon ${beacon.code}`, "#dcc6ff", SYMBOL_PX); }
+    for (const beacon of theatre.beacons) {
+      this.dot(beacon, "#c9a6ff", "diamond");
+      this.label(beacon, beacon.name || `beacon ${beacon.code}`, "#dcc6ff", SYMBOL_PX);
+    }
     for (const scene of theatre.scenes) this.label(scene, scene.name, "#fff", 0);
   }
 
@@ -454,14 +487,17 @@ export class TheatreMap {
     }
     for (const mover of state?.world?.movers ?? []) {
       const at = this.place("movers", mover.id, { lat: mover.latitude_deg, lon: mover.longitude_deg });
-      this.line([at, pointFrom(at, mover.heading_deg, mover.speed_kt * M_PER_NM / 12)], "#ffd27a", 2); // the way of five minutes
+      // The way of five minutes.
+      this.line([at, pointFrom(at, mover.heading_deg, mover.speed_kt * M_PER_NM / 12)], "#ffd27a", 2);
       this.dot(at, "#ffd27a", "square");
       this.mark(at, "movers", mover.id, nameOf("movers", mover), "#ffe7b8");
     }
     for (const point of state?.world?.points ?? []) {
       const at = this.place("points", point.id, { lat: point.latitude_deg, lon: point.longitude_deg });
-      this.dot(at, "#b9e0ff", point.kind.startsWith("target") ? "triangle" : point.kind === "initial" ? "square" : "circle");
-      this.mark(at, "points", point.id, point.name === state?.sequence_point ? `${point.name} selected` : point.name, "#b9e0ff");
+      this.dot(at, "#b9e0ff",
+        point.kind.startsWith("target") ? "triangle" : point.kind === "initial" ? "square" : "circle");
+      this.mark(at, "points", point.id,
+        point.name === state?.sequence_point ? `${point.name} selected` : point.name, "#b9e0ff");
     }
   }
 
@@ -475,7 +511,8 @@ export class TheatreMap {
       const range_m = scan.range_nm * M_PER_NM, begin = scan.centre_deg - scan.width_deg / 2;
       const arc = Array.from({ length: 33 }, (_, step) => pointFrom(at, begin + (scan.width_deg * step) / 32, range_m));
       context.beginPath();
-      [at, ...arc].forEach((point, step) => (step === 0 ? context.moveTo(...this.xy(point)) : context.lineTo(...this.xy(point))));
+      [at, ...arc].forEach((point, step) =>
+        (step === 0 ? context.moveTo(...this.xy(point)) : context.lineTo(...this.xy(point))));
       context.closePath();
       context.fillStyle = "#9be29b22";
       context.fill();
@@ -489,7 +526,8 @@ export class TheatreMap {
     context.translate(x, y);
     context.rotate(state.aircraft.heading_deg * DEG);
     context.beginPath();
-    for (const [right, down] of [[0, -13], [3, -3], [13, 4], [13, 7], [3, 4], [2, 10], [6, 13], [-6, 13], [-2, 10], [-3, 4], [-13, 7], [-13, 4], [-3, -3]])
+    for (const [right, down] of [[0, -13], [3, -3], [13, 4], [13, 7], [3, 4], [2, 10], [6, 13], [-6, 13], [-2, 10],
+      [-3, 4], [-13, 7], [-13, 4], [-3, -3]])
       context.lineTo(right, down);
     context.closePath();
     context.fillStyle = "#e8ffe8";
@@ -513,7 +551,10 @@ export class TheatreMap {
     context.strokeStyle = "#fff";
     context.lineWidth = 2;
     context.beginPath();
-    context.moveTo(16, y - 4); context.lineTo(16, y + 2); context.lineTo(16 + length * perNm, y + 2); context.lineTo(16 + length * perNm, y - 4);
+    context.moveTo(16, y - 4);
+    context.lineTo(16, y + 2);
+    context.lineTo(16 + length * perNm, y + 2);
+    context.lineTo(16 + length * perNm, y - 4);
     context.stroke();
     context.font = "12px system-ui, sans-serif";
     context.textAlign = "left";

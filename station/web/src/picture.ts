@@ -1,5 +1,5 @@
-// The picture: a canvas with the pixels of the published frame. Where a pixel covers a whole number of the screen's pixels
-// they stay sharp; else the browser smooths them.
+// The picture: a canvas with the pixels of the published frame. Where a pixel covers a whole number of the screen's
+// pixels they stay sharp; else the browser smooths them.
 import { FrameMessage } from "./messages";
 
 export class Picture {

@@ -1,5 +1,6 @@
-// Measured errors and times of the presets of fidelity against `reference`: mean over three scenes at 10, 40 and 160 NM.
-// Source: docs/performance.md#speed-against-accuracy, measured by `yars trade`; tests/station/page_facts_test.py compares.
+// Measured errors and times of the presets of fidelity against `reference`: mean over three scenes at 10, 40 and
+// 160 NM. Source: docs/performance.md#speed-against-accuracy, measured by `yars trade`;
+// tests/station/page_facts_test.py compares.
 interface Measured {
   gray: number | null; // RMS of the video, 255 = white; null: not comparable
   power_db: number | null;

@@ -10,7 +10,8 @@ const LIST_EVERY_MS = 5000; // while a recording grows
 const HOLD_MS = 700; // the slider stays where it was put, until the replay is there
 
 const fileName = (path: string): string => path.slice(path.lastIndexOf("/") + 1);
-const minutes = (time_s: number): string => `${Math.floor(time_s / 60)}:${String(Math.floor(time_s % 60)).padStart(2, "0")}`;
+const minutes = (time_s: number): string =>
+  `${Math.floor(time_s / 60)}:${String(Math.floor(time_s % 60)).padStart(2, "0")}`;
 
 export class TimeMachine {
   private recordings: Recording[] = [];
@@ -25,7 +26,9 @@ export class TimeMachine {
   constructor(private readonly connection: Connection, private readonly tell: (answer: Answer) => void) {
     onClick("list", () => void this.list());
     element("machine").addEventListener("toggle", () => { if (this.isOpen()) void this.list(); });
-    setInterval(() => { if (this.isOpen() && this.recordings.some(({ writing }) => writing)) void this.list(); }, LIST_EVERY_MS);
+    setInterval(() => {
+      if (this.isOpen() && this.recordings.some(({ writing }) => writing)) void this.list();
+    }, LIST_EVERY_MS);
     this.at.addEventListener("input", () => {
       this.hold();
       this.showMoment();
@@ -48,15 +51,19 @@ export class TimeMachine {
     if (known) this.use(known);
     const focused = document.activeElement instanceof HTMLElement ? document.activeElement.dataset.file : undefined;
     const older = answer.left_out ?? 0;
-    fill("recordings", JSON.stringify([this.recordings, older]), () => this.recordings.length === 0 ? [document.createTextNode("No recordings yet: press Record in Set.")]
-      : [...this.recordings.map((recording) => this.rowOfRecording(recording)), ...(older > 0 ? [document.createTextNode(`and ${older} older`)] : [])]);
+    fill("recordings", JSON.stringify([this.recordings, older]), () => this.recordings.length === 0
+      ? [document.createTextNode("No recordings yet: press Record in Set.")]
+      : [...this.recordings.map((recording) => this.rowOfRecording(recording)),
+        ...(older > 0 ? [document.createTextNode(`and ${older} older`)] : [])]);
     this.markChosen();
-    if (focused !== undefined) this.choices().find(({ dataset }) => dataset.file === focused)?.focus({ preventScroll: true });
+    if (focused !== undefined)
+      this.choices().find(({ dataset }) => dataset.file === focused)?.focus({ preventScroll: true });
   }
 
   private rowOfRecording(recording: Recording): HTMLLIElement {
     const row = document.createElement("li");
-    const length = recording.begin_s === null || recording.end_s === null ? "no ticks" : `${minutes(recording.end_s - recording.begin_s)} min`;
+    const length = recording.begin_s === null || recording.end_s === null
+      ? "no ticks" : `${minutes(recording.end_s - recording.begin_s)} min`;
     const choice = button(`${fileName(recording.file)}, ${length}`, () => this.choose(recording));
     choice.dataset.file = recording.file;
     row.append(choice);
@@ -68,7 +75,8 @@ export class TimeMachine {
     return [...document.querySelectorAll<HTMLButtonElement>("#recordings button")];
   }
   private markChosen(): void {
-    for (const choice of this.choices()) choice.setAttribute("aria-pressed", String(choice.dataset.file === this.chosen?.file));
+    for (const choice of this.choices())
+      choice.setAttribute("aria-pressed", String(choice.dataset.file === this.chosen?.file));
   }
 
   private choose(recording: Recording): void {
@@ -101,7 +109,8 @@ export class TimeMachine {
 
   private showMoment(): void {
     const begin_s = Number(this.at.min), now_s = this.at.valueAsNumber;
-    const text = `${minutes(now_s - begin_s)} of ${minutes(Number(this.at.max) - begin_s)} min, sim time ${now_s.toFixed(1)} s`;
+    const text =
+      `${minutes(now_s - begin_s)} of ${minutes(Number(this.at.max) - begin_s)} min, sim time ${now_s.toFixed(1)} s`;
     say("at_text", text);
     this.at.setAttribute("aria-valuetext", text);
   }
@@ -154,7 +163,8 @@ export class TimeMachine {
   }
 
   private async flyOut(): Promise<void> {
-    if (this.chosen) this.tell(await this.connection.command("fly out", { file: this.chosen.file, at: this.at.valueAsNumber }));
+    if (this.chosen)
+      this.tell(await this.connection.command("fly out", { file: this.chosen.file, at: this.at.valueAsNumber }));
   }
 
   // The list is read again when the recorder of the set begins, stops or ends, however it ended.
@@ -171,7 +181,8 @@ export class TimeMachine {
   private rowOfSet(set: SetEntry, sets: SetEntry[]): HTMLLIElement {
     const row = document.createElement("li");
     const from = set.kind === "recorder" ? "" : ` from ${set.at.toFixed(1)} s`;
-    row.append(`${set.kind === "recorder" ? "recorder" : set.session}: ${fileName(set.file)}${from}${set.ended ? `: ${set.ended}` : ""} `);
+    row.append(`${set.kind === "recorder" ? "recorder" : set.session}: ${fileName(set.file)}${from}${
+      set.ended ? `: ${set.ended}` : ""} `);
     const link = (text: string, address: string) => {
       const anchor = document.createElement("a");
       anchor.href = address;
@@ -184,7 +195,8 @@ export class TimeMachine {
       if (set.kind === "branch") link("instructor", `instructor.html?session=${set.session}`);
       link("beside this set", `beside.html?right=${set.session}`);
       for (const other of sets)
-        if (other.kind === "branch" && set.kind === "branch" && !other.ended && other.session > set.session) link(`beside ${other.session}`, `beside.html?left=${set.session}&right=${other.session}`);
+        if (other.kind === "branch" && set.kind === "branch" && !other.ended && other.session > set.session)
+          link(`beside ${other.session}`, `beside.html?left=${set.session}&right=${other.session}`);
     }
     const end = button("End", () => void this.connection.command("end", { session: set.session }).then(this.tell));
     end.setAttribute("aria-label", set.kind === "recorder" ? "End the recorder" : `End ${set.session}`);

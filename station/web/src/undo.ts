@@ -21,8 +21,10 @@ export class UndoLine {
     this.button.addEventListener("click", () => void this.undo());
     element("undo_close").addEventListener("click", () => this.forget());
     window.addEventListener("keydown", (event) => {
-      const types = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement; // the field's own undo
-      if (types || event.key.toLowerCase() !== "z" || !(event.ctrlKey || event.metaKey) || event.shiftKey || this.offers.length === 0) return;
+      // A field has an undo of its own.
+      const types = event.target instanceof HTMLInputElement || event.target instanceof HTMLSelectElement;
+      if (types || event.key.toLowerCase() !== "z" || !(event.ctrlKey || event.metaKey) || event.shiftKey ||
+        this.offers.length === 0) return;
       event.preventDefault();
       void this.undo();
     });
