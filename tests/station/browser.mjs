@@ -1,4 +1,5 @@
-// What the tests of the pages have in common: the browser, the commands of yars, waits, accessibility, the run of the tests.
+// What the tests of the pages have in common: the browser, the commands of yars, waits, accessibility, the run of the
+// tests.
 // usage of a test: node TEST.mjs ADDRESS YARS SESSION
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
@@ -23,7 +24,8 @@ export async function until(what, check) {
   }
 }
 
-export const browser = await chromium.launch({ executablePath: "/usr/bin/chromium-headless-shell", args: ["--no-sandbox"] });
+export const browser = await chromium.launch(
+  { executablePath: "/usr/bin/chromium-headless-shell", args: ["--no-sandbox"] });
 export const faults = []; // errors in the console of the pages
 
 // A page that shows its first state. `before`: a script that runs in the page before its own.
@@ -48,13 +50,14 @@ export async function hasNoFinding(page) {
 const TOUCH_PX = 44;
 
 // Things to press that are smaller than a finger: their words and sizes.
-export const tooSmall = (page) => page.evaluate((least) => [...document.querySelectorAll("button, select, input, summary, a")]
+export const tooSmall = (page) => page.evaluate((least) => [
+  ...document.querySelectorAll("button, select, input, summary, a")]
   .filter((target) => target.checkVisibility()).map((target) => [target, target.getBoundingClientRect()])
   .filter(([, { width, height }]) => Math.min(width, height) < least - 0.01)
   .map(([target, { width, height }]) => `${target.id || target.textContent}: ${width} x ${height}`), TOUCH_PX);
 
-// Desktop, tablet, phone, and the phone on its side: no page scrolls sideways, a finger meets everything, and accessibility
-// has no finding. `check` sees each page.
+// Desktop, tablet, phone, and the phone on its side: no page scrolls sideways, a finger meets everything, and
+// accessibility has no finding. `check` sees each page.
 export async function fitsAllScreens(path, check = async () => {}) {
   for (const [width, height] of [[1440, 900], [820, 1180], [390, 844], [844, 390]]) {
     const page = await open(width, height, path);
@@ -71,7 +74,8 @@ export async function fitsAllScreens(path, check = async () => {}) {
 export const inSight = (page, selector) => page.locator(selector).first().evaluate((found) => {
   const { left, top, right, bottom } = found.getBoundingClientRect();
   const upmost = document.elementFromPoint((left + right) / 2, (top + bottom) / 2);
-  return left >= 0 && top >= 0 && right <= innerWidth && bottom <= innerHeight && (found === upmost || found.contains(upmost));
+  return left >= 0 && top >= 0 && right <= innerWidth && bottom <= innerHeight &&
+    (found === upmost || found.contains(upmost));
 });
 
 // The page names the product, has an icon, and leads to the pages of `links`, each of which answers.

@@ -1,6 +1,7 @@
 // The instructor's page as an instructor uses it.
 import assert from "node:assert/strict";
-import { address, browser, call, faults, fitsAllScreens, hasNameIconAndLinks, hasNoFinding, inSight, open, run, tooSmall, until, watch } from "./browser.mjs";
+import { address, browser, call, faults, fitsAllScreens, hasNameIconAndLinks, hasNoFinding,
+  inSight, open, run, tooSmall, until, watch } from "./browser.mjs";
 
 const path = "/instructor.html";
 const world = () => JSON.parse(call("world", "--json"));
@@ -14,7 +15,8 @@ const status = () => { // exit code 3: degraded
 const near = (value, expected, tolerance) => Math.abs(value - expected) <= tolerance;
 // What the list "On the map" has can be pressed and dragged on the map. The world's record has it some 0.1 s earlier.
 const onMap = (page, word) => page.waitForSelector(`#things li:has-text('${word}')`);
-// The line beside the button Undo. The page offers an undo when the answer to the command has come, after the world has changed.
+// The line beside the button Undo.
+// The page offers an undo when the answer to the command has come, after the world has changed.
 const said = (page, text) => until(`the line ${text}`, async () => text.test(await page.textContent("#undo_text")));
 // Two states that the page has received after now: the first may have been under way.
 async function twoStates(page) {
@@ -28,7 +30,8 @@ const noProblem = async (page) => assert.equal(await page.textContent("#problem"
 // Mean of the green of the radar picture in a part of it: x, y, width, height in shares of its edge.
 const brightness = (page, part) => page.evaluate(([left, top, width, height]) => {
   const canvas = document.getElementById("picture");
-  const { data } = canvas.getContext("2d").getImageData(left * canvas.width, top * canvas.height, width * canvas.width, height * canvas.height);
+  const { data } = canvas.getContext("2d").getImageData(left * canvas.width, top * canvas.height,
+    width * canvas.width, height * canvas.height);
   let sum = 0;
   for (let at = 1; at < data.length; at += 4) sum += data[at];
   return (4 * sum) / data.length;
@@ -66,7 +69,8 @@ const tests = {
       ({ ownship } = watch());
       return ownship && near(ownship.lat, 37.5, 0.1) && near(ownship.lon, -122.9, 0.1);
     });
-    assert.ok(near(ownship.ground_speed_kt, 300, 1) && near(ownship.heading_deg, 45, 1) && near(ownship.alt_ft, 20000, 1), JSON.stringify(ownship));
+    assert.ok(near(ownship.ground_speed_kt, 300, 1) && near(ownship.heading_deg, 45, 1) &&
+      near(ownship.alt_ft, 20000, 1), JSON.stringify(ownship));
     await noProblem(page);
   },
   async "the aircraft is dragged to another place"(page) {
@@ -93,7 +97,8 @@ const tests = {
     await page.fill("#north", "500");
     await page.fill("#east", "-250");
     await page.click("#nav_form button");
-    await until("the errors in the state", async () => /INS 5\d\d ft north, -2\d\d ft east/.test(await page.textContent("#errors")));
+    await until("the errors in the state",
+      async () => /INS 5\d\d ft north, -2\d\d ft east/.test(await page.textContent("#errors")));
   },
   async "sea state and wind are set"(page) {
     await page.selectOption("#sea", "5");
@@ -146,11 +151,14 @@ const tests = {
     await page.fill("#thing_name", "90.");
     await page.fill("#thing_elevation_ft", "250");
     await page.click("#thing_form button");
-    await until("a target with an elevation", () => point().name === "90." && point().kind === "target" && near(point().elevation_ft, 250, 0.01));
+    await until("a target with an elevation", () => point().name === "90." && point().kind === "target" &&
+      near(point().elevation_ft, 250, 0.01));
     await page.selectOption("#points", "90.");
     await page.click("#steer_form button");
-    await until("the pilot's selected point", () => watch().sequence_point === "90." && watch().points_drawn.includes("90."));
-    await until("the page names the pilot's point", async () => /90\. \(selected\)/.test(await page.textContent("#points")));
+    await until("the pilot's selected point",
+      () => watch().sequence_point === "90." && watch().points_drawn.includes("90."));
+    await until("the page names the pilot's point",
+      async () => /90\. \(selected\)/.test(await page.textContent("#points")));
     await page.selectOption("#places", { label: "sequence point 90." });
     await until("the map at the point", async () => await page.getAttribute("#follow", "aria-pressed") === "false");
     const before = point();
@@ -185,7 +193,8 @@ const tests = {
     await page.fill("#thing_speed_kt", "25");
     await page.fill("#thing_heading_deg", "270");
     await page.click("#thing_form button");
-    await until("the mover's way", () => near(world().movers[0].speed_kt, 25, 0.01) && near(world().movers[0].heading_deg, 270, 0.1));
+    await until("the mover's way",
+      () => near(world().movers[0].speed_kt, 25, 0.01) && near(world().movers[0].heading_deg, 270, 0.1));
     await page.click("#reset_world");
     await until("the configured world", () => world().jammers.length + world().movers.length === 0);
     await noProblem(page);
@@ -254,7 +263,8 @@ const tests = {
     assert.equal(world().jammers.length, 0);
     call("world", "sea", "4");
     await page.click("#undo_button");
-    await until("a reset that others have built upon stays", async () => /no change of the world since/.test(await page.textContent("#problem")));
+    await until("a reset that others have built upon stays",
+      async () => /no change of the world since/.test(await page.textContent("#problem")));
     await until("an undo that failed is offered again", async () => await page.isVisible("#undo_button"));
     await page.click("#reset_world");
     await said(page, /^Reset the world/);
@@ -266,7 +276,8 @@ const tests = {
     await until("sea state 3", () => world().sea_state === 3);
     const before = watch().processes["radar-model"].pid;
     await kill(page, "radar-model");
-    await until("another process", () => watch().processes["radar-model"] && watch().processes["radar-model"].pid !== before);
+    await until("another process",
+      () => watch().processes["radar-model"] && watch().processes["radar-model"].pid !== before);
     await until("sea state 3 in effect", () => world().sea_state === 3);
     await page.click("#reset_world");
     await said(page, /^Reset the world/);
@@ -275,7 +286,8 @@ const tests = {
     await page.selectOption("#fidelity", "draft");
     await until("draft", () => status().model.fidelity === "draft");
     await until("the page says so", async () => /in use: draft/.test(await page.textContent("#fidelity_error")));
-    await page.selectOption("#fidelity", await page.$eval("#fidelity option:has-text('configured')", (option) => option.value));
+    await page.selectOption("#fidelity",
+      await page.$eval("#fidelity option:has-text('configured')", (option) => option.value));
     await until("standard", () => status().model.fidelity === "standard");
   },
   async "notes are written"(page) {
@@ -310,10 +322,12 @@ const tests = {
       scrub.dispatchEvent(new Event("input"));
       scrub.dispatchEvent(new Event("change"));
     }, at);
-    await until("another picture of that time", async () => await page.getAttribute("#replay_picture", "data-frame") !== frame &&
+    await until("another picture of that time",
+      async () => await page.getAttribute("#replay_picture", "data-frame") !== frame &&
       near(Number(await page.getAttribute("#replay_picture", "data-sim-time")), at, 0.3));
     await page.click("button[data-step='-1']");
-    await until("a second before", async () => near(Number(await page.getAttribute("#replay_picture", "data-sim-time")), at - 1, 0.3));
+    await until("a second before",
+      async () => near(Number(await page.getAttribute("#replay_picture", "data-sim-time")), at - 1, 0.3));
     await page.click("button[data-step='1']");
     await page.click("#fly_out");
     await until("a branch", async () => await page.$("#sets li:has-text('branch') a") !== null);
@@ -347,7 +361,8 @@ const tests = {
     await until("being written", async () => /being written/.test(await page.textContent("#recordings")));
     await until("a part of it is on the disk", () => status().recorder.bytes > 2000);
     await kill(page, "recorder");
-    await until("cut short", async () => /cut short: its recorder was killed/.test(await page.textContent("#recordings")));
+    await until("cut short",
+      async () => /cut short: its recorder was killed/.test(await page.textContent("#recordings")));
     assert.doesNotMatch(await page.textContent("#recordings"), /being written/);
     await noProblem(page);
   },
@@ -379,7 +394,8 @@ const tests = {
       assert.ok(await inSight(page, "#map"), `${width} x ${height}`);
       await page.$$eval("details", (list) => { for (const one of list) one.open = true; });
       assert.ok(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), `${width} x ${height}`);
-      assert.ok(await page.$eval("aside", (panel) => panel.scrollWidth <= panel.clientWidth), `${width} x ${height}: the panel`);
+      assert.ok(await page.$eval("aside", (panel) => panel.scrollWidth <= panel.clientWidth),
+        `${width} x ${height}: the panel`);
       assert.deepEqual(await tooSmall(page), [], `${width} x ${height}`);
     });
   },
@@ -387,7 +403,8 @@ const tests = {
     // A crowd: six things in a square of 2 NM.
     const { lat, lon } = watch().ownship;
     for (let at = 0; at < 6; ++at)
-      call("world", "mover", "add", String(lat + 0.02 * (at % 3) - 0.02), String(lon + 0.02 * Math.floor(at / 3)), "--name", `crowded ship ${at}`);
+      call("world", "mover", "add", String(lat + 0.02 * (at % 3) - 0.02), String(lon + 0.02 * Math.floor(at / 3)),
+        "--name", `crowded ship ${at}`);
     call("world", "jammer", "add", String(lat), String(lon - 0.01), "--name", "SA-X");
     const page = await open(1400, 1000, path, recordDrawings);
     await onMap(page, "crowded ship 5");
@@ -407,12 +424,15 @@ const tests = {
       await twoStates(page);
       assert.deepEqual(await overlaps(), [], `nearer: ${turn}`);
     }
-    assert.ok(await page.evaluate(() => globalThis.drawing.symbols.length > 3 && globalThis.drawing.texts.some(({ text }) => text === "SA-X")));
-    const rows = await page.$$eval("#things li", (list) => list.map((row) => [...row.querySelectorAll("button")].map((button) => {
-      const { left, right } = button.getBoundingClientRect();
-      return [left, right].map(Math.round).join();
-    })));
-    const [names, removals] = [0, 1].map((column) => new Set(rows.map((row) => row[column]).filter((edges) => edges !== undefined)));
+    assert.ok(await page.evaluate(() => globalThis.drawing.symbols.length > 3 &&
+      globalThis.drawing.texts.some(({ text }) => text === "SA-X")));
+    const rows = await page.$$eval("#things li", (list) => list.map((row) =>
+      [...row.querySelectorAll("button")].map((button) => {
+        const { left, right } = button.getBoundingClientRect();
+        return [left, right].map(Math.round).join();
+      })));
+    const [names, removals] = [0, 1].map((column) =>
+      new Set(rows.map((row) => row[column]).filter((edges) => edges !== undefined)));
     assert.ok(rows.length >= 8 && names.size === 1 && removals.size === 1, JSON.stringify(rows));
     await page.close();
     call("world", "reset");
@@ -422,7 +442,8 @@ const tests = {
       const page = await open(width, height, path);
       const cells = world().rain.length;
       await page.click("#add_rain");
-      for (const shown of ["#adding", "#add_middle", "#add_cancel"]) assert.ok(await inSight(page, shown), `${width} x ${height}: ${shown}`);
+      for (const shown of ["#adding", "#add_middle", "#add_cancel"])
+        assert.ok(await inSight(page, shown), `${width} x ${height}: ${shown}`);
       assert.match(await page.textContent("#adding"), /Press on the map where the rain/);
       assert.equal(await page.getAttribute("#adding", "role"), "status");
       await page.click("#add_cancel");
@@ -437,8 +458,10 @@ const tests = {
     call("world", "reset");
   },
   async "Kill has a place of its own, and does nothing until a role is chosen"(page) {
-    assert.deepEqual(await page.$$eval("#roles button, #roles a", (list) => list.length), 0, "no button stands in the table");
-    assert.deepEqual(await page.$$eval("#kill_form button", (list) => list.map(({ textContent }) => textContent)), ["Kill"]);
+    assert.deepEqual(await page.$$eval("#roles button, #roles a", (list) => list.length), 0,
+      "no button stands in the table");
+    assert.deepEqual(await page.$$eval("#kill_form button", (list) => list.map(({ textContent }) => textContent)),
+      ["Kill"]);
     const { processes } = watch();
     assert.equal(await page.inputValue("#kill_role"), "");
     await page.click("#kill_form button");
@@ -456,18 +479,22 @@ const tests = {
     await onMap(page, "jammer");
     await page.evaluate(() => { document.querySelector("aside").scrollTop = 0; });
     await page.mouse.click(...await middle(page, 120, 90));
-    await until("the form of the jammer in sight", async () => await page.isVisible("#thing_power_w") && await inSight(page, "#thing_power_w"));
+    await until("the form of the jammer in sight",
+      async () => await page.isVisible("#thing_power_w") && await inSight(page, "#thing_power_w"));
     call("world", "reset");
   },
   async "links lead to the sections of the page on a phone, and stay in view"() {
     const page = await open(390, 844, path);
     for (const [name, id] of [["Replay", "machine"], ["World", "world_section"], ["Map", "theatre"]]) {
       await page.click(`#sections a:text-is("${name}")`);
-      const [section, links] = await page.evaluate((id) => [document.getElementById(id), document.getElementById("sections")]
+      const [section, links] = await page.evaluate((id) =>
+        [document.getElementById(id), document.getElementById("sections")]
         .map((found) => found.getBoundingClientRect()).map(({ top, bottom }) => ({ top, bottom })), id);
-      assert.ok(section.top >= links.bottom - 2 && section.top < 844 - 60, `${name}: ${JSON.stringify([section, links])}`);
+      assert.ok(section.top >= links.bottom - 2 && section.top < 844 - 60,
+        `${name}: ${JSON.stringify([section, links])}`);
       assert.ok(links.top >= 0, `the links are in view: ${links.top}`);
-      assert.ok(await page.evaluate((id) => document.getElementById(id).contains(document.activeElement), id), `the focus is in ${name}`);
+      assert.ok(await page.evaluate((id) => document.getElementById(id).contains(document.activeElement), id),
+        `the focus is in ${name}`);
     }
     assert.ok(await page.evaluate(() => document.getElementById("machine").open), "Replay opened its section");
     await page.close();
@@ -502,10 +529,14 @@ function recordDrawings() {
   around("moveTo", (context, [x, y]) => to(context, x, y));
   around("lineTo", (context, [x, y]) => to(context, x, y));
   around("rect", (context, [x, y, width, height]) => { to(context, x, y); to(context, x + width, y + height); });
-  around("arc", (context, [x, y, radius]) => { to(context, x - radius, y - radius); to(context, x + radius, y + radius); });
+  around("arc", (context, [x, y, radius]) => {
+    to(context, x - radius, y - radius);
+    to(context, x + radius, y + radius);
+  });
   around("fill", (context) => {
     if (context.fillStyle instanceof CanvasGradient) return; // the extent of a rain cell
-    const edges = [Math.min(...path.map(([x]) => x)), Math.min(...path.map(([, y]) => y)), Math.max(...path.map(([x]) => x)), Math.max(...path.map(([, y]) => y))];
+    const edges = [Math.min(...path.map(([x]) => x)), Math.min(...path.map(([, y]) => y)),
+      Math.max(...path.map(([x]) => x)), Math.max(...path.map(([, y]) => y))];
     if (edges[2] - edges[0] < 40 && edges[3] - edges[1] < 40) next.symbols.push(edges);
   });
   around("fillText", (context, [text, x, y]) => {

@@ -1,17 +1,20 @@
 // The display page as a pilot uses it.
 import assert from "node:assert/strict";
-import { address, browser, faults, fitsAllScreens, hasNameIconAndLinks, hasNoFinding, inSight, open, run, session, until, watch } from "./browser.mjs";
+import { address, browser, faults, fitsAllScreens, hasNameIconAndLinks, hasNoFinding, inSight,
+  open, run, session, until, watch } from "./browser.mjs";
 
 const path = "/display.html";
 
 // Names of the buttons up to what they do, as a screen reader says them. The glass has the legends, as in the window.
-const namesOf = (page) => page.$$eval(".pb", (list) => list.map((button) => button.getAttribute("aria-label").split(": ")[0]).sort());
+const namesOf = (page) =>
+  page.$$eval(".pb", (list) => list.map((button) => button.getAttribute("aria-label").split(": ")[0]).sort());
 const ARROWS = { "^": "up arrow", v: "down arrow" };
 function namesWanted() {
   const { legends, boxed } = watch();
   return Array.from({ length: 20 }, (_, at) => at + 1).map((number) => {
     const legend = legends[number] ?? "";
-    return [`PB ${number}`, ARROWS[legend] ?? legend, boxed.includes(number) ? "on" : ""].filter((text) => text !== "").join(", ");
+    return [`PB ${number}`, ARROWS[legend] ?? legend, boxed.includes(number) ? "on" : ""]
+      .filter((text) => text !== "").join(", ");
   }).sort();
 }
 
@@ -30,13 +33,15 @@ const tests = {
     await until("the range from before", () => watch().range_nm === range);
   },
   async "the table of keys is that of the help over the display"(page) {
-    const rows = await page.$$eval("#keys tr", (list) => list.map((row) => [...row.cells].map(({ textContent }) => textContent)));
+    const rows = await page.$$eval("#keys tr",
+      (list) => list.map((row) => [...row.cells].map(({ textContent }) => textContent)));
     assert.deepEqual(rows.find(([keys]) => keys === "Space"), ["Space", "freeze"]);
     assert.ok(rows.length >= 10, JSON.stringify(rows));
   },
   async "the buttons show numbers, because the glass has the legends"(page) {
     await legendsAgree(page);
-    assert.deepEqual(await page.$$eval(".pb", (list) => list.map(({ id, innerText }) => id === `pb${innerText}`)), Array(20).fill(true));
+    assert.deepEqual(await page.$$eval(".pb", (list) => list.map(({ id, innerText }) => id === `pb${innerText}`)),
+      Array(20).fill(true));
     const names = await namesOf(page);
     assert.ok(names.includes("PB 13, up arrow") || names.includes("PB 14, down arrow"), names.join());
   },
@@ -68,10 +73,12 @@ const tests = {
     for (const name of ["display", "instructor"]) {
       const viewer = await browser.newPage();
       await viewer.routeWebSocket(/socket/, (socket) => { // the station of this test has no tokens
-        socket.connectToServer().onMessage((message) => socket.send(/^\{"right"/.test(message) ? '{"right":"viewer"}' : message));
+        socket.connectToServer().onMessage(
+          (message) => socket.send(/^\{"right"/.test(message) ? '{"right":"viewer"}' : message));
       });
       await viewer.goto(`${address}/${name}.html`);
-      await until(`${name}: the line`, async () => /^You only look/.test(await viewer.textContent("#right")) && await inSight(viewer, "#right"));
+      await until(`${name}: the line`,
+        async () => /^You only look/.test(await viewer.textContent("#right")) && await inSight(viewer, "#right"));
       await viewer.close();
     }
   },
@@ -84,7 +91,8 @@ const tests = {
     await until("power is on", () => watch().power === "OPR");
     await page.click("#pb12");
     const set = () => page.textContent("#set");
-    await until("the message and its remedy", async () => /NO RECORDER · start one: Record in the browser/.test(await set()));
+    await until("the message and its remedy",
+      async () => /NO RECORDER · start one: Record in the browser/.test(await set()));
     await page.click("button:text-is('Record')");
     await until("VTR is boxed", () => watch().boxed.includes(12));
     await until("no button that starts another", async () => !await page.isVisible("#record"));
@@ -116,7 +124,8 @@ const tests = {
   async "each screen shows the picture as large as it can be, and all buttons and switches, without scrolling"() {
     await fitsAllScreens(path, async (page, width, height) => {
       const size = `${width} x ${height}`;
-      for (const button of await page.$$eval(".mpd button, .controls button:not([hidden])", (list) => list.map(({ id, dataset }) => (id ? `#${id}` : `[data-event='${dataset.event}']`))))
+      for (const button of await page.$$eval(".mpd button, .controls button:not([hidden])",
+        (list) => list.map(({ id, dataset }) => (id ? `#${id}` : `[data-event='${dataset.event}']`))))
         assert.ok(await inSight(page, button), `${size}: ${button} is in sight`);
       assert.ok(await inSight(page, "#picture"), size);
       const edge = await page.$eval("#picture", (picture) => picture.getBoundingClientRect().width);
@@ -126,7 +135,8 @@ const tests = {
     });
   },
   async "two displays beside each other fit on each screen"() {
-    await fitsAllScreens("/beside.html", async (page) => hasNameIconAndLinks(page, ["/display.html", "/instructor.html"]));
+    await fitsAllScreens("/beside.html",
+      async (page) => hasNameIconAndLinks(page, ["/display.html", "/instructor.html"]));
   },
 };
 
