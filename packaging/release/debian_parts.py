@@ -1,5 +1,5 @@
-"""Debian packages that a .deb depends on, with the versions of this system and the licences that their copyright files
-name."""
+"""Debian packages that a .deb depends on, with the versions of this system
+and the licences that their copyright files name."""
 import pathlib
 import re
 import subprocess

@@ -63,7 +63,7 @@ class Formats(Case):
         self.assertEqual(data.classes, ["car", "house"])
         self.assertEqual(data.objects[7]["name"], "house7")
         boxes = data[5]["boxes"]
-        # as the radar gives them; the one without pixels is left out
+        # As the radar gives them; the one without pixels is left out.
         self.assertEqual(boxes["object"].tolist(), [7, 2])
         self.assertEqual([data.classes[number] for number in boxes["class"]], ["house", "house"])
         self.assertEqual(lines[5]["boxes"], 2)

@@ -144,8 +144,8 @@ class Documents(unittest.TestCase):
             self.assertIn('id="docs_pilots_manual_rule-5"', rules)
             self.assertIn("an open air-to-ground radar simulation",
                           (html_folder / "index.html").read_text(encoding="utf-8"))
-            choices = (html_folder / "md_docs_decisions_0013_maps_under_the_pilots_hand.html").read_text(
-                encoding="utf-8")
+            choices = ((html_folder / "md_docs_decisions_0013_maps_under_the_pilots_hand.html")
+                       .read_text(encoding="utf-8"))
             self.assertIn('href="md_docs_pilots_manual.html#docs_pilots_manual_rule-5"', choices)
 
 

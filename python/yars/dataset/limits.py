@@ -92,8 +92,9 @@ def _fault_text(text, key):
     text = re.sub(r"the form (\S+) is unknown and ignored", r'expected the name of a form, found "\1"; '
                   "`yars config print --defaults` shows all", text)
     if key:
-        text = re.sub(r'(?<=for ):(\w+)|(?<=")(\w+)(?=")', lambda match: re.sub(
-            "[A-Z]", lambda big: "_" + big.group().lower(), match.group(1) or match.group(2)), text)
+        text = re.sub(r'(?<=for ):(\w+)|(?<=")(\w+)(?=")',
+                      lambda match: re.sub("[A-Z]", lambda big: "_" + big.group().lower(),
+                                           match.group(1) or match.group(2)), text)
         return text.replace("a slot of Fidelity", "a knob for radar.knobs")
     return text
 

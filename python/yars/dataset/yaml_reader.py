@@ -167,8 +167,8 @@ class Reader:
     def drawn(self, node, key, scalar=None):
         """A distribution: a plain value, or a section with one of DISTRIBUTIONS. `scalar` reads one value."""
         scalar = scalar or self.key_number
-        expected = f"{value_text(key)} for {key.path}, or one of " + ", ".join(f"{{{name}: ...}}"
-                                                                               for name in DISTRIBUTIONS)
+        expected = (f"{value_text(key)} for {key.path}, or one of " +
+                    ", ".join(f"{{{name}: ...}}" for name in DISTRIBUTIONS))
         if isinstance(node, yaml.ScalarNode):
             value = scalar(node, key)
             return None if value is None else Fixed(value)
