@@ -194,7 +194,7 @@ GENERATED_HEADERS = {"guf_lexer.hpp", "guf_parser.hpp", "message_lexer.hpp", "me
 MADE_HEADERS = {"databuffer/messages/record_checks.hpp", "databuffer/client/yars_records_check.hpp"}
 # made by idlc in the build folder
 MADE_HEADERS |= {"gateway/dds/yars_network.h", "gateway/dds/yars_records.h", "lib/values/fields.hpp",
-                 "lib/values/defaults.hpp"}
+                 "lib/values/defaults.hpp", "lib/values/presets.hpp"}
 # Folders with a subfolder yars/ of headers that are installed as <yars/...>, and such a header that the build makes.
 PUBLIC_FOLDERS = ["lib/error", "radar"]
 MADE_PUBLIC = {"yars/requests.hpp": "lib/values/fields.hpp"}

@@ -7,6 +7,7 @@
 #include "lib/radar/fidelity.hpp"
 #include "lib/radar/modes.hpp"
 #include "lib/radar/sensor.hpp"
+#include "lib/values/presets.hpp"
 
 namespace yars::config {
 
@@ -165,8 +166,13 @@ constexpr std::array<std::string_view, 3> kEarthModels{"flat", "sphere", "ellips
 constexpr std::array<std::string_view, 3> kInterpolations{"nearest", "bilinear", "cubic"};
 constexpr std::array<std::string_view, 3> kBeams{"hard-edge", "gaussian", "cosecant-squared"};
 
-// The presets of radar::fidelity_names(), and `auto`, with which radar-model selects a preset by its processor load.
-constexpr std::array<std::string_view, 6> kPresets{"1996", "draft", "standard", "fine", "reference", "auto"};
+// The presets, and `auto`, with which radar-model selects a preset by its processor load.
+constexpr auto kPresets = [] {
+  std::array<std::string_view, values::kPresets.size() + 1> names{};
+  std::ranges::copy(values::kPresets, names.begin());
+  names.back() = "auto";
+  return names;
+}();
 
 int preset_of(const ConfigurationBuilder& builder) {
   const auto* const found = std::find(kPresets.begin(), kPresets.end(), builder.radar.fidelity.name);

@@ -1,13 +1,12 @@
 #include "lib/radar/fidelity.hpp"
 
 #include <algorithm>
-#include <array>
+
+#include "lib/values/presets.hpp"
 
 namespace yars::radar {
 
 namespace {
-
-constexpr std::array<std::string_view, 5> kNames{"1996", "draft", "standard", "fine", "reference"};
 
 // The algorithm of the 1996 report: flat earth, no refraction, constant gain within the beam. The smear covers three
 // sweeps and three samples.
@@ -65,11 +64,11 @@ Fidelity reference() {
 }  // namespace
 
 std::span<const std::string_view> fidelity_names() {
-  return kNames;
+  return values::kPresets;
 }
 
 std::optional<Fidelity> fidelity_preset(std::string_view name) {
-  if (std::find(kNames.begin(), kNames.end(), name) == kNames.end()) return std::nullopt;
+  if (std::ranges::find(values::kPresets, name) == values::kPresets.end()) return std::nullopt;
   Fidelity fidelity;
   if (name == "1996") fidelity = of_1996();
   if (name == "draft") fidelity = draft();

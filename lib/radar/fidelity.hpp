@@ -54,7 +54,7 @@ struct Fidelity {
   double map_noise = 0.10;         // algorithm of preset 1996 only: random fraction of the brightness, [0, 1]
 };
 
-// Names of the presets: "1996", "draft", "standard", "fine", "reference", in ascending order of work.
+// Names of the presets of lib/values/presets.idl, in ascending order of work.
 std::span<const std::string_view> fidelity_names();
 
 // The preset of a name, as in the GUF slot `preset` and the option `--fidelity`. nullopt: no such preset.

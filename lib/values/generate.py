@@ -2,10 +2,11 @@
 """Generates code and tables from the IDL of the records (records.idl in this folder).
 
 usage: generate.py --build FOLDER   the C++ headers and sources, and the IDL for DDS, into FOLDER; the build calls it
-       generate.py --fields FOLDER  what people give: <yars/requests.hpp>, tables of fields and defaults, into FOLDER
+       generate.py --fields FOLDER  what people give: <yars/requests.hpp>, tables of fields, defaults, presets, into FOLDER
        generate.py --tables FILE    the page of all records, fields and values, in Markdown; needs no build
        generate.py --write YARS     layout.tsv in this folder, databuffer/client/yars_records.h, station/web/src/values.ts,
-                                    and the marked parts of python/yars/session.py, results.pyi and dataset/keys.py
+                                    and the marked parts of python/yars/session.py, results.pyi and dataset/keys.py; the
+                                    lists of presets in the files that generator/presets.py names
        generate.py --check YARS     checks that these files equal what --write would write; exit 1 if not
 YARS is the command `yars` built from the same records, such as build/dev/bin/yars. It prints the offsets of the
 segment's containers (`yars status --layout`). A fault in the IDL is reported in one line: file:line, what was expected,
@@ -19,7 +20,7 @@ import sys
 sys.dont_write_bytecode = True
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE))
-from generator import clients, cpp, dds, fields, idl, schema, stability, tables  # noqa: E402
+from generator import clients, cpp, dds, fields, idl, presets, schema, stability, tables  # noqa: E402
 
 ROOT = HERE.parents[1]
 HEADER = "databuffer/client/yars_records.h"
@@ -84,6 +85,10 @@ def text_of(path):
     return path.read_text(encoding="utf-8") if path.is_file() else ""
 
 
+def preset_kinds():
+    return next(one for one in idl.read(HERE, "presets.idl")[-1].declarations if one.name == "Preset")
+
+
 def tree_files(chapters, layout, root):
     """{path of a generated file: (its present text, its generated text)}"""
     made = {LAYOUT: stability.text(chapters, layout), HEADER: clients.c_header(chapters, layout)}
@@ -96,7 +101,15 @@ def tree_files(chapters, layout, root):
     made[STUB] = stub
     keys = with_part(KEYS, text_of(root / KEYS), "")
     made[KEYS] = with_part(KEYS, keys, fields.python_values(chapters, requests, keys))
-    made[PAGES] = fields.typescript(chapters, requests)
+    kinds = preset_kinds()
+    made[PAGES] = fields.typescript(chapters, requests) + presets.typescript(kinds)
+    known = presets.names(kinds)
+    for name in presets.LISTS:
+        text = made[name] if name in made else text_of(root / name)
+        if not presets.has_list(text, known):
+            raise StaleError(f"{name}: expected a list of the presets {', '.join(known)}, found none; write one, or take the file "
+                             "out of LISTS in generator/presets.py")
+        made[name] = presets.listed(text, known)
     return {name: (text_of(root / name), text) for name, text in made.items()}
 
 
@@ -105,7 +118,8 @@ def main(arguments):
         sys.exit(__doc__)
     what, where = arguments
     if what == "--fields":
-        return write_all(pathlib.Path(where), fields.files(idl.read(HERE), idl.read(HERE, "requests.idl")))
+        made = fields.files(idl.read(HERE), idl.read(HERE, "requests.idl"))
+        return write_all(pathlib.Path(where), {**made, presets.HEADER: presets.header(preset_kinds())})
     chapters = idl.read(HERE)
     if what == "--build":
         return build(pathlib.Path(where), chapters)

@@ -4,6 +4,7 @@
 // Errors: an invalid ownship record gives no pose. Processor loads that are not finite are ignored.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -16,6 +17,7 @@
 #include "lib/geo/frames.hpp"
 #include "lib/geo/quantity.hpp"
 #include "lib/radar/mapping.hpp"
+#include "lib/values/presets.hpp"
 #include "model/antenna/antenna.hpp"
 #include "model/physics/environment.hpp"
 
@@ -60,8 +62,8 @@ class FidelityGovernor {
   // `core_share`: maximum fraction of one core, (0, 1].
   explicit FidelityGovernor(double core_share) : core_share_(core_share) {}
 
-  // Presets in ascending order of cost. The preset "1996" is not included, because it makes a different picture.
-  static constexpr std::array<std::string_view, 4> kLadder{"draft", "standard", "fine", "reference"};
+  // Presets in ascending order of cost. Those that make a different picture are not included.
+  static constexpr auto kLadder = values::kPresetsOfOnePicture;
 
   std::string_view preset() const { return kLadder[preset_index_]; }
   // Records the load [fraction of a core] of a scan with the current preset, and selects the preset of the next scan.
@@ -71,7 +73,7 @@ class FidelityGovernor {
   double expected_load(std::size_t index, double load) const;
 
   double core_share_;
-  std::size_t preset_index_ = 1;
+  std::size_t preset_index_ = static_cast<std::size_t>(std::ranges::find(kLadder, "standard") - kLadder.begin());
   struct Measurement {
     double load = 0.0;  // load of the preset's last scan
     int scans_ago = 0;  // number of scans since then

@@ -195,7 +195,7 @@ _TRADE = ("presets", "knob", "base", "ruler", "repeat", "csv", "out", "scene")
 _TRADES = {maps: Options("yars.trade", (*_TRADE, *more), lists=("knob", "scene", "view", "scene_without"), commas=("presets",),
                          paths=("csv", "out"), optional=("knob", "csv", "out", "scene", "view", "scene_without"))
            for maps, more in ((False, ("scan_width", "ruler_samples")), (True, ("view", "ruler_size", "scene_without")))}
-_PRESETS = ("1996", "draft", "standard", "fine", "reference")
+_PRESETS = ("1996", "draft", "standard", "fine", "reference")  # of lib/values/presets.idl
 
 
 @functools.lru_cache(maxsize=None)

@@ -5,6 +5,7 @@ usage: core_test.py BUILD     BUILD: a build folder with bin/yars and python/yar
     Skipped (code 77) where it has no compiled part.
 """
 import csv
+import itertools
 import json
 import pickle
 import re
@@ -12,13 +13,13 @@ import unittest
 import warnings
 
 from core_helpers import KEYWORDS, PATCH, SCAN, Folder, command, np, option, options, yars
+from yars.dataset.keys import PRESETS
 
 # Array -> type, unit; of scans and maps.
 ARRAYS = {"power": (np.float32, "1"), "video": (np.uint8, ""), "shadow": (np.bool_, ""), "layover": (np.bool_, ""),
           "slant_range": (np.float64, "m"), "ground_range": (np.float64, "m"), "latitude": (np.float64, "degree"),
           "longitude": (np.float64, "degree"), "height": (np.float32, "m"), "grazing_angle": (np.float32, "degree"),
           "material": (np.uint8, ""), "object": (np.int32, "")}
-PRESETS = ("1996", "draft", "standard", "fine", "reference")
 
 
 class Package(unittest.TestCase):
@@ -121,7 +122,7 @@ class Commands(Folder):
     """Values against the output of the commands."""
 
     def test_scans(self):
-        for preset, threads in zip(PRESETS, (1, 2, 2, 1, 2)):
+        for preset, threads in zip(PRESETS, itertools.cycle((1, 2, 2))):
             samples = {"samples": 60} if preset == "reference" else {}
             with self.subTest(preset):
                 out, video, lit = self.folder / "p.f32", self.folder / "v.csv", self.folder / "s.csv"

@@ -15,7 +15,7 @@ TOKEN = re.compile(r"""(?P<blank>[ \t\r]+)|(?P<line>\n)|(?P<comment>//[^\n]*)|(?
     |(?P<name>(?:::)?[A-Za-z]\w*(?:::[A-Za-z]\w*)*)|(?P<mark>[@(){}\[\]<>;:,=+\-*/])""", re.X)
 ARITHMETIC = {"+": lambda a, b: a + b, "-": lambda a, b: a - b, "*": lambda a, b: a * b}
 ANNOTATIONS = {"final", "nested", "bit_bound", "position", "unit", "range", "min", "max", "default", "nan", "counted_by", "cut",
-               "by_hand", "request", "option", "otherwise", "optional", "shown"}
+               "by_hand", "request", "option", "otherwise", "optional", "shown", "different_picture"}
 TYPES = {**schema.INTEGERS, **schema.REALS}
 
 
@@ -195,18 +195,19 @@ class Parser:
 
     def enumeration(self, notes, first):
         where, name = self.where, self.expect_name("an enumeration")
-        doc, values = self.comment_above(first), []
+        doc, values, marks = self.comment_above(first), [], {}
         self.expect("{")
         while True:
-            at, word = self.token.line, self.expect_name("a value")
+            at, marked, word = self.token.line, self.annotations(), self.expect_name("a value")
             if not word.startswith(name + "_"):
                 raise IdlError(f"{self.scan.name}:{at}", f"a value named {name}_...", f"'{word}'", "IDL's values share one scope")
             self.is_next(",")
             values.append((word.removeprefix(name + "_"), self.doc(at, at)))
+            marks[values[-1][0]] = marked
             if self.is_next("}"):
                 break
         self.expect(";")
-        self.declare(schema.Enumeration(name, doc, where, self.module, self.bits(notes, where), values))
+        self.declare(schema.Enumeration(name, doc, where, self.module, self.bits(notes, where), values, marks))
 
     def bitmask(self, notes, first):
         where, name = self.where, self.expect_name("a bit mask")

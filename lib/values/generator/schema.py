@@ -51,6 +51,7 @@ class Constant(Declaration):
 class Enumeration(Declaration):
     bits: int = 32
     values: list = dataclasses.field(default_factory=list)  # (name without the type's prefix, doc lines), numbered from 0
+    notes: dict = dataclasses.field(default_factory=dict)  # name of a value -> its annotations
 
 
 @dataclasses.dataclass(eq=False)

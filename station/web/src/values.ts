@@ -79,3 +79,5 @@ export const FIELDS = {
 } satisfies Record<string, Record<string, Field>>;
 
 export const LATEST_SIM_TIME_S = 576460752;
+
+export type Preset = "1996" | "draft" | "standard" | "fine" | "reference";

@@ -16,7 +16,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 MESSAGES = ROOT / "lib/values"
 sys.path.insert(0, str(MESSAGES))
 import generate  # noqa: E402
-from generator import clients, cpp, dds, fields, idl, schema, stability  # noqa: E402
+from generator import clients, cpp, dds, fields, idl, presets, schema, stability  # noqa: E402
 
 GOOD = """// One record.
 module yars {
@@ -346,9 +346,13 @@ class TheFilesOfTheTree(unittest.TestCase):
         self.root = pathlib.Path(self.folder.name)
         for name in (generate.PYTHON, generate.HEADER, generate.LAYOUT, generate.KEYS, generate.PAGES):
             (self.root / name).parent.mkdir(parents=True, exist_ok=True)
-        (self.root / generate.KEYS).write_text(generate.BEGIN + generate.END)
+        self.names = presets.names(generate.preset_kinds())
+        for name in presets.LISTS:
+            (self.root / name).parent.mkdir(parents=True, exist_ok=True)
+            (self.root / name).write_text(", ".join(self.names))
+        (self.root / generate.KEYS).write_text(f"{generate.BEGIN}{generate.END}# {', '.join(self.names)}\n")
         (self.root / generate.PYTHON).write_text(f"before\n{generate.BEGIN}{generate.END}after\n")
-        (self.root / generate.STUB).write_text("".join(f"        # begin: lib/values/generate.py, {name}\n        # end: {name}\n"
+        (self.root / generate.STUB).write_text(f"# {', '.join(self.names)}\n" + "".join(f"        # begin: lib/values/generate.py, {name}\n        # end: {name}\n"
                                                        for name in ("ScanRequest", "PatchRequest")))
         self.program = self.root / "yars"
         self.tell(layout_of(self.chapters))
@@ -400,6 +404,18 @@ class TheFilesOfTheTree(unittest.TestCase):
         (self.root / generate.PYTHON).write_text("nothing\n")
         self.refuses(generate.StaleError, "python/yars/session.py: expected the lines '# begin: lib/values/generate.py'")
 
+    def test_need_their_lists_of_presets(self):
+        (self.root / "config/apg70nd.guf").write_text("draft, fine\n")
+        self.refuses(generate.StaleError, "config/apg70nd.guf: expected a list of the presets " + ', '.join(self.names))
+
+    def test_hold_all_presets_in_their_lists(self):
+        name = "scripts/starting/options.py"
+        self.run_with("--write")
+        (self.root / name).write_text(", ".join(self.names[1:]))
+        self.refuses(generate.StaleError, f"{name}: expected what the IDL says")
+        self.run_with("--write")
+        self.assertEqual((self.root / name).read_text(), ", ".join(self.names))
+
     def test_need_a_program_of_the_same_records(self):
         layout = layout_of(self.chapters)
         layout["records"]["Nav"]["fields"]["flags"] = [0, 4]
@@ -407,6 +423,39 @@ class TheFilesOfTheTree(unittest.TestCase):
         self.refuses(generate.StaleError, "expected the Nav of values/records.idl, found another; build it anew")
         self.program.write_text("#!/bin/sh\nexit 1\n")
         self.refuses(generate.StaleError, "to print the layout, found:")
+
+
+PRESETS = """module yars {
+  @bit_bound(8)
+  enum Preset {
+    @different_picture Preset_1984,
+    Preset_plain,  // the default
+    Preset_fast
+  };
+};
+"""
+
+
+class Presets(unittest.TestCase):
+    def test_become_constants(self):
+        made = presets.header(chapters_of(PRESETS)[-1].declarations[0])
+        self.assertIn('std::array<std::string_view, 3> kPresets{\n    "1984",\n    "plain",  // the default\n    "fast",\n};', made)
+        self.assertIn('std::array<std::string_view, 2> kPresetsOfOnePicture{\n    "plain",\n    "fast",\n};', made)
+
+    def test_become_a_type_of_the_pages(self):
+        self.assertEqual(presets.typescript(chapters_of(PRESETS)[-1].declarations[0]),
+                         '\nexport type Preset = "1984" | "plain" | "fast";\n')
+
+    def test_stand_in_lists_that_keep_their_quotes_and_what_is_around_them(self):
+        known = ["draft", "coarse", "fine", "exact"]
+        for old, new in (('("draft", "fine", "exact")', '("draft", "coarse", "fine", "exact")'),
+                         ("preset: draft, fine or exact; else", "preset: draft, coarse, fine or exact; else"),
+                         ("one of draft, fine, exact, found 'fast'", "one of draft, coarse, fine, exact, found 'fast'"),
+                         ("fine, exact, coarse", "draft, coarse, fine, exact"),
+                         ("draft, old, fine, exact", "draft, coarse, fine, exact"),
+                         ("draft or fine", "draft or fine"), ("a, b, c", "a, b, c")):
+            self.assertEqual(presets.listed(old, known), new)
+        self.assertFalse(presets.has_list("draft or fine", known))
 
 
 class ALayout(unittest.TestCase):
