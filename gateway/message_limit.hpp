@@ -3,7 +3,6 @@
 // Inputs: messages, with CLOCK_MONOTONIC times [ns].
 // Outputs: the messages that pass; after a flood one line with the number of those left out.
 // Memory: at most kBurst messages of kMaxLength bytes wait, and kRemembered are remembered.
-// Threads: not thread-safe.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +13,8 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "gateway/pace.hpp"
 
 namespace yars::gateway {
 
@@ -29,19 +30,10 @@ class MessageLimit {
   void add(std::string_view text, std::int64_t now_ns) {
     std::string message(text.substr(0, kMaxLength));
     if (text.size() > kMaxLength) message += " ...";
-    if (is_known(message, now_ns)) {
+    if (is_known(message, now_ns) || waiting_.size() >= kBurst || !allowance_.take(now_ns))
       ++left_out_;
-      return;
-    }
-    if (full_at_ns_ == 0) full_at_ns_ = now_ns;
-    // The allowance is kept as the time at which it is whole again.
-    const std::int64_t next_ns = std::max(full_at_ns_, now_ns) + kInterval_ns;
-    if (next_ns - now_ns > static_cast<std::int64_t>(kBurst) * kInterval_ns || waiting_.size() >= kBurst) {
-      ++left_out_;
-      return;
-    }
-    full_at_ns_ = next_ns;
-    waiting_.push_back(std::move(message));
+    else
+      waiting_.push_back(std::move(message));
   }
 
   // The messages since the last call, and at times the count of those left out. `source`: whose messages they are.
@@ -68,7 +60,7 @@ class MessageLimit {
   std::deque<std::pair<std::string, std::int64_t>> remembered_;  // with the times at which they were taken
   std::vector<std::string> waiting_;
   std::uint64_t left_out_ = 0;  // since the last count
-  std::int64_t full_at_ns_ = 0;
+  Allowance allowance_{kInterval_ns, kBurst};
   std::int64_t next_count_ns_ = 0;
 };
 

@@ -1,6 +1,8 @@
 // The program gateway: joins the session of this computer to those of other computers.
 
 #include <algorithm>
+#include <cstdint>
+#include <ctime>
 #include <filesystem>
 #include <random>
 #include <string>
@@ -9,9 +11,21 @@
 
 #include "config/schema/load.hpp"
 #include "config/schema/slot_text.hpp"
-#include "gateway/app/gateway_shell.hpp"
+#include "databuffer/session/session.hpp"
 #include "gateway/checks/computer_check.hpp"
 #include "gateway/checks/identity_check.hpp"
+#include "gateway/dds/link.hpp"
+#include "gateway/exchange/clock_exchange.hpp"
+#include "gateway/exchange/context.hpp"
+#include "gateway/exchange/event_exchange.hpp"
+#include "gateway/exchange/history_exchange.hpp"
+#include "gateway/exchange/hosts.hpp"
+#include "gateway/exchange/lockstep_exchange.hpp"
+#include "gateway/exchange/map_exchange.hpp"
+#include "gateway/exchange/roles.hpp"
+#include "gateway/exchange/state_exchange.hpp"
+#include "gateway/exchange/world_exchange.hpp"
+#include "gateway/pace.hpp"
 #include "lib/log/log.hpp"
 #include "runtime/process.hpp"
 #include "runtime/program.hpp"
@@ -19,6 +33,228 @@
 namespace {
 
 using namespace yars;
+using namespace yars::gateway;
+using databuffer::Role;
+
+constexpr std::int64_t kPass_ns = 5'000'000;        // a tick at rate 1
+constexpr std::int64_t kLockstepPass_ns = 250'000;  // the roles of a lockstep run wait for each pass
+constexpr std::int64_t kMaxEnd_ns = 1'000'000'000;
+constexpr std::int64_t kLockstepEnd_ns = 20'000'000;  // until the other hosts have taken what they have acknowledged
+constexpr std::int64_t kSilence_ns = 10'000'000'000;  // hosts that can hear each other do so within 0.3 s
+
+// Processor time of this process, with the threads of Cyclone DDS.
+double process_time_s() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+std::string list_of(const std::vector<std::string>& words) {
+  std::string list;
+  for (const std::string& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
+// Gateway of one host: in passes of 5 ms it exchanges records between the local segment and the other hosts.
+// Inputs: the local segment; samples of other hosts.
+// Outputs: samples; records of other hosts in the local segment; NetworkStatus twice a second.
+// Errors: none ends the gateway. Invalid samples are refused, counted and noted.
+// Source: docs/network.md.
+class GatewayShell {
+ public:
+  // `asked`: addresses of the other computers that are asked, for messages.
+  GatewayShell(databuffer::Session& session, const std::string& session_name, dds::Link link,
+               const radar::NetworkSettings& settings, Identity identity, std::vector<std::string> asked)
+      : link_(std::move(link)),
+        session_(&session),
+        hosts_(session, &link_, std::move(identity)),
+        roles_(session, session_name),
+        context_{session, &link_, hosts_, roles_},
+        maps_(settings.map_rows_per_s),
+        asked_(std::move(asked)),
+        domain_(settings.domain),
+        participants_(settings.participants),
+        secured_(!settings.security.empty()) {
+    if (!link_.writes(dds::Topic::clock))
+      log::info("this host does not set the session clock: it may not write the topic clock");
+    for (const Role role : {Role::radar_model, Role::state_machine}) {
+      const auto found = std::ranges::find(kRoleTopics, role, &RoleTopics::role);
+      if (!std::ranges::all_of(found->topics, [this](dds::Topic topic) { return link_.writes(topic); }))
+        roles_.bar(role);
+    }
+  }
+
+  // Waits for the next pass and runs it. Probes and input events are taken as soon as they arrive.
+  void step() {
+    link_.wait(next_pass_ns_ - databuffer::monotonic_ns());
+    hosts_.exchange_probes();
+    context_.now_ns = databuffer::monotonic_ns();
+    events_.receive_inputs(context_);
+    if (context_.now_ns < next_pass_ns_) return;
+    pass();
+    const std::int64_t interval_ns = context_.lockstep ? kLockstepPass_ns : kPass_ns;
+    next_pass_ns_ = std::max(next_pass_ns_ + interval_ns, context_.now_ns);
+  }
+
+  // The host whose handshake with this one was lost; empty: none. The caller then opens a new link and a new shell.
+  const std::string& lost_handshake() const { return lost_handshake_; }
+
+  // Runs further passes until the other hosts have what this one has sent, for 1 s at most. Without them the last tick
+  // of a lockstep run would not reach a slower host.
+  void finish() {
+    const std::int64_t begin_ns = databuffer::monotonic_ns();
+    std::int64_t unacknowledged_ns = begin_ns;  // the last time at which something was on its way
+    while (hosts_.views().size() > 1 && context_.now_ns - begin_ns < kMaxEnd_ns) {
+      step();
+      if (!link_.is_acknowledged()) unacknowledged_ns = context_.now_ns;
+      if (context_.now_ns - unacknowledged_ns > (context_.lockstep ? kLockstepEnd_ns : 0)) return;
+    }
+  }
+
+ private:
+  void pass() {
+    session_->heartbeat();
+    context_.lockstep = std::as_const(*session_).layout().lockstep.enabled.load(std::memory_order_acquire) != 0;
+    hosts_.set_claims(roles_.held_roles(), clock_.owns(), session_->clock().epoch);
+    hosts_.set_conflict(roles_.in_conflict());
+    hosts_.exchange(context_.now_ns);
+    roles_.update(hosts_, context_.now_ns);
+    roles_.heartbeat();
+    clock_.exchange(context_);
+    context_.joined = clock_.joined();
+    lockstep_.begin_pass(context_);
+    receive();
+    send();
+    const bool has_joined = context_.joined && !std::exchange(reported_joined_, true);
+    if (has_joined) report_joined();
+    if (reports_.is_due(has_joined, context_.now_ns)) report();
+  }
+
+  void receive() {
+    states_.receive(context_);
+    states_.keep_lane(context_);
+    events_.receive(context_);
+    world_.receive(context_);
+    world_.publish(context_);
+    history_.receive(context_);
+    history_.publish(context_);
+    maps_.receive(context_);
+    maps_.publish(context_);
+    if (!context_.lockstep) return;
+    lockstep_.receive(context_);
+    lockstep_.apply(context_, history_.is_empty());
+  }
+
+  void send() {
+    states_.send(context_);
+    events_.send(context_);
+    world_.send(context_);
+    history_.send(context_);
+    maps_.send(context_);
+    if (context_.lockstep) lockstep_.send(context_);
+  }
+
+  // Finds the processes of this host that hold no role with a lock byte, so that `yars status` shows them on all hosts.
+  void look_at_processes() {
+    std::uint32_t processes = 0;
+    for (const databuffer::ProcessInfo& process : session_->processes())
+      if (const auto index = databuffer::counted_role(process.name)) processes |= 1U << *index;
+    hosts_.set_processes(processes & shown_processes());
+  }
+
+  void report_joined() const {
+    if (hosts_.views().size() > 1) return log::info("joined the session clock");
+    if (asked_.empty()) return log::info("joined the session clock, alone: the form Network names no other computer");
+    log::info("joined the session clock, alone: asked " + list_of(asked_) +
+              ": none has answered yet; this computer goes on alone and joins them when they come");
+  }
+
+  void report_messages() {
+    for (const std::string& message : link_.take_messages(context_.now_ns)) log::warning("Cyclone DDS: " + message);
+    for (const dds::Remark& remark : link_.participants().take_remarks(context_.now_ns)) {
+      if (!remark.is_fault) {
+        log::info(remark.text);
+        continue;
+      }
+      reported_silence_ = true;
+      log::warning(remark.text);
+      session_->note(databuffer::NoteKind::loss, remark.note);
+    }
+    lost_handshake_ = link_.participants().take_lost_handshake(context_.now_ns);
+    report_silence();
+  }
+
+  // Says once that no host has been heard since the start, and what to look at.
+  void report_silence() {
+    if (first_pass_ns_ == 0) first_pass_ns_ = context_.now_ns;
+    if (reported_silence_ || asked_.empty() || context_.now_ns - first_pass_ns_ < kSilence_ns) return;
+    reported_silence_ = true;
+    if (link_.counts(dds::Topic::hosts).received > 0) return;
+    const int first_port = 7400 + 250 * domain_ + 10;
+    log::warning("no other host has been heard in 10 s, asked " + list_of(asked_) +
+                 "; the usual reasons: no gateway runs there, it has another session or domain, `security` is on one "
+                 "side only, or a firewall closes UDP ports " +
+                 std::to_string(first_port) + " to " + std::to_string(first_port + 2 * participants_ - 1));
+  }
+
+  void report() {
+    look_at_processes();
+    report_messages();
+    const double cpu_s = process_time_s();
+    const double elapsed_s = 1e-9 * static_cast<double>(context_.now_ns - last_report_ns_);
+    if (last_report_ns_ != 0 && elapsed_s > 0.1) load_ = (cpu_s - last_cpu_s_) / elapsed_s;
+    last_cpu_s_ = cpu_s;
+    last_report_ns_ = context_.now_ns;
+    databuffer::NetworkStatus status{};
+    status.monotonic_ns = context_.now_ns;
+    status.joined = context_.joined ? 1 : 0;
+    status.domain = static_cast<std::uint32_t>(domain_);
+    status.secured = secured_ ? 1 : 0;
+    status.takeovers = roles_.takeovers();
+    status.conflicts = roles_.conflicts();
+    status.load = load_;
+    hosts_.describe(status, context_.now_ns);
+    status.topic_count = dds::kTopicCount;
+    for (std::size_t i = 0; i < dds::kTopicCount; ++i) {
+      const auto topic = static_cast<dds::Topic>(i);
+      const dds::TopicCounts& counts = link_.counts(topic);
+      auto& to = status.topics[i];
+      dds::settings_of(topic).name.copy(to.name, sizeof to.name - 1);
+      to.sent = counts.sent;
+      to.sent_bytes = counts.sent_bytes;
+      to.received = counts.received;
+      to.received_bytes = counts.received_bytes;
+    }
+    session_->layout().network_status.publish(status);
+  }
+
+  dds::Link link_;
+  databuffer::Session* session_;
+  Hosts hosts_;
+  Roles roles_;
+  Context context_;
+  LaneNames lanes_;
+  ClockExchange clock_;
+  StateExchange states_{lanes_};
+  EventExchange events_{lanes_};
+  WorldNumbers world_numbers_;
+  WorldExchange world_{world_numbers_};
+  HistoryExchange history_{lanes_, world_numbers_};
+  MapExchange maps_;
+  LockstepExchange lockstep_;
+  std::vector<std::string> asked_;
+  std::string lost_handshake_;
+  int domain_, participants_;
+  bool secured_;
+  bool reported_joined_ = false;
+  bool reported_silence_ = false;
+  std::int64_t first_pass_ns_ = 0;
+  std::int64_t next_pass_ns_ = 0;
+  Pace reports_{500'000'000};
+  std::int64_t last_report_ns_ = 0;
+  double last_cpu_s_ = 0.0;
+  double load_ = 0.0;
+};
 
 struct GatewayOptions {
   std::string network;
@@ -30,7 +266,7 @@ std::uint64_t configuration_hash(radar::RadarConfiguration configuration) {
   configuration.terrain.directory.clear();
   for (radar::Scene& scene : configuration.world.scenes)
     scene.file = std::filesystem::path(scene.file).filename().string();
-  return gateway::host_id(config::print_configuration(configuration));
+  return host_id(config::print_configuration(configuration));
 }
 
 // Hash of the names and sizes of the files in a folder of elevation cells; 0: no folder.
@@ -45,7 +281,7 @@ std::uint64_t terrain_hash(const std::string& folder) {
   std::ranges::sort(lines);
   std::string text;
   for (const std::string& line : lines) text += line;
-  return text.empty() ? 0 : gateway::host_id(text);
+  return text.empty() ? 0 : host_id(text);
 }
 
 std::uint64_t random_number() {
@@ -64,12 +300,12 @@ std::uint64_t segment_number(databuffer::Session& session) {
 // Compares the settings with this computer and its identity. Leaves only the peers that can be asked. Output: those of
 // other computers.
 error::Expected<std::vector<std::string>> check(radar::NetworkSettings& settings) {
-  auto computer = gateway::checks::check_computer(settings);
+  auto computer = checks::check_computer(settings);
   if (!computer) return tl::unexpected(computer.error());
   for (const std::string& warning : computer->warnings) log::warning(warning);
   settings.peers = std::move(computer->known_peers);
   if (settings.security.empty()) return std::move(computer->other_peers);
-  const auto warnings = gateway::checks::check_identity(settings.security, settings.name);
+  const auto warnings = checks::check_identity(settings.security, settings.name);
   if (!warnings) return tl::unexpected(warnings.error());
   for (const std::string& warning : *warnings) log::warning(warning);
   return std::move(computer->other_peers);
@@ -79,8 +315,8 @@ error::Expected<std::vector<std::string>> check(radar::NetworkSettings& settings
 struct Joining {
   radar::NetworkSettings settings;
   std::vector<std::string> peers;  // addresses of other computers
-  gateway::Identity identity;      // without what differs from time to time
-  gateway::dds::RejoinLimit rejoins;
+  Identity identity;               // without what differs from time to time
+  dds::RejoinLimit rejoins;
 };
 
 // Joins the session, until the program is to end. Output: true: join again, because a handshake was lost.
@@ -89,15 +325,14 @@ error::Expected<bool> join(const runtime::ProgramOptions& options, Joining& join
   if (!session) return tl::unexpected(session.error());
   const auto role = session->claim(databuffer::Role::gateway);
   if (!role) return tl::unexpected(error::usage_error(role.error()));
-  auto link = gateway::dds::Link::open(joining.settings, options.session);
+  auto link = dds::Link::open(joining.settings, options.session);
   if (!link) return tl::unexpected(link.error());
-  gateway::Identity identity = joining.identity;
+  Identity identity = joining.identity;
   identity.start = random_number();
   identity.segment = segment_number(*session);
   log::info("host " + identity.name + " joins session " + options.session + ", DDS domain " +
             std::to_string(joining.settings.domain) + (joining.settings.security.empty() ? "" : ", encrypted"));
-  gateway::GatewayShell shell(*session, options.session, std::move(*link), joining.settings, std::move(identity));
-  shell.set_asked(joining.peers);
+  GatewayShell shell(*session, options.session, std::move(*link), joining.settings, std::move(identity), joining.peers);
   while (!runtime::stop_requested()) {
     shell.step();
     if (shell.lost_handshake().empty() || !joining.rejoins.take(databuffer::monotonic_ns())) continue;
@@ -116,7 +351,7 @@ error::Expected<void> run(const runtime::ProgramOptions& options, const GatewayO
   if (!loaded) return tl::unexpected(loaded.error());
   radar::NetworkSettings& settings = loaded->network;
   radar::RadarConfiguration& configuration = loaded->radar;
-  if (settings.name.empty()) settings.name = gateway::checks::host_name();
+  if (settings.name.empty()) settings.name = checks::host_name();
   auto peers = check(settings);
   if (!peers) return tl::unexpected(peers.error());
   if (gateway_options.network.empty())

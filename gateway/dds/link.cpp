@@ -103,20 +103,13 @@ bool is_listed(const std::vector<std::string>& names, Topic topic) {
   return std::ranges::find(names, settings_of(topic).name) != names.end();
 }
 
-// `found`: what is said if Cyclone DDS has said nothing.
-tl::unexpected<error::Error> fail_link(const std::string& expected, const std::string& found) {
+// What Cyclone DDS has said last, else what `code` means. It takes a port for its participant with the domain already.
+tl::unexpected<error::Error> fail_link(const radar::NetworkSettings& settings, const std::string& expected,
+                                       dds_return_t code) {
   const auto messages = Messages::instance().take(0);
-  return error::fail("network", expected, messages.empty() ? found : messages.front(),
-                     "check interfaces, peers, domain and security of the form Network");
-}
-
-// The domain could not be opened. Cyclone DDS then takes a port for its participant already.
-tl::unexpected<error::Error> fail_domain(const radar::NetworkSettings& settings, const std::string& found) {
-  const auto messages = Messages::instance().take(0);
-  const std::string message = messages.empty() ? found : messages.front();
-  if (message.find("free participant index") == std::string::npos)
-    return error::fail("network", "a configuration that Cyclone DDS accepts", message,
-                       "check interfaces, peers, domain and security of the form Network");
+  const std::string found = messages.empty() ? dds_strretcode(-code) : messages.front();
+  if (found.find("free participant index") == std::string::npos)
+    return error::fail("network", expected, found, "check interfaces, peers, domain and security of the form Network");
   return error::fail(
       "Network: participants",
       "a free one of the " + std::to_string(settings.participants) + " places for DDS programs on this computer",
@@ -154,6 +147,7 @@ struct Link::State {
   dds_entity_t open_reader(Topic topic);
   void renew_reader(Topic topic);
   void report_refused(Topic topic);
+  bool write(dds_entity_t writer, Topic topic, const void* sample, std::size_t bytes);
   ReaderUse& use_of(Topic topic) { return uses[index_of(topic)]; }
 
   radar::NetworkSettings settings;
@@ -182,11 +176,10 @@ error::Expected<Link> Link::open(const radar::NetworkSettings& settings, const s
   dds_set_log_sink(&Messages::receive, &Messages::instance());
   const auto id = static_cast<dds_domainid_t>(settings.domain);
   state->domain = dds_create_domain(id, domain_configuration(settings).c_str());
-  if (state->domain < 0) return fail_domain(settings, dds_strretcode(-state->domain));
+  if (state->domain < 0) return fail_link(settings, "a configuration that Cyclone DDS accepts", state->domain);
   state->participant = dds_create_participant(id, nullptr, nullptr);
   if (state->participant < 0)
-    return fail_link("a DDS participant on interface " + settings.interfaces.front(),
-                     dds_strretcode(-state->participant));
+    return fail_link(settings, "a DDS participant on interface " + settings.interfaces.front(), state->participant);
   bind_sockets(settings);
   if (auto opened = state->open_topics(session); !opened) return tl::unexpected(opened.error());
   state->others.open(state->participant, session, !settings.security.empty());
@@ -208,18 +201,18 @@ error::Expected<void> Link::State::open_topics(const std::string& session) {
     const std::string name = "yars/" + std::string(topic_settings.name);
     const Qos topic_qos = qos_of(topic_settings);
     topics[i] = dds_create_topic(participant, topic_settings.structure, name.c_str(), nullptr, nullptr);
-    if (topics[i] < 0) return fail_link("topic " + name, dds_strretcode(-topics[i]));
+    if (topics[i] < 0) return fail_link(settings, "topic " + name, topics[i]);
     const dds_topic_filter filter{DDS_TOPIC_FILTER_SAMPLEINFO_ARG, {.sampleinfo_arg = &admits}, &use_of(topic)};
     dds_set_topic_filter_extended(topics[i], &filter);
     if (is_listed(settings.topics_out, topic) && topic != Topic::ownship) {
       writers[i] = dds_create_writer(publisher, topics[i], topic_qos.get(), nullptr);
       if (writers[i] < 0 && writers[i] != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
-        return fail_link("a writer of topic " + name, dds_strretcode(-writers[i]));
+        return fail_link(settings, "a writer of topic " + name, writers[i]);
     }
     if (!is_listed(settings.topics_in, topic)) continue;
     readers[i] = open_reader(topic);
     if (readers[i] < 0 && readers[i] != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
-      return fail_link("a reader of topic " + name, dds_strretcode(-readers[i]));
+      return fail_link(settings, "a reader of topic " + name, readers[i]);
   }
   return {};
 }
@@ -291,9 +284,12 @@ void Link::update_senders() {
 
 bool Link::write_bytes(Topic topic, const void* sample, std::size_t bytes) {
   const dds_entity_t writer = state_->writers[index_of(topic)];
-  if (writer <= 0) return false;
-  TopicCounts& counted = state_->counts[index_of(topic)];
-  if (dds_write(writer, sample) < 0) {
+  return writer > 0 && state_->write(writer, topic, sample, bytes);
+}
+
+bool Link::State::write(dds_entity_t writer, Topic topic, const void* sample, std::size_t bytes) {
+  TopicCounts& counted = counts[index_of(topic)];
+  if (writer <= 0 || dds_write(writer, sample) < 0) {
     ++counted.failed;
     return false;
   }
@@ -320,14 +316,7 @@ bool Link::write_ownship(std::uint32_t lane, const yars_net_OwnshipSample& sampl
     writer = dds_create_writer(state_->publisher, state_->topics[index_of(Topic::ownship)], qos.get(), nullptr);
     state_->ownship_strengths[lane] = sample.priority;
   }
-  TopicCounts& counted = state_->counts[index_of(Topic::ownship)];
-  if (writer <= 0 || dds_write(writer, &sample) < 0) {
-    ++counted.failed;
-    return false;
-  }
-  ++counted.sent;
-  counted.sent_bytes += sizeof sample;
-  return true;
+  return state_->write(writer, Topic::ownship, &sample, sizeof sample);
 }
 
 void Link::end_ownship(std::uint32_t lane) {
@@ -387,12 +376,8 @@ std::vector<std::string> Link::take_messages(std::int64_t now_ns) {
   return Messages::instance().take(now_ns);
 }
 
-std::vector<Remark> Link::take_remarks(std::int64_t now_ns) {
-  return state_->others.take_remarks(now_ns);
-}
-
-std::string Link::take_lost_handshake(std::int64_t now_ns) {
-  return state_->others.take_lost_handshake(now_ns);
+Participants& Link::participants() {
+  return state_->others;
 }
 
 }  // namespace yars::gateway::dds

@@ -62,25 +62,14 @@ class Link {
   template <class Sample, class Take>
   void take(const Take& take) {
     static_assert(!std::is_same_v<Sample, yars_net_HostSample>, "hosts also end; see take_hosts()");
-    static_assert(sizeof(Sample) <= kMaxSample_bytes);
-    begin_take(kTopicOf<Sample>);
-    while (const void* sample = take_next(kTopicOf<Sample>)) {
-      const Sample& taken = *static_cast<const Sample*>(sample);
-      count_received(kTopicOf<Sample>, bytes_of(taken));
-      if (is_from(kTopicOf<Sample>, sender_of(taken))) take(taken);
-    }
+    take_all<Sample>([&](const Sample& sample, bool) { take(sample); }, false);
   }
-  // As take(). `alive` false: the host has left, or DDS has not heard it for 1 s; of the sample only `host` is valid.
+  // As take(), with take(sample, alive). `alive` false: the host has left, or DDS has not heard it for 1 s; of the
+  // sample only `host` is valid.
   template <class Take>
   void take_hosts(const Take& take) {
     update_senders();
-    bool alive = false;
-    begin_take(Topic::hosts);
-    while (const void* sample = take_next(Topic::hosts, &alive)) {
-      const auto& taken = *static_cast<const yars_net_HostSample*>(sample);
-      if (alive) count_received(Topic::hosts, sizeof taken);
-      if (is_from(Topic::hosts, taken.host)) take(taken, alive);
-    }
+    take_all<yars_net_HostSample>(take, true);
   }
 
   // Returns when a sample of a topic that is answered at once has arrived (probes, input events), or after `time_ns`.
@@ -92,10 +81,7 @@ class Link {
   // Messages of Cyclone DDS since the last call: at most some lines a second, and a count of those left out. Call it
   // about twice a second. `now_ns`: CLOCK_MONOTONIC.
   std::vector<std::string> take_messages(std::int64_t now_ns);
-  // Lines about gateways that are heard and exchange nothing with this one, each once.
-  std::vector<Remark> take_remarks(std::int64_t now_ns);
-  // As Participants::take_lost_handshake(). Call take_remarks() before.
-  std::string take_lost_handshake(std::int64_t now_ns);
+  Participants& participants();  // that exchange nothing with this one
 
  private:
   struct State;
@@ -118,12 +104,24 @@ class Link {
   // True if the sample that take_next() returned last was written by `host`, or may have been.
   bool is_from(Topic topic, std::uint64_t host);
   void update_senders();
+  template <class Sample, class Take>
+  void take_all(const Take& take, bool with_ends) {
+    static_assert(sizeof(Sample) <= kMaxSample_bytes);
+    constexpr Topic kTopic = kTopicOf<Sample>;
+    begin_take(kTopic);
+    bool alive = true;
+    while (const void* sample = take_next(kTopic, with_ends ? &alive : nullptr)) {
+      const Sample& taken = *static_cast<const Sample*>(sample);
+      if (alive) count_received(kTopic, bytes_of(taken));
+      if (is_from(kTopic, sender_of(taken))) take(taken, alive);
+    }
+  }
   bool write_bytes(Topic topic, const void* sample, std::size_t bytes);
   void dispose_bytes(Topic topic, const void* sample);
   void begin_take(Topic topic);
   // The next sample, valid until the next call; nullptr: none, or enough for now. Without `alive`, ends of instances
   // are left out.
-  const void* take_next(Topic topic, bool* alive = nullptr);
+  const void* take_next(Topic topic, bool* alive);
   void count_received(Topic topic, std::size_t bytes);
 
   std::unique_ptr<State> state_;

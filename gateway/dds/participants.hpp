@@ -6,12 +6,13 @@
 // Threads: one.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "gateway/pace.hpp"
 
 namespace yars::gateway::dds {
 
@@ -26,22 +27,9 @@ struct Remark {
 Remark silence_of(const std::string& name, const std::string& address, bool secured);
 
 // Permission to join again, a few times and then every two minutes: others can cause it, and it disturbs the session.
-// Times: CLOCK_MONOTONIC.
-class RejoinLimit {
- public:
+struct RejoinLimit : Allowance {
   static constexpr int kAtOnce = 3;
-  static constexpr std::int64_t kInterval_ns = 120'000'000'000;
-
-  bool take(std::int64_t now_ns) {
-    // The allowance is kept as the time at which it is whole again.
-    const std::int64_t next_ns = std::max(whole_at_ns_, now_ns) + kInterval_ns;
-    if (next_ns - now_ns > kAtOnce * kInterval_ns) return false;
-    whole_at_ns_ = next_ns;
-    return true;
-  }
-
- private:
-  std::int64_t whole_at_ns_ = 0;
+  RejoinLimit() : Allowance(120'000'000'000, kAtOnce) {}
 };
 
 class Participants {

@@ -3,11 +3,15 @@
 // Source: docs/network.md#topics, with the reason of each setting.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 
+#include "databuffer/messages/network_status.hpp"
 #include "gateway/dds/yars_network.h"
 
 namespace yars::gateway::dds {
@@ -46,81 +50,24 @@ constexpr std::size_t index_of(Topic topic) {
   return static_cast<std::size_t>(topic);
 }
 
-constexpr Topic topic_of(const yars_net_HostSample*) {
-  return Topic::hosts;
-}
-constexpr Topic topic_of(const yars_net_ProbeSample*) {
-  return Topic::probes;
-}
-constexpr Topic topic_of(const yars_net_ClockSample*) {
-  return Topic::clock;
-}
-constexpr Topic topic_of(const yars_net_ClockRequestSample*) {
-  return Topic::clock_requests;
-}
-constexpr Topic topic_of(const yars_net_OwnshipSample*) {
-  return Topic::ownship;
-}
-constexpr Topic topic_of(const yars_net_InputEventSample*) {
-  return Topic::input_events;
-}
-constexpr Topic topic_of(const yars_net_EventReceiptSample*) {
-  return Topic::event_receipts;
-}
-constexpr Topic topic_of(const yars_net_AppliedEventSample*) {
-  return Topic::applied_events;
-}
-constexpr Topic topic_of(const yars_net_RadarStateSample*) {
-  return Topic::radar_state;
-}
-constexpr Topic topic_of(const yars_net_OutputsSample*) {
-  return Topic::outputs;
-}
-constexpr Topic topic_of(const yars_net_AdviceSample*) {
-  return Topic::advice;
-}
-constexpr Topic topic_of(const yars_net_ModelStatusSample*) {
-  return Topic::model_status;
-}
-constexpr Topic topic_of(const yars_net_ModelTickSample*) {
-  return Topic::model_ticks;
-}
-constexpr Topic topic_of(const yars_net_SweepSample*) {
-  return Topic::sweeps;
-}
-constexpr Topic topic_of(const yars_net_TrafficSample*) {
-  return Topic::traffic;
-}
-constexpr Topic topic_of(const yars_net_LatchedTrafficSample*) {
-  return Topic::traffic_latched;
-}
-constexpr Topic topic_of(const yars_net_PatchMapSample*) {
-  return Topic::patch_maps;
-}
-constexpr Topic topic_of(const yars_net_PatchRowSample*) {
-  return Topic::patch_rows;
-}
-constexpr Topic topic_of(const yars_net_CaptionSample*) {
-  return Topic::captions;
-}
-constexpr Topic topic_of(const yars_net_RecorderStatusSample*) {
-  return Topic::recorder_status;
-}
-constexpr Topic topic_of(const yars_net_LockstepSample*) {
-  return Topic::lockstep;
-}
-constexpr Topic topic_of(const yars_net_WorldSample*) {
-  return Topic::world;
-}
-constexpr Topic topic_of(const yars_net_LatchedWorldSample*) {
-  return Topic::world_latched;
-}
-constexpr Topic topic_of(const yars_net_WorldRequestSample*) {
-  return Topic::world_requests;
-}
+// Structures of the topics, in the same order.
+using Samples =
+    std::tuple<yars_net_HostSample, yars_net_ProbeSample, yars_net_ClockSample, yars_net_ClockRequestSample,
+               yars_net_OwnshipSample, yars_net_InputEventSample, yars_net_EventReceiptSample,
+               yars_net_AppliedEventSample, yars_net_RadarStateSample, yars_net_OutputsSample, yars_net_AdviceSample,
+               yars_net_ModelStatusSample, yars_net_ModelTickSample, yars_net_SweepSample, yars_net_TrafficSample,
+               yars_net_LatchedTrafficSample, yars_net_PatchMapSample, yars_net_PatchRowSample, yars_net_CaptionSample,
+               yars_net_RecorderStatusSample, yars_net_LockstepSample, yars_net_WorldSample,
+               yars_net_LatchedWorldSample, yars_net_WorldRequestSample>;
 
+template <class Sample, class... All>
+constexpr std::ptrdiff_t position_in(const std::tuple<All...>*) {
+  constexpr std::array is_same{std::is_same_v<Sample, All>...};
+  static_assert(is_same.size() == kTopicCount);
+  return std::ranges::find(is_same, true) - is_same.begin();
+}
 template <class Sample>
-inline constexpr Topic kTopicOf = topic_of(static_cast<const Sample*>(nullptr));
+inline constexpr Topic kTopicOf = static_cast<Topic>(position_in<Sample>(static_cast<const Samples*>(nullptr)));
 
 // What a topic asks of DDS. KEEP_LAST everywhere: with KEEP_ALL a lost host would block the writer. No liveliness
 // leases: Cyclone DDS 0.10.2 ends with a segmentation fault when many of them expire (docs/decisions/0033).
@@ -135,6 +82,50 @@ struct TopicSettings {
   std::uint32_t all_instances;  // of all writers
 };
 
-const TopicSettings& settings_of(Topic topic);
+// Instances of one writer by the keys of a topic, with room for some that have ended elsewhere.
+inline constexpr std::uint32_t kOne = 2;         // its host
+inline constexpr std::uint32_t kPairs = 64;      // its host and another one, a lane or a role
+inline constexpr std::uint32_t kReceipts = 512;  // another host and a lane
+inline constexpr std::uint32_t kMaps = 64;       // eight
+inline constexpr std::uint32_t kRows = 16384;    // 1024 rows of each of eight maps, and of eight before them
+inline constexpr std::uint32_t kAllRows = 65536;
+
+constexpr TopicSettings topic(std::string_view name, const dds_topic_descriptor_t* structure, bool reliable,
+                              bool transient_local, int depth, bool exclusive, std::uint32_t instances) {
+  const std::uint32_t all = instances == kRows ? kAllRows : instances * databuffer::kMaxHosts;
+  return {name, structure, reliable, transient_local, depth, exclusive, instances, all};
+}
+
+// name, structure, reliable, transient-local, depth, exclusive, instances. Histories have the depth of their rings.
+inline constexpr std::array<TopicSettings, kTopicCount> kSettings{{
+    topic("hosts", &yars_net_HostSample_desc, true, true, 1, false, kOne),
+    topic("probes", &yars_net_ProbeSample_desc, false, false, 1, false, kPairs),
+    topic("clock", &yars_net_ClockSample_desc, true, true, 1, false, kOne),
+    topic("clock_requests", &yars_net_ClockRequestSample_desc, true, true, 16, false, kOne),
+    topic("ownship", &yars_net_OwnshipSample_desc, true, false, 1, true, kOne),
+    topic("input_events", &yars_net_InputEventSample_desc, true, true, 128, false, kPairs),
+    topic("event_receipts", &yars_net_EventReceiptSample_desc, true, true, 1, false, kReceipts),
+    topic("applied_events", &yars_net_AppliedEventSample_desc, true, true, 1024, false, kOne),
+    topic("radar_state", &yars_net_RadarStateSample_desc, true, true, 1, false, kOne),
+    topic("outputs", &yars_net_OutputsSample_desc, true, true, 1, false, kOne),
+    topic("advice", &yars_net_AdviceSample_desc, true, true, 1, false, kOne),
+    topic("model_status", &yars_net_ModelStatusSample_desc, true, true, 1, false, kOne),
+    topic("model_ticks", &yars_net_ModelTickSample_desc, true, true, 1024, false, kOne),
+    topic("sweeps", &yars_net_SweepSample_desc, true, true, 1024, false, kOne),
+    topic("traffic", &yars_net_TrafficSample_desc, true, true, 1, false, kOne),
+    topic("traffic_latched", &yars_net_LatchedTrafficSample_desc, true, true, 64, false, kOne),
+    topic("patch_maps", &yars_net_PatchMapSample_desc, true, true, 1, false, kMaps),
+    topic("patch_rows", &yars_net_PatchRowSample_desc, true, true, 1, false, kRows),
+    topic("captions", &yars_net_CaptionSample_desc, true, true, 1, false, kOne),
+    topic("recorder_status", &yars_net_RecorderStatusSample_desc, true, true, 1, false, kOne),
+    topic("lockstep", &yars_net_LockstepSample_desc, true, true, 1, false, kPairs),
+    topic("world", &yars_net_WorldSample_desc, true, true, 1, false, kOne),
+    topic("world_latched", &yars_net_LatchedWorldSample_desc, true, true, 16, false, kOne),
+    topic("world_requests", &yars_net_WorldRequestSample_desc, true, true, 1, false, kOne),
+}};
+
+constexpr const TopicSettings& settings_of(Topic topic) {
+  return kSettings[index_of(topic)];
+}
 
 }  // namespace yars::gateway::dds

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 #include <utility>
 
-#include "databuffer/messages/validation.hpp"
 #include "databuffer/session/clock_changes.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/log/log.hpp"
@@ -18,18 +16,11 @@ using databuffer::ClockState;
 
 namespace {
 
-constexpr std::int64_t kRefresh_ns = 250'000'000;
-// [ns] A host keeps its own change of the clock until the owner has answered, at most for this time.
-constexpr std::int64_t kRequestTime_ns = 500'000'000;
-constexpr std::int64_t kMaxRequestAge_ns =
-    1'000'000'000;                                      // on a bad line a request takes up to some tenths of a second
+// [ns] On a bad line a request takes up to some tenths of a second.
+constexpr std::int64_t kMaxRequestAge_ns = 1'000'000'000;
 constexpr std::int64_t kOneMeeting_ns = 1'000'000'000;  // what hosts see of it one after another
 constexpr std::int64_t kMaxBehind_ns = 100'000'000;     // kMaxTicksBehind ticks
 constexpr std::int64_t kRounding_ns = 1'000;            // of sim times that are equal but for their base
-
-bool equal(const ClockState& first, const ClockState& second) {
-  return std::memcmp(&first, &second, sizeof first) == 0;
-}
 
 // The later of two epochs, which count on from 0 after the greatest number.
 std::uint32_t later(std::uint32_t first, std::uint32_t second) {
@@ -86,10 +77,7 @@ ClockState with_late_change(const ClockState& clock, const RequestedChange& chan
 
 void ClockExchange::exchange(Context& context) {
   if (first_pass_ns_ == 0) first_pass_ns_ = context.now_ns;
-  if (context.link != nullptr) {
-    context.link->take<yars_net_ClockSample>([&](const auto& sample) { receive(context, sample); });
-    context.link->take<yars_net_ClockRequestSample>([&](const auto& sample) { receive(context, sample); });
-  }
+  context.take<yars_net_ClockSample, yars_net_ClockRequestSample>(*this);
   choose_owner(context);
   if (owns_)
     publish(context);
@@ -117,7 +105,7 @@ void ClockExchange::choose_owner(Context& context) {
   if (owns_ && owner->id != context.hosts.self().id) {
     owns_ = false;
     const std::uint32_t epoch = context.session.clock().epoch;
-    if (is_later(epoch, context.hosts.epoch_of(owner->id))) meeting_epoch_ = epoch;
+    if (is_later(epoch, context.hosts.said_by(owner->id).epoch)) meeting_epoch_ = epoch;
     log::info("follows the clock of host " + owner->name);
   }
   if (!owns_ && owner->id != owner_) followed_.reset();
@@ -137,9 +125,9 @@ void ClockExchange::resolve_conflicts(Context& context) {
   bool precedes_all = owns_;
   std::uint32_t epoch = context.session.clock().epoch;
   for (const HostView& host : context.hosts.views().subspan(1)) {
-    if (host.owns_clock || host.held_roles != 0) epoch = later(epoch, context.hosts.epoch_of(host.id));
+    if (host.owns_clock || host.held_roles != 0) epoch = later(epoch, context.hosts.said_by(host.id).epoch);
     if (!owns_ || !host.owns_clock) continue;
-    conflict = conflict || is_later(context.hosts.epoch_of(host.id), context.session.clock().epoch);
+    conflict = conflict || is_later(context.hosts.said_by(host.id).epoch, context.session.clock().epoch);
     precedes_all = precedes_all && precedes(context.hosts.self(), host);
   }
   if (conflict && !in_conflict_ && precedes_all) raise_epoch(context, epoch);
@@ -151,8 +139,7 @@ void ClockExchange::end_epoch_of_meeting(Context& context) {
   const ClockState clock = context.session.clock();
   if (is_later(clock.epoch, *meeting_epoch_)) return meeting_epoch_.reset();
   if (owns_) return raise_epoch(context, *meeting_epoch_);
-  if (!followed_ || context.now_ns < next_meeting_request_ns_) return;
-  next_meeting_request_ns_ = context.now_ns + kRequestTime_ns;
+  if (!followed_ || !meeting_pace_.is_due(false, context.now_ns)) return;
   ClockState ended = clock;
   ended.epoch = *meeting_epoch_;
   request(context, clock, ended, EpochRequest::end_of_epoch);
@@ -171,15 +158,12 @@ void ClockExchange::raise_epoch(Context& context, std::uint32_t above) {
     return next;
   });
   if (!raised) log::warning(raised.error().message());
-  const std::string line = "two parts of the session meet; a new epoch begins";
-  log::info(line);
-  context.session.note(databuffer::NoteKind::restart, line);
+  context.hosts.say(log::info, databuffer::NoteKind::restart, "two parts of the session meet; a new epoch begins");
 }
 
 void ClockExchange::publish(Context& context) {
   const ClockState clock = context.session.clock();
-  if (equal(clock, published_) && context.now_ns < next_publish_ns_) return;
-  next_publish_ns_ = context.now_ns + kRefresh_ns;
+  if (!pace_.is_due(!equal(clock, published_), context.now_ns)) return;
   published_ = clock;
   yars_net_ClockSample sample{};
   context.hosts.stamp(sample);
@@ -188,35 +172,27 @@ void ClockExchange::publish(Context& context) {
 }
 
 void ClockExchange::receive(Context& context, const yars_net_ClockSample& sample) {
-  if (!context.hosts.is_new(sample)) return;
-  ClockState clock{};
-  copy_record(clock, sample.clock);
-  if (const auto reason = validate(clock)) return context.hosts.refuse(sample.host, dds::Topic::clock, *reason);
-  if (clocks_.size() >= databuffer::kMaxHosts)
-    std::erase_if(clocks_, [&](const auto& known) { return context.hosts.find(known.first) == nullptr; });
-  if (clocks_.size() < databuffer::kMaxHosts || clocks_.contains(sample.host)) clocks_[sample.host] = sample;
+  if (context.hosts.is_new(sample) && context.valid<ClockState>(sample, sample.clock))
+    clocks_.keep(context.hosts, sample);
 }
 
 // Applies a change that another host asks for. Each request is applied once.
 void ClockExchange::receive(Context& context, const yars_net_ClockRequestSample& sample) {
-  if (!context.hosts.is_new(sample) || sample.owner != context.hosts.self().id || !owns_ ||
-      context.hosts.find(sample.host) == nullptr)
-    return;
-  RequestedChange change{};
-  copy_record(change.before, sample.before);
-  copy_record(change.after, sample.clock);
-  change.begins_epoch = sample.new_epoch != static_cast<std::uint32_t>(EpochRequest::change);
-  for (const ClockState& clock : {change.before, change.after})
-    if (const auto reason = validate(clock))
-      return context.hosts.refuse(sample.host, dds::Topic::clock_requests, *reason);
+  const HostView* host = context.hosts.find(sample.host);
+  if (!context.hosts.is_new(sample) || sample.owner != context.hosts.self().id || !owns_ || host == nullptr) return;
+  const auto before = context.valid<ClockState>(sample, sample.before);
+  if (!before) return;
+  const auto after = context.valid<ClockState>(sample, sample.clock);
+  if (!after) return;
+  const RequestedChange change{*before, *after, sample.new_epoch != static_cast<std::uint32_t>(EpochRequest::change)};
   const ClockState& wanted = change.after;
   // DDS delivers what a host wrote before it was cut off. By then others may have changed the clock.
   const std::int64_t age_ns = context.now_ns - wanted.base_monotonic_ns;
   if (age_ns > kMaxRequestAge_ns) {
     const std::string line =
         "a change of the session clock is left out, because it is " + std::to_string(age_ns / 1'000'000'000) + " s old";
-    log::warning("host " + context.hosts.find(sample.host)->name + ": " + line);
-    return context.hosts.refuse(sample.host, dds::Topic::clock_requests, line);
+    log::warning("host " + host->name + ": " + line);
+    return context.hosts.refuse(sample, line);
   }
   if (sample.new_epoch == static_cast<std::uint32_t>(EpochRequest::end_of_epoch)) {
     if (!is_later(context.session.clock().epoch, wanted.epoch)) raise_epoch(context, wanted.epoch);
@@ -230,17 +206,16 @@ void ClockExchange::receive(Context& context, const yars_net_ClockRequestSample&
     next.epoch = clock.epoch + (change.begins_epoch ? 1 : 0);
     return next;
   });
-  if (!changed) return context.hosts.refuse(sample.host, dds::Topic::clock_requests, changed.error().message());
-  log::info("host " + context.hosts.find(sample.host)->name + " has changed the session clock");
+  if (!changed) return context.hosts.refuse(sample, changed.error().message());
+  log::info("host " + host->name + " has changed the session clock");
 }
 
 void ClockExchange::follow(Context& context) {
   const auto offset_ns = context.hosts.offset_ns(owner_);
-  const auto found = clocks_.find(owner_);
-  if (owner_ == 0 || !offset_ns || found == clocks_.end() || found->second.start != context.hosts.start_of(owner_))
-    return;
+  const auto* newest = clocks_.newest(context.hosts, owner_);
+  if (owner_ == 0 || !offset_ns || newest == nullptr) return;
   ClockState theirs{};
-  copy_record(theirs, found->second.clock);
+  copy_record(theirs, newest->clock);
   if (followed_ && forward_local_change(context)) return;
   if (context.now_ns < request_pending_until_ns_ && followed_ && equal(theirs, followed_->theirs)) return;
   const bool unanswered = std::exchange(request_pending_until_ns_, 0) != 0;

@@ -2,22 +2,20 @@
 // Inputs: the local segment's clock; clocks and requests of other hosts; measured offsets.
 // Outputs: on the owner, the clock as a sample, and requested changes applied; on the others, the owner's clock in the
 //   local segment, translated by the offset and slewed, and local changes as requests.
-// Units: times [ns].
 // Errors: sim time on two hosts differs by at most the error of the offset, half of the least round trip, plus 50 us,
 //   as soon as a greater error is slewed. A change of the clock (freeze, rate, step, reset) reaches the others one
 //   transmission later.
-// Threads: one.
 // Source: docs/network.md#time.
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 
 #include "databuffer/messages/world_state.hpp"
 #include "gateway/authority.hpp"
 #include "gateway/clock_offset.hpp"
 #include "gateway/exchange/context.hpp"
+#include "gateway/pace.hpp"
 
 namespace yars::gateway {
 
@@ -43,6 +41,8 @@ class ClockExchange {
   bool joined() const { return owns_ || followed_.has_value(); }
 
  private:
+  // [ns] A host keeps its own change of the clock until the owner has answered, at most for this time.
+  static constexpr std::int64_t kRequestTime_ns = 500'000'000;
   void choose_owner(Context& context);
   void resolve_conflicts(Context& context);
   void end_epoch_of_meeting(Context& context);
@@ -61,14 +61,14 @@ class ClockExchange {
   bool in_conflict_ = false;
   bool gave_way_ = false;
   std::optional<std::uint32_t> meeting_epoch_;  // in it this host gave way to another; it must end
-  std::int64_t next_meeting_request_ns_ = 0;
+  Pace meeting_pace_{kRequestTime_ns};
   std::int64_t epoch_begun_ns_ = 0;  // when the owner began the present epoch; 0: before this host followed it
   std::int64_t first_pass_ns_ = 0;
   Vacancy vacancy_;
   std::uint64_t owner_ = 0;  // 0: none
   databuffer::ClockState published_{};
-  std::int64_t next_publish_ns_ = 0;
-  std::map<std::uint64_t, yars_net_ClockSample> clocks_;  // newest of each host
+  Pace pace_{250'000'000};
+  HostMemory<yars_net_ClockSample> clocks_;
   std::optional<FollowedClock> followed_;
   std::int64_t request_pending_until_ns_ = 0;
 };

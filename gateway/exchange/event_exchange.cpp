@@ -6,11 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "databuffer/messages/validation.hpp"
 #include "databuffer/session/validated.hpp"
-#include "gateway/exchange/history_progress.hpp"
-#include "gateway/exchange/progress.hpp"
-#include "lib/log/log.hpp"
 
 namespace yars::gateway {
 
@@ -21,7 +17,6 @@ namespace {
 // [ns] Without a receipt for so long, the waiting events are sent again: the receiver leaves out what it has.
 constexpr std::int64_t kRepeatAfter_ns = 1'000'000'000;
 constexpr std::int64_t kLaneSilence_ns = 30'000'000'000;  // then the local lane of a remote lane is free for others
-constexpr std::uint64_t kRecentEvents = 256;              // applied events that a restarted gateway sends again
 
 // Translates a CLOCK_MONOTONIC time of another host; without a measured offset the result is the present time.
 std::int64_t local_time_ns(const Context& context, std::uint64_t host, std::int64_t time_ns) {
@@ -46,7 +41,13 @@ void EventExchange::send(Context& context) {
     for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) send_waiting(context, lane, *machine);
   release_lanes(context);
   send_receipts(context);
-  send_applied(context);
+  const auto& ring = std::as_const(context.session).layout().applied_events;
+  applied_.send(context, Role::state_machine, ring, [this](auto& sample, const auto& applied) {
+    copy_record(sample.applied, applied);
+    const RemoteName name = lanes_->input_name(applied.lane, sample.host);
+    sample.sender = name.host;
+    sample.applied.lane = name.lane;
+  });
 }
 
 // Events that were sent to an earlier term may arrive after a partition, from the history that DDS keeps. By then their
@@ -84,7 +85,7 @@ void EventExchange::send_waiting(Context& context, std::size_t lane, std::uint64
   Sending& sending = sending_[lane];
   const std::uint64_t popped = input.popped(lane);
   const std::uint64_t end = input.pushed(lane);
-  const std::uint64_t term = context.hosts.machine_term_of(machine);
+  const std::uint64_t term = context.hosts.said_by(machine).machine_term;
   if (term == 0) return;  // it has not announced the role yet
   const bool other_machine = sending.machine_term != term;
   if (other_machine || sending.popped != popped || popped == end) {
@@ -111,14 +112,8 @@ void EventExchange::send_waiting(Context& context, std::size_t lane, std::uint64
   }
 }
 
-void EventExchange::receive_inputs(Context& context) {
-  context.link->take<yars_net_InputEventSample>([&](const auto& sample) { receive(context, sample); });
-}
-
 void EventExchange::receive(Context& context) {
-  receive_inputs(context);
-  const auto take = [&](const auto& sample) { receive(context, sample); };
-  context.link->take<yars_net_EventReceiptSample>(take);
+  context.take<yars_net_InputEventSample, yars_net_EventReceiptSample>(*this);
   // Applied events wait in DDS until it is known which host has the state machine, and until their age can be judged.
   const auto holder = context.roles.holder(Role::state_machine);
   const auto newest = [&context] {
@@ -126,7 +121,7 @@ void EventExchange::receive(Context& context) {
     return outputs ? std::optional(outputs->tick) : std::nullopt;
   };
   if (holder ? may_begin(context, dds::Topic::applied_events, *holder, newest) : is_last_tick(context))
-    context.link->take<yars_net_AppliedEventSample>(take);
+    context.take<yars_net_AppliedEventSample>(*this);
 }
 
 void EventExchange::receive(Context& context, const yars_net_EventReceiptSample& sample) {
@@ -196,7 +191,7 @@ bool EventExchange::take_lane(Context& context, Receiving& receiving, const yars
   }
   const auto lane = static_cast<std::size_t>(claim->lane());
   auto& layout = context.session.layout();
-  store_progress(context, receiving, progress_of(sample.event_number, layout.input.pushed(lane) - 1, lane));
+  keep_progress(context, receiving, progress_of(sample.event_number, layout.input.pushed(lane) - 1, lane));
   receiving.local_lane = lane;
   lanes_->input[lane] = RemoteName{receiving.sender, receiving.lane};
   receiving.claim.emplace(std::move(*claim));
@@ -204,7 +199,7 @@ bool EventExchange::take_lane(Context& context, Receiving& receiving, const yars
 }
 
 // Writes the entry of a remote lane. A new entry replaces one of a lane that is no longer known.
-void EventExchange::store_progress(Context& context, const Receiving& receiving, std::uint64_t progress) {
+void EventExchange::keep_progress(Context& context, const Receiving& receiving, std::uint64_t progress) {
   const std::uint64_t id = lane_id(receiving.sender, receiving.segment, receiving.lane);
   auto& entries = context.session.layout().network.input;
   databuffer::RemoteProgress* entry = &entry_of(entries, id);
@@ -214,27 +209,23 @@ void EventExchange::store_progress(Context& context, const Receiving& receiving,
         std::ranges::find_if(entries, [this](const auto& other) { return !receiving_.contains(other.source.load()); });
     if (unknown != entries.end()) entry = &*unknown;
   }
-  if (entry->source.load() != id) entry->source.store(0);
-  entry->progress.store(progress);
-  entry->source.store(id);
+  store_progress(*entry, id, progress);
 }
 
 // An event that finds no room is repeated by its sender.
 void EventExchange::push(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample) {
-  databuffer::InputEvent event{};
-  copy_record(event, sample.event);
-  if (const auto reason = validate(event)) {
-    context.hosts.refuse(sample.host, dds::Topic::input_events, *reason);
+  auto event = context.valid<databuffer::InputEvent>(sample, sample.event);
+  if (!event) {
     receiving.next_event = sample.event_number + 1;
     return;
   }
-  event.monotonic_ns = local_time_ns(context, sample.host, event.monotonic_ns);
+  event->monotonic_ns = local_time_ns(context, sample.host, event->monotonic_ns);
   const auto lane = static_cast<std::size_t>(receiving.claim->lane());
   auto& layout = context.session.layout();
   const std::uint64_t pushed = layout.input.pushed(lane);
   if (pushed - layout.input.popped(lane) >= databuffer::kInputLaneDepth) return;
-  store_progress(context, receiving, progress_of(sample.event_number + 1, pushed, lane));
-  layout.input.push(lane, event);
+  keep_progress(context, receiving, progress_of(sample.event_number + 1, pushed, lane));
+  layout.input.push(lane, *event);
   receiving.next_event = sample.event_number + 1;
 }
 
@@ -268,7 +259,7 @@ void EventExchange::release_lanes(Context& context) {
     const bool is_empty = !receiving.local_lane || context.session.layout().input.empty(*receiving.local_lane);
     const bool silent = is_empty && context.now_ns - receiving.heard_ns > kLaneSilence_ns;
     const bool forgotten = !here || (silent && (context.hosts.find(receiving.sender) == nullptr ||
-                                                context.hosts.segment_of(receiving.sender) != receiving.segment));
+                                                context.hosts.said_by(receiving.sender).segment != receiving.segment));
     if (receiving.claim && (forgotten || silent)) {
       lanes_->input[static_cast<std::size_t>(receiving.claim->lane())].reset();
       receiving.claim.reset();
@@ -276,28 +267,6 @@ void EventExchange::release_lanes(Context& context) {
     }
     item = forgotten ? receiving_.erase(item) : std::next(item);
   }
-}
-
-void EventExchange::send_applied(Context& context) {
-  const auto& ring = std::as_const(context.session).layout().applied_events;
-  if (!context.roles.exports(Role::state_machine)) {
-    applied_cursor_ = ring.next();
-    return;
-  }
-  if (!applied_cursor_) applied_cursor_ = first_to_send(context, dds::Topic::applied_events, ring, kRecentEvents);
-  yars_net_AppliedEventSample sample{};
-  databuffer::AppliedEvent applied{};
-  while (ring.read(*applied_cursor_, applied).delivered) {
-    sample.host = context.hosts.self().id;
-    sample.start = context.hosts.identity().segment;
-    sample.number = *applied_cursor_ - 1;
-    copy_record(sample.applied, applied);
-    const RemoteName name = lanes_->input_name(applied.lane, sample.host);
-    sample.sender = name.host;
-    sample.applied.lane = name.lane;
-    context.write(sample);
-  }
-  context.hosts.set_written(dds::Topic::applied_events, *applied_cursor_);
 }
 
 // An event that is seen as applied needs no receipt. So it is not sent to another host if that host takes the role now.
@@ -313,21 +282,18 @@ void EventExchange::pop_applied(Context& context, const databuffer::AppliedEvent
 void EventExchange::receive(Context& context, const yars_net_AppliedEventSample& sample) {
   auto& ring = context.session.layout().applied_events;
   // Also what a part of the session applied that yields is taken note of, so that it is not delivered later.
-  if (!is_new_in_history(context, sample, ring.next(), sample.applied.tick) ||
+  if (!applied_.is_new(context, sample, ring, sample.applied.tick) ||
       context.roles.source(Role::state_machine) != sample.host)
     return;
-  databuffer::AppliedEvent applied{};
-  copy_record(applied, sample.applied);
-  if (const auto reason = validate(applied))
-    return context.hosts.refuse(sample.host, dds::Topic::applied_events, *reason);
-  applied.monotonic_ns = local_time_ns(context, sample.host, applied.monotonic_ns);
+  auto applied = context.valid<databuffer::AppliedEvent>(sample, sample.applied);
+  if (!applied) return;
+  applied->monotonic_ns = local_time_ns(context, sample.host, applied->monotonic_ns);
   if (sample.sender != context.hosts.self().id)
-    applied.lane = kNoLane;
+    applied->lane = kNoLane;
   else
-    pop_applied(context, applied);
-  applied.event.monotonic_ns = local_time_ns(context, sample.host, applied.event.monotonic_ns);
-  keep_progress<yars_net_AppliedEventSample>(context, sample, ring.next());
-  ring.publish(applied);
+    pop_applied(context, *applied);
+  applied->event.monotonic_ns = local_time_ns(context, sample.host, applied->event.monotonic_ns);
+  applied_.publish(context, sample, ring, *applied);
 }
 
 }  // namespace yars::gateway

@@ -2,12 +2,10 @@
 // Inputs: the local input lanes while the state machine runs on another host; events, receipts and applied events of
 //   other hosts.
 // Outputs: each waiting event as a sample until its receipt arrives; events of other hosts in local input lanes, one
-// for
-//   each remote lane; the ring of applied events on every host.
-// Units: times [ns]; CLOCK_MONOTONIC times of other hosts are translated by the measured offset.
+//   for each remote lane; the ring of applied events on every host.
+// Units: CLOCK_MONOTONIC times of other hosts are translated by the measured offset.
 // Errors: an invalid event is refused, counted and noted, and its receipt is given all the same. Without a free
 //   input lane the events wait on their host.
-// Threads: one.
 // Source: docs/network.md#each-event-once.
 #pragma once
 
@@ -20,7 +18,7 @@
 
 #include "databuffer/session/session_layout.hpp"
 #include "gateway/exchange/context.hpp"
-#include "gateway/exchange/lane_names.hpp"
+#include "gateway/exchange/history_progress.hpp"
 
 namespace yars::gateway {
 
@@ -32,7 +30,7 @@ class EventExchange {
   explicit EventExchange(LaneNames& lanes) : lanes_(&lanes) {}
   void send(Context& context);
   void receive(Context& context);
-  void receive_inputs(Context& context);  // only input events: they are awaited
+  void receive_inputs(Context& context) { context.take<yars_net_InputEventSample>(*this); }  // they are awaited
 
   void receive(Context& context, const yars_net_InputEventSample& sample);
   void receive(Context& context, const yars_net_EventReceiptSample& sample);
@@ -59,9 +57,8 @@ class EventExchange {
   void send_waiting(Context& context, std::size_t lane, std::uint64_t machine);
   void update_term(Context& context);
   void drop_remote_events(Context& context);
-  void store_progress(Context& context, const Receiving& receiving, std::uint64_t progress);
+  void keep_progress(Context& context, const Receiving& receiving, std::uint64_t progress);
   void send_receipts(Context& context);
-  void send_applied(Context& context);
   Receiving* receiving_from(Context& context, const yars_net_InputEventSample& sample);
   bool take_lane(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample);
   void push(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample);
@@ -71,7 +68,7 @@ class EventExchange {
   LaneNames* lanes_;
   std::array<Sending, databuffer::kInputLanes> sending_;
   std::map<std::uint64_t, Receiving> receiving_;  // by lane_id()
-  std::optional<std::uint64_t> applied_cursor_;
+  History<yars_net_AppliedEventSample, databuffer::AppliedEvent> applied_{256};
   std::uint64_t terms_ = 0;  // number of times that this gateway found the state machine here
 };
 

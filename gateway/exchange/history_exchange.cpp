@@ -6,7 +6,6 @@
 #include <string>
 
 #include "databuffer/messages/record_hashes.hpp"
-#include "databuffer/messages/validation.hpp"
 #include "databuffer/session/validated.hpp"
 #include "runtime/tick_loop.hpp"
 
@@ -18,62 +17,29 @@ namespace {
 
 // [ns] A record waits so long for its predecessor, which is several repairs of a lost packet.
 constexpr std::int64_t kPatience_ns = 200'000'000;
-constexpr std::size_t kMaxWaiting = 1024;    // the depth of the rings
-constexpr std::size_t kTrafficNumbers = 64;  // the depth of the ring of traffic
-constexpr std::uint64_t kRecentTicks = 200;  // 1 s: what a restarted gateway sends again
+constexpr std::size_t kMaxWaiting = 1024;  // the depth of the rings
 constexpr std::size_t kSweepHeader_bytes = offsetof(databuffer::Sweep, video);
 
 }  // namespace
 
 void HistoryExchange::send(Context& context) {
   const auto& layout = std::as_const(context.session).layout();
-  if (!context.roles.exports(Role::radar_model)) {
-    traffic_cursor_ = layout.traffic_latched.next();
-    tick_cursor_ = layout.model_ticks.next();
-    sweep_cursor_ = layout.sweeps.next();
-    return;
-  }
-  if (!tick_cursor_) {
-    traffic_cursor_ = first_to_send(context, dds::Topic::traffic_latched, layout.traffic_latched, kRecentTicks);
-    tick_cursor_ = first_to_send(context, dds::Topic::model_ticks, layout.model_ticks, kRecentTicks);
-    sweep_cursor_ = first_to_send(context, dds::Topic::sweeps, layout.sweeps, kRecentTicks);
-  }
-  const auto stamp = [&context](auto& sample, std::uint64_t cursor) {
-    sample.host = context.hosts.self().id;
-    sample.start = context.hosts.identity().segment;
-    sample.number = cursor - 1;
-  };
-  yars_net_LatchedTrafficSample traffic{};
-  databuffer::Traffic latched{};
-  while (layout.traffic_latched.read(*traffic_cursor_, latched).delivered) {
-    stamp(traffic, *traffic_cursor_);
-    traffic.ring_number = traffic.number;
-    copy_record(traffic.traffic, latched);
-    context.link->write(traffic);
-  }
-  yars_net_ModelTickSample tick{};
-  databuffer::ModelTick record{};
-  while (layout.model_ticks.read(*tick_cursor_, record).delivered) {
-    stamp(tick, *tick_cursor_);
-    copy_record(tick.tick, record);
-    const RemoteName name = lanes_->ownship_name(record.ownship_lane, tick.host);
-    tick.ownship_host = name.host;
-    tick.tick.ownship_lane = name.lane;
-    context.link->write(tick);
-  }
-  yars_net_SweepSample sweep{};
-  databuffer::Sweep video{};
-  while (layout.sweeps.read(*sweep_cursor_, video).delivered) {
-    stamp(sweep, *sweep_cursor_);
-    static_assert(sizeof sweep.sweep == kSweepHeader_bytes);
-    std::memcpy(&sweep.sweep, &video, kSweepHeader_bytes);
-    sweep.video._length = sweep.video._maximum = std::min<std::uint32_t>(video.samples, radar::kMaxSamples);
-    sweep.video._buffer = video.video;
-    context.link->write(sweep);
-  }
-  context.hosts.set_written(dds::Topic::traffic_latched, *traffic_cursor_);
-  context.hosts.set_written(dds::Topic::model_ticks, *tick_cursor_);
-  context.hosts.set_written(dds::Topic::sweeps, *sweep_cursor_);
+  traffic_history_.send(context, Role::radar_model, layout.traffic_latched, [](auto& sample, const auto& traffic) {
+    sample.ring_number = sample.number;
+    copy_record(sample.traffic, traffic);
+  });
+  tick_history_.send(context, Role::radar_model, layout.model_ticks, [this](auto& sample, const auto& tick) {
+    copy_record(sample.tick, tick);
+    const RemoteName name = lanes_->ownship_name(tick.ownship_lane, sample.host);
+    sample.ownship_host = name.host;
+    sample.tick.ownship_lane = name.lane;
+  });
+  sweep_history_.send(context, Role::radar_model, layout.sweeps, [](auto& sample, auto& sweep) {
+    static_assert(sizeof sample.sweep == kSweepHeader_bytes);
+    std::memcpy(&sample.sweep, &sweep, kSweepHeader_bytes);
+    sample.video._length = sample.video._maximum = std::min<std::uint32_t>(sweep.samples, radar::kMaxSamples);
+    sample.video._buffer = sweep.video;
+  });
 }
 
 // Samples wait in DDS until it is known which host has the radar model, until this gateway mirrors it, and until their
@@ -88,10 +54,7 @@ void HistoryExchange::receive(Context& context) {
   };
   const auto holder = context.roles.holder(Role::radar_model);
   if (is_known && !may_begin(context, dds::Topic::model_ticks, *holder, newest)) return;
-  const auto take = [&](const auto& sample) { receive(context, sample); };
-  context.link->take<yars_net_LatchedTrafficSample>(take);
-  context.link->take<yars_net_ModelTickSample>(take);
-  context.link->take<yars_net_SweepSample>(take);
+  context.take<yars_net_LatchedTrafficSample, yars_net_ModelTickSample, yars_net_SweepSample>(*this);
 }
 
 // After a partition the history of the part that yielded arrives, too. It has the epoch from before the meeting. A host
@@ -108,8 +71,7 @@ bool HistoryExchange::is_wanted(Context& context, std::uint64_t host, std::uint3
 template <class Sample, class Record>
 bool HistoryExchange::is_in_order(Context& context, const Sample& sample, const Record& record, TickOrder& order) {
   const auto refuse = [&](const char* field, const std::string& expected, std::int64_t found) {
-    context.hosts.refuse(sample.host, dds::kTopicOf<Sample>,
-                         field + std::string(": expected ") + expected + ", found " + std::to_string(found));
+    context.hosts.refuse(sample, field + std::string(": expected ") + expected + ", found " + std::to_string(found));
     return false;
   };
   const std::int64_t due_ns = record.tick * radar::kTickNanoseconds;
@@ -124,62 +86,43 @@ void HistoryExchange::receive(Context& context, const yars_net_LatchedTrafficSam
   auto& ring = context.session.layout().traffic_latched;
   // Traffic is valid until the next record, so that also an old one is taken.
   const std::int64_t tick = context.session.sim_time_ns() / radar::kTickNanoseconds;
-  if (!is_new_in_history(context, sample, ring.next(), tick) || context.roles.source(Role::radar_model) != sample.host)
+  if (!traffic_history_.is_new(context, sample, ring, tick) || context.roles.source(Role::radar_model) != sample.host)
     return;
-  databuffer::Traffic traffic{};
-  copy_record(traffic, sample.traffic);
-  if (const auto reason = validate(traffic))
-    return context.hosts.refuse(sample.host, dds::Topic::traffic_latched, *reason);
-  if (traffic_host_ != sample.host) traffic_numbers_.clear();
-  traffic_host_ = sample.host;
-  keep_progress<yars_net_LatchedTrafficSample>(context, sample, ring.next());
-  const std::uint64_t ours = ring.publish(traffic);
-  traffic_numbers_.push_back({sample.ring_number, ours});
-  if (traffic_numbers_.size() > kTrafficNumbers) traffic_numbers_.pop_front();
+  if (const auto traffic = context.valid<databuffer::Traffic>(sample, sample.traffic))
+    traffic_numbers_.add(sample.host, sample.start, sample.ring_number,
+                         traffic_history_.publish(context, sample, ring, *traffic));
 }
 
 void HistoryExchange::receive(Context& context, const yars_net_ModelTickSample& sample) {
   const auto& ring = std::as_const(context.session).layout().model_ticks;
-  if (!is_new_in_history(context, sample, ring.next(), sample.tick.tick) ||
+  if (!tick_history_.is_new(context, sample, ring, sample.tick.tick) ||
       !is_wanted(context, sample.host, sample.tick.epoch, sample.tick.tick))
     return;
-  databuffer::ModelTick tick{};
-  copy_record(tick, sample.tick);
-  if (const auto reason = validate(tick)) return context.hosts.refuse(sample.host, dds::Topic::model_ticks, *reason);
-  if (!is_in_order(context, sample, tick, tick_order_)) return;
-  tick.ownship_lane =
-      lanes_->local_ownship_lane({sample.ownship_host, tick.ownship_lane}, context.hosts.self().id, kNoLane);
-  if (ticks_.size() < kMaxWaiting) ticks_.push_back({tick, context.now_ns, sample.host, sample.start, sample.number});
+  auto tick = context.valid<databuffer::ModelTick>(sample, sample.tick);
+  if (!tick || !is_in_order(context, sample, *tick, tick_order_)) return;
+  tick->ownship_lane =
+      lanes_->local_ownship_lane({sample.ownship_host, tick->ownship_lane}, context.hosts.self().id, kNoLane);
+  if (ticks_.size() < kMaxWaiting) ticks_.push_back({*tick, context.now_ns, sample.host, sample.start, sample.number});
 }
 
 void HistoryExchange::receive(Context& context, const yars_net_SweepSample& sample) {
   const auto& ring = std::as_const(context.session).layout().sweeps;
-  if (!is_new_in_history(context, sample, ring.next(), sample.sweep.tick) ||
+  if (!sweep_history_.is_new(context, sample, ring, sample.sweep.tick) ||
       !is_wanted(context, sample.host, sample.sweep.epoch, sample.sweep.tick))
     return;
   databuffer::Sweep sweep{};
   std::memcpy(&sweep, &sample.sweep, kSweepHeader_bytes);
   if (sweep.samples != sample.video._length)
-    return context.hosts.refuse(sample.host, dds::Topic::sweeps,
-                                "samples: expected " + std::to_string(sample.video._length) +
-                                    ", the length of the video, found " + std::to_string(sweep.samples));
+    return context.hosts.refuse(sample, "samples: expected " + std::to_string(sample.video._length) +
+                                            ", the length of the video, found " + std::to_string(sweep.samples));
   if (sweep.samples > 0 && sweep.samples <= radar::kMaxSamples)
     std::memcpy(sweep.video, sample.video._buffer, sweep.samples);
-  if (const auto reason = validate(sweep)) return context.hosts.refuse(sample.host, dds::Topic::sweeps, *reason);
+  if (const auto reason = validate(sweep)) return context.hosts.refuse(sample, *reason);
   if (databuffer::sweep_hash(sweep) != sweep.hash)
-    return context.hosts.refuse(sample.host, dds::Topic::sweeps, "hash: expected that of the video, found another");
+    return context.hosts.refuse(sample, "hash: expected that of the video, found another");
   if (!is_in_order(context, sample, sweep, sweep_order_)) return;
   if (sweeps_.size() < kMaxWaiting)
     sweeps_.push_back({sweep, context.now_ns, sample.host, sample.start, sample.number});
-}
-
-// Number of records in the local ring of traffic up to the one that the other host's count names; nullopt: it has not
-// arrived.
-std::optional<std::uint64_t> HistoryExchange::local_traffic(std::uint64_t theirs) const {
-  if (theirs == 0) return 0;
-  const auto found = std::ranges::find(traffic_numbers_, theirs - 1, &TrafficNumber::theirs);
-  if (found == traffic_numbers_.end()) return std::nullopt;
-  return found->ours + 1;
 }
 
 void HistoryExchange::publish(Context& context) {
@@ -196,15 +139,14 @@ void HistoryExchange::publish(Context& context) {
   while (!ticks_.empty()) {
     auto& waiting = ticks_.front();
     databuffer::ModelTick& tick = waiting.record;
-    const auto traffic = local_traffic(tick.traffic);
+    const auto traffic = traffic_numbers_.local(tick.traffic);
     const auto world = worlds_->local(waiting.host, tick.world);
     const bool waits = !traffic || (!world && tick.world != missing_world_);
     if (waits && !is_late(waiting.arrived_ns)) break;
     if (!world) missing_world_ = tick.world;
     tick.traffic = traffic.value_or(layout.traffic_latched.next());
     tick.world = world.value_or(layout.world_latched.next());
-    keep_progress<yars_net_ModelTickSample>(context, waiting, layout.model_ticks.next());
-    layout.model_ticks.publish(tick);
+    tick_history_.publish(context, waiting, layout.model_ticks, tick);
     last_tick_ = {tick.epoch, tick.tick};
     last_host_ = waiting.host;
     ticks_.pop_front();
@@ -212,8 +154,7 @@ void HistoryExchange::publish(Context& context) {
   while (!sweeps_.empty()) {
     const auto& waiting = sweeps_.front();
     if (last_tick_.precedes(waiting.record) && !is_late(waiting.arrived_ns)) break;
-    keep_progress<yars_net_SweepSample>(context, waiting, layout.sweeps.next());
-    layout.sweeps.publish(waiting.record);
+    sweep_history_.publish(context, waiting, layout.sweeps, waiting.record);
     sweeps_.pop_front();
   }
 }

@@ -6,8 +6,6 @@
 // Errors: an invalid record, a sweep whose hash is wrong, a sim time that is not that of the tick, and a tick that goes
 //   back are refused, counted and noted. Records of an earlier epoch are left out. Lost samples are counted by their
 //   numbers.
-// Units: times [ns].
-// Threads: one.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +15,6 @@
 #include "databuffer/session/session_layout.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/history_progress.hpp"
-#include "gateway/exchange/lane_names.hpp"
-#include "gateway/exchange/world_numbers.hpp"
 
 namespace yars::gateway {
 
@@ -51,24 +47,21 @@ class HistoryExchange {
       return tick < 0 || newer > 0 || (newer == 0 && sweep.tick > tick);
     }
   };
-  struct TrafficNumber {
-    std::uint64_t theirs, ours;
-  };
   bool is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch, std::int64_t tick);
   template <class Sample, class Record>
   bool is_in_order(Context& context, const Sample& sample, const Record& record, TickOrder& order);
-  std::optional<std::uint64_t> local_traffic(std::uint64_t theirs) const;
 
   LaneNames* lanes_;
   const WorldNumbers* worlds_;
   // ModelTick::world of the host with the role whose record did not come in time. Later ticks do not wait for it.
   std::uint64_t missing_world_ = 0;
-  // Next record of each local ring to send; nullopt: this gateway has not sent any.
-  std::optional<std::uint64_t> traffic_cursor_, tick_cursor_, sweep_cursor_;
+  static constexpr std::uint64_t kRecent = 200;  // 1 s of ticks
+  History<yars_net_LatchedTrafficSample, databuffer::Traffic> traffic_history_{kRecent};
+  History<yars_net_ModelTickSample, databuffer::ModelTick> tick_history_{kRecent};
+  History<yars_net_SweepSample, databuffer::Sweep> sweep_history_{kRecent};
   std::deque<Waiting<databuffer::ModelTick>> ticks_;
   std::deque<Waiting<databuffer::Sweep>> sweeps_;
-  std::deque<TrafficNumber> traffic_numbers_;
-  std::uint64_t traffic_host_ = 0;
+  RecordNumbers<64> traffic_numbers_;  // the depth of the ring
   TickOrder tick_order_, sweep_order_;
   LastTick last_tick_;
   std::uint64_t last_host_ = 0;  // from which it came

@@ -1,10 +1,11 @@
-// Samples of a history (ring) that come from another host: each is taken once, also by a restarted gateway.
-// Threads: one.
+// Histories (rings) of a host on every host: each record is taken once, also by a restarted gateway.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <utility>
 
@@ -15,40 +16,13 @@
 
 namespace yars::gateway {
 
-// Index of a history in databuffer::Network::histories.
-constexpr std::size_t history_of(dds::Topic topic) {
-  switch (topic) {
-    case dds::Topic::applied_events:
-      return 0;
-    case dds::Topic::traffic_latched:
-      return 1;
-    case dds::Topic::model_ticks:
-      return 2;
-    default:
-      return 3;  // sweeps
-  }
-}
+// In the order of databuffer::Network::histories.
+inline constexpr std::array kHistories{dds::Topic::applied_events, dds::Topic::traffic_latched, dds::Topic::model_ticks,
+                                       dds::Topic::sweeps};
 
 // [ns] sim time. A host that hears a history for the first time begins with records of this age. Without a limit its
 // recorder would take the last 5 s of the session for new.
 inline constexpr std::int64_t kMaxFirstAge_ns = 500'000'000;
-
-// True if neither this gateway nor its predecessor has taken the sample, and it is not from before the host joined.
-// `local`: number of records in the local ring. `tick`: of the record.
-template <class Sample>
-bool is_new_in_history(Context& context, const Sample& sample, std::uint64_t local, std::int64_t tick) {
-  constexpr dds::Topic kTopic = dds::kTopicOf<Sample>;
-  if (!context.hosts.knows(kTopic, sample.host, sample.start)) {
-    const std::uint64_t source = source_id({sample.host, sample.start});
-    const auto& entries = context.session.layout().network.histories[history_of(kTopic)];
-    const auto entry = std::ranges::find_if(entries, [source](const auto& one) { return one.source.load() == source; });
-    if (entry != entries.end())
-      context.hosts.resume(kTopic, sample.host, sample.start, next_of(entry->progress.load(), local, sample.number));
-    else if (!context.lockstep && tick < (context.session.sim_time_ns() - kMaxFirstAge_ns) / radar::kTickNanoseconds)
-      return false;
-  }
-  return context.hosts.is_new(sample);
-}
 
 // True once the records of a history of another host may be taken. `newest()`: tick of the state that the host last
 // published; nullopt: none has arrived. It is called only until the history has begun. A lockstep run, whose ticks do
@@ -57,7 +31,7 @@ bool is_new_in_history(Context& context, const Sample& sample, std::uint64_t loc
 template <class Newest>
 bool may_begin(const Context& context, dds::Topic topic, std::uint64_t host, const Newest& newest) {
   if (context.lockstep || host == context.hosts.self().id ||
-      context.hosts.knows(topic, host, context.hosts.segment_of(host)))
+      context.hosts.knows(topic, host, context.hosts.said_by(host).segment))
     return true;
   const double max_age_ns = 0.5 * static_cast<double>(kMaxFirstAge_ns) * std::max(1.0, context.session.clock().rate);
   const std::int64_t oldest_ns = context.session.sim_time_ns() - static_cast<std::int64_t>(max_age_ns);
@@ -110,24 +84,116 @@ inline bool is_last_tick(const Context& context) {
          std::ranges::any_of(lockstep.done_tick, [end_tick](const auto& tick) { return tick.load() >= end_tick; });
 }
 
-// Where a gateway begins that finds a local process writing the ring: its predecessor may have missed the last `recent`
-// records. Records of other hosts are left out.
-template <class Ring>
-std::uint64_t first_to_send(Context& context, dds::Topic topic, const Ring& ring, std::uint64_t recent) {
-  const std::uint64_t next = ring.next();
-  const std::uint64_t own = std::min(next, context.session.layout().network.last_remote[history_of(topic)].load());
-  return std::max({ring.oldest(), next - std::min(next, recent), own});
-}
+// One history on its way between hosts: a ring of `Record`, and a topic of `Sample`.
+template <class Sample, class Record>
+class History {
+ public:
+  // `recent`: a gateway that finds a local process writing the ring sends the last records again, because its
+  // predecessor may have missed them.
+  explicit History(std::uint64_t recent) : recent_(recent) {}
 
-// Call before the record is published in the local ring. `origin`: the sample, or what has its host, start and number.
-template <class Sample, class Origin>
-void keep_progress(Context& context, const Origin& origin, std::uint64_t local) {
-  const std::uint64_t source = source_id({origin.host, origin.start});
-  auto& entry = entry_of(context.session.layout().network.histories[history_of(dds::kTopicOf<Sample>)], source);
-  if (entry.source.load() != source) entry.source.store(0);
-  entry.progress.store(progress_of(origin.number + 1, local));
-  entry.source.store(source);
-  context.session.layout().network.last_remote[history_of(dds::kTopicOf<Sample>)].store(local + 1);
-}
+  // Sends what the local ring has got since the last call, unless it is of another host. fill(sample, record) writes
+  // what follows host, start and number.
+  template <class Ring, class Fill>
+  void send(Context& context, databuffer::Role role, const Ring& ring, const Fill& fill) {
+    if (!context.roles.exports(role)) {
+      cursor_ = ring.next();
+      return;
+    }
+    if (!cursor_) cursor_ = first_to_send(context, ring);
+    Sample sample{};
+    Record record{};
+    while (ring.read(*cursor_, record).delivered) {
+      sample.host = context.hosts.self().id;
+      sample.start = context.hosts.identity().segment;
+      sample.number = *cursor_ - 1;
+      fill(sample, record);
+      context.write(sample);
+    }
+    context.hosts.set_written(kTopic, *cursor_);
+  }
+
+  // True if neither this gateway nor its predecessor has taken the sample, and it is not from before the host joined.
+  // `tick`: of the record.
+  template <class Ring>
+  bool is_new(Context& context, const Sample& sample, const Ring& ring, std::int64_t tick) const {
+    if (context.hosts.knows(kTopic, sample.host, sample.start)) return context.hosts.is_new(sample);
+    const std::uint64_t source = source_id({sample.host, sample.start});
+    const auto& entries = context.session.layout().network.histories[kIndex];
+    const auto entry = std::ranges::find_if(entries, [source](const auto& one) { return one.source.load() == source; });
+    if (entry != entries.end())
+      context.hosts.resume(kTopic, sample.host, sample.start,
+                           next_of(entry->progress.load(), ring.next(), sample.number));
+    else if (!context.lockstep && tick < (context.session.sim_time_ns() - kMaxFirstAge_ns) / radar::kTickNanoseconds)
+      return false;
+    return context.hosts.is_new(sample);
+  }
+
+  // Publishes a record of another host here. `origin`: its sample, or what has its host, start and number.
+  template <class Ring, class Origin>
+  std::uint64_t publish(Context& context, const Origin& origin, Ring& ring, const Record& record) const {
+    auto& network = context.session.layout().network;
+    const std::uint64_t source = source_id({origin.host, origin.start});
+    store_progress(entry_of(network.histories[kIndex], source), source, progress_of(origin.number + 1, ring.next()));
+    network.last_remote[kIndex].store(ring.next() + 1);
+    return ring.publish(record);
+  }
+
+ private:
+  static constexpr dds::Topic kTopic = dds::kTopicOf<Sample>;
+  static constexpr std::size_t kIndex =
+      static_cast<std::size_t>(std::ranges::find(kHistories, kTopic) - kHistories.begin());
+  static_assert(kIndex < kHistories.size());
+
+  template <class Ring>
+  std::uint64_t first_to_send(Context& context, const Ring& ring) const {
+    const std::uint64_t next = ring.next();
+    const std::uint64_t own = std::min(next, context.session.layout().network.last_remote[kIndex].load());
+    return std::max({ring.oldest(), next - std::min(next, recent_), own});
+  }
+
+  std::uint64_t recent_;
+  std::optional<std::uint64_t> cursor_;  // next record of the local ring to send; nullopt: none was sent
+};
+
+// Numbers of the records of a history: in the ring of the host that has the role, and in the ring here.
+template <std::size_t kMax>
+class RecordNumbers {
+ public:
+  // True if the last record of the ring here is one that came from that segment. `next`: number of records in the ring.
+  bool continues(std::uint64_t host, std::uint64_t segment, std::uint64_t next) const {
+    return host == host_ && segment == segment_ && !pairs_.empty() && pairs_.back().ours + 1 == next;
+  }
+  // True if, in addition, that segment's record `number` has been written here.
+  bool has(std::uint64_t host, std::uint64_t segment, std::uint64_t number, std::uint64_t next) const {
+    return continues(host, segment, next) && number <= pairs_.back().theirs;
+  }
+  // `ours`: number of the record in the ring here.
+  void add(std::uint64_t host, std::uint64_t segment, std::uint64_t number, std::uint64_t ours) {
+    if (host != host_ || segment != segment_) pairs_.clear();
+    host_ = host;
+    segment_ = segment;
+    pairs_.push_back({number, ours});
+    if (pairs_.size() > kMax) pairs_.pop_front();
+  }
+  // Number of records in the ring here up to the one that the other host's count names; nullopt: it has not arrived.
+  std::optional<std::uint64_t> local(std::uint64_t host, std::uint64_t count) const {
+    return count == 0 || host == host_ ? local(count) : std::nullopt;
+  }
+  std::optional<std::uint64_t> local(std::uint64_t count) const {
+    if (count == 0) return 0;
+    for (auto pair = pairs_.rbegin(); pair != pairs_.rend(); ++pair)
+      if (pair->theirs + 1 == count) return pair->ours + 1;
+    return std::nullopt;
+  }
+
+ private:
+  struct Pair {
+    std::uint64_t theirs, ours;
+  };
+  std::uint64_t host_ = 0, segment_ = 0;
+  std::deque<Pair> pairs_;
+};
+using WorldNumbers = RecordNumbers<databuffer::kLatchedWorlds>;
 
 }  // namespace yars::gateway

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "gateway/exchange/role_topics.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
 
@@ -13,7 +12,6 @@ namespace {
 
 using databuffer::NoteKind;
 
-constexpr std::int64_t kAnnounceInterval_ns = 100'000'000;  // a fifth of the lease, so that four may be lost
 constexpr std::int64_t kProbeInterval_ns = 250'000'000;
 constexpr std::int64_t kFirstProbeInterval_ns = 25'000'000;  // of the first kFirstProbes, so that a host joins quickly
 constexpr std::size_t kFirstProbes = 12;
@@ -98,7 +96,7 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
     return;
   }
   if (sample.host == self().id) return report_same_name(sample, now_ns);
-  if (const auto fault = fault_of(sample)) return refuse(sample.host, dds::Topic::hosts, *fault);
+  if (const auto fault = fault_of(sample)) return refuse(sample, *fault);
   Host* host = host_of(sample.host, true);
   if (host == nullptr) return;
   report_shared_name(*host, sample.start, now_ns);
@@ -135,9 +133,8 @@ bool Hosts::host_writes(std::uint64_t host, dds::Topic topic) const {
 void Hosts::lose(Host& host) {
   host.alive = false;
   if (host.left) host.differences = 0;
-  const std::string line = "host " + host.view.name + (host.left ? " has left" : " is no longer heard");
-  host.left ? log::info(line) : log::warning(line);
-  session_->note(host.left ? NoteKind::restart : NoteKind::loss, line);
+  say(host.left ? log::info : log::warning, host.left ? NoteKind::restart : NoteKind::loss,
+      "host " + host.view.name + (host.left ? " has left" : " is no longer heard"));
   update_views();
 }
 
@@ -153,8 +150,7 @@ void Hosts::begin(Host& host, const yars_net_HostSample& sample, std::int64_t no
   host.reported_claims = false;
   readmit(host, sample.start);
   if (was_alive && host.name.is_shared(now_ns)) return;  // each of those with the name would be said again and again
-  log::info("hears host " + host.view.name);
-  session_->note(NoteKind::restart, "hears host " + host.view.name);
+  say(log::info, NoteKind::restart, "hears host " + host.view.name);
 }
 
 // A process that another one with its name seemed to have replaced is the one that goes on.
@@ -169,10 +165,8 @@ void Hosts::report_claims(Host& host, std::int64_t now_ns) {
   if (!claims) host.claims_since_ns = now_ns;
   if (host.reported_claims || now_ns - host.claims_since_ns < kClaimPatience_ns) return;
   host.reported_claims = true;
-  const std::string line =
-      "host " + host.view.name + " claims roles or the clock, and may not write their topics; its claims are left out";
-  log::warning(line);
-  session_->note(NoteKind::refusal, line);
+  say(log::warning, NoteKind::refusal,
+      "host " + host.view.name + " claims roles or the clock, and may not write their topics; its claims are left out");
 }
 
 void Hosts::report_differences(Host& host) {
@@ -195,14 +189,9 @@ void Hosts::report_differences(Host& host) {
 
 // Says a difference once while it lasts.
 void Hosts::report(Host& host, std::uint32_t flag, bool differs, const std::string& line) {
-  if (!differs) {
-    host.differences &= ~flag;
-    return;
-  }
-  if ((host.differences & flag) != 0) return;
-  host.differences |= flag;
-  log::warning(line);
-  session_->note(NoteKind::refusal, line);
+  const bool was_said = (host.differences & flag) != 0;
+  host.differences = differs ? host.differences | flag : host.differences & ~flag;
+  if (differs && !was_said) say(log::warning, NoteKind::refusal, line);
 }
 
 // Says once that two other hosts have one name.
@@ -211,9 +200,7 @@ void Hosts::report_shared_name(Host& host, std::uint64_t start, std::int64_t now
   if (!host.name.is_shared(now_ns)) return;
   const std::int64_t before_ns = std::exchange(host.name_shared_ns, now_ns);
   if (before_ns != 0 && now_ns - before_ns < kSharedAgain_ns) return;
-  const std::string line = "two hosts are called " + host.view.name + "; give each a `name` of its own";
-  log::error(line);
-  session_->note(NoteKind::loss, line);
+  say(log::error, NoteKind::loss, "two hosts are called " + host.view.name + "; give each a `name` of its own");
 }
 
 void Hosts::report_same_name(const yars_net_HostSample& sample, std::int64_t now_ns) {
@@ -225,20 +212,16 @@ void Hosts::report_same_name(const yars_net_HostSample& sample, std::int64_t now
   same_name_heard_ns_ = now_ns;
   if (same_name_ || now_ns - same_name_since_ns_ < kGhost_ns) return;
   same_name_ = true;
-  const std::string line = "another host is also called " + identity_.name + "; give each host a `name` of its own";
-  log::error(line);
-  session_->note(NoteKind::refusal, line);
+  say(log::error, NoteKind::refusal,
+      "another host is also called " + identity_.name + "; give each host a `name` of its own");
 }
 
-// True if another host with this name has been heard a short time ago.
 bool Hosts::has_same_name(std::int64_t now_ns) const {
   return same_name_heard_ns_ != 0 && now_ns - same_name_heard_ns_ <= kGhost_ns;
 }
 
 void Hosts::announce(std::int64_t now_ns) {
-  if (!changed_ && now_ns < next_announcement_ns_) return;
-  changed_ = false;
-  next_announcement_ns_ = now_ns + kAnnounceInterval_ns;
+  if (!announcements_.is_due(std::exchange(changed_, false), now_ns)) return;
   yars_net_HostSample sample{};
   stamp(sample);
   sample.segment = identity_.segment;
@@ -290,8 +273,8 @@ void Hosts::receive(const yars_net_ProbeSample& sample, std::int64_t now_ns) {
 }
 
 Hosts::Host* Hosts::host_of(std::uint64_t id, bool add) {
-  for (Host& host : hosts_)
-    if (host.view.id == id) return &host;
+  const auto known = std::ranges::find(hosts_, id, [](const Host& host) { return host.view.id; });
+  if (known != hosts_.end()) return &*known;
   if (!add || id == self().id) return nullptr;
   Host host;
   host.view.id = id;
@@ -301,7 +284,7 @@ Hosts::Host* Hosts::host_of(std::uint64_t id, bool add) {
   }
   // A host that has left makes room, one that never announced itself first.
   const auto oldest =
-      std::ranges::min_element(hosts_, {}, [](const Host& known) { return std::pair(known.alive, known.heard_ns); });
+      std::ranges::min_element(hosts_, {}, [](const Host& other) { return std::pair(other.alive, other.heard_ns); });
   if (oldest->alive) {
     log::warning("expected at most " + std::to_string(databuffer::kMaxHosts) + " hosts, found another");
     return nullptr;
@@ -311,9 +294,8 @@ Hosts::Host* Hosts::host_of(std::uint64_t id, bool add) {
 }
 
 const Hosts::Host* Hosts::host_of(std::uint64_t id) const {
-  for (const Host& host : hosts_)
-    if (host.view.id == id) return &host;
-  return nullptr;
+  const auto found = std::ranges::find(hosts_, id, [](const Host& host) { return host.view.id; });
+  return found == hosts_.end() ? nullptr : &*found;
 }
 
 void Hosts::update_views() {
@@ -351,28 +333,14 @@ std::optional<std::int64_t> Hosts::offset_ns(std::uint64_t id) const {
   return host->offset.best()->offset_ns;
 }
 
-std::uint64_t Hosts::segment_of(std::uint64_t id) const {
+const yars_net_HostSample& Hosts::said_by(std::uint64_t id) const {
+  static constexpr yars_net_HostSample kNothing{};
   const Host* host = host_of(id);
-  return host == nullptr ? 0 : host->said.segment;
-}
-
-std::uint64_t Hosts::start_of(std::uint64_t id) const {
-  const Host* host = host_of(id);
-  return host == nullptr ? 0 : host->said.start;
+  return host == nullptr ? kNothing : host->said;
 }
 
 void Hosts::set_machine_term(std::uint64_t term) {
   if (std::exchange(machine_term_, term) != term) changed_ = true;
-}
-
-std::uint64_t Hosts::machine_term_of(std::uint64_t id) const {
-  const Host* host = host_of(id);
-  return host == nullptr ? 0 : host->said.machine_term;
-}
-
-std::uint32_t Hosts::epoch_of(std::uint64_t id) const {
-  const Host* host = host_of(id);
-  return host == nullptr ? 0 : host->said.epoch;
 }
 
 bool Hosts::is_new(dds::Topic topic, std::uint64_t id, std::uint64_t start, std::uint64_t number) {
@@ -399,6 +367,11 @@ void Hosts::refuse(std::uint64_t id, dds::Topic topic, const std::string& reason
   if (host != nullptr) ++host->refused;
   session_->note(NoteKind::refusal, (host == nullptr ? "unknown host" : "host " + host->view.name) + ", " +
                                         std::string(settings_of(topic).name) + ": " + reason);
+}
+
+void Hosts::say(void (*log)(std::string_view), NoteKind kind, const std::string& line) const {
+  log(line);
+  session_->note(kind, line);
 }
 
 void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) const {

@@ -4,7 +4,6 @@
 // Units: times [ns], CLOCK_MONOTONIC of this host unless stated.
 // Errors: an announcement with damaged texts or numbers is refused. Differences between hosts (layout, configuration,
 //   terrain, equal names) are said in one line each, by both hosts.
-// Threads: one.
 #pragma once
 
 #include <array>
@@ -24,6 +23,7 @@
 #include "gateway/clock_offset.hpp"
 #include "gateway/dds/link.hpp"
 #include "gateway/host_id.hpp"
+#include "gateway/pace.hpp"
 #include "gateway/sample_numbers.hpp"
 
 namespace yars::gateway {
@@ -40,6 +40,24 @@ struct Identity {
 // [ns] A host that has not announced itself for so long is lost: five announcements. With a shorter time a loaded
 // machine would lose its hosts. With a longer one a dead host would keep its roles.
 inline constexpr std::int64_t kLease_ns = 500'000'000;
+
+// Topics in which the records of a role reach the other hosts. Who cannot write them does not have the role.
+struct RoleTopics {
+  databuffer::Role role;
+  std::span<const dds::Topic> topics;
+};
+
+inline constexpr std::array kTopicsOfModel{dds::Topic::model_status, dds::Topic::model_ticks, dds::Topic::sweeps};
+inline constexpr std::array kTopicsOfMachine{dds::Topic::radar_state, dds::Topic::outputs, dds::Topic::applied_events,
+                                             dds::Topic::event_receipts};
+inline constexpr std::array kTopicsOfTraffic{dds::Topic::traffic};
+inline constexpr std::array kTopicsOfRecorder{dds::Topic::recorder_status};
+inline constexpr std::array kTopicsOfTour{dds::Topic::captions};
+inline constexpr std::array<RoleTopics, 5> kRoleTopics{{{databuffer::Role::radar_model, kTopicsOfModel},
+                                                        {databuffer::Role::state_machine, kTopicsOfMachine},
+                                                        {databuffer::Role::traffic, kTopicsOfTraffic},
+                                                        {databuffer::Role::recorder, kTopicsOfRecorder},
+                                                        {databuffer::Role::tour, kTopicsOfTour}}};
 
 // Processes without a lock byte that `yars status` shows on all hosts. Bit n: that with the name kLockstepRoleNames[n].
 std::uint32_t shown_processes();
@@ -61,7 +79,6 @@ class Hosts {
   // Events for the state machine of this host carry this number. 0: it runs elsewhere.
   void set_machine_term(std::uint64_t term);
   std::uint64_t machine_term() const { return machine_term_; }
-  std::uint64_t machine_term_of(std::uint64_t id) const;  // 0: unknown
 
   void receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns);
   void receive(const yars_net_ProbeSample& sample, std::int64_t now_ns);
@@ -75,9 +92,9 @@ class Hosts {
 
   // Offset of a host's clock; nullopt: not measured yet. 0 for this host.
   std::optional<std::int64_t> offset_ns(std::uint64_t id) const;
-  std::uint64_t segment_of(std::uint64_t id) const;  // 0: unknown
-  std::uint64_t start_of(std::uint64_t id) const;    // 0: unknown
-  std::uint32_t epoch_of(std::uint64_t id) const;
+  // The last announcement of another host; all 0: unknown.
+  const yars_net_HostSample& said_by(std::uint64_t id) const;
+  std::uint64_t start_of(std::uint64_t id) const { return said_by(id).start; }
 
   // Writes host, start and number into a sample. Numbers count up by topic.
   template <class Sample>
@@ -102,7 +119,13 @@ class Hosts {
   // Number of the next sample that is expected from the host.
   std::uint64_t next_from(dds::Topic topic, std::uint64_t host) const;
   // Counts and notes an invalid sample of a host.
+  template <class Sample>
+  void refuse(const Sample& sample, const std::string& reason) {
+    refuse(sample.host, dds::kTopicOf<Sample>, reason);
+  }
   void refuse(std::uint64_t host, dds::Topic topic, const std::string& reason);
+  // Writes a line to the log, by log::info or another level, and to the flight recorder.
+  void say(void (*log)(std::string_view), databuffer::NoteKind kind, const std::string& line) const;
 
   void describe(databuffer::NetworkStatus& status, std::int64_t now_ns) const;
 
@@ -136,6 +159,7 @@ class Hosts {
   void report(Host& host, std::uint32_t flag, bool differs, const std::string& line);
   void report_shared_name(Host& host, std::uint64_t start, std::int64_t now_ns);
   void report_same_name(const yars_net_HostSample& sample, std::int64_t now_ns);
+  // True if another host with this name has been heard a short time ago.
   bool has_same_name(std::int64_t now_ns) const;
   void announce(std::int64_t now_ns);
   void ask(std::int64_t now_ns);
@@ -152,7 +176,7 @@ class Hosts {
   std::uint64_t machine_term_ = 0;
   bool changed_ = true;
   bool in_conflict_ = false;
-  std::int64_t next_announcement_ns_ = 0;
+  Pace announcements_{kLease_ns / 5};  // four may be lost
   std::int64_t last_pass_ns_ = 0;
   std::int64_t paused_until_ns_ = 0;  // ends of hosts that DDS reports until then follow from a pause of this process
   std::deque<std::pair<std::int64_t, std::uint32_t>> group_sizes_;  // time of each change, number of hosts from then on

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "databuffer/messages/validation.hpp"
 #include "databuffer/session/validated.hpp"
 #include "lib/log/log.hpp"
 #include "lib/text/plain_text.hpp"
@@ -60,24 +59,16 @@ void LockstepExchange::send(Context& context) {
   }
 }
 
-void LockstepExchange::receive(Context& context) {
-  context.link->take<yars_net_LockstepSample>([&](const auto& sample) { receive(context, sample); });
-}
-
 void LockstepExchange::receive(Context& context, const yars_net_LockstepSample& sample) {
   if (!context.hosts.is_new(sample)) return;
   if (sample.role >= databuffer::kLockstepRoles || sample.done_tick < 0 ||
       sample.done_tick > databuffer::kLatestModelTick)
-    return context.hosts.refuse(sample.host, dds::Topic::lockstep, "role or done_tick: out of range");
+    return context.hosts.refuse(sample, "role or done_tick: out of range");
   // It may arrive before the host's first announcement, and is not sent again.
-  const std::pair key{sample.host, sample.role};
-  if (waiting_.size() >= databuffer::kMaxHosts * databuffer::kLockstepRoles)
-    std::erase_if(waiting_, [&](const auto& item) { return context.hosts.find(item.first.first) == nullptr; });
-  if (waiting_.contains(key) || waiting_.size() < databuffer::kMaxHosts * databuffer::kLockstepRoles)
-    waiting_[key] = sample;
+  if (Partner* partner = partners_.of(context.hosts, sample.host)) partner->waiting[sample.role] = sample;
 }
 
-bool LockstepExchange::has_arrived(const Context& context, const yars_net_LockstepSample& sample) const {
+bool LockstepExchange::has_arrived(const Context& context, const yars_net_LockstepSample& sample) {
   for (std::size_t i = 0; i < dds::kTopicCount; ++i) {
     const auto topic = static_cast<dds::Topic>(i);
     // The first four do not carry records, and lockstep has no samples but its own before this one.
@@ -88,17 +79,14 @@ bool LockstepExchange::has_arrived(const Context& context, const yars_net_Lockst
 }
 
 // Says once for each host that its run has another end.
-void LockstepExchange::compare_end(const Context& context, const yars_net_LockstepSample& sample) {
+void LockstepExchange::compare_end(const Context& context, Partner& partner, const yars_net_LockstepSample& sample) {
   const std::uint32_t own = end_word(std::as_const(context.session).layout().lockstep);
   const HostView* host = context.hosts.find(sample.host);
-  if (sample.end == own) reported_ends_.erase(sample.host);
-  if (reported_ends_.size() >= databuffer::kMaxHosts)
-    std::erase_if(reported_ends_, [&](std::uint64_t id) { return !context.hosts.has_announced(id); });
-  if (host == nullptr || sample.end == 0 || sample.end == own || !reported_ends_.insert(sample.host).second) return;
-  const std::string line = "lockstep " + end_text(sample.end) + " on host " + host->name + ", " + end_text(own) +
-                           " here; give both the same --headless";
-  log::warning(line);
-  context.session.note(databuffer::NoteKind::refusal, line);
+  if (sample.end == own) partner.has_other_end = false;
+  if (host == nullptr || sample.end == 0 || sample.end == own || std::exchange(partner.has_other_end, true)) return;
+  context.hosts.say(log::warning, databuffer::NoteKind::refusal,
+                    "lockstep " + end_text(sample.end) + " on host " + host->name + ", " + end_text(own) +
+                        " here; give both the same --headless");
 }
 
 // Tells the roles of this host which role no longer answers: of several the one whose host has been gone longest.
@@ -120,13 +108,13 @@ void LockstepExchange::watch_hosts(Context& context) {
 }
 
 // True if the role of another host has done its last tick, also if that is not applied yet.
-bool LockstepExchange::has_ended(const Context& context, std::size_t role) const {
+bool LockstepExchange::has_ended(const Context& context, std::size_t role) {
   const auto& lockstep = std::as_const(context.session).layout().lockstep;
   const std::int64_t end_tick = lockstep.end_tick.load(std::memory_order_relaxed);
   if (end_tick < 0) return false;
-  const auto waiting = waiting_.find({performers_[role].host, static_cast<std::uint32_t>(role)});
+  const Partner* partner = partners_.find(performers_[role].host);
   return lockstep.done_tick[role].load(std::memory_order_acquire) >= end_tick ||
-         (waiting != waiting_.end() && waiting->second.done_tick >= end_tick);
+         (partner != nullptr && partner->waiting[role] && partner->waiting[role]->done_tick >= end_tick);
 }
 
 // Role after role in the order of a tick, so that one done tick may admit the next in the same pass.
@@ -136,22 +124,25 @@ void LockstepExchange::apply(Context& context, bool in_order) {
 }
 
 void LockstepExchange::complete_ticks(Context& context) {
-  auto& lockstep = context.session.layout().lockstep;
   for (std::size_t role = 0; role < databuffer::kLockstepRoles; ++role)
-    std::erase_if(waiting_, [&](const auto& item) {
-      const yars_net_LockstepSample& sample = item.second;
-      if (sample.role != role) return false;
-      // Also of a host that has left since: its last tick still counts.
-      if (!context.hosts.has_announced(sample.host)) return false;
-      compare_end(context, sample);
-      if (!has_arrived(context, sample)) return false;
-      if (lockstep.done_tick[role].load(std::memory_order_acquire) >= sample.done_tick) return true;
-      if (!others_are_done(lockstep, role, sample.done_tick)) return false;
-      known_[role] = sample.done_tick;
-      if (performers_[role].host != sample.host) performers_[role] = {.host = sample.host};
-      runtime::complete_tick(lockstep, role, sample.done_tick);
-      return true;
-    });
+    for (auto& [host, partner] : partners_)
+      if (auto& waiting = partner.waiting[role]; waiting && complete(context, partner, *waiting)) waiting.reset();
+}
+
+// False: the tick waits.
+bool LockstepExchange::complete(Context& context, Partner& partner, const yars_net_LockstepSample& sample) {
+  auto& lockstep = context.session.layout().lockstep;
+  const std::size_t role = sample.role;
+  // Also of a host that has left since: its last tick still counts.
+  if (!context.hosts.has_announced(sample.host)) return false;
+  compare_end(context, partner, sample);
+  if (!has_arrived(context, sample)) return false;
+  if (lockstep.done_tick[role].load(std::memory_order_acquire) >= sample.done_tick) return true;
+  if (!others_are_done(lockstep, role, sample.done_tick)) return false;
+  known_[role] = sample.done_tick;
+  if (performers_[role].host != sample.host) performers_[role] = {.host = sample.host};
+  runtime::complete_tick(lockstep, role, sample.done_tick);
+  return true;
 }
 
 // A role waits for its predecessor alone. That one's done tick may arrive here before those of roles on further hosts

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "databuffer/messages/validation.hpp"
 #include "databuffer/session/picture_pool.hpp"
 #include "databuffer/session/validated.hpp"
 #include "gateway/exchange/history_progress.hpp"
@@ -13,18 +12,10 @@ namespace yars::gateway {
 using databuffer::Role;
 
 void MapExchange::send(Context& context) {
-  const double elapsed_s = 1e-9 * static_cast<double>(context.now_ns - last_pass_ns_);
-  last_pass_ns_ = context.now_ns;
-  if (!context.roles.exports(Role::radar_model)) {
-    for (Sent& sent : sent_) sent.next_row = sent.size;
-    end_maps(context);
-    return;
-  }
   end_maps(context);
+  if (!context.roles.exports(Role::radar_model)) return;
   begin_maps(context);
-  constexpr double kMaxBurst_s = 0.05;  // after a pause of this process
-  rows_due_ = std::min(rows_due_ + elapsed_s * rows_per_s_, kMaxBurst_s * rows_per_s_);
-  while ((rows_due_ >= 1.0 || context.lockstep) && send_row(context)) rows_due_ -= 1.0;
+  for (Sent& sent : sent_) send_rows(context, sent);
 }
 
 // Maps of the pool that are not sent yet, oldest first.
@@ -44,7 +35,7 @@ void MapExchange::begin_maps(Context& context) {
     context.hosts.stamp(sample);
     sample.id = id;
     copy_record(sample.map, map);
-    context.link->write(sample);
+    context.write(sample);
     sent_.push_back(std::move(sent));
   }
 }
@@ -67,41 +58,37 @@ void MapExchange::end_maps(Context& context) {
   });
 }
 
-bool MapExchange::send_row(Context& context) {
-  const auto next = std::ranges::find_if(sent_, [](const Sent& sent) { return !sent.pixels.empty(); });
-  if (next == sent_.end()) return false;
-  yars_net_PatchRowSample sample{};
-  context.hosts.stamp(sample);
-  sample.id = next->id;
-  sample.row = next->next_row;
-  sample.length = next->size;
-  std::memcpy(sample.pixels, next->pixels.data() + std::size_t{next->next_row} * next->size, next->size);
-  context.link->write(sample);
-  if (++next->next_row == next->size) next->pixels = {};
-  return true;
+void MapExchange::send_rows(Context& context, Sent& sent) {
+  while (!sent.pixels.empty() && (context.lockstep || rows_.take(context.now_ns))) {
+    yars_net_PatchRowSample sample{};
+    context.hosts.stamp(sample);
+    sample.id = sent.id;
+    sample.row = sent.next_row;
+    sample.length = sent.size;
+    std::memcpy(sample.pixels, sent.pixels.data() + std::size_t{sent.next_row} * sent.size, sent.size);
+    context.write(sample);
+    if (++sent.next_row == sent.size) sent.pixels = {};
+  }
 }
 
 void MapExchange::receive(Context& context) {
   if (!context.roles.holder(Role::radar_model) && !is_last_tick(context)) return;
-  const auto take = [&](const auto& sample) { receive(context, sample); };
-  context.link->take<yars_net_PatchMapSample>(take);
-  context.link->take<yars_net_PatchRowSample>(take);
+  context.take<yars_net_PatchMapSample, yars_net_PatchRowSample>(*this);
 }
 
 void MapExchange::receive(Context& context, const yars_net_PatchMapSample& sample) {
   if (!context.hosts.is_new(sample)) return;
-  databuffer::PatchMap map{};
-  copy_record(map, sample.map);
-  if (const auto reason = validate(map)) return context.hosts.refuse(sample.host, dds::Topic::patch_maps, *reason);
-  if (map.id != sample.id || map.id == 0)
-    return context.hosts.refuse(sample.host, dds::Topic::patch_maps, "id: expected that of the sample, not 0");
-  assembly_.begin(sample.host, map);
+  const auto map = context.valid<databuffer::PatchMap>(sample, sample.map);
+  if (!map) return;
+  if (map->id != sample.id || map->id == 0)
+    return context.hosts.refuse(sample, "id: expected that of the sample, not 0");
+  assembly_.begin(sample.host, *map);
 }
 
 void MapExchange::receive(Context& context, const yars_net_PatchRowSample& sample) {
   if (!context.hosts.is_new(sample)) return;
   if (sample.length > sizeof sample.pixels)
-    return context.hosts.refuse(sample.host, dds::Topic::patch_rows, "length: expected at most 1024, found more");
+    return context.hosts.refuse(sample, "length: expected at most 1024, found more");
   assembly_.add_row(sample.host, sample.id, sample.row, {sample.pixels, sample.length});
 }
 

@@ -1,26 +1,24 @@
 // Patch maps on every host: sent row by row at a limited rate, published when whole.
 // Inputs: the pool of patch maps of the local segment while the radar model runs here; maps and rows of the host where
-// it
-//   runs.
+//   it runs.
 // Outputs: a sample for each map and each row; whole maps in the local pool.
 // Errors: an invalid map is refused, counted and noted. A map without a free slot is noted.
-// Units: times [ns].
-// Threads: one.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
 #include "databuffer/session/session_layout.hpp"
 #include "gateway/exchange/context.hpp"
+#include "gateway/pace.hpp"
 #include "gateway/patch_assembly.hpp"
 
 namespace yars::gateway {
 
 class MapExchange {
  public:
-  explicit MapExchange(int rows_per_s) : rows_per_s_(rows_per_s) {}
+  explicit MapExchange(int rows_per_s) : rows_(1'000'000'000 / rows_per_s, std::max(1, rows_per_s / 20)) {}
   void send(Context& context);
   void receive(Context& context);
 
@@ -37,11 +35,9 @@ class MapExchange {
   };
   void begin_maps(Context& context);
   void end_maps(Context& context);
-  bool send_row(Context& context);
+  void send_rows(Context& context, Sent& sent);
 
-  double rows_per_s_;
-  double rows_due_ = 0.0;
-  std::int64_t last_pass_ns_ = 0;
+  Allowance rows_;  // after a pause of this process those of 0.05 s are sent at once
   std::vector<Sent> sent_;
   PatchAssembly assembly_;
 };

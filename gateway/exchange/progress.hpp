@@ -2,8 +2,8 @@
 // Inputs: number of a record at its source; number of records in the local container before it is written.
 // Errors: numbers are kept with 32 and 27 bits. A source that is 2^31 records ahead of its entry is taken for another
 //   place; so is a container to which others have added a multiple of 2^27 records.
-// Threads: one. A gateway killed at any point leaves an entry from which the next one continues without a gap and
-//   without a repetition.
+// A gateway killed at any point leaves an entry from which the next one continues without a gap and without a
+//   repetition.
 #pragma once
 
 #include <cstddef>
@@ -56,6 +56,13 @@ databuffer::RemoteProgress& entry_of(Entries& entries, std::uint64_t source) {
     if (free == nullptr && entry.source.load() == 0) free = &entry;
   }
   return free != nullptr ? *free : entries[source % entries.size()];
+}
+
+// Writes an entry. Call it before the record is written in the local container.
+inline void store_progress(databuffer::RemoteProgress& entry, std::uint64_t source, std::uint64_t progress) {
+  if (entry.source.load() != source) entry.source.store(0);
+  entry.progress.store(progress);
+  entry.source.store(source);
 }
 
 }  // namespace yars::gateway

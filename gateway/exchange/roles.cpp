@@ -19,11 +19,11 @@ constexpr std::int64_t kLending_ns = 300'000'000;  // time for a local process t
 Roles::Roles(databuffer::Session& session, std::string session_name)
     : session_(&session),
       session_name_(std::move(session_name)),
-      states_{{{Role::radar_model, true, true},
-               {Role::state_machine, true, true},
-               {Role::traffic, false, false},
-               {Role::recorder, false, false},
-               {Role::tour, false, false}}} {
+      states_{{{Role::radar_model, true},
+               {Role::state_machine, true},
+               {Role::traffic, false},
+               {Role::recorder, false},
+               {Role::tour, false}}} {
   session.layout().network.yielding_roles.store(0);
 }
 
@@ -55,10 +55,9 @@ void Roles::update(State& state, const Hosts& hosts, std::int64_t now_ns) {
   const bool conflict = state.exclusive && holders > 1;
   if (conflict && !state.conflict) {
     ++conflicts_;
-    const std::string line = std::string(name_of(state.role)) + " runs on " + std::to_string(holders) +
-                             " hosts; it stays on " + holder->name;
-    log::warning(line);
-    session_->note(databuffer::NoteKind::restart, line);
+    hosts.say(log::warning, databuffer::NoteKind::restart,
+              std::string(name_of(state.role)) + " runs on " + std::to_string(holders) + " hosts; it stays on " +
+                  holder->name);
   }
   state.conflict = conflict;
   state.gives_way = conflict && !is_self && state.local && !state.barred;
@@ -91,8 +90,7 @@ void Roles::update(State& state, const Hosts& hosts, std::int64_t now_ns) {
 void Roles::mirror(State& state) {
   auto& bits = session_->layout().network.mirrored_roles;
   if (!state.session) {
-    const std::string name(state.has_name ? name_of(state.role) : "gateway");
-    auto session = databuffer::Session::open(session_name_, name);
+    auto session = databuffer::Session::open(session_name_, state.exclusive ? name_of(state.role) : "gateway");
     if (!session) return;
     state.session.emplace(std::move(*session));
   }

@@ -4,7 +4,6 @@
 // Outputs: claims on the local roles of other hosts ("mirrored" roles), so that no local process takes them; requests
 //   that a local holder yields; this host's claims, for its announcements.
 // Errors: a mirrored role that a local process holds is left to it until it yields.
-// Threads: one.
 // Source: docs/network.md#which-host-has-a-role.
 #pragma once
 
@@ -54,8 +53,8 @@ class Roles {
  private:
   struct State {
     databuffer::Role role;
-    bool exclusive;  // one host of the session holds it. Otherwise each host may have a holder of its own
-    bool has_name;   // shown in the process table under its own name
+    // One host of the session holds it, and the process table shows it by name. Else each host may have a holder.
+    bool exclusive;
     std::optional<databuffer::Session> session = std::nullopt;
     std::optional<databuffer::Claim> claim = std::nullopt;
     bool local = false;   // a local process holds it

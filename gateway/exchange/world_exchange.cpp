@@ -6,11 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "databuffer/messages/validation.hpp"
 #include "databuffer/session/session_world.hpp"
 #include "databuffer/session/validated.hpp"
-#include "gateway/exchange/history_progress.hpp"
-#include "gateway/exchange/progress.hpp"
 #include "lib/log/log.hpp"
 
 namespace yars::gateway {
@@ -23,41 +20,19 @@ namespace {
 
 // [ns] A page that drags a shower makes some tens of changes a second. A flood would occupy radar-model.
 constexpr std::int64_t kLeastInterval_ns = 50'000'000;
-constexpr std::size_t kMaxAnswers = std::size(yars_net_WorldSample{}.answers);
-static_assert(kMaxAnswers >= databuffer::kMaxHosts);
-
-bool is_same(const WorldState& first, const WorldState& second) {
-  return std::memcmp(&first, &second, sizeof first) == 0;
-}
+static_assert(std::size(yars_net_WorldSample{}.answers) >= databuffer::kMaxHosts);
 
 // True if both are one edit: what is asked for, and what has become of it. An equal edit of another host has another
 // source_time_ns.
 bool is_same_edit(WorldState asked, const WorldState& found) {
   asked.tick = found.tick;
-  return is_same(asked, found);
-}
-
-// Keeps the newest sample of each host, of kMaxHosts at most.
-template <class Sample>
-void keep(const Context& context, std::map<std::uint64_t, Sample>& samples, const Sample& sample) {
-  if (samples.size() >= databuffer::kMaxHosts)
-    std::erase_if(samples, [&](const auto& known) { return context.hosts.find(known.first) == nullptr; });
-  if (samples.size() < databuffer::kMaxHosts || samples.contains(sample.host)) samples[sample.host] = sample;
-}
-
-// The newest sample of radar-model's host, if that is another one; nullptr: none of the gateway that runs there now.
-template <class Sample>
-const Sample* of_model(const Context& context, const std::map<std::uint64_t, Sample>& samples) {
-  const auto host = context.roles.source(Role::radar_model);
-  if (!host) return nullptr;
-  const auto found = samples.find(*host);
-  return found == samples.end() || found->second.start != context.hosts.start_of(*host) ? nullptr : &found->second;
+  return equal(asked, found);
 }
 
 // Publishes a record that is not there yet.
 void replace(shm::LatestValue<WorldState>& slot, const WorldState& record) {
   WorldState present{};
-  if (!slot.read(present) || !is_same(present, record)) slot.publish(record);
+  if (!slot.read(present) || !equal(present, record)) slot.publish(record);
 }
 
 }  // namespace
@@ -89,9 +64,9 @@ std::optional<yars_net_WorldSample> WorldExchange::news(Context& context) {
     copy_record(sample.configured, *configured);
   }
   std::size_t count = 0;
-  for (const auto& [host, answer] : answers_)
-    if (count < kMaxAnswers)
-      sample.answers[count++] = {host, answer.segment, answer.request, static_cast<std::uint32_t>(answer.answer), 0};
+  for (const auto& [host, editor] : editors_)
+    if (editor.answer != WorldAnswer::none)
+      sample.answers[count++] = {host, editor.segment, editor.request, static_cast<std::uint32_t>(editor.answer), 0};
   return sample;
 }
 
@@ -113,40 +88,33 @@ void WorldExchange::send_latched(Context& context) {
 
 // Latched worlds wait in DDS as the other histories do: all that a tick may name reach the ring.
 void WorldExchange::receive(Context& context) {
-  const auto take = [&](const auto& sample) { receive(context, sample); };
-  context.link->take<yars_net_WorldSample>(take);
-  context.link->take<yars_net_WorldRequestSample>(take);
-  if (knows_model(context) || is_last_tick(context)) context.link->take<yars_net_LatchedWorldSample>(take);
+  context.take<yars_net_WorldSample, yars_net_WorldRequestSample>(*this);
+  if (knows_model(context) || is_last_tick(context)) context.take<yars_net_LatchedWorldSample>(*this);
 }
 
 void WorldExchange::receive(Context& context, const yars_net_WorldSample& sample) {
   if (!context.hosts.is_new(sample)) return;
-  WorldState newest{}, configured{};
-  copy_record(newest, sample.newest);
-  copy_record(configured, sample.configured);
-  auto reason = validate(newest);
-  if (!reason && sample.has_configured != 0) reason = validate(configured);
-  if (reason) return context.hosts.refuse(sample.host, dds::Topic::world, *reason);
-  keep(context, states_, sample);
+  if (context.valid<WorldState>(sample, sample.newest) &&
+      (sample.has_configured == 0 || context.valid<WorldState>(sample, sample.configured)))
+    states_.keep(context.hosts, sample);
 }
 
 void WorldExchange::receive(Context& context, const yars_net_LatchedWorldSample& sample) {
   if (!context.hosts.is_new(sample)) return;
-  WorldState world{};
-  copy_record(world, sample.world);
-  if (const auto reason = validate(world)) return context.hosts.refuse(sample.host, dds::Topic::world_latched, *reason);
-  keep(context, latched_, sample);
-  if (const auto* newest = of_model(context, latched_); newest != nullptr && newest->host == sample.host)
-    write_latched(context, *newest);
+  if (!context.valid<WorldState>(sample, sample.world)) return;
+  latched_.keep(context.hosts, sample);
+  const auto* newest = latched_.newest(context.hosts, context.roles.source(Role::radar_model));
+  if (newest != nullptr && newest->host == sample.host) write_latched(context, *newest);
 }
 
 void WorldExchange::publish(Context& context) {
-  if (const auto* state = of_model(context, states_)) write_state(context, *state);
-  if (const auto* latched = of_model(context, latched_)) write_latched(context, *latched);
+  const auto source = context.roles.source(Role::radar_model);
+  if (const auto* state = states_.newest(context.hosts, source)) write_state(context, *state);
+  if (const auto* latched = latched_.newest(context.hosts, source)) write_latched(context, *latched);
   const bool has_model = context.roles.exports(Role::radar_model);
-  std::erase_if(requests_, [&](const auto& waiting) {
-    return !has_model || context.hosts.find(waiting.first) == nullptr || answer(context, waiting.second);
-  });
+  for (auto& [host, editor] : editors_)
+    if (editor.waiting && (!has_model || context.hosts.find(host) == nullptr || answer(context, editor)))
+      editor.waiting.reset();
 }
 
 // The answer comes last: who has waited for it finds the newest world.
@@ -188,9 +156,7 @@ void WorldExchange::write_latched(Context& context, const yars_net_LatchedWorldS
   if (numbers_->has(sample.host, sample.segment, sample.ring_number, next)) return;
   WorldState world{};
   copy_record(world, sample.world);
-  progress.source.store(0);
-  progress.progress.store(progress_of(sample.ring_number + 1, next));
-  progress.source.store(source_id({sample.host, sample.segment}));
+  store_progress(progress, source_id({sample.host, sample.segment}), progress_of(sample.ring_number + 1, next));
   numbers_->add(sample.host, sample.segment, sample.ring_number, ring.publish(world));
 }
 
@@ -208,7 +174,7 @@ void WorldExchange::resume_latched(Context& context, const yars_net_LatchedWorld
   WorldState world{}, last{};
   copy_record(world, sample.world);
   std::uint64_t cursor = next - 1;
-  if (layout.world_latched.read(cursor, last).delivered && is_same(last, world))
+  if (layout.world_latched.read(cursor, last).delivered && equal(last, world))
     numbers_->add(sample.host, sample.segment, sample.ring_number, next - 1);
 }
 
@@ -240,51 +206,49 @@ void WorldExchange::receive(Context& context, const yars_net_WorldRequestSample&
   if (!context.hosts.is_new(sample) || sample.owner != context.hosts.self().id ||
       context.hosts.find(sample.host) == nullptr)
     return;
-  requests_[sample.host] = {sample, context.now_ns};
+  Editor* editor = editors_.of(context.hosts, sample.host);
+  if (editor == nullptr) return;
+  editor->waiting = sample;
+  editor->arrived_ns = context.now_ns;
 }
 
 // False: the request waits, for the offset of that host's clock, for its turn, or for a local editor.
-bool WorldExchange::answer(Context& context, const Request& request) {
-  const yars_net_WorldRequestSample& sample = request.sample;
-  if (answers_.size() >= kMaxAnswers)
-    std::erase_if(answers_, [&](const auto& known) { return context.hosts.find(known.first) == nullptr; });
-  Answer& answer = answers_[sample.host];
-  if (answer.segment == sample.segment && answer.request == sample.request) return true;
-  const bool is_old = context.now_ns - request.arrived_ns > databuffer::kMaxWorldRequestAge_ns;
-  const auto offset_ns = context.hosts.offset_ns(sample.host);
-  if (!offset_ns || (answer.applied_ns != 0 && context.now_ns - answer.applied_ns < kLeastInterval_ns)) return is_old;
+bool WorldExchange::answer(Context& context, Editor& editor) {
+  const yars_net_WorldRequestSample& request = *editor.waiting;
+  if (editor.segment == request.segment && editor.request == request.request) return true;
+  const bool is_old = context.now_ns - editor.arrived_ns > databuffer::kMaxWorldRequestAge_ns;
+  const bool is_early = editor.applied_ns != 0 && context.now_ns - editor.applied_ns < kLeastInterval_ns;
+  if (is_early || !context.hosts.offset_ns(request.host)) return is_old;
   const auto instructor = context.session.claim(Role::instructor);
   if (!instructor) return is_old;
-  answer.segment = sample.segment;
-  answer.request = sample.request;
-  answer.answer = apply(context, request, *instructor);
-  if (answer.answer == WorldAnswer::applied) answer.applied_ns = context.now_ns;
+  editor.segment = request.segment;
+  editor.request = request.request;
+  editor.answer = apply(context, request, *instructor);
+  if (editor.answer == WorldAnswer::applied) editor.applied_ns = context.now_ns;
   ++answer_count_;
   return true;
 }
 
-WorldAnswer WorldExchange::apply(Context& context, const Request& request, const databuffer::Claim& instructor) const {
-  const std::uint64_t host = request.sample.host;
-  WorldState asked{};
-  copy_record(asked, request.sample.world);
-  const auto refuse = [&](const std::string& reason) {
-    context.hosts.refuse(host, dds::Topic::world_requests, reason);
-    return WorldAnswer::refused;
-  };
-  if (const auto reason = validate(asked)) return refuse(*reason);
+WorldAnswer WorldExchange::apply(Context& context, const yars_net_WorldRequestSample& request,
+                                 const databuffer::Claim& instructor) const {
+  const auto asked = context.valid<WorldState>(request, request.world);
+  if (!asked) return WorldAnswer::refused;
   // In numbers without a sign, because times from another host may have any value.
   const auto age_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(context.now_ns) -
-                                                static_cast<std::uint64_t>(asked.source_time_ns) +
-                                                static_cast<std::uint64_t>(*context.hosts.offset_ns(host)));
+                                                static_cast<std::uint64_t>(asked->source_time_ns) +
+                                                static_cast<std::uint64_t>(*context.hosts.offset_ns(request.host)));
   if (age_ns > databuffer::kMaxWorldRequestAge_ns || age_ns < -databuffer::kMaxWorldRequestAge_ns)
     return WorldAnswer::late;
   const auto newest = databuffer::newest_world(std::as_const(context.session).layout());
-  if (newest && is_same_edit(asked, *newest)) return WorldAnswer::applied;  // by an earlier gateway, without an answer
-  if (newest && newest->edit + 1 != asked.edit) return WorldAnswer::outdated;
+  if (newest && is_same_edit(*asked, *newest)) return WorldAnswer::applied;  // by an earlier gateway, without an answer
+  if (newest && newest->edit + 1 != asked->edit) return WorldAnswer::outdated;
   const auto changed = databuffer::replace_world(
-      context.session, instructor, [&](const WorldState&) -> error::Expected<WorldState> { return asked; });
-  if (!changed) return refuse(changed.error().message());
-  log::info("host " + context.hosts.find(host)->name + " has changed the world");
+      context.session, instructor, [&](const WorldState&) -> error::Expected<WorldState> { return *asked; });
+  if (!changed) {
+    context.hosts.refuse(request, changed.error().message());
+    return WorldAnswer::refused;
+  }
+  log::info("host " + context.hosts.find(request.host)->name + " has changed the world");
   return WorldAnswer::applied;
 }
 

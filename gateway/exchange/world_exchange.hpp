@@ -6,19 +6,16 @@
 // Errors: an invalid record is refused, counted and noted. A request is answered as outdated if it is not based on the
 //   newest edit, so that no change of another instructor is lost. One that is older than 1 s has no effect.
 // Limits: one waiting request of each host; one takes effect each 50 ms.
-// Units: times [ns].
-// Threads: one.
 // Source: docs/network.md#the-world.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <map>
 #include <optional>
 
 #include "databuffer/session/session_layout.hpp"
 #include "gateway/exchange/context.hpp"
-#include "gateway/exchange/world_numbers.hpp"
+#include "gateway/exchange/history_progress.hpp"
 
 namespace yars::gateway {
 
@@ -39,14 +36,13 @@ class WorldExchange {
   std::optional<yars_net_WorldRequestSample> request(Context& context);
 
  private:
-  struct Request {
-    yars_net_WorldRequestSample sample;
-    std::int64_t arrived_ns;
-  };
-  struct Answer {
-    std::uint64_t segment = 0, request = 0;
+  // A host that requests changes.
+  struct Editor {
+    std::optional<yars_net_WorldRequestSample> waiting = std::nullopt;
+    std::int64_t arrived_ns = 0;
+    std::uint64_t segment = 0, request = 0;  // that was answered last
     databuffer::WorldAnswer answer = databuffer::WorldAnswer::none;
-    std::int64_t applied_ns = 0;  // the last change of this host that took effect
+    std::int64_t applied_ns = 0;  // its last change that took effect
   };
   // Numbers by which a change is found without reading the records: of world, world_latched, world_configured, answers.
   using Versions = std::array<std::uint64_t, 4>;
@@ -56,19 +52,19 @@ class WorldExchange {
   void write_answer(Context& context, const yars_net_WorldSample& sample) const;
   void write_latched(Context& context, const yars_net_LatchedWorldSample& sample);
   void resume_latched(Context& context, const yars_net_LatchedWorldSample& sample);
-  bool answer(Context& context, const Request& request);
-  databuffer::WorldAnswer apply(Context& context, const Request& request, const databuffer::Claim& instructor) const;
+  bool answer(Context& context, Editor& editor);
+  databuffer::WorldAnswer apply(Context& context, const yars_net_WorldRequestSample& request,
+                                const databuffer::Claim& instructor) const;
 
   WorldNumbers* numbers_;
   // On radar-model's host.
   std::optional<std::uint64_t> latched_cursor_;  // next record of the ring to send; nullopt: none was sent
   Versions said_{};
   std::uint64_t answer_count_ = 0;
-  std::map<std::uint64_t, Request> requests_;  // that wait, by host
-  std::map<std::uint64_t, Answer> answers_;    // by host
-  // On the others: the newest samples of each host, also of one that has the role only later.
-  std::map<std::uint64_t, yars_net_WorldSample> states_;
-  std::map<std::uint64_t, yars_net_LatchedWorldSample> latched_;
+  HostMemory<Editor> editors_;
+  // On the others.
+  HostMemory<yars_net_WorldSample> states_;
+  HostMemory<yars_net_LatchedWorldSample> latched_;
   // The last sample that write_state() had, and the version of `world` then.
   std::uint64_t written_host_ = 0, written_start_ = 0, written_number_ = 0, written_version_ = 0;
   std::uint64_t requested_ = 0, requested_of_ = 0;  // number of the request that was sent last, and to which host
