@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 namespace yars::gateway {
 
@@ -95,9 +96,17 @@ class SharedName {
   bool is_shared(std::int64_t now_ns) const {
     return returned_ns_ - since_ns_ > kMin_ns && now_ns - returned_ns_ <= kEnd_ns;
   }
+  // True if it is shared, and was not a minute ago.
+  bool is_news(std::int64_t now_ns) {
+    constexpr std::int64_t kAgain_ns = 60'000'000'000;
+    if (!is_shared(now_ns)) return false;
+    const std::int64_t before_ns = std::exchange(shared_ns_, now_ns);
+    return before_ns == 0 || now_ns - before_ns >= kAgain_ns;
+  }
 
  private:
   std::array<std::uint64_t, 4> starts_{};        // newest first; 0: none
+  std::int64_t shared_ns_ = 0;                   // last time at which is_news() found it shared
   std::int64_t since_ns_ = 0, returned_ns_ = 0;  // first and last return of an earlier start in the present row
 };
 

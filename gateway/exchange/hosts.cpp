@@ -18,8 +18,6 @@ constexpr std::size_t kFirstProbes = 12;
 // Of a few answers one was on the way without a queue. A first offset by one answer was wrong by 50 ms on a bad line.
 constexpr std::size_t kEnoughAnswers = 6;
 constexpr std::int64_t kClaimPatience_ns = 3'000'000'000;
-constexpr std::int64_t kSharedAgain_ns = 60'000'000'000;  // a name that is shared again after this is said again
-constexpr std::int64_t kGhost_ns = 3'000'000'000;         // a predecessor of this process may be heard for the lease
 constexpr std::int64_t kGroupDelay_ns = 1'000'000'000;
 
 template <std::size_t N>
@@ -62,6 +60,14 @@ Hosts::Hosts(databuffer::Session& session, dds::Link* link, Identity identity)
   self.name = identity_.name;
   self.priority = identity_.priority;
   views_.push_back(std::move(self));
+  own_.segment = identity_.segment;
+  own_.layout_hash = databuffer::kLayoutIdentity.hash;
+  own_.configuration_hash = identity_.configuration_hash;
+  own_.terrain_hash = identity_.terrain_hash;
+  own_.priority = identity_.priority;
+  own_.protocol = yars_net_kProtocol;
+  text::put_text(own_.name, identity_.name);
+  text::put_text(own_.version, YARS_VERSION);
 }
 
 void Hosts::exchange(std::int64_t now_ns) {
@@ -80,11 +86,12 @@ void Hosts::exchange(std::int64_t now_ns) {
 }
 
 void Hosts::set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t epoch) {
-  HostView& self = views_.front();
-  if (self.held_roles != held_roles || self.owns_clock != owns_clock || epoch_ != epoch) changed_ = true;
-  self.held_roles = held_roles;
-  self.owns_clock = owns_clock;
-  epoch_ = epoch;
+  const std::uint32_t owns = owns_clock ? 1 : 0;
+  if (own_.held_roles != held_roles || own_.owns_clock != owns || own_.epoch != epoch) changed_ = true;
+  views_.front().held_roles = own_.held_roles = held_roles;
+  views_.front().owns_clock = owns_clock;
+  own_.owns_clock = owns;
+  own_.epoch = epoch;
 }
 
 void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns) {
@@ -95,11 +102,13 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
     }
     return;
   }
-  if (sample.host == self().id) return report_same_name(sample, now_ns);
+  if (sample.host == self().id) return hear_own_name(sample.start, now_ns);
   if (const auto fault = fault_of(sample)) return refuse(sample, *fault);
   Host* host = host_of(sample.host, true);
   if (host == nullptr) return;
-  report_shared_name(*host, sample.start, now_ns);
+  host->name.hear(sample.start, now_ns);
+  if (host->name.is_news(now_ns))
+    say(log::error, NoteKind::loss, "two hosts are called " + host->view.name + "; give each a `name` of its own");
   if (!host->alive) readmit(*host, sample.start);
   if (!host->numbers[dds::index_of(dds::Topic::hosts)].is_new(sample.start, sample.number,
                                                               max_repeats(dds::Topic::hosts)))
@@ -194,52 +203,22 @@ void Hosts::report(Host& host, std::uint32_t flag, bool differs, const std::stri
   if (differs && !was_said) say(log::warning, NoteKind::refusal, line);
 }
 
-// Says once that two other hosts have one name.
-void Hosts::report_shared_name(Host& host, std::uint64_t start, std::int64_t now_ns) {
-  host.name.hear(start, now_ns);
-  if (!host.name.is_shared(now_ns)) return;
-  const std::int64_t before_ns = std::exchange(host.name_shared_ns, now_ns);
-  if (before_ns != 0 && now_ns - before_ns < kSharedAgain_ns) return;
-  say(log::error, NoteKind::loss, "two hosts are called " + host.view.name + "; give each a `name` of its own");
-}
-
-void Hosts::report_same_name(const yars_net_HostSample& sample, std::int64_t now_ns) {
-  if (sample.start == identity_.start) return;
-  if (!has_same_name(now_ns)) {
-    same_name_since_ns_ = now_ns;
-    same_name_ = false;
-  }
-  same_name_heard_ns_ = now_ns;
-  if (same_name_ || now_ns - same_name_since_ns_ < kGhost_ns) return;
-  same_name_ = true;
-  say(log::error, NoteKind::refusal,
-      "another host is also called " + identity_.name + "; give each host a `name` of its own");
-}
-
-bool Hosts::has_same_name(std::int64_t now_ns) const {
-  return same_name_heard_ns_ != 0 && now_ns - same_name_heard_ns_ <= kGhost_ns;
+// Another process announces itself with the name of this host.
+void Hosts::hear_own_name(std::uint64_t start, std::int64_t now_ns) {
+  if (start == identity_.start) return;
+  own_name_.hear(identity_.start, now_ns);
+  own_name_.hear(start, now_ns);
+  if (own_name_.is_news(now_ns))
+    say(log::error, NoteKind::refusal,
+        "another host is also called " + identity_.name + "; give each host a `name` of its own");
 }
 
 void Hosts::announce(std::int64_t now_ns) {
   if (!announcements_.is_due(std::exchange(changed_, false), now_ns)) return;
-  yars_net_HostSample sample{};
-  stamp(sample);
-  sample.segment = identity_.segment;
-  sample.monotonic_ns = now_ns;
-  sample.layout_hash = databuffer::kLayoutIdentity.hash;
-  sample.configuration_hash = identity_.configuration_hash;
-  sample.terrain_hash = identity_.terrain_hash;
-  sample.held_roles = self().held_roles;
-  sample.priority = identity_.priority;
-  sample.owns_clock = self().owns_clock ? 1 : 0;
-  sample.epoch = epoch_;
-  sample.protocol = yars_net_kProtocol;
-  sample.group = self().group;
-  sample.machine_term = machine_term_;
-  sample.processes = processes_;
-  text::put_text(sample.name, identity_.name);
-  text::put_text(sample.version, YARS_VERSION);
-  if (link_ != nullptr) link_->write(sample);
+  stamp(own_);
+  own_.monotonic_ns = now_ns;
+  own_.group = self().group;
+  if (link_ != nullptr) link_->write(own_);
 }
 
 void Hosts::ask(std::int64_t now_ns) {
@@ -340,7 +319,7 @@ const yars_net_HostSample& Hosts::said_by(std::uint64_t id) const {
 }
 
 void Hosts::set_machine_term(std::uint64_t term) {
-  if (std::exchange(machine_term_, term) != term) changed_ = true;
+  if (std::exchange(own_.machine_term, term) != term) changed_ = true;
 }
 
 bool Hosts::is_new(dds::Topic topic, std::uint64_t id, std::uint64_t start, std::uint64_t number) {
@@ -378,22 +357,25 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
   // Losses count where each sample matters. In the other topics a newer state replaces an older one.
   constexpr std::array kHistories{dds::Topic::applied_events, dds::Topic::model_ticks, dds::Topic::sweeps,
                                   dds::Topic::traffic_latched, dds::Topic::world_latched};
-  auto& own = status.hosts[0];
-  text::put_text(own.name, identity_.name);
-  text::put_text(own.version, YARS_VERSION);
-  own.heard_ns = now_ns;
-  own.held_roles = self().held_roles | processes_ << databuffer::kFirstProcessBit;
-  own.priority = identity_.priority;
-  own.flags = databuffer::kHostSelf | databuffer::kHostPresent | databuffer::kHostOffsetKnown |
-              (self().owns_clock ? databuffer::kHostOwnsClock : 0U) |
-              (same_name_ && has_same_name(now_ns) ? databuffer::kHostSameName : 0U);
-  status.host_count = 1;
+  const auto add = [&](const HostView& view, const yars_net_HostSample& said, const SharedName& name, bool alive) {
+    auto& to = status.hosts[status.host_count++];
+    text::put_text(to.name, view.name);
+    text::put_text(to.version, text::text_of(said.version));
+    to.heard_ns = now_ns;
+    to.priority = view.priority;
+    const auto processes = static_cast<std::uint32_t>(said.processes) & shown_processes();
+    to.held_roles = alive ? view.held_roles | processes << databuffer::kFirstProcessBit : 0;
+    to.flags = (alive ? databuffer::kHostPresent : 0U) | (name.is_shared(now_ns) ? databuffer::kHostSameName : 0U) |
+               (alive && view.owns_clock ? databuffer::kHostOwnsClock : 0U);
+    return &to;
+  };
+  status.host_count = 0;
+  add(self(), own_, own_name_, true)->flags |= databuffer::kHostSelf | databuffer::kHostOffsetKnown;
   for (const Host& host : hosts_) {
     if (host.view.name.empty() || status.host_count >= databuffer::kMaxHosts) continue;
-    auto& to = status.hosts[status.host_count++];
-    text::put_text(to.name, host.view.name);
-    text::put_text(to.version, text::text_of(host.said.version));
+    auto& to = *add(host.view, host.said, host.name, host.alive);
     to.heard_ns = host.heard_ns;
+    to.flags |= host.differences | (host.left ? databuffer::kHostLeft : 0U);
     if (const auto best = host.offset.best()) {
       to.offset_ns = best->offset_ns;
       to.offset_error_ns = best->round_trip_ns / 2;
@@ -406,13 +388,6 @@ void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) con
     }
     for (const dds::Topic topic : kHistories) to.lost += host.numbers[dds::index_of(topic)].lost();
     to.refused = host.refused;
-    const auto processes = static_cast<std::uint32_t>(host.said.processes) & shown_processes();
-    to.held_roles = host.alive ? host.view.held_roles | processes << databuffer::kFirstProcessBit : 0;
-    to.priority = host.view.priority;
-    to.flags |= host.differences | (host.alive ? databuffer::kHostPresent : 0U) |
-                (host.left ? databuffer::kHostLeft : 0U) |
-                (host.name.is_shared(now_ns) ? databuffer::kHostSameName : 0U) |
-                (host.alive && host.view.owns_clock ? databuffer::kHostOwnsClock : 0U);
   }
 }
 

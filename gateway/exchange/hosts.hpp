@@ -73,12 +73,12 @@ class Hosts {
   void exchange_probes();
   void set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t epoch);
   // Those of shown_processes() that take part on this host.
-  void set_processes(std::uint32_t processes) { processes_ = processes; }
+  void set_processes(std::uint32_t processes) { own_.processes = processes; }
   // While two hosts hold one role, the number of hosts that this host heard before stays as it is.
   void set_conflict(bool in_conflict) { in_conflict_ = in_conflict; }
   // Events for the state machine of this host carry this number. 0: it runs elsewhere.
   void set_machine_term(std::uint64_t term);
-  std::uint64_t machine_term() const { return machine_term_; }
+  std::uint64_t machine_term() const { return own_.machine_term; }
 
   void receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns);
   void receive(const yars_net_ProbeSample& sample, std::int64_t now_ns);
@@ -145,7 +145,6 @@ class Hosts {
     std::array<SampleNumbers, dds::kTopicCount> numbers;
     std::uint64_t refused = 0;
     SharedName name;
-    std::int64_t name_shared_ns = 0;  // last time at which two hosts had this name
   };
   Host* host_of(std::uint64_t id, bool add);
   const Host* host_of(std::uint64_t id) const;
@@ -157,10 +156,7 @@ class Hosts {
   static void readmit(Host& host, std::uint64_t start);
   void report_differences(Host& host);
   void report(Host& host, std::uint32_t flag, bool differs, const std::string& line);
-  void report_shared_name(Host& host, std::uint64_t start, std::int64_t now_ns);
-  void report_same_name(const yars_net_HostSample& sample, std::int64_t now_ns);
-  // True if another host with this name has been heard a short time ago.
-  bool has_same_name(std::int64_t now_ns) const;
+  void hear_own_name(std::uint64_t start, std::int64_t now_ns);
   void announce(std::int64_t now_ns);
   void ask(std::int64_t now_ns);
   void update_views();
@@ -172,16 +168,14 @@ class Hosts {
   std::deque<Host> hosts_;  // without this one
   std::vector<HostView> views_;
   std::array<std::uint64_t, dds::kTopicCount> written_{};
-  std::uint32_t epoch_ = 0, processes_ = 0;
-  std::uint64_t machine_term_ = 0;
+  yars_net_HostSample own_{};  // the announcement of this host
+  SharedName own_name_;
   bool changed_ = true;
   bool in_conflict_ = false;
   Pace announcements_{kLease_ns / 5};  // four may be lost
   std::int64_t last_pass_ns_ = 0;
   std::int64_t paused_until_ns_ = 0;  // ends of hosts that DDS reports until then follow from a pause of this process
   std::deque<std::pair<std::int64_t, std::uint32_t>> group_sizes_;  // time of each change, number of hosts from then on
-  std::int64_t same_name_since_ns_ = 0, same_name_heard_ns_ = 0;
-  bool same_name_ = false;
 };
 
 }  // namespace yars::gateway
