@@ -8,14 +8,22 @@
 // Source: docs/network.md#time.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <limits>
 #include <optional>
+#include <utility>
 
 #include "databuffer/messages/world_state.hpp"
+#include "databuffer/session/clock_changes.hpp"
+#include "databuffer/session/validated.hpp"
 #include "gateway/authority.hpp"
 #include "gateway/clock_offset.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/pace.hpp"
+#include "lib/log/log.hpp"
+#include "lib/radar/modes.hpp"
 
 namespace yars::gateway {
 
@@ -32,30 +40,320 @@ enum class EpochRequest : std::uint32_t { change, change_with_new_epoch, end_of_
 
 class ClockExchange {
  public:
-  void exchange(Context& context);
+  void exchange(Context& context) {
+    if (first_pass_ns_ == 0) first_pass_ns_ = context.now_ns;
+    context.take<yars_net_ClockSample, yars_net_ClockRequestSample>(*this);
+    choose_owner(context);
+    if (owns_)
+      publish(context);
+    else
+      follow(context);
+    end_epoch_of_meeting(context);
+    context.session.restore_clock();
+  }
 
-  void receive(Context& context, const yars_net_ClockSample& sample);
-  void receive(Context& context, const yars_net_ClockRequestSample& sample);
+  void receive(Context& context, const yars_net_ClockSample& sample) {
+    if (context.hosts.is_new(sample) && context.valid<ClockState>(sample, sample.clock))
+      clocks_.keep(context.hosts, sample);
+  }
+
+  // Applies a change that another host asks for. Each request is applied once.
+  void receive(Context& context, const yars_net_ClockRequestSample& sample) {
+    const HostView* host = context.hosts.find(sample.host);
+    if (!context.hosts.is_new(sample) || sample.owner != context.hosts.self().id || !owns_ || host == nullptr) return;
+    const auto before = context.valid<ClockState>(sample, sample.before);
+    if (!before) return;
+    const auto after = context.valid<ClockState>(sample, sample.clock);
+    if (!after) return;
+    const RequestedChange change{*before, *after, sample.new_epoch != static_cast<std::uint32_t>(EpochRequest::change)};
+    const ClockState& wanted = change.after;
+    // DDS delivers what a host wrote before it was cut off. By then others may have changed the clock.
+    const std::int64_t age_ns = context.now_ns - wanted.base_monotonic_ns;
+    if (age_ns > kMaxRequestAge_ns) {
+      const std::string line = "a change of the session clock is left out, because it is " +
+                               std::to_string(age_ns / 1'000'000'000) + " s old";
+      log::warning("host " + host->name + ": " + line);
+      return context.hosts.refuse(sample, line);
+    }
+    if (sample.new_epoch == static_cast<std::uint32_t>(EpochRequest::end_of_epoch)) {
+      if (!is_later(context.session.clock().epoch, wanted.epoch)) raise_epoch(context, wanted.epoch);
+      return;
+    }
+    const auto changed = context.session.change_clock([&](const ClockState& clock) {
+      const std::int64_t now_ns = databuffer::monotonic_ns();
+      ClockState next = is_based_on(change, clock) ? wanted : with_late_change(clock, change, now_ns);
+      // The request has the sim time that its host had. The time of transmission has passed since.
+      next.base_monotonic_ns = std::min(next.base_monotonic_ns, now_ns);
+      next.epoch = clock.epoch + (change.begins_epoch ? 1 : 0);
+      return next;
+    });
+    if (!changed) return context.hosts.refuse(sample, changed.error().message());
+    log::info("host " + host->name + " has changed the session clock");
+  }
 
   bool owns() const { return owns_; }
   bool joined() const { return owns_ || followed_.has_value(); }
 
  private:
+  using ClockState = databuffer::ClockState;
   // [ns] A host keeps its own change of the clock until the owner has answered, at most for this time.
   static constexpr std::int64_t kRequestTime_ns = 500'000'000;
-  void choose_owner(Context& context);
-  void resolve_conflicts(Context& context);
-  void end_epoch_of_meeting(Context& context);
-  void raise_epoch(Context& context, std::uint32_t above);
-  void publish(Context& context);
-  void follow(Context& context);
-  static std::int64_t continuous_offset(const databuffer::ClockState& mine, const databuffer::ClockState& theirs,
-                                        std::int64_t measured_ns, std::int64_t now_ns);
-  void adopt(Context& context, bool first);
-  bool forward_local_change(Context& context);
-  void request(Context& context, const databuffer::ClockState& before, const databuffer::ClockState& wanted,
-               EpochRequest epoch);
-  void slew(Context& context);
+  // [ns] On a bad line a request takes up to some tenths of a second.
+  static constexpr std::int64_t kMaxRequestAge_ns = 1'000'000'000;
+  static constexpr std::int64_t kOneMeeting_ns = 1'000'000'000;  // what hosts see of it one after another
+  static constexpr std::int64_t kMaxBehind_ns = 100'000'000;     // kMaxTicksBehind ticks
+  static constexpr std::int64_t kRounding_ns = 1'000;            // of sim times that are equal but for their base
+
+  // The later of two epochs, which count on from 0 after the greatest number.
+  static std::uint32_t later(std::uint32_t first, std::uint32_t second) {
+    return static_cast<std::int32_t>(second - first) > 0 ? second : first;
+  }
+
+  static bool is_later(std::uint32_t first, std::uint32_t second) {
+    return first != second && later(first, second) == first;
+  }
+
+  // The clock with its base moved to `now_ns`; sim time does not change.
+  static ClockState rebased(ClockState clock, std::int64_t now_ns) {
+    clock.base_sim_ns = databuffer::sim_time_at(clock, now_ns);
+    clock.base_monotonic_ns = now_ns;
+    return clock;
+  }
+
+  // A change that another host has made to its clock at `after.base_monotonic_ns`.
+  struct RequestedChange {
+    ClockState before, after;
+    bool begins_epoch = false;
+  };
+
+  // True if the owner's clock is the one that the other host has changed. False: somebody else has changed it
+  // meanwhile. Running clocks of two hosts differ by the error of the offset.
+  static bool is_based_on(const RequestedChange& change, const ClockState& clock) {
+    const auto& [before, after, begins_epoch] = change;
+    if (before.epoch != clock.epoch || before.rate != clock.rate || before.running != clock.running) return false;
+    const std::int64_t at_ns = after.base_monotonic_ns;
+    const std::int64_t apart_ns = databuffer::sim_time_at(before, at_ns) - databuffer::sim_time_at(clock, at_ns);
+    return std::abs(apart_ns) <= (clock.running != 0 ? kMaxBehind_ns : 0);
+  }
+
+  // The clock after a change that was made to an earlier one: what the change left as it was stays as it is. So changes
+  // that two hosts make at the same time both take effect, and sim time does not go back within an epoch.
+  static ClockState with_late_change(const ClockState& clock, const RequestedChange& change, std::int64_t now_ns) {
+    const auto& [before, after, begins_epoch] = change;
+    const std::int64_t advance_ns = after.base_sim_ns - databuffer::sim_time_at(before, after.base_monotonic_ns);
+    const bool sets_time = std::abs(advance_ns) > kRounding_ns;  // false: the time only went on
+    ClockState next = rebased(clock, now_ns);
+    if (begins_epoch && !equal(before, after)) {  // equal: the host asks for a new epoch alone
+      next = after;                               // with its position of the aircraft
+      next.base_monotonic_ns = now_ns;
+      if (!sets_time) next.base_sim_ns = databuffer::sim_time_at(clock, now_ns);
+    } else if (sets_time && before.epoch == clock.epoch) {
+      next.base_sim_ns += advance_ns;
+    }
+    next.rate = after.rate != before.rate ? after.rate : clock.rate;
+    next.running = after.running != before.running ? after.running : clock.running;
+    return next;
+  }
+
+  void choose_owner(Context& context) {
+    const auto owns = [&](const HostView& host) {
+      return host.id == context.hosts.self().id ? owns_ : host.owns_clock;
+    };
+    const HostView* owner = preceding(context.hosts.views(), owns);
+    resolve_conflicts(context);
+    const bool listened = context.now_ns - first_pass_ns_ >= kListening_ns;
+    const std::size_t rank = rank_of(context.hosts.views(), context.hosts.self());
+    const bool may_own = listened && owner == nullptr && context.writes(dds::Topic::clock);
+    if (vacancy_.may_take(may_own, rank, context.now_ns)) {
+      owns_ = true;
+      log::info("sets the session clock");
+      followed_.reset();
+      owner_ = context.hosts.self().id;
+      return;
+    }
+    if (owner == nullptr) return;
+    if (owns_ && owner->id != context.hosts.self().id) {
+      owns_ = false;
+      const std::uint32_t epoch = context.session.clock().epoch;
+      if (is_later(epoch, context.hosts.said_by(owner->id).epoch)) meeting_epoch_ = epoch;
+      log::info("follows the clock of host " + owner->name);
+    }
+    if (!owns_ && owner->id != owner_) followed_.reset();
+    owner_ = owner->id;
+  }
+
+  // After a partition two hosts hold a role, or the part whose clock gives way has a later epoch. The host whose clock
+  // stays begins a new epoch, so that no picture mixes records of the two parts, and epochs never go back. It may hear
+  // of the other holder only when that one has given way already: thus the host that gives way asks for the new epoch,
+  // until it has come.
+  void resolve_conflicts(Context& context) {
+    const bool gives_way = context.roles.gives_way();
+    const bool has_begun = epoch_begun_ns_ != 0 && context.now_ns - epoch_begun_ns_ < kOneMeeting_ns;
+    if (gives_way && !gave_way_ && !has_begun) meeting_epoch_ = context.session.clock().epoch;
+    gave_way_ = gives_way;
+    bool conflict = context.roles.in_conflict();
+    bool precedes_all = owns_;
+    std::uint32_t epoch = context.session.clock().epoch;
+    for (const HostView& host : context.hosts.views().subspan(1)) {
+      if (host.owns_clock || host.held_roles != 0) epoch = later(epoch, context.hosts.said_by(host.id).epoch);
+      if (!owns_ || !host.owns_clock) continue;
+      conflict = conflict || is_later(context.hosts.said_by(host.id).epoch, context.session.clock().epoch);
+      precedes_all = precedes_all && precedes(context.hosts.self(), host);
+    }
+    if (conflict && !in_conflict_ && precedes_all) raise_epoch(context, epoch);
+    in_conflict_ = conflict;
+  }
+
+  void end_epoch_of_meeting(Context& context) {
+    if (!meeting_epoch_) return;
+    const ClockState clock = context.session.clock();
+    if (is_later(clock.epoch, *meeting_epoch_)) return meeting_epoch_.reset();
+    if (owns_) return raise_epoch(context, *meeting_epoch_);
+    if (!followed_ || !meeting_pace_.is_due(false, context.now_ns)) return;
+    ClockState ended = clock;
+    ended.epoch = *meeting_epoch_;
+    request(context, clock, ended, EpochRequest::end_of_epoch);
+  }
+
+  // The aircraft stays where it is: flight models go on from the ownship in use.
+  void raise_epoch(Context& context, std::uint32_t above) {
+    const auto model = databuffer::read_valid(std::as_const(context.session).layout().model_status);
+    const bool has_ownship = model && (model->flags & databuffer::kModelStale) == 0;
+    const auto raised = context.session.change_clock([&](const ClockState& clock) {
+      ClockState next = rebased(clock, databuffer::monotonic_ns());
+      next.epoch = later(clock.epoch, above) + 1;
+      next.reposition_latitude_deg = std::numeric_limits<double>::quiet_NaN();
+      if (!has_ownship || model->epoch != clock.epoch) return next;
+      databuffer::begin_at_aircraft(next, model->ownship, geo::Bearing::degrees(model->ownship.heading_deg));
+      return next;
+    });
+    if (!raised) log::warning(raised.error().message());
+    context.hosts.say(log::info, databuffer::NoteKind::restart, "two parts of the session meet; a new epoch begins");
+  }
+
+  void publish(Context& context) {
+    const ClockState clock = context.session.clock();
+    if (!pace_.is_due(!equal(clock, published_), context.now_ns)) return;
+    published_ = clock;
+    yars_net_ClockSample sample{};
+    context.hosts.stamp(sample);
+    copy_record(sample.clock, clock);
+    context.write(sample);
+  }
+
+  void follow(Context& context) {
+    const auto offset_ns = context.hosts.offset_ns(owner_);
+    const auto* newest = clocks_.newest(context.hosts, owner_);
+    if (owner_ == 0 || !offset_ns || newest == nullptr) return;
+    ClockState theirs{};
+    copy_record(theirs, newest->clock);
+    if (followed_ && forward_local_change(context)) return;
+    if (context.now_ns < request_pending_until_ns_ && followed_ && equal(theirs, followed_->theirs)) return;
+    const bool unanswered = std::exchange(request_pending_until_ns_, 0) != 0;
+    if (followed_ && !unanswered && equal(theirs, followed_->theirs)) return slew(context);
+    const bool first = !followed_.has_value();
+    if (first)
+      followed_.emplace();
+    else if (is_later(theirs.epoch, followed_->theirs.epoch))
+      epoch_begun_ns_ = context.now_ns;
+    followed_->theirs = theirs;
+    const ClockState before = context.session.clock();
+    if (first) followed_->offset.set(continuous_offset(before, theirs, *offset_ns, context.now_ns));
+    adopt(context, first);
+    // Local roles that are ahead in the same epoch would wait until the owner's sim time reaches theirs.
+    if (!followed_) return;
+    const std::int64_t ahead_ns = databuffer::sim_time_at(before, context.now_ns) - context.session.sim_time_ns();
+    if (first && before.epoch == theirs.epoch && ahead_ns > kMaxBehind_ns && !context.lockstep)
+      request(context, followed_->written, followed_->written, EpochRequest::change_with_new_epoch);
+  }
+
+  // Offset with which the owner's clock continues the local one. After a change of the owner both show nearly the same
+  // time, and the rest is slewed. Otherwise the measured offset.
+  static std::int64_t continuous_offset(const ClockState& mine, const ClockState& theirs, std::int64_t measured_ns,
+                                        std::int64_t now_ns) {
+    if (mine.epoch != theirs.epoch || mine.running != theirs.running || mine.rate != theirs.rate || !(mine.rate > 0.0))
+      return measured_ns;
+    const std::int64_t ahead_ns =
+        databuffer::sim_time_at(mine, now_ns) - databuffer::sim_time_at(theirs, now_ns + measured_ns);
+    if (std::abs(ahead_ns) > kMaxBehind_ns) return measured_ns;
+    return measured_ns + static_cast<std::int64_t>(static_cast<double>(ahead_ns) / mine.rate);
+  }
+
+  // Writes the owner's clock to the local segment, with its base at the present time. A change that a program of this
+  // host has made since the beginning of this pass stays; the next pass forwards it. `first`: what stands there is not
+  // followed.
+  void adopt(Context& context, bool first) {
+    const std::int64_t now_ns = databuffer::monotonic_ns();
+    ClockState mine = followed_->theirs;
+    // The owner's clock has begun. An offset by which it has not would leave an error that nothing slews.
+    const std::int64_t least_ns = mine.base_monotonic_ns - now_ns;
+    if (mine.running != 0 && followed_->offset.offset_ns() < least_ns) followed_->offset.set(least_ns);
+    mine.base_sim_ns = databuffer::sim_time_at(followed_->theirs, now_ns + followed_->offset.offset_ns());
+    mine.base_monotonic_ns = now_ns;
+    followed_->changed_ns = context.now_ns;
+    bool untouched = true;
+    const auto changed = context.session.change_clock([&](const ClockState& present) {
+      untouched = first || equal(present, followed_->written);
+      return untouched ? mine : present;
+    });
+    if (!changed)
+      followed_.reset();  // the next pass begins again
+    else if (untouched)
+      followed_->written = mine;
+  }
+
+  // A program of this host has changed the clock (`yars sim`, a jump of the aircraft): the owner is asked to change it.
+  bool forward_local_change(Context& context) {
+    const ClockState clock = context.session.clock();
+    if (equal(clock, followed_->written)) return false;
+    if (!context.writes(dds::Topic::clock_requests))
+      log::warning(
+          "the session clock was changed here, and is set back: this host may not write the topic clock_requests");
+    request(context, followed_->written, clock,
+            clock.epoch != followed_->written.epoch ? EpochRequest::change_with_new_epoch : EpochRequest::change);
+    followed_->written = clock;
+    request_pending_until_ns_ = context.now_ns + kRequestTime_ns;
+    return true;
+  }
+
+  void request(Context& context, const ClockState& before, const ClockState& wanted, EpochRequest epoch) {
+    yars_net_ClockRequestSample sample{};
+    context.hosts.stamp(sample);
+    sample.owner = owner_;
+    sample.new_epoch = static_cast<std::uint32_t>(epoch);
+    // The change may have been made after this pass began.
+    const std::int64_t at_ns = std::max(context.now_ns, wanted.base_monotonic_ns);
+    const ClockState before_then = rebased(before, at_ns), wanted_then = rebased(wanted, at_ns);
+    copy_record(sample.before, before_then);
+    copy_record(sample.clock, wanted_then);
+    sample.clock.base_monotonic_ns = std::max<std::int64_t>(at_ns + followed_->offset.offset_ns(), 0);
+    sample.before.base_monotonic_ns = sample.clock.base_monotonic_ns;
+    context.write(sample);
+  }
+
+  // Moves the clock towards the measured offset (SlewedOffset). The base moves; a step of sim time is at most 0.1 ms.
+  void slew(Context& context) {
+    const auto measured_ns = context.hosts.offset_ns(owner_);
+    const std::int64_t elapsed_ns = context.now_ns - std::exchange(followed_->changed_ns, context.now_ns);
+    const std::int64_t before_ns = followed_->offset.offset_ns();
+    constexpr std::int64_t kMaxPause_ns = 10'000'000;  // after a pause of this process sim time must not jump
+    if (!measured_ns || !followed_->offset.approach(*measured_ns, std::min(elapsed_ns, kMaxPause_ns))) return;
+    ClockState mine = followed_->written;
+    // sim time = base + rate x (now - base time): a greater offset is a later time, thus an earlier base.
+    mine.base_monotonic_ns -= followed_->offset.offset_ns() - before_ns;
+    if (mine.base_monotonic_ns < 0) return;
+    bool untouched = false;
+    const auto changed = context.session.change_clock(
+        [&](const ClockState& present) {
+          untouched = equal(present, followed_->written);
+          return untouched ? mine : present;
+        },
+        databuffer::WaitPolicy::none);
+    if (changed && untouched)
+      followed_->written = mine;
+    else
+      followed_->offset.set(before_ns);
+  }
 
   bool owns_ = false;
   bool in_conflict_ = false;

@@ -8,30 +8,149 @@
 //   numbers.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <deque>
 #include <optional>
+#include <string>
 
+#include "databuffer/messages/record_hashes.hpp"
 #include "databuffer/session/session_layout.hpp"
+#include "databuffer/session/validated.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/history_progress.hpp"
+#include "runtime/tick_loop.hpp"
 
 namespace yars::gateway {
 
 class HistoryExchange {
  public:
   HistoryExchange(LaneNames& lanes, const WorldNumbers& worlds) : lanes_(&lanes), worlds_(&worlds) {}
-  void send(Context& context);
-  void receive(Context& context);
+  void send(Context& context) {
+    const auto& layout = std::as_const(context.session).layout();
+    traffic_history_.send(context, Role::radar_model, layout.traffic_latched, [](auto& sample, const auto& traffic) {
+      sample.ring_number = sample.number;
+      copy_record(sample.traffic, traffic);
+    });
+    tick_history_.send(context, Role::radar_model, layout.model_ticks, [this](auto& sample, const auto& tick) {
+      copy_record(sample.tick, tick);
+      const RemoteName name = lanes_->ownship_name(tick.ownship_lane, sample.host);
+      sample.ownship_host = name.host;
+      sample.tick.ownship_lane = name.lane;
+    });
+    sweep_history_.send(context, Role::radar_model, layout.sweeps, [](auto& sample, auto& sweep) {
+      static_assert(sizeof sample.sweep == kSweepHeader_bytes);
+      std::memcpy(&sample.sweep, &sweep, kSweepHeader_bytes);
+      sample.video._length = sample.video._maximum = std::min<std::uint32_t>(sweep.samples, radar::kMaxSamples);
+      sample.video._buffer = sweep.video;
+    });
+  }
+
+  // Samples wait in DDS until it is known which host has the radar model, until this gateway mirrors it, and until
+  // their age can be judged. At the end of a lockstep run they are taken also without a holder: a last done tick waits
+  // for them.
+  void receive(Context& context) {
+    const bool is_known = knows_model(context);
+    if (!is_known && !is_last_tick(context)) return;
+    const auto newest = [&context] {
+      const auto status = databuffer::read_valid(std::as_const(context.session).layout().model_status);
+      return status ? std::optional(status->tick) : std::nullopt;
+    };
+    const auto holder = context.roles.holder(Role::radar_model);
+    if (is_known && !may_begin(context, dds::Topic::model_ticks, *holder, newest)) return;
+    context.take<yars_net_LatchedTrafficSample, yars_net_ModelTickSample, yars_net_SweepSample>(*this);
+  }
+
   // Publishes what has arrived and is in order.
-  void publish(Context& context);
+  void publish(Context& context) {
+    auto& layout = context.session.layout();
+    if (!context.roles.source(Role::radar_model)) {
+      ticks_.clear();
+      sweeps_.clear();
+      last_tick_ = {};
+      missing_world_ = 0;
+      tick_order_ = sweep_order_ = {};
+      return;
+    }
+    const auto is_late = [&context](std::int64_t arrived_ns) { return context.now_ns - arrived_ns > kPatience_ns; };
+    while (!ticks_.empty()) {
+      auto& waiting = ticks_.front();
+      databuffer::ModelTick& tick = waiting.record;
+      const auto traffic = traffic_numbers_.local(tick.traffic);
+      const auto world = worlds_->local(waiting.host, tick.world);
+      const bool waits = !traffic || (!world && tick.world != missing_world_);
+      if (waits && !is_late(waiting.arrived_ns)) break;
+      if (!world) missing_world_ = tick.world;
+      tick.traffic = traffic.value_or(layout.traffic_latched.next());
+      tick.world = world.value_or(layout.world_latched.next());
+      tick_history_.publish(context, waiting, layout.model_ticks, tick);
+      last_tick_ = {tick.epoch, tick.tick};
+      last_host_ = waiting.host;
+      ticks_.pop_front();
+    }
+    while (!sweeps_.empty()) {
+      const auto& waiting = sweeps_.front();
+      if (last_tick_.precedes(waiting.record) && !is_late(waiting.arrived_ns)) break;
+      sweep_history_.publish(context, waiting, layout.sweeps, waiting.record);
+      sweeps_.pop_front();
+    }
+  }
+
   bool is_empty() const { return ticks_.empty() && sweeps_.empty(); }  // nothing waits for its predecessor
 
-  void receive(Context& context, const yars_net_LatchedTrafficSample& sample);
-  void receive(Context& context, const yars_net_ModelTickSample& sample);
-  void receive(Context& context, const yars_net_SweepSample& sample);
+  void receive(Context& context, const yars_net_LatchedTrafficSample& sample) {
+    auto& ring = context.session.layout().traffic_latched;
+    // Traffic is valid until the next record, so that also an old one is taken.
+    const std::int64_t tick = context.session.sim_time_ns() / radar::kTickNanoseconds;
+    if (!traffic_history_.is_new(context, sample, ring, tick) || context.roles.source(Role::radar_model) != sample.host)
+      return;
+    if (const auto traffic = context.valid<databuffer::Traffic>(sample, sample.traffic))
+      traffic_numbers_.add(sample.host, sample.start, sample.ring_number,
+                           traffic_history_.publish(context, sample, ring, *traffic));
+  }
+
+  void receive(Context& context, const yars_net_ModelTickSample& sample) {
+    const auto& ring = std::as_const(context.session).layout().model_ticks;
+    if (!tick_history_.is_new(context, sample, ring, sample.tick.tick) ||
+        !is_wanted(context, sample.host, sample.tick.epoch, sample.tick.tick))
+      return;
+    auto tick = context.valid<databuffer::ModelTick>(sample, sample.tick);
+    if (!tick || !is_in_order(context, sample, *tick, tick_order_)) return;
+    tick->ownship_lane =
+        lanes_->local_ownship_lane({sample.ownship_host, tick->ownship_lane}, context.hosts.self().id, kNoLane);
+    if (ticks_.size() < kMaxWaiting)
+      ticks_.push_back({*tick, context.now_ns, sample.host, sample.start, sample.number});
+  }
+
+  void receive(Context& context, const yars_net_SweepSample& sample) {
+    const auto& ring = std::as_const(context.session).layout().sweeps;
+    if (!sweep_history_.is_new(context, sample, ring, sample.sweep.tick) ||
+        !is_wanted(context, sample.host, sample.sweep.epoch, sample.sweep.tick))
+      return;
+    databuffer::Sweep sweep{};
+    std::memcpy(&sweep, &sample.sweep, kSweepHeader_bytes);
+    if (sweep.samples != sample.video._length)
+      return context.hosts.refuse(sample, "samples: expected " + std::to_string(sample.video._length) +
+                                              ", the length of the video, found " + std::to_string(sweep.samples));
+    if (sweep.samples > 0 && sweep.samples <= radar::kMaxSamples)
+      std::memcpy(sweep.video, sample.video._buffer, sweep.samples);
+    if (const auto reason = validate(sweep)) return context.hosts.refuse(sample, *reason);
+    if (databuffer::sweep_hash(sweep) != sweep.hash)
+      return context.hosts.refuse(sample, "hash: expected that of the video, found another");
+    if (!is_in_order(context, sample, sweep, sweep_order_)) return;
+    if (sweeps_.size() < kMaxWaiting)
+      sweeps_.push_back({sweep, context.now_ns, sample.host, sample.start, sample.number});
+  }
 
  private:
+  using Role = databuffer::Role;
+  // [ns] A record waits so long for its predecessor, which is several repairs of a lost packet.
+  static constexpr std::int64_t kPatience_ns = 200'000'000;
+  static constexpr std::size_t kMaxWaiting = 1024;  // the depth of the rings
+  static constexpr std::size_t kSweepHeader_bytes = offsetof(databuffer::Sweep, video);
+
   template <class Record>
   struct Waiting {
     Record record;
@@ -47,9 +166,31 @@ class HistoryExchange {
       return tick < 0 || newer > 0 || (newer == 0 && sweep.tick > tick);
     }
   };
-  bool is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch, std::int64_t tick);
+
+  // After a partition the history of the part that yielded arrives, too. It has the epoch from before the meeting. A
+  // host that takes the role over may be a few ticks behind its predecessor. Older ticks are from a time in which this
+  // host did not hear it.
+  bool is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch, std::int64_t tick) {
+    if (context.roles.source(Role::radar_model) != host) return false;
+    if (static_cast<std::int32_t>(epoch - context.session.clock().epoch) < 0) return false;
+    const bool goes_back = last_tick_.epoch == epoch && tick < last_tick_.tick - runtime::kMaxTicksBehind;
+    return host == last_host_ || !goes_back;
+  }
+
+  // False: the record is refused, because its sim time is not that of its tick, or its tick goes back.
   template <class Sample, class Record>
-  bool is_in_order(Context& context, const Sample& sample, const Record& record, TickOrder& order);
+  bool is_in_order(Context& context, const Sample& sample, const Record& record, TickOrder& order) {
+    const auto refuse = [&](const char* field, const std::string& expected, std::int64_t found) {
+      context.hosts.refuse(sample, field + std::string(": expected ") + expected + ", found " + std::to_string(found));
+      return false;
+    };
+    const std::int64_t due_ns = record.tick * radar::kTickNanoseconds;
+    if (record.sim_time_ns != due_ns)
+      return refuse("sim_time_ns", std::to_string(due_ns) + ", that of the tick", record.sim_time_ns);
+    if (!order.follows(sample.host, record.epoch, record.tick))
+      return refuse("tick", "one after that of the record before", record.tick);
+    return true;
+  }
 
   LaneNames* lanes_;
   const WorldNumbers* worlds_;
