@@ -2,7 +2,6 @@
 // Inputs: what each host that is heard says about itself.
 // Outputs: the host with the role; none if no host holds it.
 // Units: times [ns], CLOCK_MONOTONIC of this host.
-// Threads: pure functions and plain values.
 // Source: docs/network.md#which-host-has-a-role.
 #pragma once
 

@@ -4,7 +4,6 @@
 // Units: [ns].
 // Errors: the offset is wrong by at most half of the round trip, if both clocks run at the same rate. The rates of two
 // computers differ by up to 100 ppm, which in kWindow answers at 4 Hz is 0.4 ms.
-// Threads: one.
 // Source: D. Mills, RFC 5905, section 8 (on-wire protocol) and section 10 (clock filter: the least round trip counts).
 #pragma once
 

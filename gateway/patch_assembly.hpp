@@ -2,9 +2,7 @@
 // Inputs: the record of a map and its rows, in any order, each any number of times.
 // Outputs: the map and its pixels once all rows are there and the hash is right.
 // Errors: rows that do not fit the map are left out. A whole map with a wrong hash waits: rows of an earlier map with
-// its
-//   number may be among its own, and are replaced when these arrive.
-// Threads: one.
+//   its number may be among its own, and are replaced when these arrive.
 #pragma once
 
 #include <algorithm>

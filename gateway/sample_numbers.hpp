@@ -2,7 +2,6 @@
 // Inputs: start (random number of the sending gateway process) and number of each sample, in order of arrival.
 // Outputs: whether the sample is new; counts.
 // Use: after a partition DDS delivers the stored history of a topic again, and a lost sample is not reported by it.
-// Threads: one.
 #pragma once
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 // Outputs: one line for each gateway that was heard and yet exchanges nothing: it has another session, or DDS Security
 //   on one side only. What others write about themselves is not trusted: it appears in messages alone.
 // Units: times [ns], CLOCK_MONOTONIC.
-// Threads: one.
 #pragma once
 
 #include <cstdint>

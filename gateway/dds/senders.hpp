@@ -2,7 +2,6 @@
 // Inputs: the writers that DDS has matched with this host's readers. Each tells its host's name (policy GROUP_DATA).
 // Outputs: the host of a writer; whether a host has a writer of a topic.
 // Errors: 0 for a writer whose name is not that of its certificate, and for one that DDS does not know.
-// Threads: one.
 // Source: DDS Security 1.1, 9.3.3: the first 48 bits of a participant's GUID are a hash of its certificate's subject
 //   name. Cyclone DDS checks them when it authenticates the participant, and lets nobody write a topic that his
 //   permissions do not name.
@@ -12,7 +11,6 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <vector>

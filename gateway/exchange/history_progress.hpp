@@ -31,7 +31,7 @@ inline constexpr std::int64_t kMaxFirstAge_ns = 500'000'000;
 template <class Newest>
 bool may_begin(const Context& context, dds::Topic topic, std::uint64_t host, const Newest& newest) {
   if (context.lockstep || host == context.hosts.self().id ||
-      context.hosts.knows(topic, host, context.hosts.said_by(host).segment))
+      context.hosts.numbers(topic, host).knows(context.hosts.said_by(host).segment))
     return true;
   const double max_age_ns = 0.5 * static_cast<double>(kMaxFirstAge_ns) * std::max(1.0, context.session.clock().rate);
   const std::int64_t oldest_ns = context.session.sim_time_ns() - static_cast<std::int64_t>(max_age_ns);
@@ -117,7 +117,7 @@ class History {
   // `tick`: of the record.
   template <class Ring>
   bool is_new(Context& context, const Sample& sample, const Ring& ring, std::int64_t tick) const {
-    if (context.hosts.knows(kTopic, sample.host, sample.start)) return context.hosts.is_new(sample);
+    if (context.hosts.numbers(kTopic, sample.host).knows(sample.start)) return context.hosts.is_new(sample);
     const std::uint64_t source = source_id({sample.host, sample.start});
     const auto& entries = context.session.layout().network.histories[kIndex];
     const auto entry = std::ranges::find_if(entries, [source](const auto& one) { return one.source.load() == source; });

@@ -327,18 +327,14 @@ bool Hosts::is_new(dds::Topic topic, std::uint64_t id, std::uint64_t start, std:
   return host != nullptr && host->numbers[dds::index_of(topic)].is_new(start, number, max_repeats(topic));
 }
 
-bool Hosts::knows(dds::Topic topic, std::uint64_t id, std::uint64_t start) const {
-  const Host* host = host_of(id);
-  return host != nullptr && host->numbers[dds::index_of(topic)].knows(start);
-}
-
 void Hosts::resume(dds::Topic topic, std::uint64_t id, std::uint64_t start, std::uint64_t next) {
   if (Host* host = host_of(id, true); host != nullptr) host->numbers[dds::index_of(topic)].resume(start, next);
 }
 
-std::uint64_t Hosts::next_from(dds::Topic topic, std::uint64_t id) const {
+const SampleNumbers& Hosts::numbers(dds::Topic topic, std::uint64_t id) const {
+  static const SampleNumbers kNone;
   const Host* host = host_of(id);
-  return host == nullptr ? 0 : host->numbers[dds::index_of(topic)].next();
+  return host == nullptr ? kNone : host->numbers[dds::index_of(topic)];
 }
 
 void Hosts::refuse(std::uint64_t id, dds::Topic topic, const std::string& reason) {

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -113,11 +112,10 @@ class Hosts {
     return is_new(dds::kTopicOf<Sample>, sample.host, sample.start, sample.number);
   }
   bool is_new(dds::Topic topic, std::uint64_t host, std::uint64_t start, std::uint64_t number);
-  // True if a sample of this process (`start`) has arrived. resume() says where a predecessor of this gateway stopped.
-  bool knows(dds::Topic topic, std::uint64_t host, std::uint64_t start) const;
+  // Where a predecessor of this gateway stopped: as SampleNumbers::resume().
   void resume(dds::Topic topic, std::uint64_t host, std::uint64_t start, std::uint64_t next);
-  // Number of the next sample that is expected from the host.
-  std::uint64_t next_from(dds::Topic topic, std::uint64_t host) const;
+  // Numbers of the samples that have arrived from a host.
+  const SampleNumbers& numbers(dds::Topic topic, std::uint64_t host) const;
   // Counts and notes an invalid sample of a host.
   template <class Sample>
   void refuse(const Sample& sample, const std::string& reason) {

@@ -108,7 +108,7 @@ class LockstepExchange {
       const auto topic = static_cast<dds::Topic>(i);
       // The first four do not carry records, and lockstep has no samples but its own before this one.
       if (topic <= dds::Topic::clock_requests || topic == dds::Topic::lockstep || !context.reads(topic)) continue;
-      if (context.hosts.next_from(topic, sample.host) < sample.written[i]) return false;
+      if (context.hosts.numbers(topic, sample.host).next() < sample.written[i]) return false;
     }
     return true;
   }

@@ -7,13 +7,17 @@
 // Source: docs/network.md#which-host-has-a-role.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "databuffer/session/session.hpp"
 #include "gateway/exchange/hosts.hpp"
+#include "lib/log/log.hpp"
 
 namespace yars::gateway {
 
@@ -24,33 +28,80 @@ inline constexpr std::int64_t kListening_ns = 1'000'000'000;
 class Roles {
  public:
   // `session_name`: each mirrored role has an entry of its own in the process table, which takes a Session of its own.
-  Roles(databuffer::Session& session, std::string session_name);
+  Roles(databuffer::Session& session, std::string session_name)
+      : session_(&session),
+        session_name_(std::move(session_name)),
+        states_{{{Role::radar_model, true},
+                 {Role::state_machine, true},
+                 {Role::traffic, false},
+                 {Role::recorder, false},
+                 {Role::tour, false}}} {
+    session.layout().network.yielding_roles.store(0);
+  }
   Roles(const Roles&) = delete;
   Roles& operator=(const Roles&) = delete;
-  ~Roles();  // a standby of this host takes a released role at once
+  // A standby of this host takes a released role at once.
+  ~Roles() {
+    for (State& state : states_) release(state);
+  }
 
   // This host may not hold the role, as its records may not leave it (topicsOut, permissions of DDS Security). A local
   // holder yields, and a standby waits. Otherwise the other hosts would wait for records that never come.
-  void bar(databuffer::Role role);
+  void bar(databuffer::Role role) {
+    const auto found = std::ranges::find(states_, role, &State::role);
+    assert(found != states_.end() && found->exclusive);
+    found->barred = true;
+    log::info("this host may not hold the role " + std::string(name_of(role)) + ": its topics may not leave it");
+  }
 
   // Compares who holds each role, claims, releases, and asks to yield.
-  void update(const Hosts& hosts, std::int64_t now_ns);
-  void heartbeat();
+  void update(const Hosts& hosts, std::int64_t now_ns) {
+    for (State& state : states_) state.local = !state.claim && std::as_const(*session_).role_is_held(state.role);
+    for (State& state : states_) update(state, hosts, now_ns);
+  }
+
+  void heartbeat() {
+    for (State& state : states_)
+      if (state.session) state.session->heartbeat();
+  }
 
   // Host whose records of this role are to be published here: it has the role, and this gateway mirrors it.
-  std::optional<std::uint64_t> source(databuffer::Role role) const;
+  std::optional<std::uint64_t> source(databuffer::Role role) const {
+    const State& state = state_of(role);
+    return state.claim ? state.holder : std::nullopt;
+  }
+
   // True if a local process holds the role and no other host precedes: its records go to the other hosts.
-  bool exports(databuffer::Role role) const;
+  bool exports(databuffer::Role role) const {
+    const State& state = state_of(role);
+    if (!state.local || state.barred) return false;
+    return !state.exclusive ||
+           (session_->layout().network.yielding_roles.load() >> static_cast<unsigned>(role) & 1U) == 0;
+  }
+
   // Host with the role, this one included; nullopt: none.
-  std::optional<std::uint64_t> holder(databuffer::Role role) const;
-  std::uint32_t held_roles() const;  // bit n: a local process other than this gateway holds role n
+  std::optional<std::uint64_t> holder(databuffer::Role role) const { return state_of(role).holder; }
+
+  // Bit n: a local process other than this gateway holds role n
+  std::uint32_t held_roles() const {
+    std::uint32_t bits = 0;
+    for (const State& state : states_)
+      if (state.local && !state.barred) bits |= 1U << static_cast<unsigned>(state.role);
+    return bits;
+  }
 
   std::uint32_t takeovers() const { return takeovers_; }
   std::uint32_t conflicts() const { return conflicts_; }
-  bool in_conflict() const;  // two hosts hold a role at this moment
-  bool gives_way() const;    // a role of this host stays on another that holds it too
+  // True if two hosts hold a role at this moment.
+  bool in_conflict() const { return std::ranges::any_of(states_, &State::conflict); }
+
+  // True if a role of this host stays on another that holds it too.
+  bool gives_way() const { return std::ranges::any_of(states_, &State::gives_way); }
 
  private:
+  using Role = databuffer::Role;
+  static constexpr std::int64_t kLending_ns = 300'000'000;  // time for a local process to claim a role that it wants
+
   struct State {
     databuffer::Role role;
     // One host of the session holds it, and the process table shows it by name. Else each host may have a holder.
@@ -65,11 +116,86 @@ class Roles {
     std::optional<std::uint64_t> holder = std::nullopt;
     Vacancy vacancy = {};
   };
-  void update(State& state, const Hosts& hosts, std::int64_t now_ns);
-  void mirror(State& state);
-  void release(State& state);
-  void set_bit(std::atomic<std::uint32_t>& bits, databuffer::Role role, bool on);
-  const State& state_of(databuffer::Role role) const;
+
+  void update(State& state, const Hosts& hosts, std::int64_t now_ns) {
+    // This host's announced claims may be one pass old; what counts here is the present.
+    const auto holds = [&](const HostView& host) {
+      return host.id == hosts.self().id ? state.local && !state.barred
+                                        : (host.held_roles >> static_cast<unsigned>(state.role) & 1U) != 0;
+    };
+    const HostView* holder = preceding(hosts.views(), holds);
+    const bool is_self = holder != nullptr && holder->id == hosts.self().id;
+    const auto holders = std::ranges::count_if(hosts.views(), holds);
+    const bool conflict = state.exclusive && holders > 1;
+    if (conflict && !state.conflict) {
+      ++conflicts_;
+      hosts.say(log::warning, databuffer::NoteKind::restart,
+                std::string(name_of(state.role)) + " runs on " + std::to_string(holders) + " hosts; it stays on " +
+                    holder->name);
+    }
+    state.conflict = conflict;
+    state.gives_way = conflict && !is_self && state.local && !state.barred;
+    if (is_self && state.holder && *state.holder != hosts.self().id) ++takeovers_;
+    if (holder != nullptr) state.holder = holder->id;
+    const bool may_release = state.vacancy.may_take(holder == nullptr, rank_of(hosts.views(), hosts.self()), now_ns);
+    if (!state.exclusive && state.local) state.holder = hosts.self().id;
+    // A process of this host that wants a shared role gets it. It claims the role within some ms.
+    auto& wanted = session_->layout().network.wanted_roles;
+    if (!state.exclusive && (wanted.load() >> static_cast<unsigned>(state.role) & 1U) != 0) {
+      set_bit(wanted, state.role, false);
+      release(state);
+      state.lent_until_ns = now_ns + kLending_ns;
+    }
+    if (now_ns < state.lent_until_ns && !state.local) return;
+    // The role is claimed before the request to yield ends, so that no standby of this host gets in between.
+    const bool is_elsewhere = holder != nullptr && !is_self;
+    if ((is_elsewhere || state.barred) && !state.local && !state.claim) mirror(state);
+    if (state.exclusive)
+      set_bit(session_->layout().network.yielding_roles, state.role, state.local && (is_elsewhere || state.barred));
+    // A gateway that has just started has not heard the other hosts yet.
+    if (first_update_ns_ == 0) first_update_ns_ = now_ns;
+    if (state.exclusive && now_ns - first_update_ns_ < kListening_ns) return;
+    if (holder == nullptr && (may_release || !state.exclusive)) {
+      state.holder.reset();
+      if (!state.barred) release(state);
+    }
+  }
+
+  void mirror(State& state) {
+    auto& bits = session_->layout().network.mirrored_roles;
+    if (!state.session) {
+      auto session = databuffer::Session::open(session_name_, state.exclusive ? name_of(state.role) : "gateway");
+      if (!session) return;
+      state.session.emplace(std::move(*session));
+    }
+    if (state.exclusive) set_bit(bits, state.role, true);
+    auto claim = state.session->claim(state.role);
+    if (claim) state.claim.emplace(std::move(*claim));
+  }
+
+  void release(State& state) {
+    if (state.exclusive) set_bit(session_->layout().network.mirrored_roles, state.role, false);
+    if (!state.claim) return;
+    if (state.role == Role::traffic) session_->layout().traffic.clear();
+    if (state.role == Role::tour) session_->layout().caption.clear();
+    state.claim.reset();
+    state.session.reset();
+  }
+
+  void set_bit(std::atomic<std::uint32_t>& bits, Role role, bool on) {
+    const std::uint32_t bit = 1U << static_cast<unsigned>(role);
+    if (((bits.load() & bit) != 0) == on) return;
+    if (on)
+      bits.fetch_or(bit);
+    else
+      bits.fetch_and(~bit);
+  }
+
+  const State& state_of(Role role) const {
+    const auto found = std::ranges::find(states_, role, &State::role);
+    assert(found != states_.end());
+    return *found;
+  }
 
   databuffer::Session* session_;
   std::string session_name_;

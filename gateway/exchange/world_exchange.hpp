@@ -13,9 +13,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "databuffer/session/session_layout.hpp"
@@ -179,8 +177,7 @@ class WorldExchange {
   // The answer comes last: who has waited for it finds the newest world.
   void write_state(Context& context, const yars_net_WorldSample& sample) {
     auto& layout = context.session.layout();
-    const bool is_written =
-        sample.host == written_host_ && sample.start == written_start_ && sample.number == written_number_;
+    const bool is_written = sample.start == written_start_ && sample.number == written_number_;
     // What stands in the slot counts: a local process may have written there since.
     if (!is_written || layout.world.version() != written_version_) {
       WorldState record{};
@@ -192,7 +189,6 @@ class WorldExchange {
       else if (layout.world_configured.has_value())
         layout.world_configured.clear();
     }
-    written_host_ = sample.host;
     written_start_ = sample.start;
     written_number_ = sample.number;
     written_version_ = layout.world.version();
@@ -289,7 +285,7 @@ class WorldExchange {
   HostMemory<yars_net_WorldSample> states_;
   HostMemory<yars_net_LatchedWorldSample> latched_;
   // The last sample that write_state() had, and the version of `world` then.
-  std::uint64_t written_host_ = 0, written_start_ = 0, written_number_ = 0, written_version_ = 0;
+  std::uint64_t written_start_ = 0, written_number_ = 0, written_version_ = 0;
   std::uint64_t requested_ = 0, requested_of_ = 0;  // number of the request that was sent last, and to which host
 };
 
