@@ -56,7 +56,6 @@ class SampleNumbers {
     begun_ = true;
   }
   bool knows(std::uint64_t start) const { return begun_ && start_ == start; }  // samples of this process have arrived
-  std::uint64_t start() const { return start_; }
   std::uint64_t next() const { return next_; }  // number of the next expected sample; 0: none has arrived
   std::uint64_t received() const { return received_; }
   std::uint64_t repeated() const { return repeated_; }

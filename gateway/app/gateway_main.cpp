@@ -121,11 +121,10 @@ class GatewayShell {
     roles_.update(hosts_, context_.now_ns);
     roles_.heartbeat();
     clock_.exchange(context_);
-    context_.joined = clock_.joined();
     lockstep_.begin_pass(context_);
     receive();
     send();
-    const bool has_joined = context_.joined && !std::exchange(reported_joined_, true);
+    const bool has_joined = clock_.joined() && !std::exchange(reported_joined_, true);
     if (has_joined) report_joined();
     if (reports_.is_due(has_joined, context_.now_ns)) report();
   }
@@ -207,7 +206,7 @@ class GatewayShell {
     last_report_ns_ = context_.now_ns;
     databuffer::NetworkStatus status{};
     status.monotonic_ns = context_.now_ns;
-    status.joined = context_.joined ? 1 : 0;
+    status.joined = clock_.joined() ? 1 : 0;
     status.domain = static_cast<std::uint32_t>(domain_);
     status.secured = secured_ ? 1 : 0;
     status.takeovers = roles_.takeovers();

@@ -118,22 +118,24 @@ tl::unexpected<error::Error> fail_link(const radar::NetworkSettings& settings, c
 
 }  // namespace
 
-// What a reader holds.
-struct ReaderUse {
-  explicit ReaderUse(Topic topic) : quota(settings_of(topic).instances, settings_of(topic).all_instances) {}
-  InstanceQuota quota;
+// A topic, with the entities that Cyclone DDS has for it.
+struct TopicState {
+  explicit TopicState(Topic topic) : quota(settings_of(topic).instances, settings_of(topic).all_instances) {}
+  dds_entity_t topic = 0, reader = 0, writer = 0;
+  TopicCounts counts;
+  InstanceQuota quota;            // of the reader
   std::uint64_t next_report = 1;  // number of refused samples that is worth a message
   int taken = 0;                  // since begin_take()
 };
 
 // Filter of a topic. It is asked for each sample that arrives, on threads of Cyclone DDS.
-bool admits(const dds_sample_info_t* info, void* use) {
-  return static_cast<ReaderUse*>(use)->quota.admits(info->instance_handle, info->publication_handle);
+bool admits(const dds_sample_info_t* info, void* topic) {
+  return static_cast<TopicState*>(topic)->quota.admits(info->instance_handle, info->publication_handle);
 }
 
 struct Link::State {
   State() {
-    for (std::size_t i = 0; i < kTopicCount; ++i) uses.emplace_back(static_cast<Topic>(i));
+    for (std::size_t i = 0; i < kTopicCount; ++i) topics.emplace_back(static_cast<Topic>(i));
   }
   State(const State&) = delete;
   State& operator=(const State&) = delete;
@@ -147,15 +149,13 @@ struct Link::State {
   void renew_reader(Topic topic);
   void report_refused(Topic topic);
   bool write(dds_entity_t writer, Topic topic, const void* sample, std::size_t bytes);
-  ReaderUse& use_of(Topic topic) { return uses[index_of(topic)]; }
+  TopicState& at(Topic topic) { return topics[index_of(topic)]; }
 
   radar::NetworkSettings settings;
   dds_entity_t domain = 0, participant = 0, publisher = 0, subscriber = 0, waitset = 0;
-  std::array<dds_entity_t, kTopicCount> topics{}, readers{}, writers{};
   std::array<dds_entity_t, kMaxLanes> ownship_writers{};
   std::array<std::uint32_t, kMaxLanes> ownship_strengths{};
-  std::array<TopicCounts, kTopicCount> counts;
-  std::deque<ReaderUse> uses;  // by topic; Cyclone DDS keeps pointers to them
+  std::deque<TopicState> topics;  // Cyclone DDS keeps pointers to them
   Participants others;
   alignas(16) std::array<std::byte, kMaxSample_bytes> taken{};
   yars_net_SweepSample sweep{};          // Cyclone DDS allocates its video
@@ -196,22 +196,23 @@ error::Expected<void> Link::State::open_topics(const std::string& session) {
   waitset = dds_create_waitset(participant);
   for (std::size_t i = 0; i < kTopicCount; ++i) {
     const auto topic = static_cast<Topic>(i);
+    TopicState& state = topics[i];
     const TopicSettings& topic_settings = settings_of(topic);
     const std::string name = "yars/" + std::string(topic_settings.name);
     const Qos topic_qos = qos_of(topic_settings);
-    topics[i] = dds_create_topic(participant, topic_settings.structure, name.c_str(), nullptr, nullptr);
-    if (topics[i] < 0) return fail_link(settings, "topic " + name, topics[i]);
-    const dds_topic_filter filter{DDS_TOPIC_FILTER_SAMPLEINFO_ARG, {.sampleinfo_arg = &admits}, &use_of(topic)};
-    dds_set_topic_filter_extended(topics[i], &filter);
+    state.topic = dds_create_topic(participant, topic_settings.structure, name.c_str(), nullptr, nullptr);
+    if (state.topic < 0) return fail_link(settings, "topic " + name, state.topic);
+    const dds_topic_filter filter{DDS_TOPIC_FILTER_SAMPLEINFO_ARG, {.sampleinfo_arg = &admits}, &state};
+    dds_set_topic_filter_extended(state.topic, &filter);
     if (is_listed(settings.topics_out, topic) && topic != Topic::ownship) {
-      writers[i] = dds_create_writer(publisher, topics[i], topic_qos.get(), nullptr);
-      if (writers[i] < 0 && writers[i] != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
-        return fail_link(settings, "a writer of topic " + name, writers[i]);
+      state.writer = dds_create_writer(publisher, state.topic, topic_qos.get(), nullptr);
+      if (state.writer < 0 && state.writer != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+        return fail_link(settings, "a writer of topic " + name, state.writer);
     }
     if (!is_listed(settings.topics_in, topic)) continue;
-    readers[i] = open_reader(topic);
-    if (readers[i] < 0 && readers[i] != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
-      return fail_link(settings, "a reader of topic " + name, readers[i]);
+    state.reader = open_reader(topic);
+    if (state.reader < 0 && state.reader != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+      return fail_link(settings, "a reader of topic " + name, state.reader);
   }
   return {};
 }
@@ -223,7 +224,7 @@ dds_entity_t Link::State::open_reader(Topic topic) {
   // Who poses as a host writes to its instance. With one sample for both, a loaded gateway would lose that host.
   constexpr int kAnnouncements = 64;
   if (topic == Topic::hosts) dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kAnnouncements);
-  const dds_entity_t reader = dds_create_reader(subscriber, topics[index_of(topic)], qos.get(), nullptr);
+  const dds_entity_t reader = dds_create_reader(subscriber, at(topic).topic, qos.get(), nullptr);
   const bool is_awaited = topic == Topic::probes || topic == Topic::input_events;
   if (reader > 0 && is_awaited) {
     const dds_entity_t condition = dds_create_readcondition(reader, DDS_NOT_READ_SAMPLE_STATE);
@@ -234,17 +235,17 @@ dds_entity_t Link::State::open_reader(Topic topic) {
 
 // The only way to free instances whose writer lives. What the writers keep arrives again.
 void Link::State::renew_reader(Topic topic) {
-  dds_delete(readers[index_of(topic)]);
-  use_of(topic).quota.clear();
-  readers[index_of(topic)] = open_reader(topic);
+  dds_delete(at(topic).reader);
+  at(topic).quota.clear();
+  at(topic).reader = open_reader(topic);
 }
 
 // A message for the first sample, the 10th, the 100th, ...
 void Link::State::report_refused(Topic topic) {
-  ReaderUse& use = use_of(topic);
-  const std::uint64_t refused = use.quota.refused();
-  if (refused < use.next_report) return;
-  while (use.next_report <= refused) use.next_report *= 10;
+  TopicState& state = at(topic);
+  const std::uint64_t refused = state.quota.refused();
+  if (refused < state.next_report) return;
+  while (state.next_report <= refused) state.next_report *= 10;
   Messages::instance().add("topic " + std::string(settings_of(topic).name) + ": expected at most " +
                            std::to_string(settings_of(topic).instances) + " instances of a writer, found more; " +
                            std::to_string(refused) + " samples left out so far; another program writes there");
@@ -252,11 +253,11 @@ void Link::State::report_refused(Topic topic) {
 
 bool Link::writes(Topic topic) const {
   if (topic == Topic::ownship) return is_listed(state_->settings.topics_out, topic);  // has a writer for each lane
-  return state_->writers[index_of(topic)] > 0;
+  return state_->at(topic).writer > 0;
 }
 
 bool Link::reads(Topic topic) const {
-  return state_->readers[index_of(topic)] > 0;
+  return state_->at(topic).reader > 0;
 }
 
 bool Link::host_writes(std::uint64_t host, Topic topic) const {
@@ -265,9 +266,9 @@ bool Link::host_writes(std::uint64_t host, Topic topic) const {
 
 bool Link::is_from(Topic topic, std::uint64_t host) {
   if (state_->settings.security.empty()) return true;
-  const std::uint64_t writer = state_->senders.host_of(state_->readers[index_of(topic)], state_->taken_from);
+  const std::uint64_t writer = state_->senders.host_of(state_->at(topic).reader, state_->taken_from);
   if (writer == host && host != 0) return true;
-  if (state_->counts[index_of(topic)].posed++ == 0)
+  if (state_->at(topic).counts.posed++ == 0)
     Messages::instance().add(
         "topic " + std::string(settings_of(topic).name) +
         ": expected samples of the host that the writer's certificate names, found one of another; "
@@ -278,27 +279,22 @@ bool Link::is_from(Topic topic, std::uint64_t host) {
 void Link::update_senders() {
   constexpr std::uint32_t kInterval = 10;  // passes
   if (state_->settings.security.empty() || state_->passes++ % kInterval != 0) return;
-  for (std::size_t i = 0; i < kTopicCount; ++i) state_->senders.update(state_->readers[i], static_cast<Topic>(i));
+  for (std::size_t i = 0; i < kTopicCount; ++i) state_->senders.update(state_->topics[i].reader, static_cast<Topic>(i));
 }
 
 bool Link::write_bytes(Topic topic, const void* sample, std::size_t bytes) {
-  const dds_entity_t writer = state_->writers[index_of(topic)];
-  return writer > 0 && state_->write(writer, topic, sample, bytes);
+  return state_->write(state_->at(topic).writer, topic, sample, bytes);
 }
 
 bool Link::State::write(dds_entity_t writer, Topic topic, const void* sample, std::size_t bytes) {
-  TopicCounts& counted = counts[index_of(topic)];
-  if (writer <= 0 || dds_write(writer, sample) < 0) {
-    ++counted.failed;
-    return false;
-  }
-  ++counted.sent;
-  counted.sent_bytes += bytes;
+  if (writer <= 0 || dds_write(writer, sample) < 0) return false;
+  ++at(topic).counts.sent;
+  at(topic).counts.sent_bytes += bytes;
   return true;
 }
 
 void Link::dispose_bytes(Topic topic, const void* sample) {
-  const dds_entity_t writer = state_->writers[index_of(topic)];
+  const dds_entity_t writer = state_->at(topic).writer;
   if (writer <= 0) return;
   dds_dispose(writer, sample);
   dds_unregister_instance(writer, sample);
@@ -312,7 +308,7 @@ bool Link::write_ownship(std::uint32_t lane, const yars_net_OwnshipSample& sampl
     constexpr std::uint32_t kMaxStrength = 0x7FFFFFFF;
     const Qos qos = qos_of(settings_of(Topic::ownship));
     dds_qset_ownership_strength(qos.get(), static_cast<int>(std::min(sample.priority, kMaxStrength)));
-    writer = dds_create_writer(state_->publisher, state_->topics[index_of(Topic::ownship)], qos.get(), nullptr);
+    writer = dds_create_writer(state_->publisher, state_->at(Topic::ownship).topic, qos.get(), nullptr);
     state_->ownship_strengths[lane] = sample.priority;
   }
   return state_->write(writer, Topic::ownship, &sample, sizeof sample);
@@ -325,21 +321,20 @@ void Link::end_ownship(std::uint32_t lane) {
 }
 
 void Link::begin_take(Topic topic) {
-  ReaderUse& use = state_->use_of(topic);
-  use.taken = 0;
-  if (use.quota.strays() > kMaxStrays && reads(topic)) state_->renew_reader(topic);
+  TopicState& state = state_->at(topic);
+  state.taken = 0;
+  if (state.quota.strays() > kMaxStrays && reads(topic)) state_->renew_reader(topic);
 }
 
 const void* Link::take_next(Topic topic, bool* alive) {
-  const dds_entity_t reader = state_->readers[index_of(topic)];
-  ReaderUse& use = state_->use_of(topic);
-  if (reader <= 0 || use.taken >= kMaxTaken) return nullptr;
+  TopicState& state = state_->at(topic);
+  if (state.reader <= 0 || state.taken >= kMaxTaken) return nullptr;
   void* sample = topic == Topic::sweeps ? static_cast<void*>(&state_->sweep) : state_->taken.data();
   dds_sample_info_t info{};
-  while (use.taken < kMaxTaken && dds_take(reader, &sample, &info, 1, 1) > 0) {
-    ++use.taken;
+  while (state.taken < kMaxTaken && dds_take(state.reader, &sample, &info, 1, 1) > 0) {
+    ++state.taken;
     state_->taken_from = info.publication_handle;
-    if (info.instance_state != DDS_IST_ALIVE) use.quota.end(info.instance_handle);
+    if (info.instance_state != DDS_IST_ALIVE) state.quota.end(info.instance_handle);
     if (alive != nullptr) {
       *alive = info.valid_data;
       // A sample that the reader held before its writer's lease ended comes with the end.
@@ -351,15 +346,16 @@ const void* Link::take_next(Topic topic, bool* alive) {
 }
 
 void Link::count_received(Topic topic, std::size_t bytes) {
-  ++state_->counts[index_of(topic)].received;
-  state_->counts[index_of(topic)].received_bytes += bytes;
+  ++state_->at(topic).counts.received;
+  state_->at(topic).counts.received_bytes += bytes;
 }
 
 bool Link::is_acknowledged() const {
   const auto has_all = [](dds_entity_t writer) {
     return writer <= 0 || dds_wait_for_acks(writer, 0) != DDS_RETCODE_TIMEOUT;
   };
-  return std::ranges::all_of(state_->writers, has_all) && std::ranges::all_of(state_->ownship_writers, has_all);
+  return std::ranges::all_of(state_->topics, has_all, &TopicState::writer) &&
+         std::ranges::all_of(state_->ownship_writers, has_all);
 }
 
 void Link::wait(std::int64_t time_ns) {
@@ -367,7 +363,7 @@ void Link::wait(std::int64_t time_ns) {
 }
 
 const TopicCounts& Link::counts(Topic topic) const {
-  return state_->counts[index_of(topic)];
+  return state_->at(topic).counts;
 }
 
 std::vector<std::string> Link::take_messages(std::int64_t now_ns) {

@@ -1,9 +1,9 @@
 // Connection of one process to the DDS domain of a session: writers and readers of all topics.
 // Inputs: the form Network; samples, as structures of yars_network.h.
 // Outputs: samples of other processes; counts of samples and bytes.
-// Errors: open(): an interface that does not exist, a configuration that Cyclone DDS refuses, unreadable identities. A
-//   write that fails is counted. Messages of Cyclone DDS are kept for take_messages(). Samples of a writer beyond its
-//   number of instances (TopicSettings) are left out, with a message.
+// Errors: open(): an interface that does not exist, a configuration that Cyclone DDS refuses, unreadable identities.
+//   Messages of Cyclone DDS are kept for take_messages(). Samples of a writer beyond its number of instances
+//   (TopicSettings) are left out, with a message.
 // Threads: one. Cyclone DDS has threads of its own.
 // Source: Eclipse Cyclone DDS 0.10, C API.
 #pragma once
@@ -21,9 +21,9 @@
 
 namespace yars::gateway::dds {
 
-// failed: DDS refused the sample. posed: samples that named another host than their writer's.
+// posed: samples that named another host than their writer's.
 struct TopicCounts {
-  std::uint64_t sent = 0, sent_bytes = 0, received = 0, received_bytes = 0, failed = 0, posed = 0;
+  std::uint64_t sent = 0, sent_bytes = 0, received = 0, received_bytes = 0, posed = 0;
 };
 
 inline constexpr std::size_t kMaxSample_bytes = 40960;  // of the structure of a topic

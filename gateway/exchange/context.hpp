@@ -35,7 +35,6 @@ struct Context {
   Roles& roles;
   std::int64_t now_ns = 0;  // CLOCK_MONOTONIC at the begin of the pass
   bool lockstep = false;    // the session runs in lockstep: every tick is exchanged
-  bool joined = false;      // the session clock is known
 
   // As Link::write() and Link::writes(). Without a link every sample counts as written.
   template <class Sample>
