@@ -15,6 +15,7 @@
 #include "gateway/checks/computer_check.hpp"
 #include "gateway/checks/identity_check.hpp"
 #include "gateway/dds/link.hpp"
+#include "gateway/dds/participants.hpp"
 #include "gateway/exchange/clock_exchange.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/event_exchange.hpp"
@@ -77,11 +78,9 @@ class GatewayShell {
         secured_(!settings.security.empty()) {
     if (!link_.writes(dds::Topic::clock))
       log::info("this host does not set the session clock: it may not write the topic clock");
-    for (const Role role : {Role::radar_model, Role::state_machine}) {
-      const auto found = std::ranges::find(kRoleTopics, role, &RoleTopics::role);
-      if (!std::ranges::all_of(found->topics, [this](dds::Topic topic) { return link_.writes(topic); }))
-        roles_.bar(role);
-    }
+    const std::uint32_t writable = writable_roles([this](dds::Topic topic) { return link_.writes(topic); });
+    for (const Role role : {Role::radar_model, Role::state_machine})
+      if ((writable >> static_cast<unsigned>(role) & 1U) == 0) roles_.bar(role);
   }
 
   // Waits for the next pass and runs it. Probes and input events are taken as soon as they arrive.

@@ -13,6 +13,7 @@
 
 #include "gateway/dds/domain_configuration.hpp"
 #include "gateway/dds/instance_quota.hpp"
+#include "gateway/dds/participants.hpp"
 #include "gateway/dds/senders.hpp"
 #include "gateway/message_limit.hpp"
 

@@ -14,12 +14,13 @@
 #include <type_traits>
 #include <vector>
 
-#include "gateway/dds/participants.hpp"
 #include "gateway/dds/topics.hpp"
 #include "lib/error/error.hpp"
 #include "lib/radar/network.hpp"
 
 namespace yars::gateway::dds {
+
+class Participants;
 
 // posed: samples that named another host than their writer's.
 struct TopicCounts {

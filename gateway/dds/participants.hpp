@@ -5,13 +5,19 @@
 // Units: times [ns], CLOCK_MONOTONIC.
 #pragma once
 
+#include <dds/dds.h>
+
 #include <cstdint>
+#include <cstring>
 #include <map>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
+#include "databuffer/messages/note.hpp"
 #include "gateway/pace.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::gateway::dds {
 
@@ -22,8 +28,23 @@ struct Remark {
   bool is_fault = false;  // false: it may be meant so
 };
 
+inline std::string gateway_text(const std::string& name, const std::string& address) {
+  return "the gateway of " + name + " (" + address + ')';
+}
+
 // The line about gateway `name` at `address`, which exchanges nothing. `secured`: this side has an identity.
-Remark silence_of(const std::string& name, const std::string& address, bool secured);
+inline Remark silence_of(const std::string& name, const std::string& address, bool secured) {
+  constexpr std::size_t kMaxAddress = 15;  // [bytes] of an IPv4 address
+  const std::string cause = secured ? "its form Network has no `security`, or an identity of another network"
+                                    : "its form Network has `security`, and that of this host has none";
+  std::string note = " exchanges nothing: compare `security`, open UDP ports";
+  const std::string at = " (" + address.substr(0, kMaxAddress) + ')';
+  note = name.substr(0, sizeof(databuffer::Note::text) - 1 - note.size() - at.size()) + at + note;
+  return {gateway_text(name, address) + " is heard, but exchanges nothing: " + cause +
+              ", or it does not hear this host; give both hosts identities of one network, or neither, and open their "
+              "UDP ports",
+          std::move(note), true};
+}
 
 // Permission to join again, a few times and then every two minutes: others can cause it, and it disturbs the session.
 struct RejoinLimit : Allowance {
@@ -34,16 +55,53 @@ struct RejoinLimit : Allowance {
 class Participants {
  public:
   // `participant`: entity of Cyclone DDS. `session`: name of the session. `secured`: this side has an identity.
-  void open(std::int32_t participant, std::string session, bool secured);
+  void open(std::int32_t participant, std::string session, bool secured) {
+    session_ = std::move(session);
+    secured_ = secured;
+    dds_guid_t guid{};
+    if (dds_get_guid(participant, &guid) == DDS_RETCODE_OK) self_ = key_of(guid);
+    participants_ = dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr);
+    writers_ = dds_create_reader(participant, DDS_BUILTIN_TOPIC_DCPSPUBLICATION, nullptr, nullptr);
+  }
+
   // Lines about participants that were found since the last call. Each is named once.
-  std::vector<Remark> take_remarks(std::int64_t now_ns);
+  std::vector<Remark> take_remarks(std::int64_t now_ns) {
+    take_participants(now_ns);
+    take_writers();
+    std::vector<Remark> remarks;
+    for (auto& [key, other] : others_) {
+      if (other.is_named || other.is_here || other.name.empty()) continue;
+      if (other.session.empty() && now_ns - other.first_ns < kSilence_ns) continue;
+      other.is_named = true;
+      remarks.push_back(remark_on(other));
+    }
+    return remarks;
+  }
+
   // With security: the name of a gateway with which this one should try the handshake of DDS Security again, by a
   // participant of its own that is new; empty: none. Cyclone DDS 0.10 can lose a handshake for good on a line that
   // loses messages (eclipse-cyclonedds/cyclonedds, issue 1895). Of two gateways the one with the greater GUID is told
   // so. Each participant is named once.
-  std::string take_lost_handshake(std::int64_t now_ns);
+  std::string take_lost_handshake(std::int64_t now_ns) {
+    if (!secured_) return "";
+    for (auto& [key, other] : others_) {
+      if (other.is_lost || other.is_here || other.name.empty() || !other.session.empty()) continue;
+      if (now_ns - other.first_ns < kHandshake_ns || !(key < self_)) continue;
+      other.is_lost = true;
+      return other.name;
+    }
+    return "";
+  }
 
  private:
+  static constexpr std::size_t kMaxOthers = 64;  // participants that are remembered; forged ones beyond are not named
+  // [ns] A host's writers are known some ms after itself, encrypted on a bad line half a second. With a shorter time a
+  // loaded machine would name hosts that join.
+  static constexpr std::int64_t kSilence_ns = 5'000'000'000;
+  // [ns] A handshake on a bad line is done, or lost for good, within this time.
+  static constexpr std::int64_t kHandshake_ns = 8'000'000'000;
+  static constexpr std::size_t kMaxText = 64;  // [bytes] of a text about itself that a participant sends
+
   using Key = std::pair<std::uint64_t, std::uint64_t>;  // GUID of a participant
   struct Other {
     std::string name, address;  // of a gateway; empty: it is none
@@ -53,9 +111,95 @@ class Participants {
     bool is_named = false;
     bool is_lost = false;  // take_lost_handshake() has named it
   };
-  void take_participants(std::int64_t now_ns);
-  void take_writers();
-  Remark remark_on(const Other& other) const;
+
+  // Calls take(sample, info) for what has arrived on a reader of a topic of Cyclone DDS itself.
+  template <class Sample, class Take>
+  static void take_all(dds_entity_t reader, const Take& take) {
+    if (reader <= 0) return;
+    constexpr int kAtOnce = 16, kMaxRounds = 16;
+    for (int round = 0; round < kMaxRounds; ++round) {
+      void* samples[kAtOnce] = {};
+      dds_sample_info_t infos[kAtOnce];
+      const dds_return_t count = dds_take(reader, samples, infos, kAtOnce, kAtOnce);
+      for (int i = 0; i < count; ++i) take(*static_cast<const Sample*>(samples[i]), infos[i]);
+      if (count > 0) dds_return_loan(reader, samples, count);
+      if (count < kAtOnce) return;
+    }
+  }
+
+  static Key key_of(const dds_guid_t& guid) {
+    Key key;
+    std::memcpy(&key.first, guid.v, sizeof key.first);
+    std::memcpy(&key.second, guid.v + sizeof key.first, sizeof key.second);
+    return key;
+  }
+
+  static std::string property(const dds_qos_t* qos, const char* name) {
+    char* value = nullptr;
+    if (qos == nullptr || !dds_qget_prop(qos, name, &value) || value == nullptr) return "";
+    std::string text = text::printable(std::string_view(value).substr(0, kMaxText));
+    dds_free(value);
+    return text;
+  }
+
+  // First address of a participant, such as 192.168.10.2.
+  static std::string address_of(const dds_qos_t* qos) {
+    std::string address = property(qos, "__NetworkAddresses");
+    if (const auto slash = address.find('/'); slash != std::string::npos) address.erase(0, slash + 1);
+    return address.substr(0, address.find_first_of(":,"));
+  }
+
+  static std::vector<std::string> partitions_of(const dds_qos_t* qos) {
+    std::uint32_t count = 0;
+    char** names = nullptr;
+    std::vector<std::string> partitions;
+    if (qos == nullptr || !dds_qget_partition(qos, &count, &names)) return partitions;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      partitions.emplace_back(text::printable(std::string_view(names[i]).substr(0, kMaxText)));
+      dds_free(names[i]);
+    }
+    dds_free(names);
+    return partitions;
+  }
+
+  void take_participants(std::int64_t now_ns) {
+    take_all<dds_builtintopic_participant_t>(participants_, [&](const auto& sample, const dds_sample_info_t& info) {
+      const Key key = key_of(sample.key);
+      if (info.instance_state != DDS_IST_ALIVE) {
+        others_.erase(key);
+        return;
+      }
+      if (key == self_ || !info.valid_data || (others_.size() >= kMaxOthers && !others_.contains(key))) return;
+      Other& other = others_[key];
+      if (property(sample.qos, "__ProcessName") == "gateway") {
+        other.name = property(sample.qos, "__Hostname");
+        other.address = address_of(sample.qos);
+      }
+      if (other.first_ns == 0) other.first_ns = now_ns;
+    });
+  }
+
+  void take_writers() {
+    take_all<dds_builtintopic_endpoint_t>(writers_, [&](const auto& sample, const dds_sample_info_t& info) {
+      const Key key = key_of(sample.participant_key);
+      if (key == self_ || !info.valid_data || (others_.size() >= kMaxOthers && !others_.contains(key))) return;
+      Other& other = others_[key];  // a writer may be heard of before its participant
+      for (const std::string& partition : partitions_of(sample.qos)) {
+        if (partition == session_)
+          other.is_here = true;
+        else
+          other.session = partition;
+      }
+    });
+  }
+
+  Remark remark_on(const Other& other) const {
+    if (!other.session.empty())
+      return {gateway_text(other.name, other.address) + " is of session " + other.session + ", this one of session " +
+                  session_ + ": nothing is exchanged; start both with the same --session, if they belong together",
+              "", false};
+    return silence_of(other.name, other.address, secured_);
+  }
 
   std::int32_t participants_ = 0, writers_ = 0;  // readers
   Key self_{};

@@ -27,6 +27,12 @@ template <class Record>
 bool equal(const Record& first, const Record& second) {
   return std::memcmp(&first, &second, sizeof first) == 0;
 }
+// Publishes a record that does not stand in the slot. A local process may have written there since the last one.
+template <class Record>
+void publish_changed(shm::LatestValue<Record>& slot, const Record& record) {
+  Record present{};
+  if (!slot.read(present) || !equal(record, present)) slot.publish(record);
+}
 
 struct Context {
   databuffer::Session& session;

@@ -119,24 +119,12 @@ void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t 
   if (is_news) begin(*host, sample, now_ns);
   host->view.priority = sample.priority;
   host->view.group = std::clamp<std::uint32_t>(sample.group, 1, databuffer::kMaxHosts);
-  host->view.held_roles = sample.held_roles & permitted_roles(sample.host);
-  host->view.owns_clock = sample.owns_clock != 0 && host_writes(sample.host, dds::Topic::clock);
+  const auto writes = [&](dds::Topic topic) { return link_ == nullptr || link_->host_writes(sample.host, topic); };
+  host->view.held_roles = sample.held_roles & writable_roles(writes);  // claims to others do not count
+  host->view.owns_clock = sample.owns_clock != 0 && writes(dds::Topic::clock);
   report_claims(*host, now_ns);
   report_differences(*host);
   update_views();
-}
-
-// Roles whose records another host can write. Its claims to others do not count.
-std::uint32_t Hosts::permitted_roles(std::uint64_t host) const {
-  std::uint32_t roles = 0;
-  for (const RoleTopics& role : kRoleTopics)
-    if (std::ranges::all_of(role.topics, [&](dds::Topic topic) { return host_writes(host, topic); }))
-      roles |= 1U << static_cast<unsigned>(role.role);
-  return roles;
-}
-
-bool Hosts::host_writes(std::uint64_t host, dds::Topic topic) const {
-  return link_ == nullptr || link_->host_writes(host, topic);
 }
 
 void Hosts::lose(Host& host) {

@@ -41,22 +41,32 @@ struct Identity {
 inline constexpr std::int64_t kLease_ns = 500'000'000;
 
 // Topics in which the records of a role reach the other hosts. Who cannot write them does not have the role.
-struct RoleTopics {
+struct RoleTopic {
   databuffer::Role role;
-  std::span<const dds::Topic> topics;
+  dds::Topic topic;
 };
-
-inline constexpr std::array kTopicsOfModel{dds::Topic::model_status, dds::Topic::model_ticks, dds::Topic::sweeps};
-inline constexpr std::array kTopicsOfMachine{dds::Topic::radar_state, dds::Topic::outputs, dds::Topic::applied_events,
-                                             dds::Topic::event_receipts};
-inline constexpr std::array kTopicsOfTraffic{dds::Topic::traffic};
-inline constexpr std::array kTopicsOfRecorder{dds::Topic::recorder_status};
-inline constexpr std::array kTopicsOfTour{dds::Topic::captions};
-inline constexpr std::array<RoleTopics, 5> kRoleTopics{{{databuffer::Role::radar_model, kTopicsOfModel},
-                                                        {databuffer::Role::state_machine, kTopicsOfMachine},
-                                                        {databuffer::Role::traffic, kTopicsOfTraffic},
-                                                        {databuffer::Role::recorder, kTopicsOfRecorder},
-                                                        {databuffer::Role::tour, kTopicsOfTour}}};
+inline constexpr std::array<RoleTopic, 10> kRoleTopics{{
+    {databuffer::Role::radar_model, dds::Topic::model_status},
+    {databuffer::Role::radar_model, dds::Topic::model_ticks},
+    {databuffer::Role::radar_model, dds::Topic::sweeps},
+    {databuffer::Role::state_machine, dds::Topic::radar_state},
+    {databuffer::Role::state_machine, dds::Topic::outputs},
+    {databuffer::Role::state_machine, dds::Topic::applied_events},
+    {databuffer::Role::state_machine, dds::Topic::event_receipts},
+    {databuffer::Role::traffic, dds::Topic::traffic},
+    {databuffer::Role::recorder, dds::Topic::recorder_status},
+    {databuffer::Role::tour, dds::Topic::captions},
+}};
+// Roles all topics of which may be written, as writes(topic) says. Bit n: role n.
+template <class Writes>
+std::uint32_t writable_roles(const Writes& writes) {
+  std::uint32_t roles = 0, barred = 0;
+  for (const auto& [role, topic] : kRoleTopics) {
+    roles |= 1U << static_cast<unsigned>(role);
+    if (!writes(topic)) barred |= 1U << static_cast<unsigned>(role);
+  }
+  return roles & ~barred;
+}
 
 // Processes without a lock byte that `yars status` shows on all hosts. Bit n: that with the name kLockstepRoleNames[n].
 std::uint32_t shown_processes();
@@ -146,8 +156,6 @@ class Hosts {
   };
   Host* host_of(std::uint64_t id, bool add);
   const Host* host_of(std::uint64_t id) const;
-  std::uint32_t permitted_roles(std::uint64_t host) const;
-  bool host_writes(std::uint64_t host, dds::Topic topic) const;
   void report_claims(Host& host, std::int64_t now_ns);
   void lose(Host& host);
   void begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns);

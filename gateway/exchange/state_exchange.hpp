@@ -76,13 +76,8 @@ class State {
       if (!context.hosts.is_new(other) || context.roles.source(role_) != other.host) return;
       Sample sample = other;
       number_lanes(sample, lanes, context.hosts.self().id);
-      const auto record = context.valid<Record>(sample, sample.*field_);
-      if (!record) return;
-      // A repeated state is no new version. What stands in the slot counts: a local process may have written there
-      // since.
-      auto& slot = context.session.layout().*slot_;
-      Record present{};
-      if (!slot.read(present) || !equal(*record, present)) slot.publish(*record);
+      if (const auto record = context.valid<Record>(sample, sample.*field_))
+        publish_changed(context.session.layout().*slot_, *record);  // a repeated state is no new version
     }
   }
 

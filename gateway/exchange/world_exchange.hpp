@@ -141,12 +141,6 @@ class WorldExchange {
     return equal(asked, found);
   }
 
-  // Publishes a record that is not there yet.
-  static void replace(shm::LatestValue<WorldState>& slot, const WorldState& record) {
-    WorldState present{};
-    if (!slot.read(present) || !equal(present, record)) slot.publish(record);
-  }
-
   // A host that requests changes.
   struct Editor {
     std::optional<yars_net_WorldRequestSample> waiting = std::nullopt;
@@ -182,10 +176,10 @@ class WorldExchange {
     if (!is_written || layout.world.version() != written_version_) {
       WorldState record{};
       copy_record(record, sample.newest);
-      replace(layout.world, record);
+      publish_changed(layout.world, record);
       copy_record(record, sample.configured);
       if (sample.has_configured != 0)
-        replace(layout.world_configured, record);
+        publish_changed(layout.world_configured, record);
       else if (layout.world_configured.has_value())
         layout.world_configured.clear();
     }
