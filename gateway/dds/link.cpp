@@ -145,11 +145,80 @@ struct Link::State {
     if (domain > 0) dds_delete(domain);
     dds_set_log_sink(nullptr, nullptr);
   }
-  error::Expected<void> open_topics(const std::string& session);
-  dds_entity_t open_reader(Topic topic);
-  void renew_reader(Topic topic);
-  void report_refused(Topic topic);
-  bool write(dds_entity_t writer, Topic topic, const void* sample, std::size_t bytes);
+
+  error::Expected<void> open_topics(const std::string& session) {
+    const char* partition = session.c_str();
+    const Qos qos(dds_create_qos());
+    dds_qset_partition(qos.get(), 1, &partition);
+    dds_qset_groupdata(qos.get(), settings.name.data(), settings.name.size());
+    publisher = dds_create_publisher(participant, qos.get(), nullptr);
+    dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+    subscriber = dds_create_subscriber(participant, qos.get(), nullptr);
+    waitset = dds_create_waitset(participant);
+    for (std::size_t i = 0; i < kTopicCount; ++i) {
+      const auto topic = static_cast<Topic>(i);
+      TopicState& state = topics[i];
+      const TopicSettings& topic_settings = settings_of(topic);
+      const std::string name = "yars/" + std::string(topic_settings.name);
+      const Qos topic_qos = qos_of(topic_settings);
+      state.topic = dds_create_topic(participant, topic_settings.structure, name.c_str(), nullptr, nullptr);
+      if (state.topic < 0) return fail_link(settings, "topic " + name, state.topic);
+      const dds_topic_filter filter{DDS_TOPIC_FILTER_SAMPLEINFO_ARG, {.sampleinfo_arg = &admits}, &state};
+      dds_set_topic_filter_extended(state.topic, &filter);
+      if (is_listed(settings.topics_out, topic) && topic != Topic::ownship) {
+        state.writer = dds_create_writer(publisher, state.topic, topic_qos.get(), nullptr);
+        if (state.writer < 0 && state.writer != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+          return fail_link(settings, "a writer of topic " + name, state.writer);
+      }
+      if (!is_listed(settings.topics_in, topic)) continue;
+      state.reader = open_reader(topic);
+      if (state.reader < 0 && state.reader != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
+        return fail_link(settings, "a reader of topic " + name, state.reader);
+    }
+    return {};
+  }
+
+  // Negative: an error of Cyclone DDS.
+  dds_entity_t open_reader(Topic topic) {
+    const Qos qos = qos_of(settings_of(topic));
+    dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
+    // Who poses as a host writes to its instance. With one sample for both, a loaded gateway would lose that host.
+    constexpr int kAnnouncements = 64;
+    if (topic == Topic::hosts) dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kAnnouncements);
+    const dds_entity_t reader = dds_create_reader(subscriber, at(topic).topic, qos.get(), nullptr);
+    const bool is_awaited = topic == Topic::probes || topic == Topic::input_events;
+    if (reader > 0 && is_awaited) {
+      const dds_entity_t condition = dds_create_readcondition(reader, DDS_NOT_READ_SAMPLE_STATE);
+      dds_waitset_attach(waitset, condition, condition);
+    }
+    return reader;
+  }
+
+  // The only way to free instances whose writer lives. What the writers keep arrives again.
+  void renew_reader(Topic topic) {
+    dds_delete(at(topic).reader);
+    at(topic).quota.clear();
+    at(topic).reader = open_reader(topic);
+  }
+
+  // A message for the first sample, the 10th, the 100th, ...
+  void report_refused(Topic topic) {
+    TopicState& state = at(topic);
+    const std::uint64_t refused = state.quota.refused();
+    if (refused < state.next_report) return;
+    while (state.next_report <= refused) state.next_report *= 10;
+    Messages::instance().add("topic " + std::string(settings_of(topic).name) + ": expected at most " +
+                             std::to_string(settings_of(topic).instances) + " instances of a writer, found more; " +
+                             std::to_string(refused) + " samples left out so far; another program writes there");
+  }
+
+  bool write(dds_entity_t writer, Topic topic, const void* sample, std::size_t bytes) {
+    if (writer <= 0 || dds_write(writer, sample) < 0) return false;
+    ++at(topic).counts.sent;
+    at(topic).counts.sent_bytes += bytes;
+    return true;
+  }
+
   TopicState& at(Topic topic) { return topics[index_of(topic)]; }
 
   radar::NetworkSettings settings;
@@ -186,72 +255,6 @@ error::Expected<Link> Link::open(const radar::NetworkSettings& settings, const s
   return Link(std::move(state));
 }
 
-error::Expected<void> Link::State::open_topics(const std::string& session) {
-  const char* partition = session.c_str();
-  const Qos qos(dds_create_qos());
-  dds_qset_partition(qos.get(), 1, &partition);
-  dds_qset_groupdata(qos.get(), settings.name.data(), settings.name.size());
-  publisher = dds_create_publisher(participant, qos.get(), nullptr);
-  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-  subscriber = dds_create_subscriber(participant, qos.get(), nullptr);
-  waitset = dds_create_waitset(participant);
-  for (std::size_t i = 0; i < kTopicCount; ++i) {
-    const auto topic = static_cast<Topic>(i);
-    TopicState& state = topics[i];
-    const TopicSettings& topic_settings = settings_of(topic);
-    const std::string name = "yars/" + std::string(topic_settings.name);
-    const Qos topic_qos = qos_of(topic_settings);
-    state.topic = dds_create_topic(participant, topic_settings.structure, name.c_str(), nullptr, nullptr);
-    if (state.topic < 0) return fail_link(settings, "topic " + name, state.topic);
-    const dds_topic_filter filter{DDS_TOPIC_FILTER_SAMPLEINFO_ARG, {.sampleinfo_arg = &admits}, &state};
-    dds_set_topic_filter_extended(state.topic, &filter);
-    if (is_listed(settings.topics_out, topic) && topic != Topic::ownship) {
-      state.writer = dds_create_writer(publisher, state.topic, topic_qos.get(), nullptr);
-      if (state.writer < 0 && state.writer != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
-        return fail_link(settings, "a writer of topic " + name, state.writer);
-    }
-    if (!is_listed(settings.topics_in, topic)) continue;
-    state.reader = open_reader(topic);
-    if (state.reader < 0 && state.reader != DDS_RETCODE_NOT_ALLOWED_BY_SECURITY)
-      return fail_link(settings, "a reader of topic " + name, state.reader);
-  }
-  return {};
-}
-
-// Negative: an error of Cyclone DDS.
-dds_entity_t Link::State::open_reader(Topic topic) {
-  const Qos qos = qos_of(settings_of(topic));
-  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);
-  // Who poses as a host writes to its instance. With one sample for both, a loaded gateway would lose that host.
-  constexpr int kAnnouncements = 64;
-  if (topic == Topic::hosts) dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kAnnouncements);
-  const dds_entity_t reader = dds_create_reader(subscriber, at(topic).topic, qos.get(), nullptr);
-  const bool is_awaited = topic == Topic::probes || topic == Topic::input_events;
-  if (reader > 0 && is_awaited) {
-    const dds_entity_t condition = dds_create_readcondition(reader, DDS_NOT_READ_SAMPLE_STATE);
-    dds_waitset_attach(waitset, condition, condition);
-  }
-  return reader;
-}
-
-// The only way to free instances whose writer lives. What the writers keep arrives again.
-void Link::State::renew_reader(Topic topic) {
-  dds_delete(at(topic).reader);
-  at(topic).quota.clear();
-  at(topic).reader = open_reader(topic);
-}
-
-// A message for the first sample, the 10th, the 100th, ...
-void Link::State::report_refused(Topic topic) {
-  TopicState& state = at(topic);
-  const std::uint64_t refused = state.quota.refused();
-  if (refused < state.next_report) return;
-  while (state.next_report <= refused) state.next_report *= 10;
-  Messages::instance().add("topic " + std::string(settings_of(topic).name) + ": expected at most " +
-                           std::to_string(settings_of(topic).instances) + " instances of a writer, found more; " +
-                           std::to_string(refused) + " samples left out so far; another program writes there");
-}
-
 bool Link::writes(Topic topic) const {
   if (topic == Topic::ownship) return is_listed(state_->settings.topics_out, topic);  // has a writer for each lane
   return state_->at(topic).writer > 0;
@@ -285,13 +288,6 @@ void Link::update_senders() {
 
 bool Link::write_bytes(Topic topic, const void* sample, std::size_t bytes) {
   return state_->write(state_->at(topic).writer, topic, sample, bytes);
-}
-
-bool Link::State::write(dds_entity_t writer, Topic topic, const void* sample, std::size_t bytes) {
-  if (writer <= 0 || dds_write(writer, sample) < 0) return false;
-  ++at(topic).counts.sent;
-  at(topic).counts.sent_bytes += bytes;
-  return true;
 }
 
 void Link::dispose_bytes(Topic topic, const void* sample) {

@@ -291,15 +291,20 @@ class ClockExchange {
     mine.base_sim_ns = databuffer::sim_time_at(followed_->theirs, now_ns + followed_->offset.offset_ns());
     mine.base_monotonic_ns = now_ns;
     followed_->changed_ns = context.now_ns;
-    bool untouched = true;
-    const auto changed = context.session.change_clock([&](const ClockState& present) {
-      untouched = first || equal(present, followed_->written);
-      return untouched ? mine : present;
-    });
-    if (!changed)
-      followed_.reset();  // the next pass begins again
-    else if (untouched)
-      followed_->written = mine;
+    if (!write(context, mine, first, databuffer::WaitPolicy::some)) followed_.reset();  // the next pass begins again
+  }
+
+  // Writes the clock here, unless a program of this host has changed it since. False: it could not be written.
+  bool write(Context& context, const ClockState& mine, bool always, databuffer::WaitPolicy policy) {
+    bool writes = false;
+    const auto changed = context.session.change_clock(
+        [&](const ClockState& present) {
+          writes = always || equal(present, followed_->written);
+          return writes ? mine : present;
+        },
+        policy);
+    if (changed && writes) followed_->written = mine;
+    return changed.has_value();
   }
 
   // A program of this host has changed the clock (`yars sim`, a jump of the aircraft): the owner is asked to change it.
@@ -342,17 +347,8 @@ class ClockExchange {
     // sim time = base + rate x (now - base time): a greater offset is a later time, thus an earlier base.
     mine.base_monotonic_ns -= followed_->offset.offset_ns() - before_ns;
     if (mine.base_monotonic_ns < 0) return;
-    bool untouched = false;
-    const auto changed = context.session.change_clock(
-        [&](const ClockState& present) {
-          untouched = equal(present, followed_->written);
-          return untouched ? mine : present;
-        },
-        databuffer::WaitPolicy::none);
-    if (changed && untouched)
-      followed_->written = mine;
-    else
-      followed_->offset.set(before_ns);
+    write(context, mine, false, databuffer::WaitPolicy::none);
+    if (!equal(followed_->written, mine)) followed_->offset.set(before_ns);
   }
 
   bool owns_ = false;
