@@ -31,12 +31,9 @@ class SampleNumbers {
     const bool follows = run_ > 0 && number >= run_next_ && number - run_next_ < kFar;
     run_ = follows ? run_ + 1 : 1;
     run_next_ = number + 1;
-    if (number == kNone || (number < next_ && run_ <= max_repeats)) {
-      ++repeated_;
-      return false;
-    }
+    const bool is_old = number < next_ && run_ <= max_repeats;
     const bool is_far = number >= next_ && number - next_ >= kFar;
-    if (is_far && run_ < kConfirmations) {
+    if (number == kNone || is_old || (is_far && run_ < kConfirmations)) {
       ++repeated_;
       return false;
     }

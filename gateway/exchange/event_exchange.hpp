@@ -12,16 +12,17 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <cstring>
 #include <iterator>
 #include <map>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "databuffer/session/session_layout.hpp"
 #include "databuffer/session/validated.hpp"
 #include "gateway/exchange/context.hpp"
 #include "gateway/exchange/history_progress.hpp"
+#include "lib/text/plain_text.hpp"
 
 namespace yars::gateway {
 
@@ -233,10 +234,8 @@ class EventExchange {
   // Claims a local input lane and enters the remote lane's progress there: all events before the sample's are
   // delivered.
   bool take_lane(Context& context, Receiving& receiving, const yars_net_InputEventSample& sample) {
-    char source[sizeof sample.source + 1] = {};
-    std::memcpy(source, sample.source, sizeof sample.source);
-    std::replace_if(
-        source, source + std::strlen(source), [](char letter) { return letter < ' ' || letter > '~'; }, '?');
+    std::string source(text::text_of(sample.source));
+    std::ranges::replace_if(source, [](char letter) { return letter < ' ' || letter > '~'; }, '?');
     const HostView* host = context.hosts.find(sample.host);
     const std::string name = (host == nullptr ? "?" : host->name) + "/" + source;
     auto claim = context.session.claim_input_lane(name);

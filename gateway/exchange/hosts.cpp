@@ -1,6 +1,5 @@
 #include "gateway/exchange/hosts.hpp"
 
-#include <algorithm>
 #include <cstdio>
 
 #include "lib/log/log.hpp"
@@ -36,14 +35,6 @@ std::optional<std::string> fault_of(const yars_net_HostSample& sample) {
   return std::nullopt;
 }
 
-// Number of samples that DDS may deliver again when two hosts meet: the stored history of all instances of a host.
-std::uint64_t max_repeats(dds::Topic topic) {
-  constexpr std::uint64_t kStates = 4, kMapRows = 16384, kLanes = databuffer::kInputLanes;
-  if (topic == dds::Topic::patch_rows || topic == dds::Topic::patch_maps) return kMapRows;
-  const auto depth = static_cast<std::uint64_t>(settings_of(topic).depth);
-  return depth == 1 ? kStates * kLanes : depth * (topic == dds::Topic::input_events ? kLanes : 1) + kStates;
-}
-
 }  // namespace
 
 std::uint32_t shown_processes() {
@@ -70,6 +61,14 @@ Hosts::Hosts(databuffer::Session& session, dds::Link* link, Identity identity)
   text::put_text(own_.version, YARS_VERSION);
 }
 
+// The stored history of all instances of a host.
+std::uint64_t Hosts::max_repeats(dds::Topic topic) {
+  constexpr std::uint64_t kStates = 4, kMapRows = 16384, kLanes = databuffer::kInputLanes;
+  if (topic == dds::Topic::patch_rows || topic == dds::Topic::patch_maps) return kMapRows;
+  const auto depth = static_cast<std::uint64_t>(settings_of(topic).depth);
+  return depth == 1 ? kStates * kLanes : depth * (topic == dds::Topic::input_events ? kLanes : 1) + kStates;
+}
+
 void Hosts::exchange(std::int64_t now_ns) {
   // After a pause of this process (SIGSTOP, a loaded machine) the silence is its own. The others get another lease.
   if (last_pass_ns_ != 0 && now_ns - last_pass_ns_ > kLease_ns) {
@@ -83,15 +82,6 @@ void Hosts::exchange(std::int64_t now_ns) {
   update_group(now_ns);
   announce(now_ns);
   ask(now_ns);
-}
-
-void Hosts::set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t epoch) {
-  const std::uint32_t owns = owns_clock ? 1 : 0;
-  if (own_.held_roles != held_roles || own_.owns_clock != owns || own_.epoch != epoch) changed_ = true;
-  views_.front().held_roles = own_.held_roles = held_roles;
-  views_.front().owns_clock = owns_clock;
-  own_.owns_clock = owns;
-  own_.epoch = epoch;
 }
 
 void Hosts::receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns) {
@@ -148,11 +138,6 @@ void Hosts::begin(Host& host, const yars_net_HostSample& sample, std::int64_t no
   readmit(host, sample.start);
   if (was_alive && host.name.is_shared(now_ns)) return;  // each of those with the name would be said again and again
   say(log::info, NoteKind::restart, "hears host " + host.view.name);
-}
-
-// A process that another one with its name seemed to have replaced is the one that goes on.
-void Hosts::readmit(Host& host, std::uint64_t start) {
-  for (SampleNumbers& numbers : host.numbers) numbers.readmit(start);
 }
 
 // Says once that a host claims what it may not have. A host's writers are known some ms after it is first heard.
@@ -221,11 +206,6 @@ void Hosts::ask(std::int64_t now_ns) {
   }
 }
 
-void Hosts::exchange_probes() {
-  link_->take<yars_net_ProbeSample>(
-      [this](const yars_net_ProbeSample& sample) { receive(sample, databuffer::monotonic_ns()); });
-}
-
 void Hosts::receive(const yars_net_ProbeSample& sample, std::int64_t now_ns) {
   if (sample.stage == 0 && sample.to == self().id && link_ != nullptr) {
     yars_net_ProbeSample answer = sample;
@@ -260,17 +240,6 @@ Hosts::Host* Hosts::host_of(std::uint64_t id, bool add) {
   return &*oldest;
 }
 
-const Hosts::Host* Hosts::host_of(std::uint64_t id) const {
-  const auto found = std::ranges::find(hosts_, id, [](const Host& host) { return host.view.id; });
-  return found == hosts_.end() ? nullptr : &*found;
-}
-
-void Hosts::update_views() {
-  views_.resize(1);
-  for (const Host& host : hosts_)
-    if (host.alive && !host.other_layout) views_.push_back(host.view);
-}
-
 // Number of hosts that were heard kGroupDelay_ns ago, so that two hosts that meet again say how many each had with it.
 // A process that was stopped for longer than the lease was alone.
 void Hosts::update_group(std::int64_t now_ns) {
@@ -283,16 +252,6 @@ void Hosts::update_group(std::int64_t now_ns) {
   views_.front().group = is_old ? group_sizes_.front().second : 1;
 }
 
-const HostView* Hosts::find(std::uint64_t id) const {
-  const auto found = std::ranges::find(views_, id, &HostView::id);
-  return found == views_.end() ? nullptr : &*found;
-}
-
-bool Hosts::has_announced(std::uint64_t id) const {
-  const Host* host = host_of(id);
-  return host != nullptr && !host->view.name.empty() && !host->other_layout;
-}
-
 std::optional<std::int64_t> Hosts::offset_ns(std::uint64_t id) const {
   if (id == self().id) return 0;
   const Host* host = host_of(id);
@@ -300,41 +259,11 @@ std::optional<std::int64_t> Hosts::offset_ns(std::uint64_t id) const {
   return host->offset.best()->offset_ns;
 }
 
-const yars_net_HostSample& Hosts::said_by(std::uint64_t id) const {
-  static constexpr yars_net_HostSample kNothing{};
-  const Host* host = host_of(id);
-  return host == nullptr ? kNothing : host->said;
-}
-
-void Hosts::set_machine_term(std::uint64_t term) {
-  if (std::exchange(own_.machine_term, term) != term) changed_ = true;
-}
-
-bool Hosts::is_new(dds::Topic topic, std::uint64_t id, std::uint64_t start, std::uint64_t number) {
-  Host* host = host_of(id, true);
-  return host != nullptr && host->numbers[dds::index_of(topic)].is_new(start, number, max_repeats(topic));
-}
-
-void Hosts::resume(dds::Topic topic, std::uint64_t id, std::uint64_t start, std::uint64_t next) {
-  if (Host* host = host_of(id, true); host != nullptr) host->numbers[dds::index_of(topic)].resume(start, next);
-}
-
-const SampleNumbers& Hosts::numbers(dds::Topic topic, std::uint64_t id) const {
-  static const SampleNumbers kNone;
-  const Host* host = host_of(id);
-  return host == nullptr ? kNone : host->numbers[dds::index_of(topic)];
-}
-
 void Hosts::refuse(std::uint64_t id, dds::Topic topic, const std::string& reason) {
   Host* host = host_of(id, false);
   if (host != nullptr) ++host->refused;
   session_->note(NoteKind::refusal, (host == nullptr ? "unknown host" : "host " + host->view.name) + ", " +
                                         std::string(settings_of(topic).name) + ": " + reason);
-}
-
-void Hosts::say(void (*log)(std::string_view), NoteKind kind, const std::string& line) const {
-  log(line);
-  session_->note(kind, line);
 }
 
 void Hosts::describe(databuffer::NetworkStatus& status, std::int64_t now_ns) const {

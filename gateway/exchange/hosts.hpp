@@ -6,6 +6,7 @@
 //   terrain, equal names) are said in one line each, by both hosts.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <deque>
@@ -79,14 +80,26 @@ class Hosts {
   // One pass: takes announcements, announces this host (10 Hz, and at once after a change), asks for clock offsets.
   void exchange(std::int64_t now_ns);
   // Answers probes and takes answers. Call as soon as possible after their arrival, because the delay is an error.
-  void exchange_probes();
-  void set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t epoch);
+  void exchange_probes() {
+    link_->take<yars_net_ProbeSample>(
+        [this](const yars_net_ProbeSample& sample) { receive(sample, databuffer::monotonic_ns()); });
+  }
+  void set_claims(std::uint32_t held_roles, bool owns_clock, std::uint32_t epoch) {
+    const std::uint32_t owns = owns_clock ? 1 : 0;
+    if (own_.held_roles != held_roles || own_.owns_clock != owns || own_.epoch != epoch) changed_ = true;
+    views_.front().held_roles = own_.held_roles = held_roles;
+    views_.front().owns_clock = owns_clock;
+    own_.owns_clock = owns;
+    own_.epoch = epoch;
+  }
   // Those of shown_processes() that take part on this host.
   void set_processes(std::uint32_t processes) { own_.processes = processes; }
   // While two hosts hold one role, the number of hosts that this host heard before stays as it is.
   void set_conflict(bool in_conflict) { in_conflict_ = in_conflict; }
   // Events for the state machine of this host carry this number. 0: it runs elsewhere.
-  void set_machine_term(std::uint64_t term);
+  void set_machine_term(std::uint64_t term) {
+    if (std::exchange(own_.machine_term, term) != term) changed_ = true;
+  }
   std::uint64_t machine_term() const { return own_.machine_term; }
 
   void receive(const yars_net_HostSample& sample, bool alive, std::int64_t now_ns);
@@ -96,13 +109,25 @@ class Hosts {
   std::span<const HostView> views() const { return views_; }
   const HostView& self() const { return views_.front(); }
   const Identity& identity() const { return identity_; }
-  const HostView* find(std::uint64_t id) const;  // among views(); nullptr: none
-  bool has_announced(std::uint64_t id) const;    // another host with the same layout, also one that is silent now
+  // Among views(); nullptr: none.
+  const HostView* find(std::uint64_t id) const {
+    const auto found = std::ranges::find(views_, id, &HostView::id);
+    return found == views_.end() ? nullptr : &*found;
+  }
+  // True for another host with the same layout, also one that is silent now.
+  bool has_announced(std::uint64_t id) const {
+    const Host* host = host_of(id);
+    return host != nullptr && !host->view.name.empty() && !host->other_layout;
+  }
 
   // Offset of a host's clock; nullopt: not measured yet. 0 for this host.
   std::optional<std::int64_t> offset_ns(std::uint64_t id) const;
   // The last announcement of another host; all 0: unknown.
-  const yars_net_HostSample& said_by(std::uint64_t id) const;
+  const yars_net_HostSample& said_by(std::uint64_t id) const {
+    static constexpr yars_net_HostSample kNothing{};
+    const Host* host = host_of(id);
+    return host == nullptr ? kNothing : host->said;
+  }
   std::uint64_t start_of(std::uint64_t id) const { return said_by(id).start; }
 
   // Writes host, start and number into a sample. Numbers count up by topic.
@@ -121,11 +146,20 @@ class Hosts {
   bool is_new(const Sample& sample) {
     return is_new(dds::kTopicOf<Sample>, sample.host, sample.start, sample.number);
   }
-  bool is_new(dds::Topic topic, std::uint64_t host, std::uint64_t start, std::uint64_t number);
+  bool is_new(dds::Topic topic, std::uint64_t id, std::uint64_t start, std::uint64_t number) {
+    Host* host = host_of(id, true);
+    return host != nullptr && host->numbers[dds::index_of(topic)].is_new(start, number, max_repeats(topic));
+  }
   // Where a predecessor of this gateway stopped: as SampleNumbers::resume().
-  void resume(dds::Topic topic, std::uint64_t host, std::uint64_t start, std::uint64_t next);
+  void resume(dds::Topic topic, std::uint64_t id, std::uint64_t start, std::uint64_t next) {
+    if (Host* host = host_of(id, true); host != nullptr) host->numbers[dds::index_of(topic)].resume(start, next);
+  }
   // Numbers of the samples that have arrived from a host.
-  const SampleNumbers& numbers(dds::Topic topic, std::uint64_t host) const;
+  const SampleNumbers& numbers(dds::Topic topic, std::uint64_t id) const {
+    static const SampleNumbers kNone;
+    const Host* host = host_of(id);
+    return host == nullptr ? kNone : host->numbers[dds::index_of(topic)];
+  }
   // Counts and notes an invalid sample of a host.
   template <class Sample>
   void refuse(const Sample& sample, const std::string& reason) {
@@ -133,7 +167,10 @@ class Hosts {
   }
   void refuse(std::uint64_t host, dds::Topic topic, const std::string& reason);
   // Writes a line to the log, by log::info or another level, and to the flight recorder.
-  void say(void (*log)(std::string_view), databuffer::NoteKind kind, const std::string& line) const;
+  void say(void (*log)(std::string_view), databuffer::NoteKind kind, const std::string& line) const {
+    log(line);
+    session_->note(kind, line);
+  }
 
   void describe(databuffer::NetworkStatus& status, std::int64_t now_ns) const;
 
@@ -154,18 +191,30 @@ class Hosts {
     std::uint64_t refused = 0;
     SharedName name;
   };
+  // Number of samples that DDS may deliver again when two hosts meet.
+  static std::uint64_t max_repeats(dds::Topic topic);
   Host* host_of(std::uint64_t id, bool add);
-  const Host* host_of(std::uint64_t id) const;
+  const Host* host_of(std::uint64_t id) const {
+    const auto found = std::ranges::find(hosts_, id, [](const Host& host) { return host.view.id; });
+    return found == hosts_.end() ? nullptr : &*found;
+  }
   void report_claims(Host& host, std::int64_t now_ns);
   void lose(Host& host);
   void begin(Host& host, const yars_net_HostSample& sample, std::int64_t now_ns);
-  static void readmit(Host& host, std::uint64_t start);
+  // A process that another one with its name seemed to have replaced is the one that goes on.
+  static void readmit(Host& host, std::uint64_t start) {
+    for (SampleNumbers& numbers : host.numbers) numbers.readmit(start);
+  }
   void report_differences(Host& host);
   void report(Host& host, std::uint32_t flag, bool differs, const std::string& line);
   void hear_own_name(std::uint64_t start, std::int64_t now_ns);
   void announce(std::int64_t now_ns);
   void ask(std::int64_t now_ns);
-  void update_views();
+  void update_views() {
+    views_.resize(1);
+    for (const Host& host : hosts_)
+      if (host.alive && !host.other_layout) views_.push_back(host.view);
+  }
   void update_group(std::int64_t now_ns);
 
   databuffer::Session* session_;
