@@ -72,10 +72,8 @@ class GatewayShell {
         roles_(session, session_name),
         context_{session, &link_, hosts_, roles_},
         maps_(settings.map_rows_per_s),
-        asked_(std::move(asked)),
-        domain_(settings.domain),
-        participants_(settings.participants),
-        secured_(!settings.security.empty()) {
+        settings_(settings),
+        asked_(std::move(asked)) {
     if (!link_.writes(dds::Topic::clock))
       log::info("this host does not set the session clock: it may not write the topic clock");
     const std::uint32_t writable = writable_roles([this](dds::Topic topic) { return link_.writes(topic); });
@@ -188,11 +186,11 @@ class GatewayShell {
     if (reported_silence_ || asked_.empty() || context_.now_ns - first_pass_ns_ < kSilence_ns) return;
     reported_silence_ = true;
     if (link_.counts(dds::Topic::hosts).received > 0) return;
-    const int first_port = 7400 + 250 * domain_ + 10;
+    const int first_port = 7400 + 250 * settings_.domain + 10;
     log::warning("no other host has been heard in 10 s, asked " + list_of(asked_) +
                  "; the usual reasons: no gateway runs there, it has another session or domain, `security` is on one "
                  "side only, or a firewall closes UDP ports " +
-                 std::to_string(first_port) + " to " + std::to_string(first_port + 2 * participants_ - 1));
+                 std::to_string(first_port) + " to " + std::to_string(first_port + 2 * settings_.participants - 1));
   }
 
   void report() {
@@ -206,8 +204,8 @@ class GatewayShell {
     databuffer::NetworkStatus status{};
     status.monotonic_ns = context_.now_ns;
     status.joined = clock_.joined() ? 1 : 0;
-    status.domain = static_cast<std::uint32_t>(domain_);
-    status.secured = secured_ ? 1 : 0;
+    status.domain = static_cast<std::uint32_t>(settings_.domain);
+    status.secured = settings_.security.empty() ? 0 : 1;
     status.takeovers = roles_.takeovers();
     status.conflicts = roles_.conflicts();
     status.load = load_;
@@ -240,10 +238,9 @@ class GatewayShell {
   HistoryExchange history_{lanes_, world_numbers_};
   MapExchange maps_;
   LockstepExchange lockstep_;
+  radar::NetworkSettings settings_;
   std::vector<std::string> asked_;
   std::string lost_handshake_;
-  int domain_, participants_;
-  bool secured_;
   bool reported_joined_ = false;
   bool reported_silence_ = false;
   std::int64_t first_pass_ns_ = 0;

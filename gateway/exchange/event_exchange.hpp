@@ -42,8 +42,7 @@ class EventExchange {
       for (std::size_t lane = 0; lane < databuffer::kInputLanes; ++lane) send_waiting(context, lane, *machine);
     release_lanes(context);
     send_receipts(context);
-    const auto& ring = std::as_const(context.session).layout().applied_events;
-    applied_.send(context, Role::state_machine, ring, [this](auto& sample, const auto& applied) {
+    applied_.send(context, [this](auto& sample, const auto& applied) {
       copy_record(sample.applied, applied);
       const RemoteName name = lanes_->input_name(applied.lane, sample.host);
       sample.sender = name.host;
@@ -96,11 +95,8 @@ class EventExchange {
   }
 
   void receive(Context& context, const yars_net_AppliedEventSample& sample) {
-    auto& ring = context.session.layout().applied_events;
     // Also what a part of the session applied that yields is taken note of, so that it is not delivered later.
-    if (!applied_.is_new(context, sample, ring, sample.applied.tick) ||
-        context.roles.source(Role::state_machine) != sample.host)
-      return;
+    if (!applied_.is_wanted(context, sample, sample.applied.tick)) return;
     auto applied = context.valid<databuffer::AppliedEvent>(sample, sample.applied);
     if (!applied) return;
     applied->monotonic_ns = local_time_ns(context, sample.host, applied->monotonic_ns);
@@ -109,7 +105,7 @@ class EventExchange {
     else
       pop_applied(context, *applied);
     applied->event.monotonic_ns = local_time_ns(context, sample.host, applied->event.monotonic_ns);
-    applied_.publish(context, sample, ring, *applied);
+    applied_.publish(context, sample, *applied);
   }
 
  private:
@@ -338,7 +334,9 @@ class EventExchange {
   LaneNames* lanes_;
   std::array<Sending, databuffer::kInputLanes> sending_;
   std::map<std::uint64_t, Receiving> receiving_;  // by lane_id()
-  History<yars_net_AppliedEventSample, databuffer::AppliedEvent> applied_{256};
+  History<yars_net_AppliedEventSample, databuffer::AppliedEvent, &databuffer::SessionLayout::applied_events,
+          Role::state_machine>
+      applied_{256};
   std::uint64_t terms_ = 0;  // number of times that this gateway found the state machine here
 };
 

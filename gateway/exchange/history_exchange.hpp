@@ -29,18 +29,17 @@ class HistoryExchange {
  public:
   HistoryExchange(LaneNames& lanes, const WorldNumbers& worlds) : lanes_(&lanes), worlds_(&worlds) {}
   void send(Context& context) {
-    const auto& layout = std::as_const(context.session).layout();
-    traffic_history_.send(context, Role::radar_model, layout.traffic_latched, [](auto& sample, const auto& traffic) {
+    traffic_history_.send(context, [](auto& sample, const auto& traffic) {
       sample.ring_number = sample.number;
       copy_record(sample.traffic, traffic);
     });
-    tick_history_.send(context, Role::radar_model, layout.model_ticks, [this](auto& sample, const auto& tick) {
+    tick_history_.send(context, [this](auto& sample, const auto& tick) {
       copy_record(sample.tick, tick);
       const RemoteName name = lanes_->ownship_name(tick.ownship_lane, sample.host);
       sample.ownship_host = name.host;
       sample.tick.ownship_lane = name.lane;
     });
-    sweep_history_.send(context, Role::radar_model, layout.sweeps, [](auto& sample, auto& sweep) {
+    sweep_history_.send(context, [](auto& sample, auto& sweep) {
       static_assert(sizeof sample.sweep == kSweepHeader_bytes);
       std::memcpy(&sample.sweep, &sweep, kSweepHeader_bytes);
       sample.video._length = sample.video._maximum = std::min<std::uint32_t>(sweep.samples, radar::kMaxSamples);
@@ -85,7 +84,7 @@ class HistoryExchange {
       if (!world) missing_world_ = tick.world;
       tick.traffic = traffic.value_or(layout.traffic_latched.next());
       tick.world = world.value_or(layout.world_latched.next());
-      tick_history_.publish(context, waiting, layout.model_ticks, tick);
+      tick_history_.publish(context, waiting, tick);
       last_tick_ = {tick.epoch, tick.tick};
       last_host_ = waiting.host;
       ticks_.pop_front();
@@ -93,7 +92,7 @@ class HistoryExchange {
     while (!sweeps_.empty()) {
       const auto& waiting = sweeps_.front();
       if (last_tick_.precedes(waiting.record) && !is_late(waiting.arrived_ns)) break;
-      sweep_history_.publish(context, waiting, layout.sweeps, waiting.record);
+      sweep_history_.publish(context, waiting, waiting.record);
       sweeps_.pop_front();
     }
   }
@@ -101,20 +100,16 @@ class HistoryExchange {
   bool is_empty() const { return ticks_.empty() && sweeps_.empty(); }  // nothing waits for its predecessor
 
   void receive(Context& context, const yars_net_LatchedTrafficSample& sample) {
-    auto& ring = context.session.layout().traffic_latched;
     // Traffic is valid until the next record, so that also an old one is taken.
     const std::int64_t tick = context.session.sim_time_ns() / radar::kTickNanoseconds;
-    if (!traffic_history_.is_new(context, sample, ring, tick) || context.roles.source(Role::radar_model) != sample.host)
-      return;
+    if (!traffic_history_.is_wanted(context, sample, tick)) return;
     if (const auto traffic = context.valid<databuffer::Traffic>(sample, sample.traffic))
       traffic_numbers_.add(sample.host, sample.start, sample.ring_number,
-                           traffic_history_.publish(context, sample, ring, *traffic));
+                           traffic_history_.publish(context, sample, *traffic));
   }
 
   void receive(Context& context, const yars_net_ModelTickSample& sample) {
-    const auto& ring = std::as_const(context.session).layout().model_ticks;
-    if (!tick_history_.is_new(context, sample, ring, sample.tick.tick) ||
-        !is_wanted(context, sample.host, sample.tick.epoch, sample.tick.tick))
+    if (!tick_history_.is_wanted(context, sample, sample.tick.tick) || is_past(context, sample.host, sample.tick))
       return;
     auto tick = context.valid<databuffer::ModelTick>(sample, sample.tick);
     if (!tick || !is_in_order(context, sample, *tick, tick_order_)) return;
@@ -125,9 +120,7 @@ class HistoryExchange {
   }
 
   void receive(Context& context, const yars_net_SweepSample& sample) {
-    const auto& ring = std::as_const(context.session).layout().sweeps;
-    if (!sweep_history_.is_new(context, sample, ring, sample.sweep.tick) ||
-        !is_wanted(context, sample.host, sample.sweep.epoch, sample.sweep.tick))
+    if (!sweep_history_.is_wanted(context, sample, sample.sweep.tick) || is_past(context, sample.host, sample.sweep))
       return;
     databuffer::Sweep sweep{};
     std::memcpy(&sweep, &sample.sweep, kSweepHeader_bytes);
@@ -167,14 +160,14 @@ class HistoryExchange {
     }
   };
 
-  // After a partition the history of the part that yielded arrives, too. It has the epoch from before the meeting. A
-  // host that takes the role over may be a few ticks behind its predecessor. Older ticks are from a time in which this
-  // host did not hear it.
-  bool is_wanted(Context& context, std::uint64_t host, std::uint32_t epoch, std::int64_t tick) {
-    if (context.roles.source(Role::radar_model) != host) return false;
-    if (static_cast<std::int32_t>(epoch - context.session.clock().epoch) < 0) return false;
-    const bool goes_back = last_tick_.epoch == epoch && tick < last_tick_.tick - runtime::kMaxTicksBehind;
-    return host == last_host_ || !goes_back;
+  // True for a record that comes too late. After a partition the history of the part that yielded arrives, too. It has
+  // the epoch from before the meeting. A host that takes the role over may be a few ticks behind its predecessor. Older
+  // ticks are from a time in which this host did not hear it.
+  template <class Record>
+  bool is_past(Context& context, std::uint64_t host, const Record& record) const {
+    if (static_cast<std::int32_t>(record.epoch - context.session.clock().epoch) < 0) return true;
+    const bool goes_back = last_tick_.epoch == record.epoch && record.tick < last_tick_.tick - runtime::kMaxTicksBehind;
+    return host != last_host_ && goes_back;
   }
 
   // False: the record is refused, because its sim time is not that of its tick, or its tick goes back.
@@ -197,9 +190,12 @@ class HistoryExchange {
   // ModelTick::world of the host with the role whose record did not come in time. Later ticks do not wait for it.
   std::uint64_t missing_world_ = 0;
   static constexpr std::uint64_t kRecent = 200;  // 1 s of ticks
-  History<yars_net_LatchedTrafficSample, databuffer::Traffic> traffic_history_{kRecent};
-  History<yars_net_ModelTickSample, databuffer::ModelTick> tick_history_{kRecent};
-  History<yars_net_SweepSample, databuffer::Sweep> sweep_history_{kRecent};
+  template <class Sample, class Record, auto kRing>
+  using ModelHistory = History<Sample, Record, kRing, Role::radar_model>;
+  using Layout = databuffer::SessionLayout;
+  ModelHistory<yars_net_LatchedTrafficSample, databuffer::Traffic, &Layout::traffic_latched> traffic_history_{kRecent};
+  ModelHistory<yars_net_ModelTickSample, databuffer::ModelTick, &Layout::model_ticks> tick_history_{kRecent};
+  ModelHistory<yars_net_SweepSample, databuffer::Sweep, &Layout::sweeps> sweep_history_{kRecent};
   std::deque<Waiting<databuffer::ModelTick>> ticks_;
   std::deque<Waiting<databuffer::Sweep>> sweeps_;
   RecordNumbers<64> traffic_numbers_;  // the depth of the ring

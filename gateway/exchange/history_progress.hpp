@@ -84,8 +84,8 @@ inline bool is_last_tick(const Context& context) {
          std::ranges::any_of(lockstep.done_tick, [end_tick](const auto& tick) { return tick.load() >= end_tick; });
 }
 
-// One history on its way between hosts: a ring of `Record`, and a topic of `Sample`.
-template <class Sample, class Record>
+// One history on its way between hosts: a ring of the segment, whose records the holder of a role writes, and a topic.
+template <class Sample, class Record, auto kRing, databuffer::Role kRole>
 class History {
  public:
   // `recent`: a gateway that finds a local process writing the ring sends the last records again, because its
@@ -94,13 +94,17 @@ class History {
 
   // Sends what the local ring has got since the last call, unless it is of another host. fill(sample, record) writes
   // what follows host, start and number.
-  template <class Ring, class Fill>
-  void send(Context& context, databuffer::Role role, const Ring& ring, const Fill& fill) {
-    if (!context.roles.exports(role)) {
-      cursor_ = ring.next();
+  template <class Fill>
+  void send(Context& context, const Fill& fill) {
+    const auto& layout = std::as_const(context.session).layout();
+    const auto& ring = layout.*kRing;
+    const std::uint64_t next = ring.next();
+    if (!context.roles.exports(kRole)) {
+      cursor_ = next;
       return;
     }
-    if (!cursor_) cursor_ = first_to_send(context, ring);
+    const std::uint64_t own = std::min(next, layout.network.last_remote[kIndex].load());
+    if (!cursor_) cursor_ = std::max({ring.oldest(), next - std::min(next, recent_), own});
     Sample sample{};
     Record record{};
     while (ring.read(*cursor_, record).delivered) {
@@ -113,29 +117,33 @@ class History {
     context.hosts.set_written(kTopic, *cursor_);
   }
 
-  // True if neither this gateway nor its predecessor has taken the sample, and it is not from before the host joined.
-  // `tick`: of the record.
-  template <class Ring>
-  bool is_new(Context& context, const Sample& sample, const Ring& ring, std::int64_t tick) const {
-    if (context.hosts.numbers(kTopic, sample.host).knows(sample.start)) return context.hosts.is_new(sample);
+  // True if the sample is of the host with the role, neither this gateway nor its predecessor has taken it, and it is
+  // not from before this host joined. `tick`: of the record. A sample of another host counts as taken.
+  bool is_wanted(Context& context, const Sample& sample, std::int64_t tick) const {
     const std::uint64_t source = source_id({sample.host, sample.start});
-    const auto& entries = context.session.layout().network.histories[kIndex];
-    const auto entry = std::ranges::find_if(entries, [source](const auto& one) { return one.source.load() == source; });
-    if (entry != entries.end())
-      context.hosts.resume(kTopic, sample.host, sample.start,
-                           next_of(entry->progress.load(), ring.next(), sample.number));
-    else if (!context.lockstep && tick < (context.session.sim_time_ns() - kMaxFirstAge_ns) / radar::kTickNanoseconds)
-      return false;
-    return context.hosts.is_new(sample);
+    const auto& layout = std::as_const(context.session).layout();
+    const auto& entries = layout.network.histories[kIndex];
+    if (!context.hosts.numbers(kTopic, sample.host).knows(sample.start)) {
+      const auto entry = std::ranges::find_if(entries, [&](const auto& one) { return one.source.load() == source; });
+      if (entry != entries.end())
+        context.hosts.resume(kTopic, sample.host, sample.start,
+                             next_of(entry->progress.load(), (layout.*kRing).next(), sample.number));
+      else if (!context.lockstep && tick < (context.session.sim_time_ns() - kMaxFirstAge_ns) / radar::kTickNanoseconds)
+        return false;
+    }
+    return context.hosts.is_new(sample) && context.roles.source(kRole) == sample.host;
   }
 
-  // Publishes a record of another host here. `origin`: its sample, or what has its host, start and number.
-  template <class Ring, class Origin>
-  std::uint64_t publish(Context& context, const Origin& origin, Ring& ring, const Record& record) const {
-    auto& network = context.session.layout().network;
+  // Publishes a record of another host here. `origin`: its sample, or what has its host, start and number. Output: its
+  // number in the ring here.
+  template <class Origin>
+  std::uint64_t publish(Context& context, const Origin& origin, const Record& record) const {
+    auto& layout = context.session.layout();
+    auto& ring = layout.*kRing;
     const std::uint64_t source = source_id({origin.host, origin.start});
-    store_progress(entry_of(network.histories[kIndex], source), source, progress_of(origin.number + 1, ring.next()));
-    network.last_remote[kIndex].store(ring.next() + 1);
+    store_progress(entry_of(layout.network.histories[kIndex], source), source,
+                   progress_of(origin.number + 1, ring.next()));
+    layout.network.last_remote[kIndex].store(ring.next() + 1);
     return ring.publish(record);
   }
 
@@ -144,13 +152,6 @@ class History {
   static constexpr std::size_t kIndex =
       static_cast<std::size_t>(std::ranges::find(kHistories, kTopic) - kHistories.begin());
   static_assert(kIndex < kHistories.size());
-
-  template <class Ring>
-  std::uint64_t first_to_send(Context& context, const Ring& ring) const {
-    const std::uint64_t next = ring.next();
-    const std::uint64_t own = std::min(next, context.session.layout().network.last_remote[kIndex].load());
-    return std::max({ring.oldest(), next - std::min(next, recent_), own});
-  }
 
   std::uint64_t recent_;
   std::optional<std::uint64_t> cursor_;  // next record of the local ring to send; nullopt: none was sent
