@@ -23,7 +23,6 @@
 #include "gateway/exchange/context.hpp"
 #include "gateway/pace.hpp"
 #include "lib/log/log.hpp"
-#include "lib/radar/modes.hpp"
 
 namespace yars::gateway {
 

@@ -50,9 +50,9 @@ void number_lanes(Sample& sample, const LaneNames& lanes, std::uint64_t self) {
 template <class Sample, class Field, class Record>
 class State {
  public:
-  using Slot = shm::LatestValue<Record> databuffer::SessionLayout::*;
   // `field`: of the record in a sample. `least_ns`: least time between two samples.
-  State(databuffer::Role role, Field Sample::* field, Slot slot, std::int64_t least_ns = 0)
+  State(databuffer::Role role, Field Sample::* field, shm::LatestValue<Record> databuffer::SessionLayout::* slot,
+        std::int64_t least_ns = 0)
       : role_(role), field_(field), slot_(slot), least_ns_(least_ns) {}
 
   void send(Context& context, const LaneNames& lanes) {
@@ -84,7 +84,7 @@ class State {
  private:
   databuffer::Role role_;
   Field Sample::* field_;
-  Slot slot_;
+  shm::LatestValue<Record> databuffer::SessionLayout::* slot_;
   std::int64_t least_ns_;
   Pace pace_{250'000'000};  // a host that joins, or takes a role, waits so long
   databuffer::Validated<Record> reader_;
